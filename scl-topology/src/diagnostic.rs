@@ -1,0 +1,112 @@
+//! What the checker has to say: one [`Diagnostic`] a problem, gathered in [`Diagnostics`].
+
+use crate::source::Span;
+
+/// How bad it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// The file cannot be used.
+    Error,
+    /// The file can be used, but is probably not what was meant.
+    Warning,
+    /// Off unless asked for.
+    Lint,
+}
+
+/// A place with a word on it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Label {
+    /// Where.
+    pub span: Span,
+    /// What to see there; may be empty.
+    pub text: String,
+}
+
+/// One problem: what is wrong, where, and the way out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// The code, for example `SCL0502`.
+    pub code: &'static str,
+    /// How bad it is.
+    pub severity: Severity,
+    /// The headline: lower case, no full stop, names in backticks.
+    pub message: String,
+    /// Why here. `None` only where no source text exists (the file is missing).
+    pub primary: Option<Label>,
+    /// The declarations involved.
+    pub secondary: Vec<Label>,
+    /// What to write instead, one way a line; a help may hold several lines.
+    pub helps: Vec<String>,
+    /// The rule, or the valid names.
+    pub notes: Vec<String>,
+}
+
+impl Diagnostic {
+    /// An error with a headline and its place.
+    pub fn error(code: &'static str, message: impl Into<String>, at: Span, label: impl Into<String>) -> Self {
+        Self::new(code, Severity::Error, message, Some(Label { span: at, text: label.into() }))
+    }
+
+    /// A warning with a headline and its place.
+    pub fn warning(code: &'static str, message: impl Into<String>, at: Span, label: impl Into<String>) -> Self {
+        Self::new(code, Severity::Warning, message, Some(Label { span: at, text: label.into() }))
+    }
+
+    /// An error about a file that has no text to show.
+    pub fn fileless(code: &'static str, message: impl Into<String>) -> Self {
+        Self::new(code, Severity::Error, message, None)
+    }
+
+    fn new(code: &'static str, severity: Severity, message: impl Into<String>, primary: Option<Label>) -> Self {
+        let message = message.into();
+        Self { code, severity, message, primary, secondary: Vec::new(), helps: Vec::new(), notes: Vec::new() }
+    }
+
+    /// Adds another place.
+    pub fn label(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.secondary.push(Label { span, text: text.into() });
+        self
+    }
+
+    /// Adds a way out.
+    pub fn help(mut self, text: impl Into<String>) -> Self {
+        self.helps.push(text.into());
+        self
+    }
+
+    /// Adds the rule behind it.
+    pub fn note(mut self, text: impl Into<String>) -> Self {
+        self.notes.push(text.into());
+        self
+    }
+}
+
+/// The collector. Stages push into it and go on; whoever made it must read it.
+#[derive(Debug, Default)]
+pub struct Diagnostics {
+    items: Vec<Diagnostic>,
+}
+
+impl Diagnostics {
+    /// Nothing found yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a problem.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.items.push(diagnostic);
+    }
+
+    /// Whether an error is among them.
+    pub fn has_errors(&self) -> bool {
+        self.items.iter().any(|item| item.severity == Severity::Error)
+    }
+
+    /// All of them, sorted by position.
+    pub fn into_sorted(mut self) -> Vec<Diagnostic> {
+        let mut items = std::mem::take(&mut self.items);
+        items.sort_by_key(|item| item.primary.as_ref().map(|label| (label.span, item.code)));
+        items
+    }
+}

@@ -1,0 +1,71 @@
+//! The topology as written: every leaf with its place, nothing resolved, nothing rejected yet.
+//!
+//! The parser makes it and drops what has no shape; the checks read it. A macro that meets a broken file still
+//! generates the structs that can be read from here, so that an editor keeps completing.
+
+use crate::source::{Span, Spanned};
+
+/// A whole file.
+#[derive(Debug, Clone, Default)]
+pub struct Model {
+    /// `system:`.
+    pub system: Option<Spanned<String>>,
+    /// `schemas:`.
+    pub schemas: Vec<Spanned<String>>,
+    /// `codec:`.
+    pub codec: Option<Spanned<String>>,
+    /// `components:`, in file order.
+    pub components: Vec<ComponentModel>,
+    /// `connections:`, in file order.
+    pub connections: Vec<ConnectionModel>,
+    /// The word `connections`, if the section exists.
+    pub connections_key: Option<Span>,
+}
+
+/// One entry of `components`.
+#[derive(Debug, Clone)]
+pub struct ComponentModel {
+    /// `name:`.
+    pub name: Spanned<String>,
+    /// `doc:`.
+    pub doc: Option<Spanned<String>>,
+    /// `optional: true`.
+    pub optional: bool,
+    /// `gates:`, in file order.
+    pub gates: Vec<GateModel>,
+}
+
+/// One entry of `gates`.
+#[derive(Debug, Clone)]
+pub struct GateModel {
+    /// The gate's name.
+    pub name: Spanned<String>,
+    /// The kind as written, for example `pub`, perhaps misspelt.
+    pub kind: Spanned<String>,
+    /// The type or types as written, for example `rover.Command -> rover.Status`.
+    pub payload: Option<Spanned<String>>,
+    /// The options as written.
+    pub options: Vec<OptionModel>,
+    /// The whole entry, from the name to the last option.
+    pub span: Span,
+}
+
+/// One option of a gate.
+#[derive(Debug, Clone)]
+pub struct OptionModel {
+    /// For example `queue`.
+    pub key: Spanned<String>,
+    /// For example `16`.
+    pub value: Spanned<String>,
+    /// Whether the value was quoted, so that it cannot be a number or a boolean.
+    pub quoted: bool,
+}
+
+/// One entry of `connections`.
+#[derive(Debug, Clone)]
+pub struct ConnectionModel {
+    /// The two ends as written, for example `sensor.measurements`.
+    pub ends: [Spanned<String>; 2],
+    /// The whole pair.
+    pub span: Span,
+}

@@ -1,0 +1,2 @@
+//! Typed components and gates.
+pub mod spec;

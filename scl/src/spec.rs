@@ -1,0 +1,90 @@
+//! What `topology!` knows about a component when the program is compiled, as constants.
+
+use std::time::Duration;
+
+/// A component: its name and its gates.
+#[derive(Debug)]
+pub struct ComponentSpec {
+    /// The system's name, the default of `$SCL_SYSTEM`.
+    pub system: &'static str,
+    /// The component's name, as in the file.
+    pub name: &'static str,
+    /// Where it is declared: `topology.yaml:4:11`.
+    pub place: &'static str,
+    /// Its gates, in file order.
+    pub gates: &'static [GateSpec],
+}
+
+/// What a gate does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GateKind {
+    /// Sends to any number of subscribers.
+    Pub,
+    /// Receives from one or several publishers.
+    Sub,
+    /// Asks one replier.
+    Req,
+    /// Answers any number of requesters.
+    Rep,
+    /// Hands work to a puller.
+    Push,
+    /// Takes work from any number of pushers.
+    Pull,
+}
+
+/// What a full queue does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WhenFull {
+    /// The oldest waiting message is dropped.
+    DropOldest,
+    /// The new message is dropped.
+    DropNewest,
+    /// The sender waits, if it allows that.
+    Wait,
+}
+
+/// A gate: what it carries, how, and between which gates.
+#[derive(Debug)]
+pub struct GateSpec {
+    /// The gate's name, as in the file.
+    pub name: &'static str,
+    /// What it does.
+    pub kind: GateKind,
+    /// The type as in the file, `rover.Command -> rover.Status`, or `bytes`.
+    pub payload: &'static str,
+    /// The codec as in the file.
+    pub codec: &'static str,
+    /// Where it is declared: `topology.yaml:6:9`.
+    pub place: &'static str,
+    /// The endpoint that belongs to the gate as a whole: bound by `rep` and `pull`; the tap of `pub`; else empty.
+    pub endpoint: &'static str,
+    /// The gate's own queue, in messages (`sub` and `pull`).
+    pub queue: u32,
+    /// What the gate's own queue does when it is full (`sub` and `pull`).
+    pub when_full: WhenFull,
+    /// Whether a peer with `when_full: wait` may make this gate wait (`pub` and `push`).
+    pub backpressure: bool,
+    /// How long a call may take (`req`).
+    pub timeout: Duration,
+    /// The gate's connections, in file order.
+    pub links: &'static [LinkSpec],
+}
+
+/// One connection, seen from one of its gates.
+#[derive(Debug)]
+pub struct LinkSpec {
+    /// The component at the other end.
+    pub peer_component: &'static str,
+    /// The gate at the other end.
+    pub peer_gate: &'static str,
+    /// The name of the connection's socket inside the system's folder, contract included.
+    pub endpoint: &'static str,
+    /// A short hash of pattern, type and codec: two ends that differ in it never talk.
+    pub contract: &'static str,
+    /// Whether `ready` waits for this peer: false for an `optional` component.
+    pub required: bool,
+    /// The receiving gate's queue, in messages.
+    pub queue: u32,
+    /// What happens when it is full.
+    pub when_full: WhenFull,
+}
