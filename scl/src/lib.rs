@@ -1,2 +1,3 @@
 //! Typed components and gates.
+pub mod codec;
 pub mod spec;
