@@ -194,6 +194,12 @@ fn paths_up_to_the_limit_fit_and_longer_ones_name_the_way_out() {
             rover.folder().display()
         )
     );
+    // The temporary name of seven bytes must fit too, however short the endpoint is.
+    let folder = root.path().join("d".repeat(99 - root.path().as_os_str().len() - "/".len() - "/s".len()));
+    let deep = locate(&[("SCL_RUNTIME_DIR", &folder)]).unwrap().system("s").unwrap();
+    assert_eq!(deep.path("a.b").unwrap().as_os_str().len(), 103);
+    let deeper = locate(&[("SCL_RUNTIME_DIR", &folder)]).unwrap().system("s2").unwrap();
+    assert!(matches!(deeper.path("a.b"), Err(PlaceError::PathTooLong { length: 108, .. })));
     let hopeless = rover.path(&"g".repeat(200)).unwrap_err().to_string();
     assert!(hopeless.ends_with("no folder is short enough"), "{hopeless}");
 }

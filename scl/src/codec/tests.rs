@@ -1,6 +1,6 @@
 #![allow(clippy::unwrap_used)]
 
-use std::{error::Error, fmt::Debug};
+use std::fmt::Debug;
 
 use bytes::{Bytes, BytesMut};
 
@@ -138,7 +138,7 @@ mod json {
         let error = <Json as Codec<BTreeMap<Vec<u8>, u8>>>::encode(&unwritable, &mut into).unwrap_err();
         assert_eq!(into, b"before"[..]);
         assert_eq!(error.to_string(), "codec `json` cannot encode this message: its value has no form in json");
-        assert_eq!(error.source().unwrap().to_string(), "key must be a string");
+        assert_eq!(std::error::Error::source(&error).unwrap().to_string(), "key must be a string");
     }
 }
 
@@ -230,7 +230,7 @@ fn check_noise<C: Codec<T>, T>() {
             Ok(message) => C::encode(&message, &mut BytesMut::new()).unwrap(),
             Err(error) => {
                 refused += 1;
-                assert!(error.source().is_some() && !error.reason().is_empty());
+                assert!(std::error::Error::source(&error).is_some() && !error.reason().is_empty());
             }
         }
     }

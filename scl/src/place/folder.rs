@@ -141,8 +141,8 @@ fn make_folder(path: &Path, parents: bool) -> Result<(), PlaceError> {
     }
 }
 
-/// Looking once is enough: in a folder of our own that others cannot write to, and below a parent that is ours or sticky,
-/// nobody else can change what was seen.
+/// Looking once is enough: in a folder of our own that others cannot write to, and whose parent is ours or sticky as
+/// folders for temporary files are, nobody else can change what was seen.
 fn verify_folder(path: &Path, others: Rights) -> Result<(), PlaceError> {
     let seen = fs::symlink_metadata(path).map_err(|error| PlaceError::io("look at the runtime folder", path, error))?;
     let path = path.to_owned();

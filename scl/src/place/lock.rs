@@ -123,6 +123,7 @@ fn read_holder(file: &mut fs::File) -> Holder {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::place::RuntimeDir;
 
     #[test]
     fn the_holder_is_read_from_whatever_the_file_says() {
@@ -143,5 +144,17 @@ mod tests {
             fs::write(&path, text).unwrap();
             assert_eq!(read_holder(&mut open(&path).unwrap()), expected, "{:?}", String::from_utf8_lossy(text));
         }
+    }
+
+    #[test]
+    fn a_copy_of_the_open_file_does_not_outlive_the_lock() {
+        let folder = tempfile::tempdir().unwrap();
+        let variable = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| folder.path().into());
+        let dir = RuntimeDir::locate(&variable).unwrap().system("rover").unwrap();
+        let lock = ComponentLock::take(&dir, "sensor").unwrap();
+        let copy = lock.file.try_clone().unwrap();
+        drop(lock);
+        assert!(ComponentLock::take(&dir, "sensor").is_ok());
+        drop(copy);
     }
 }
