@@ -13,6 +13,24 @@
 //! behind is replaced, or removed by [`ComponentLock::clear_leftovers`], at the next start.
 //!
 //! All calls are synchronous and short; they touch local files only.
+//!
+//! # Example
+//!
+//! ```
+//! use scl::place::{Address, ComponentLock, RuntimeDir, bind_ipc, find};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let env = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| folder.path().into());
+//! // Outside of tests: `let env = |name: &str| std::env::var_os(name);`
+//! let dir = RuntimeDir::locate(&env)?.system("rover")?;
+//! let lock = ComponentLock::take(&dir, "controller")?;
+//! lock.clear_leftovers()?;
+//! let bound = bind_ipc(&dir, "controller.commands.1a2b3c4d")?;
+//! assert!(matches!(find(&dir, "controller.commands.1a2b3c4d"), Some(Address::Ipc(_))));
+//! drop((bound, lock));
+//! assert_eq!(find(&dir, "controller.commands.1a2b3c4d"), None);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod announcement;
 mod bind;

@@ -13,6 +13,7 @@ use std::{
     time::{Duration, SystemTime},
 };
 
+use rustix::fs::{CWD, FileType, Mode, mknodat};
 use scl::place::{
     Address, AnnouncedEndpoint, Announcement, ComponentLock, PlaceError, RuntimeDir, SystemDir, bind_ipc, bind_tcp,
     find, other_contracts,
@@ -241,6 +242,10 @@ fn a_damaged_announcement_counts_as_none() {
     assert_eq!(Announcement::read(&dir, "sensor"), Some(announcement()));
     fs::remove_file(&path).unwrap();
     fs::create_dir(&path).unwrap();
+    assert_eq!(Announcement::read(&dir, "sensor"), None);
+    fs::remove_dir(&path).unwrap();
+    // Opening a pipe that nobody writes to must not wait for a writer.
+    mknodat(CWD, &path, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0).unwrap();
     assert_eq!(Announcement::read(&dir, "sensor"), None);
 }
 
