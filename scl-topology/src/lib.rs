@@ -12,4 +12,5 @@
 pub mod diagnostic;
 pub mod model;
 pub mod source;
+mod suggest;
 pub mod topology;
