@@ -1,0 +1,60 @@
+//! SCL0501: an end of a component that does not exist. SCL0504: its two names are swapped.
+
+use super::connection_end::parts;
+use super::draft::Draft;
+use super::wording::{either, listed};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::suggest::similar;
+
+pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnostics) {
+    let text = &draft.links[link].model.ends[end];
+    let Some((component, gate)) = parts(&text.value) else { return };
+    let headline = format!("unknown component `{component}`");
+    if let Some(swapped) = draft.gate(gate, component) {
+        draft.gates[swapped].named = true;
+        return problems.push(swap(headline, text.span, gate, component));
+    }
+    if draft.model.components_unread {
+        return;
+    }
+    let place = draft.part(text.span, component, false);
+    let mut found = Diagnostic::error("SCL0501", headline, place, "no component has this name");
+    let meant = meant(draft, component, gate);
+    if let [only] = meant.as_slice() {
+        if let Some(at) = draft.component(only) {
+            found = found.label(draft.components[at].model.name.span, "a similar name is declared here");
+        }
+    }
+    for name in &meant {
+        if let Some(gate) = draft.gate(name, gate) {
+            draft.gates[gate].named = true;
+        }
+    }
+    if !meant.is_empty() {
+        found = found.help(format!("did you mean {}?", either(&meant)));
+    }
+    problems.push(found.note(declared(draft)));
+}
+
+/// The report of an end whose two names are in the wrong order.
+pub(super) fn swap(headline: String, span: crate::source::Span, component: &str, gate: &str) -> Diagnostic {
+    Diagnostic::error("SCL0504", headline, span, "component and gate are swapped")
+        .help(format!("write `{component}.{gate}`"))
+}
+
+/// Similar components; those that have the gate, if there are any.
+fn meant(draft: &Draft<'_>, component: &str, gate: &str) -> Vec<String> {
+    let mut names: Vec<&str> = draft.model.components.iter().map(|other| other.name.value.as_str()).collect();
+    names.dedup();
+    let near = similar(component, names);
+    let owners: Vec<&str> = near.iter().copied().filter(|other| draft.gate(other, gate).is_some()).collect();
+    let best = if owners.is_empty() { near } else { owners };
+    best.into_iter().map(str::to_owned).collect()
+}
+
+fn declared(draft: &Draft<'_>) -> String {
+    let mut names: Vec<&str> = draft.model.components.iter().map(|other| other.name.value.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    if names.is_empty() { "no components are declared".to_owned() } else { format!("declared components: {}", listed(names)) }
+}
