@@ -9,8 +9,13 @@
 //! This crate does no input or output: the caller reads the files and prints the diagnostics.
 #![deny(missing_docs)]
 
+pub mod check;
 pub mod diagnostic;
 pub mod model;
+pub mod parse;
+pub mod resolve;
+pub mod rust_name;
 pub mod source;
 mod suggest;
 pub mod topology;
+mod yaml;
