@@ -35,6 +35,10 @@ mod schema_type;
 mod self_connection;
 mod snake_case;
 mod system_name;
+#[cfg(test)]
+pub(crate) mod testing;
+#[cfg(test)]
+mod together;
 mod unconnected;
 mod unknown_component;
 mod unknown_gate;
@@ -66,8 +70,12 @@ pub struct SchemaMessages {
 /// Checks everything and never stops at the first problem.
 ///
 /// Gives `None` if `problems` holds an error in the end, be it from here or from the parser. A part that is wrong is
-/// left out of the later checks, so that each mistake is told once.
+/// left out of the later checks, so that each mistake is told once. Of a text that is no YAML nothing is checked.
 pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Diagnostics) -> Option<Topology> {
+    // What is left of a text that stops to be YAML proves nothing.
+    if model.cut_off {
+        return None;
+    }
     check_names(model, problems);
     let mut draft = Draft::new(model, sources);
     let system = system_name::system_name(model, facts);

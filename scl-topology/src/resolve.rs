@@ -118,3 +118,111 @@ pub(crate) fn fingerprint<'a>(parts: impl IntoIterator<Item = &'a str>) -> Strin
     let letter = |at: usize| char::from(ALPHABET[(folded >> (5 * at)) as usize % 32]);
     (0..CONTRACT_LENGTH).map(letter).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::testing::topology;
+
+    const FILE: &str = "components:
+  - name: sensor
+    gates:
+      - fix: {pub: nav.Fix, codec: json}
+      - work: {push: nav.Job}
+      - ask: {req: A -> B}
+  - name: pilot
+    gates:
+      - gps: {sub: nav.Fix, queue: 1}
+      - jobs: pull
+      - orders: {rep: A -> B}
+  - name: other
+    gates:
+      - fix: sub
+      - work: push
+connections:
+  - [sensor.fix, pilot.gps]
+  - [pilot.jobs, sensor.work]
+  - [sensor.ask, pilot.orders]
+  - [other.fix, sensor.fix]
+  - [other.work, pilot.jobs]
+";
+
+    fn endpoints(yaml: &str) -> Vec<String> {
+        let topology = topology(yaml);
+        topology.connections().map(|(id, _)| endpoint(&topology, id)).collect()
+    }
+
+    #[test]
+    fn sockets_are_named_after_their_gates() {
+        assert_eq!(
+            endpoints(FILE),
+            [
+                "sensor.fix--pilot.gps.5eyd5c3s",
+                "pilot.jobs.26t2nsae",
+                "pilot.orders.yrvcf33f",
+                "sensor.fix--other.fix.5eyd5c3s",
+                "pilot.jobs.26t2nsae",
+            ]
+        );
+    }
+
+    #[test]
+    fn gates_have_their_own_sockets_by_kind() {
+        let topology = topology(FILE);
+        let gates = topology.components().flat_map(|(_, component)| component.gates());
+        let own: Vec<_> = gates.filter_map(|&gate| gate_endpoint(&topology, gate)).collect();
+        assert_eq!(own, ["sensor.fix", "pilot.jobs.26t2nsae", "pilot.orders.yrvcf33f"]);
+    }
+
+    #[test]
+    fn contracts_change_with_what_they_are_about_only() {
+        let contracts = |yaml: &str| {
+            let topology = topology(yaml);
+            topology.connections().map(|(id, _)| contract(&topology, id)).collect::<Vec<_>>()
+        };
+        let before = contracts(FILE);
+        let same = [
+            ("sensor", "probe"),
+            ("queue: 1", "queue: 7"),
+            ("gates:", "doc: Text.\n    gates:"),
+            ("work: push\n", "work: push\n      - more: pub\n"),
+        ];
+        for (from, to) in same {
+            assert_eq!(contracts(&FILE.replace(from, to)), before, "{from} to {to}");
+        }
+        for (from, to, changed) in
+            [("nav.Fix", "nav.Place", [0, 3]), ("nav.Job", "Job", [1, 4]), ("json", "cbor", [0, 3])]
+        {
+            let after = contracts(&FILE.replace(from, to));
+            let differ: Vec<usize> = (0..5).filter(|&at| after[at] != before[at]).collect();
+            assert_eq!(differ, changed, "{from} to {to}");
+        }
+    }
+
+    #[test]
+    fn request_and_reply_are_not_interchangeable() {
+        let swapped = FILE.replace("A -> B", "B -> A");
+        assert_ne!(endpoints(FILE)[2], endpoints(&swapped)[2]);
+    }
+
+    #[test]
+    fn long_names_fit_into_the_path_and_stay_apart() {
+        const SYSTEM: &str = "twenty_characters_ok";
+        let long = "a_name_that_is_a_little_longer_than";
+        let yaml = FILE.replace("pilot", &format!("{long}_one")).replace("other", &format!("{long}_two"));
+        let yaml = format!("system: {SYSTEM}\n{yaml}");
+        let names = endpoints(&yaml);
+        let room = LONGEST_PATH - folder_length(SYSTEM);
+        assert!(names.iter().all(|name| name.len() <= room), "{names:?}");
+        assert!(names[0].starts_with("sensor.fix--") && names[0].contains('~'), "{names:?}");
+        assert_ne!(names[0], names[3]);
+        assert_eq!(names[0].rsplit('.').next(), endpoints(FILE)[0].rsplit('.').next());
+    }
+
+    #[test]
+    fn the_hash_never_changes() {
+        assert_eq!(fingerprint([""; 0]), "znutocs4");
+        assert_eq!(fingerprint(["ab", "c"]), "cmzg4j5f");
+        assert_ne!(fingerprint(["ab", "c"]), fingerprint(["a", "bc"]));
+    }
+}

@@ -64,9 +64,7 @@ fn several_repliers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) ->
     let names = links.iter().map(|&(_, replier)| format!("{}_{name}", draft.component_name(replier)));
     peers("SCL0512", headline, draft, gate, links, |which, path| format!("{which} replier: `{path}`"))
         .help(format!("declare one `req` gate for each replier: {}", listed(names)))
-        .note(format!(
-            "with {count} repliers it is not defined who answers (ZeroMQ would alternate between them)"
-        ))
+        .note(format!("with {count} repliers it is not defined who answers (ZeroMQ would alternate between them)"))
         .note("many requesters of one replier are allowed")
 }
 
@@ -104,4 +102,118 @@ fn peers(
         found = found.label(place(at), text(at));
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn subscriber_with_several_publishers() {
+        let yaml = r#"
+components:
+  - name: gps
+    gates:
+      - fix: pub
+  - name: replay
+    gates:
+      - fix: pub
+  - name: autopilot
+    gates:
+      - fix: sub
+connections:
+  - [gps.fix, autopilot.fix]
+  - [replay.fix, autopilot.fix]
+"#;
+        example(
+            "SCL0511",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0511] gate `autopilot.fix` subscribes to several publishers
+              --> topology.yaml:13:18
+               |
+            12 |   - [gps.fix, autopilot.fix]
+               |               ------------- first publisher: `gps.fix`
+            13 |   - [replay.fix, autopilot.fix]
+               |                  ^^^^^^^^^^^^^ second publisher: `replay.fix`
+               |
+               = help: declare a second gate: `- replay_fix: sub`
+               = help: if `gps` and `replay` are two implementations of one component, declare one component and start either program
+               = note: messages of all its publishers arrive at this gate, in the order of arrival
+        "#]],
+        );
+    }
+
+    #[test]
+    fn requester_with_two_repliers() {
+        let yaml = r#"
+components:
+  - name: ui
+    gates:
+      - commands: req
+  - name: autopilot
+    gates:
+      - commands: rep
+  - name: camera
+    gates:
+      - commands: rep
+connections:
+  - [ui.commands, autopilot.commands]
+  - [ui.commands, camera.commands]
+"#;
+        example(
+            "SCL0512",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0512] gate `ui.commands` asks two repliers
+              --> topology.yaml:13:6
+               |
+            12 |   - [ui.commands, autopilot.commands]
+               |      ----------- first replier: `autopilot.commands`
+            13 |   - [ui.commands, camera.commands]
+               |      ^^^^^^^^^^^ second replier: `camera.commands`
+               |
+               = help: declare one `req` gate for each replier: `autopilot_commands`, `camera_commands`
+               = note: with two repliers it is not defined who answers (ZeroMQ would alternate between them)
+               = note: many requesters of one replier are allowed
+        "#]],
+        );
+    }
+
+    #[test]
+    fn push_pull_cardinality() {
+        let yaml = r#"
+components:
+  - name: camera
+    gates:
+      - frames: push
+  - name: detector
+    gates:
+      - frames: pull
+  - name: recorder
+    gates:
+      - frames: pull
+connections:
+  - [camera.frames, detector.frames]
+  - [camera.frames, recorder.frames]
+"#;
+        example(
+            "SCL0513",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0513] gate `camera.frames` pushes to two components, so each of them gets only a part of the messages
+              --> topology.yaml:13:6
+               |
+            12 |   - [camera.frames, detector.frames]
+               |      ------------- first receiver
+            13 |   - [camera.frames, recorder.frames]
+               |      ^^^^^^^^^^^^^ second receiver
+               |
+               = help: if both need every message, make the gates `pub` and `sub`
+               = help: if the work is to be shared, say so: `frames: {push: Frame, share: true}`
+               = note: many pushers into one `pull` gate are allowed
+        "#]],
+        );
+    }
 }

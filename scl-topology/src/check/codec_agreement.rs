@@ -24,3 +24,43 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
         problems.push(found);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn codecs_differ() {
+        let yaml = r#"
+components:
+  - name: autopilot
+    gates:
+      - attitude: {pub: Attitude, codec: json}
+  - name: blackbox
+    gates:
+      - attitude: {sub: Attitude, codec: cbor}
+connections:
+  - [autopilot.attitude, blackbox.attitude]
+"#;
+        example(
+            "SCL0608",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0608] the two ends of this connection use different codecs
+             --> topology.yaml:9:5
+              |
+            4 |       - attitude: {pub: Attitude, codec: json}
+              |                                   -----------
+            ...
+            7 |       - attitude: {sub: Attitude, codec: cbor}
+              |                                   -----------
+            8 | connections:
+            9 |   - [autopilot.attitude, blackbox.attitude]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `json` is sent, `cbor` is expected
+              |
+              = help: give both ends the same `codec`; an end without one takes the codec of the other
+        "#]],
+        );
+    }
+}

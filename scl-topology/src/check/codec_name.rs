@@ -86,3 +86,33 @@ fn report(written: &Spanned<String>) -> Diagnostic {
     };
     found.note("codecs: `protobuf` (default), `json`, `cbor`, `msgpack`, `postcard`, `raw`")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn unknown_codec() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, codec: protobuff}
+"#;
+        example(
+            "SCL0407",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0407] unknown codec `protobuff`
+             --> topology.yaml:4:49
+              |
+            4 |       - measurements: {pub: Measurement, codec: protobuff}
+              |                                                 ^^^^^^^^^
+              |
+              = help: did you mean `protobuf`?
+              = note: codecs: `protobuf` (default), `json`, `cbor`, `msgpack`, `postcard`, `raw`
+        "#]],
+        );
+    }
+}

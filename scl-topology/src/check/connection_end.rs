@@ -39,7 +39,7 @@ fn name_all(draft: &mut Draft<'_>) {
 
 fn report(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnostics) {
     let text = &draft.links[link].model.ends[end];
-    if draft.model.cut_off || text.value.is_empty() {
+    if text.value.is_empty() {
         return;
     }
     match parts(&text.value) {
@@ -75,8 +75,11 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
     }
     if draft.component(&text.value).is_some() {
         let gates = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
-        return Diagnostic::error("SCL0503", headline, text.span, "which gate?")
-            .note(format!("gates of `{}`: {}", text.value, super::wording::shortened(gates)));
+        return Diagnostic::error("SCL0503", headline, text.span, "which gate?").note(format!(
+            "gates of `{}`: {}",
+            text.value,
+            super::wording::shortened(gates)
+        ));
     }
     let (label, help) = oddity(&text.value);
     Diagnostic::error("SCL0503", headline, text.span, label).help(help)
@@ -130,5 +133,42 @@ fn oddity(text: &str) -> (&'static str, &'static str) {
         _ if dots > 1 => ("more than one dot", "write the component and its gate, with one dot between them"),
         _ if dots == 0 => ("no dot", "write the component, a dot and its gate"),
         _ => ("not two names", "write the component, a dot and its gate"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn end_is_not_component_gate() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [measurements, controller.sensor]
+"#;
+        example(
+            "SCL0503",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0503] a connection end is written `component.gate`
+             --> topology.yaml:9:6
+              |
+            4 |       - measurements: pub
+              |         ------------ only `sensor` has a gate of this name
+            ...
+            9 |   - [measurements, controller.sensor]
+              |      ^^^^^^^^^^^^ which component?
+              |
+              = help: write `sensor.measurements`
+        "#]],
+        );
     }
 }

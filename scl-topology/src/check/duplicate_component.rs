@@ -18,3 +18,36 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn duplicate_component() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates: []
+  - name: sensor
+    gates: []
+"#;
+        example(
+            "SCL0301",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0301] component `sensor` is declared twice
+             --> topology.yaml:4:11
+              |
+            2 |   - name: sensor
+              |           ------ first declaration
+            3 |     gates: []
+            4 |   - name: sensor
+              |           ^^^^^^ second declaration
+              |
+              = help: rename one of them, or merge their gates
+        "#]],
+        );
+    }
+}

@@ -23,3 +23,40 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         draft.links[at].ends = [None; 2];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn duplicate_connection() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+  - [controller.sensor, sensor.measurements]
+"#;
+        example(
+            "SCL0510",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0510] this connection is already declared
+              --> topology.yaml:10:5
+               |
+             9 |   - [sensor.measurements, controller.sensor]
+               |     ---------------------------------------- first declared here
+            10 |   - [controller.sensor, sensor.measurements]
+               |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ same two gates, in the other order
+               |
+               = help: remove one of the two
+        "#]],
+        );
+    }
+}

@@ -24,3 +24,35 @@ fn check_component(component: &ComponentModel, problems: &mut Diagnostics) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn duplicate_gate() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - sensor: sub
+      - sensor: pub
+"#;
+        example(
+            "SCL0302",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0302] component `controller` declares gate `sensor` twice
+             --> topology.yaml:5:9
+              |
+            4 |       - sensor: sub
+              |         ------ first declaration
+            5 |       - sensor: pub
+              |         ^^^^^^ second declaration
+              |
+              = help: gate names are unique within a component, whatever their kind
+        "#]],
+        );
+    }
+}

@@ -62,3 +62,111 @@ fn swap(span: Span, asker: &str, asked: Exchange<'_>, answered: Exchange<'_>) ->
         .label(asked.0.span().to(asked.1.span()), "the requester has them the other way round")
         .help(format!("on both ends the left type is what the `req` gate sends; swap them on `{asker}`"))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn request_types_differ() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Cmd -> Status}
+connections:
+  - [controller.commands, ui.commands]
+"#;
+        example(
+            "SCL0602",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0602] the request types of this connection differ
+             --> topology.yaml:9:5
+              |
+            4 |       - commands: {rep: Command -> Status}
+              |                         ------- the replier understands this
+            ...
+            7 |       - commands: {req: Cmd -> Status}
+              |                         --- the requester sends this
+            8 | connections:
+            9 |   - [controller.commands, ui.commands]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Cmd` is asked, `Command` is understood
+              |
+              = help: the reply types agree (`Status`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn reply_types_differ() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Command -> Ack}
+connections:
+  - [controller.commands, ui.commands]
+"#;
+        example(
+            "SCL0603",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0603] the reply types of this connection differ
+             --> topology.yaml:9:5
+              |
+            4 |       - commands: {rep: Command -> Status}
+              |                                    ------ the replier answers this
+            ...
+            7 |       - commands: {req: Command -> Ack}
+              |                                    --- the requester expects this
+            8 | connections:
+            9 |   - [controller.commands, ui.commands]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Status` is answered, `Ack` is expected
+              |
+              = help: the request types agree (`Command`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn request_and_reply_swapped() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Status -> Command}
+connections:
+  - [controller.commands, ui.commands]
+"#;
+        example(
+            "SCL0604",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0604] request and reply types are swapped on one end
+             --> topology.yaml:9:5
+              |
+            4 |       - commands: {rep: Command -> Status}
+              |                         ----------------- the replier takes `Command` and answers `Status`
+            ...
+            7 |       - commands: {req: Status -> Command}
+              |                         ----------------- the requester has them the other way round
+            8 | connections:
+            9 |   - [controller.commands, ui.commands]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+              |
+              = help: on both ends the left type is what the `req` gate sends; swap them on `ui.commands`
+        "#]],
+        );
+    }
+}

@@ -50,3 +50,33 @@ fn report(word: &Spanned<String>) -> Diagnostic {
     };
     found.note(KINDS)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn unknown_gate_kind() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - sensor: subscribe
+"#;
+        example(
+            "SCL0401",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0401] unknown gate kind `subscribe`
+             --> topology.yaml:4:17
+              |
+            4 |       - sensor: subscribe
+              |                 ^^^^^^^^^
+              |
+              = help: the kind is called `sub`
+              = note: kinds: `pub` and `sub` (one to many, no answer), `req` and `rep` (question and answer), `push` and `pull` (many to one, no answer)
+        "#]],
+        );
+    }
+}

@@ -50,7 +50,8 @@ fn take_over_types(draft: &mut Draft<'_>, peers: &[Vec<usize>]) {
 }
 
 fn take_over_codecs(draft: &mut Draft<'_>, peers: &[Vec<usize>]) {
-    let mut reached: VecDeque<usize> = (0..draft.gates.len()).filter(|&gate| draft.gates[gate].codec.is_some()).collect();
+    let mut reached: VecDeque<usize> =
+        (0..draft.gates.len()).filter(|&gate| draft.gates[gate].codec.is_some()).collect();
     while let Some(gate) = reached.pop_front() {
         for &peer in &peers[gate] {
             if draft.gates[peer].codec.is_none() && !draft.gates[peer].codec_broken {
@@ -89,4 +90,75 @@ fn without_type(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
         _ => example_type(name),
     };
     found.help(format!("name it on one end: `{name}: {{{kind}: {types}}}`; the other end takes it over"))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn connection_without_a_message_type() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+"#;
+        example(
+            "SCL0402",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0402] this connection carries bytes of no declared type
+             --> topology.yaml:9:5
+              |
+            4 |       - measurements: pub
+              |         ----------------- no type
+            ...
+            7 |       - sensor: sub
+              |         ----------- no type
+            8 | connections:
+            9 |   - [sensor.measurements, controller.sensor]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ neither end names a type
+              |
+              = help: name it on one end: `measurements: {pub: Measurement}`; the other end takes it over
+        "#]],
+        );
+    }
+
+    #[test]
+    fn type_taken_over_from_the_other_end() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement}
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+"#;
+        example(
+            "SCL0607",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0607] gate `controller.sensor` has no type of its own; it takes `Measurement` from `sensor.measurements`
+             --> topology.yaml:7:9
+              |
+            4 |       - measurements: {pub: Measurement}
+              |                             ----------- from here
+            ...
+            7 |       - sensor: sub
+              |         ^^^^^^^^^^^ inferred: `Measurement`
+              |
+              = help: write `sensor: {sub: Measurement}` to pin the contract
+        "#]],
+        );
+    }
 }

@@ -42,3 +42,37 @@ fn report(plural: &str, first: &Spanned<String>, second: &Spanned<String>) -> Di
         .help("rename one of them")
         .note("their socket files would be the same on a file system that ignores case (macOS, Windows)")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn names_that_differ_only_in_letter_case() {
+        let yaml = r#"
+components:
+  - name: gps
+    gates: []
+  - name: GPS_
+    gates: []
+"#;
+        example(
+            "SCL0310",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0310] components `gps` and `GPS_` differ only in letter case and `_`
+             --> topology.yaml:4:11
+              |
+            2 |   - name: gps
+              |           ---
+            3 |     gates: []
+            4 |   - name: GPS_
+              |           ^^^^
+              |
+              = help: rename one of them
+              = note: their socket files would be the same on a file system that ignores case (macOS, Windows)
+        "#]],
+        );
+    }
+}

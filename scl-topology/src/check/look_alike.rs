@@ -93,3 +93,31 @@ fn retyped(name: &str) -> Option<String> {
     }
     Some(out)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn look_alike_character_in_a_name() {
+        let yaml = r#"
+components:
+  - name: sеnsor
+"#;
+        example(
+            "SCL0304",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0304] component name `sеnsor` contains the Cyrillic letter `е` (U+0435), which looks like `e`
+             --> topology.yaml:2:11
+              |
+            2 |   - name: sеnsor
+              |           ^^^^^^ not the Latin `e`
+              |
+              = help: retype the name in ASCII: `sensor`
+              = note: names are ASCII, so that the file, the socket paths and all language bindings agree
+        "#]],
+        );
+    }
+}

@@ -13,10 +13,10 @@ type Peer = (usize, usize);
 pub(super) fn check(draft: &Draft<'_>, with_schemas: bool, problems: &mut Diagnostics) {
     let mut by_source: BTreeMap<usize, Vec<Peer>> = BTreeMap::new();
     for (link, source, sink) in draft.flows() {
-        if let (Some(sent), Some(expected)) = (message(draft, source), message(draft, sink)) {
-            if differ(sent, expected, with_schemas) {
-                by_source.entry(source).or_default().push((link, sink));
-            }
+        if let (Some(sent), Some(expected)) = (message(draft, source), message(draft, sink))
+            && differ(sent, expected, with_schemas)
+        {
+            by_source.entry(source).or_default().push((link, sink));
         }
     }
     let mut by_sink: BTreeMap<usize, Vec<Peer>> = BTreeMap::new();
@@ -88,9 +88,7 @@ fn hub_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnostic {
         found = with_type(draft, found, peer);
     }
     let paths = peers.iter().map(|&(_, peer)| draft.path(peer));
-    found
-        .help(format!("use `{theirs}` for `{path}` too"))
-        .note(format!("the other ends agree: {}", listed(paths)))
+    found.help(format!("use `{theirs}` for `{path}` too")).note(format!("the other ends agree: {}", listed(paths)))
 }
 
 /// Shows the type of a gate, once for gates that have it from one place.
@@ -101,7 +99,9 @@ fn with_type(draft: &Draft<'_>, found: Diagnostic, gate: usize) -> Diagnostic {
     }
     let role = if is_source(draft, gate) { "sent" } else { "expected" };
     match draft.gates[gate].payload_from {
-        Some(_) => found.label(name.span(), format!("{role} by `{}`, which takes its type from here", draft.path(gate))),
+        Some(_) => {
+            found.label(name.span(), format!("{role} by `{}`, which takes its type from here", draft.path(gate)))
+        }
         None => found.label(name.span(), role),
     }
 }
@@ -112,4 +112,45 @@ fn is_source(draft: &Draft<'_>, gate: usize) -> bool {
 
 fn type_of<'a>(draft: &'a Draft<'_>, gate: usize) -> &'a str {
     message(draft, gate).map_or("", TypeName::dotted)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn published_and_subscribed_types_differ() {
+        let yaml = r#"
+components:
+  - name: autopilot
+    gates:
+      - attitude: {pub: Attitude}
+  - name: blackbox
+    gates:
+      - attitude: {sub: Telemetry}
+connections:
+  - [autopilot.attitude, blackbox.attitude]
+"#;
+        example(
+            "SCL0601",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0601] the two ends of this connection use different message types
+             --> topology.yaml:9:5
+              |
+            4 |       - attitude: {pub: Attitude}
+              |                         -------- sent
+            ...
+            7 |       - attitude: {sub: Telemetry}
+              |                         --------- expected
+            8 | connections:
+            9 |   - [autopilot.attitude, blackbox.attitude]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Attitude` is sent, `Telemetry` is expected
+              |
+              = help: use `Attitude` on both ends, if `blackbox` takes it as it is
+              = help: or put a component between them that converts
+        "#]],
+        );
+    }
 }

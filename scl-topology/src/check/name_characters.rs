@@ -45,7 +45,9 @@ fn report(noun: Noun, name: &Spanned<String>, what: &str) -> Diagnostic {
     match noun {
         Noun::System => found,
         _ if what.starts_with("two") => found.note("`--` separates the two ends in the name of a socket"),
-        _ => found.note("the dot separates component and gate in `component.gate`, so a name cannot contain one either"),
+        _ => {
+            found.note("the dot separates component and gate in `component.gate`, so a name cannot contain one either")
+        }
     }
 }
 
@@ -53,4 +55,32 @@ fn report(noun: Noun, name: &Spanned<String>, what: &str) -> Diagnostic {
 fn mended(name: &str) -> String {
     let words = name.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     words.collect::<Vec<_>>().join("_")
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn invalid_character_in_a_name() {
+        let yaml = r#"
+components:
+  - name: gps sensor
+"#;
+        example(
+            "SCL0303",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0303] a component name cannot contain a space
+             --> topology.yaml:2:11
+              |
+            2 |   - name: gps sensor
+              |           ^^^^^^^^^^ allowed: a-z A-Z 0-9 _ -
+              |
+              = help: write `gps_sensor`
+              = note: the dot separates component and gate in `component.gate`, so a name cannot contain one either
+        "#]],
+        );
+    }
 }

@@ -22,3 +22,30 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn name_too_long() {
+        let yaml = r#"
+components:
+  - name: a_component_name_that_goes_on_and_on_and_on_and_on_and_on_and_on_and_on
+"#;
+        example(
+            "SCL0312",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0312] this name has 71 characters; the limit is 64
+             --> topology.yaml:2:11
+              |
+            2 |   - name: a_component_name_that_goes_on_and_on_and_on_and_on_and_on_and_on_and_on
+              |           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+              |
+              = note: names become parts of socket paths, which the kernel limits to 107 bytes (see SCL0801)
+        "#]],
+        );
+    }
+}

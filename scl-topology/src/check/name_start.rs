@@ -53,3 +53,30 @@ fn alternatives(name: &str) -> Option<String> {
         None => moved,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn name_starts_with_the_wrong_character() {
+        let yaml = r#"
+components:
+  - name: 2nd_sensor
+"#;
+        example(
+            "SCL0305",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0305] a component name must start with a letter
+             --> topology.yaml:2:11
+              |
+            2 |   - name: 2nd_sensor
+              |           ^^^^^^^^^^ starts with a digit
+              |
+              = help: for example `second_sensor` or `sensor_2`
+        "#]],
+        );
+    }
+}

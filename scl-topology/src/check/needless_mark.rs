@@ -22,3 +22,40 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn unconnected_ok_on_a_connected_gate() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - events: {pub: Event, unconnected: ok}
+  - name: ui
+    gates:
+      - events: {sub: Event}
+connections:
+  - [controller.events, ui.events]
+"#;
+        example(
+            "SCL0711",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0711] gate `controller.events` is marked `unconnected: ok`, but it is connected
+             --> topology.yaml:4:30
+              |
+            4 |       - events: {pub: Event, unconnected: ok}
+              |                              ^^^^^^^^^^^^^^^ no longer needed
+            ...
+            9 |   - [controller.events, ui.events]
+              |     ------------------------------ connected here
+              |
+              = help: remove the mark
+        "#]],
+        );
+    }
+}

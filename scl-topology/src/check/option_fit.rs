@@ -60,3 +60,33 @@ fn reason(kind: GateKind, key: &str) -> Option<&'static str> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn option_does_not_fit_the_kind() {
+        let yaml = r#"
+components:
+  - name: ui
+    gates:
+      - commands: {req: Command -> Status, queue: 8}
+"#;
+        example(
+            "SCL0408",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0408] option `queue` is not available on a `req` gate
+             --> topology.yaml:4:44
+              |
+            4 |       - commands: {req: Command -> Status, queue: 8}
+              |                                            ^^^^^
+              |
+              = help: remove it
+              = note: `req` and `rep` take turns, so there is never more than one message waiting; `queue` is for `sub` and `pull`
+        "#]],
+        );
+    }
+}

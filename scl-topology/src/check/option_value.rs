@@ -91,3 +91,33 @@ fn report(kind: Option<GateKind>, option: &OptionModel, range: Range) -> Diagnos
         None => found,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn option_value_out_of_range() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, queue: 0}
+"#;
+        example(
+            "SCL0409",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0409] `queue` must be at least 1
+             --> topology.yaml:4:49
+              |
+            4 |       - measurements: {pub: Measurement, queue: 0}
+              |                                                 ^
+              |
+              = help: leave it out to get the default, 100
+              = note: each receiver says how many messages may wait for it; `queue` is for `sub` and `pull`
+        "#]],
+        );
+    }
+}

@@ -92,3 +92,82 @@ fn fitting(draft: &Draft<'_>, gate: usize, other: usize) -> Option<String> {
     let best = namesake.or(if fits.len() == 1 { fits.first() } else { None })?;
     Some(format!("`{}` fits {}", draft.path(gate), draft.path_and_kind(*best)))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn both_ends_send_or_both_receive() {
+        let yaml = r#"
+components:
+  - name: gps
+    gates:
+      - fix: pub
+  - name: imu
+    gates:
+      - rate: pub
+connections:
+  - [gps.fix, imu.rate]
+"#;
+        example(
+            "SCL0505",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0505] both ends of this connection publish
+             --> topology.yaml:9:5
+              |
+            4 |       - fix: pub
+              |              --- sends
+            ...
+            7 |       - rate: pub
+              |               --- sends too
+            8 | connections:
+            9 |   - [gps.fix, imu.rate]
+              |     ^^^^^^^^^^^^^^^^^^^ nobody receives
+              |
+              = help: a `pub` gate connects to a `sub` gate; should one of the two be `sub`?
+              = note: no gate of `gps` or `imu` is a `sub`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn ends_of_different_patterns() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - commands: rep
+      - events: pub
+  - name: ui
+    gates:
+      - commands: req
+      - events: sub
+connections:
+  - [controller.events, ui.commands]
+"#;
+        example(
+            "SCL0506",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0506] a `pub` gate cannot be connected to a `req` gate
+              --> topology.yaml:11:5
+               |
+             5 |       - events: pub
+               |         ----------- publishes, gets no answer
+            ...
+             8 |       - commands: req
+               |         ------------- asks, waits for an answer
+            ...
+            11 |   - [controller.events, ui.commands]
+               |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+               |
+               = help: `ui.commands` fits `controller.commands` (rep)
+               = help: `controller.events` fits `ui.events` (sub)
+               = note: pairs that fit: pub - sub, req - rep, push - pull
+        "#]],
+        );
+    }
+}

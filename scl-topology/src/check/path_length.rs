@@ -38,3 +38,37 @@ fn report(draft: &Draft<'_>, gate: usize, system: &str, length: usize) -> Diagno
         .note(format!("path: {}{}", crate::resolve::longest_folder(system), draft.path(gate)))
         .note("the folder is the longest usual one, so that the file works for every user of the machine")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn socket_path_too_long() {
+        let yaml = r#"
+components:
+  - name: navigation_and_guidance_supervisor
+    gates:
+      - commanded_trajectory_and_velocity_profile_of_the_vehicle: pub
+"#;
+        example(
+            "SCL0801",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0801] the socket path of this gate has 125 bytes; the kernel allows 107
+             --> topology.yaml:4:9
+              |
+            2 |   - name: navigation_and_guidance_supervisor
+              |           ---------------------------------- 34 bytes
+            3 |     gates:
+            4 |       - commanded_trajectory_and_velocity_profile_of_the_vehicle: pub
+              |         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ 56 bytes
+              |
+              = help: shorten the names by 18 bytes
+              = note: path: /run/user/4294967295/scl/topology/navigation_and_guidance_supervisor.commanded_trajectory_and_velocity_profile_of_the_vehicle
+              = note: the folder is the longest usual one, so that the file works for every user of the machine
+        "#]],
+        );
+    }
+}

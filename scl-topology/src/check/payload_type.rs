@@ -128,3 +128,56 @@ fn no_type(text: &str, span: crate::source::Span, fault: &Fault) -> Diagnostic {
         "a message type is a dotted name, such as `uav.Measurement`: words of letters, digits and `_`, joined by `.`",
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn not_a_type_name() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: "&str"}
+"#;
+        example(
+            "SCL0403",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0403] `&str` cannot be a message type
+             --> topology.yaml:4:29
+              |
+            4 |       - measurements: {pub: "&str"}
+              |                             ^^^^^^ a reference
+              |
+              = help: use an owned type: `String`
+              = note: a message type is a dotted name, such as `uav.Measurement`: words of letters, digits and `_`, joined by `.`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn types_do_not_fit_the_kind() {
+        let yaml = r#"
+components:
+  - name: ui
+    gates:
+      - commands: {req: Command}
+"#;
+        example(
+            "SCL0404",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0404] a `req` gate needs two types, what it asks and what it gets back
+             --> topology.yaml:4:25
+              |
+            4 |       - commands: {req: Command}
+              |                         ^^^^^^^ only one type is given
+              |
+              = help: write `commands: {req: Command -> Status}`
+        "#]],
+        );
+    }
+}

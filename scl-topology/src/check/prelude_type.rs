@@ -37,3 +37,31 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
         problems.push(found);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn type_name_hides_a_prelude_type() {
+        let yaml = r#"
+components:
+  - name: result
+"#;
+        example(
+            "SCL0313",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0313] component `result` becomes the Rust type `Result`, which hides `core::result::Result` where you import it
+             --> topology.yaml:2:11
+              |
+            2 |   - name: result
+              |           ^^^^^^
+              |
+              = help: choose a name that says whose result it is
+              = note: also: option, box, vec, string, some, ok, err, send, sync, drop, clone, default, iterator
+        "#]],
+        );
+    }
+}

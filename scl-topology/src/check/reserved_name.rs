@@ -24,3 +24,31 @@ fn is_reserved(noun: Noun, name: &str) -> bool {
         Noun::Gate => name.starts_with("__"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn reserved_name() {
+        let yaml = r#"
+components:
+  - name: scl
+"#;
+        example(
+            "SCL0311",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0311] `scl` is reserved for the framework
+             --> topology.yaml:2:11
+              |
+            2 |   - name: scl
+              |           ^^^
+              |
+              = help: choose another name
+              = note: reserved: `scl`, `topology`, and names that start with `scl_` or `__`
+        "#]],
+        );
+    }
+}

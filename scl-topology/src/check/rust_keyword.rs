@@ -63,5 +63,59 @@ fn escaped(component: &str, name: &Spanned<String>) -> Diagnostic {
     };
     Diagnostic::warning("SCL0306", format!("gate name `{}` is a Rust keyword", name.value), name.span, label)
         .help(help)
-        .note("checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)")
+        .note(
+            "checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)",
+        )
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn gate_name_is_a_rust_keyword() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - type: pub
+"#;
+        example(
+            "SCL0306",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0306] gate name `type` is a Rust keyword
+             --> topology.yaml:4:9
+              |
+            4 |       - type: pub
+              |         ^^^^ in Rust code you will have to write `sensor.r#type`
+              |
+              = help: choose another name, for example `kind`
+              = note: checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn keyword_that_cannot_be_escaped() {
+        let yaml = r#"
+components:
+  - name: crate
+"#;
+        example(
+            "SCL0307",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0307] `crate` is a Rust keyword that cannot be used as a name, not even as `r#crate`
+             --> topology.yaml:2:11
+              |
+            2 |   - name: crate
+              |           ^^^^^
+              |
+              = help: choose another name
+              = note: the others: `self`, `Self`, `super`, `_`
+        "#]],
+        );
+    }
 }

@@ -51,3 +51,62 @@ fn report(code: &'static str, headline: String, [first, second]: [&Name; 2], rus
     Diagnostic::error(code, headline, second.span, format!("also becomes `{rust}`"))
         .label(first.span, format!("becomes `{rust}`"))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn two_components_become_the_same_rust_type() {
+        let yaml = r#"
+components:
+  - name: user-interface
+    gates: []
+  - name: user_interface
+    gates: []
+"#;
+        example(
+            "SCL0308",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0308] components `user-interface` and `user_interface` would both become the Rust type `UserInterface`
+             --> topology.yaml:4:11
+              |
+            2 |   - name: user-interface
+              |           -------------- becomes `UserInterface`
+            3 |     gates: []
+            4 |   - name: user_interface
+              |           ^^^^^^^^^^^^^^ also becomes `UserInterface`
+              |
+              = help: rename one of them; use `_` in all names
+        "#]],
+        );
+    }
+
+    #[test]
+    fn two_gates_become_the_same_rust_field() {
+        let yaml = r#"
+components:
+  - name: actuator
+    gates:
+      - set-point: sub
+      - setPoint: sub
+"#;
+        example(
+            "SCL0309",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0309] gates `set-point` and `setPoint` of `actuator` would both become the Rust field `set_point`
+             --> topology.yaml:5:9
+              |
+            4 |       - set-point: sub
+              |         --------- becomes `set_point`
+            5 |       - setPoint: sub
+              |         ^^^^^^^^ also becomes `set_point`
+              |
+              = help: rename one of them
+        "#]],
+        );
+    }
+}

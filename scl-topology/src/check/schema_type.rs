@@ -56,3 +56,38 @@ fn report(draft: &Draft<'_>, schemas: &[SchemaMessages], known: &HashSet<&str>, 
     }
     found.note(format!("message types in `schemas`: {}", listed(all)))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example_with;
+    use expect_test::expect;
+
+    #[test]
+    fn unknown_message_type() {
+        let yaml = r#"
+schemas: [uav.proto]
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: uav.Mesurement}
+"#;
+        example_with(
+            "SCL0405",
+            yaml.trim_start(),
+            Some(&["uav.Command", "uav.Measurement", "uav.Status"]),
+            expect![[r#"
+            error: [SCL0405] unknown message type `uav.Mesurement`
+             --> topology.yaml:5:29
+              |
+            1 | schemas: [uav.proto]
+              |           --------- declares `uav.Measurement`
+            ...
+            5 |       - measurements: {pub: uav.Mesurement}
+              |                             ^^^^^^^^^^^^^^ not in the schemas
+              |
+              = help: did you mean `uav.Measurement`?
+              = note: message types in `schemas`: `uav.Command`, `uav.Measurement`, `uav.Status`
+        "#]],
+        );
+    }
+}

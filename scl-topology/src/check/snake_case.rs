@@ -14,3 +14,30 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn name_is_not_snake_case() {
+        let yaml = r#"
+components:
+  - name: UserInterface
+"#;
+        example(
+            "SCL0314",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0314] component name `UserInterface` is not snake_case
+             --> topology.yaml:2:11
+              |
+            2 |   - name: UserInterface
+              |           ^^^^^^^^^^^^^
+              |
+              = help: write `user_interface`
+        "#]],
+        );
+    }
+}

@@ -9,10 +9,6 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::GateKind;
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
-    // What cannot be read may hold the connections that seem to be missing.
-    if draft.model.cut_off {
-        return;
-    }
     let senders = FittingSenders::of(draft);
     for component in &draft.components {
         let open: Vec<usize> = component.gates.iter().copied().filter(|&gate| is_open(draft, gate)).collect();
@@ -50,13 +46,10 @@ fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, senders: &FittingSend
     let place = draft.gates[gate].model.name.span;
     let path = draft.path(gate);
     match kind {
-        GateKind::Pub => Diagnostic::warning(
-            "SCL0701",
-            format!("nobody subscribes to `{path}`"),
-            place,
-            "its messages are dropped",
-        )
-        .help(ways_out(draft, gate)),
+        GateKind::Pub => {
+            Diagnostic::warning("SCL0701", format!("nobody subscribes to `{path}`"), place, "its messages are dropped")
+                .help(ways_out(draft, gate))
+        }
         GateKind::Push => {
             Diagnostic::warning("SCL0701", format!("nobody pulls from `{path}`"), place, "its messages go nowhere")
                 .help(ways_out(draft, gate))
@@ -97,5 +90,129 @@ pub(super) fn type_text(draft: &Draft<'_>, gate: usize) -> String {
     match &draft.gates[from].model.payload {
         Some(payload) => payload.value.trim().to_owned(),
         None => example_type(&draft.gates[gate].model.name.value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn publisher_without_subscribers() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - events: pub
+"#;
+        example(
+            "SCL0701",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0701] nobody subscribes to `controller.events`
+             --> topology.yaml:4:9
+              |
+            4 |       - events: pub
+              |         ^^^^^^ its messages are dropped
+              |
+              = help: connect it, remove it, or write `events: {pub: Event, unconnected: ok}`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn subscriber_without_a_publisher() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - sensor: sub
+"#;
+        example(
+            "SCL0702",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0702] gate `controller.sensor` is not connected; it will never receive a message
+             --> topology.yaml:4:9
+              |
+            4 |       - sensor: sub
+              |         ^^^^^^
+              |
+              = help: connect it, remove it, or write `sensor: {sub: Sensor, unconnected: ok}`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn requester_without_a_replier() {
+        let yaml = r#"
+components:
+  - name: ui
+    gates:
+      - commands: req
+"#;
+        example(
+            "SCL0703",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0703] gate `ui.commands` is not connected; every request would wait until its timeout
+             --> topology.yaml:4:9
+              |
+            4 |       - commands: req
+              |         ^^^^^^^^ nobody answers
+              |
+              = help: connect it to a `rep` gate
+              = help: or write `unconnected: ok`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn replier_without_requesters() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - commands: rep
+"#;
+        example(
+            "SCL0704",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0704] nobody sends requests to `controller.commands`
+             --> topology.yaml:4:9
+              |
+            4 |       - commands: rep
+              |         ^^^^^^^^
+              |
+              = help: connect it, or write `unconnected: ok`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn component_without_any_connection() {
+        let yaml = r#"
+components:
+  - name: logger
+    gates:
+      - a: sub
+      - b: sub
+"#;
+        example(
+            "SCL0705",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0705] component `logger` is not connected to anything
+             --> topology.yaml:2:11
+              |
+            2 |   - name: logger
+              |           ^^^^^^ 2 gates, 0 connections
+              |
+              = help: connect it or remove it
+              = note: the 2 warnings for its gates are not shown
+        "#]],
+        );
     }
 }

@@ -20,10 +20,10 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     let place = draft.part(text.span, component, false);
     let mut found = Diagnostic::error("SCL0501", headline, place, "no component has this name");
     let meant = meant(draft, component, gate);
-    if let [only] = meant.as_slice() {
-        if let Some(at) = draft.component(only) {
-            found = found.label(draft.components[at].model.name.span, "a similar name is declared here");
-        }
+    if let [only] = meant.as_slice()
+        && let Some(at) = draft.component(only)
+    {
+        found = found.label(draft.components[at].model.name.span, "a similar name is declared here");
     }
     for name in &meant {
         if let Some(gate) = draft.gate(name, gate) {
@@ -56,5 +56,75 @@ fn declared(draft: &Draft<'_>) -> String {
     let mut names: Vec<&str> = draft.model.components.iter().map(|other| other.name.value.as_str()).collect();
     names.sort_unstable();
     names.dedup();
-    if names.is_empty() { "no components are declared".to_owned() } else { format!("declared components: {}", listed(names)) }
+    if names.is_empty() {
+        "no components are declared".to_owned()
+    } else {
+        format!("declared components: {}", listed(names))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn unknown_component() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controler.sensor]
+"#;
+        example(
+            "SCL0501",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0501] unknown component `controler`
+             --> topology.yaml:9:27
+              |
+            5 |   - name: controller
+              |           ---------- a similar name is declared here
+            ...
+            9 |   - [sensor.measurements, controler.sensor]
+              |                           ^^^^^^^^^ no component has this name
+              |
+              = help: did you mean `controller`?
+              = note: declared components: `controller`, `sensor`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn component_and_gate_swapped() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [measurements.sensor, controller.sensor]
+"#;
+        example(
+            "SCL0504",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0504] unknown component `measurements`
+             --> topology.yaml:9:6
+              |
+            9 |   - [measurements.sensor, controller.sensor]
+              |      ^^^^^^^^^^^^^^^^^^^ component and gate are swapped
+              |
+              = help: write `sensor.measurements`
+        "#]],
+        );
+    }
 }

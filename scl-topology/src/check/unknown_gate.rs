@@ -69,3 +69,41 @@ fn described(draft: &Draft<'_>, gate: usize) -> String {
     }
     format!("`{}` ({})", model.name.value, model.kind.value)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn unknown_gate() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurement, controller.sensor]
+"#;
+        example(
+            "SCL0502",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0502] component `sensor` has no gate `measurement`
+             --> topology.yaml:9:13
+              |
+            4 |       - measurements: pub
+              |         ------------ a similar gate is declared here
+            ...
+            9 |   - [sensor.measurement, controller.sensor]
+              |             ^^^^^^^^^^^ unknown gate
+              |
+              = help: did you mean `measurements`?
+              = note: gates of `sensor`: `measurements` (pub)
+        "#]],
+        );
+    }
+}

@@ -61,7 +61,9 @@ mod tests {
 
     #[test]
     fn example_types_are_singular() {
-        for (gate, expected) in [("measurements", "Measurement"), ("set-point", "SetPoint"), ("pass", "Pass"), ("s", "S")] {
+        for (gate, expected) in
+            [("measurements", "Measurement"), ("set-point", "SetPoint"), ("pass", "Pass"), ("s", "S")]
+        {
             assert_eq!(example_type(gate), expected);
         }
     }
