@@ -69,16 +69,16 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
         }
         return Diagnostic::error("SCL0503", headline, text.span, label).help(format!("write `{mended}`"));
     }
-    let owners = owners(draft, &text.value);
+    let owners = if draft.may_search() { owners(draft, &text.value) } else { Vec::new() };
     if let Some(&gate) = owners.first() {
         return without_component(draft, headline, text, gate, &owners);
     }
     if draft.component(&text.value).is_some() {
-        let gates = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
+        let gates: Vec<String> = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
         return Diagnostic::error("SCL0503", headline, text.span, "which gate?").note(format!(
             "gates of `{}`: {}",
             text.value,
-            super::wording::shortened(gates)
+            super::wording::shortened(&gates)
         ));
     }
     let (label, help) = oddity(&text.value);

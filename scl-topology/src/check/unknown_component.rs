@@ -19,7 +19,7 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     }
     let place = draft.part(text.span, component, false);
     let mut found = Diagnostic::error("SCL0501", headline, place, "no component has this name");
-    let meant = meant(draft, component, gate);
+    let meant = if draft.may_search() { meant(draft, component, gate) } else { Vec::new() };
     if let [only] = meant.as_slice()
         && let Some(at) = draft.component(only)
     {
@@ -44,22 +44,16 @@ pub(super) fn swap(headline: String, span: crate::source::Span, component: &str,
 
 /// Similar components; those that have the gate, if there are any.
 fn meant(draft: &Draft<'_>, component: &str, gate: &str) -> Vec<String> {
-    let mut names: Vec<&str> = draft.model.components.iter().map(|other| other.name.value.as_str()).collect();
-    names.dedup();
-    let near = similar(component, names);
+    let near = similar(component, draft.component_names.iter().copied());
     let owners: Vec<&str> = near.iter().copied().filter(|other| draft.gate(other, gate).is_some()).collect();
     let best = if owners.is_empty() { near } else { owners };
     best.into_iter().map(str::to_owned).collect()
 }
 
 fn declared(draft: &Draft<'_>) -> String {
-    let mut names: Vec<&str> = draft.model.components.iter().map(|other| other.name.value.as_str()).collect();
-    names.sort_unstable();
-    names.dedup();
-    if names.is_empty() {
-        "no components are declared".to_owned()
-    } else {
-        format!("declared components: {}", listed(names))
+    match draft.component_names.as_slice() {
+        [] => "no components are declared".to_owned(),
+        names => format!("declared components: {}", listed(names)),
     }
 }
 
