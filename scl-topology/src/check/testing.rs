@@ -70,5 +70,10 @@ fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnost
     let messages = messages.map(|names| vec![declared(names)]);
     let facts = Facts { default_system: "topology".to_owned(), messages };
     let topology = check(&model, &facts, &sources, &mut problems);
+    assert_eq!(
+        topology.is_none(),
+        problems.has_errors(),
+        "a topology comes out exactly when there is no error: {yaml}"
+    );
     (topology, problems.into_sorted(), sources)
 }
