@@ -99,3 +99,5 @@ fn with_dash(item: Span, source: &SourceFile) -> Span {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod variants;
