@@ -1,0 +1,42 @@
+//! What the tests of the rules share.
+
+use super::parse;
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, render};
+use crate::model::Model;
+use crate::source::Sources;
+use expect_test::Expect;
+
+/// Parses a text under the name `topology.yaml`; the problems are sorted by position.
+pub(super) fn parse_text(text: &str) -> (Model, Vec<Diagnostic>, Sources) {
+    let mut sources = Sources::new();
+    let file = sources.add("topology.yaml", text);
+    let mut problems = Diagnostics::new();
+    let model = parse(&sources, file, &mut problems);
+    (model, problems.into_sorted(), sources)
+}
+
+/// Code, place and headline of a text's problems, one a line, sorted by position.
+pub(super) fn headlines(text: &str) -> String {
+    let (_, problems, sources) = parse_text(text);
+    let line = |problem: &Diagnostic| {
+        let place = problem.primary.as_ref().map_or(String::new(), |label| sources.place(label.span));
+        format!("{} {} {}\n", problem.code, place.trim_start_matches("topology.yaml:"), problem.message)
+    };
+    problems.iter().map(line).collect()
+}
+
+/// Checks that an example gives this code, no other error, and these words, with either line end and with a byte order
+/// mark.
+pub(super) fn check(code: &str, text: &str, expected: Expect) {
+    let spellings = [text.to_owned(), text.replace('\n', "\r\n"), format!("\u{feff}{text}")];
+    let [plain, others @ ..] = spellings.map(|spelling| {
+        let (_, problems, sources) = parse_text(&spelling);
+        let other = problems.iter().find(|problem| problem.code != code && problem.severity == Severity::Error);
+        assert!(other.is_none(), "{other:?} in {spelling:?}");
+        let texts: Vec<String> =
+            problems.iter().filter(|problem| problem.code == code).map(|problem| render(problem, &sources)).collect();
+        texts.join("\n\n")
+    });
+    expected.assert_eq(&plain);
+    others.iter().for_each(|other| assert_eq!(*other, plain));
+}

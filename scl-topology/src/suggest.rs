@@ -1,0 +1,123 @@
+//! The names that a misspelt word may have meant.
+
+use strsim::damerau_levenshtein;
+
+/// No message offers more names than this.
+const MOST: usize = 3;
+
+/// The start of a name is a hint only from this many letters on.
+const ABBREVIATION: usize = 3;
+
+/// The candidates that look like `word`, the nearest first, at most three.
+///
+/// A candidate that differs only in case comes first; the others are within a third of the word's length of edits,
+/// at least one, or start with the word. Candidates that are equally near keep their order.
+pub(crate) fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let lower = word.to_lowercase();
+    let limit = (word.chars().count() / 3).max(1);
+    let mut near: Vec<(usize, &'a str)> = candidates
+        .into_iter()
+        .filter(|candidate| *candidate != word)
+        .filter_map(|candidate| {
+            distance(&lower, &candidate.to_lowercase(), limit).map(|distance| (distance, candidate))
+        })
+        .collect();
+    near.sort_by_key(|(distance, _)| *distance);
+    near.dedup();
+    near.truncate(MOST);
+    near.into_iter().map(|(_, candidate)| candidate).collect()
+}
+
+/// What people call the kinds of gates elsewhere.
+const KIND_WORDS: [(&str, &[&str]); 6] = [
+    ("pub", &["publish", "publisher", "publishes", "out", "output", "source", "sender", "topic"]),
+    ("sub", &["subscribe", "subscriber", "subscribes", "in", "input", "sink", "receiver", "listener"]),
+    ("req", &["client", "request", "requester", "call", "caller", "ask"]),
+    ("rep", &["server", "service", "reply", "replier", "response", "responder", "answer"]),
+    ("push", &["pusher", "pushes"]),
+    ("pull", &["puller", "pulls"]),
+];
+
+/// The kinds of gate that a word may have meant, at most three: in another case, by another name, or misspelt by one
+/// letter.
+pub(crate) fn kind(word: &str) -> Vec<&'static str> {
+    let lower = word.to_lowercase();
+    let known = KIND_WORDS.iter().find(|(kind, synonyms)| *kind == lower || synonyms.contains(&lower.as_str()));
+    match known {
+        Some((kind, _)) => vec![kind],
+        None => similar(word, KIND_WORDS.iter().map(|(kind, _)| *kind)),
+    }
+}
+
+/// The candidates that consist of the same parts in another order, or that end with the same part:
+/// `Measurement` and `Measurement.uav` may have meant `uav.Measurement`.
+pub(crate) fn same_parts<'a>(dotted: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let parts = sorted_parts(dotted);
+    let last = dotted.rsplit('.').next();
+    let fits = |candidate: &&str| sorted_parts(candidate) == parts || candidate.rsplit('.').next() == last;
+    candidates.into_iter().filter(fits).take(MOST).collect()
+}
+
+fn sorted_parts(dotted: &str) -> Vec<String> {
+    let mut parts: Vec<String> = dotted.split('.').map(str::to_lowercase).collect();
+    parts.sort();
+    parts
+}
+
+/// How far two lower-case words are apart, if not more than `limit`.
+fn distance(word: &str, candidate: &str, limit: usize) -> Option<usize> {
+    // An abbreviation, such as `que` for `queue`, is as good as the last typing error that we accept.
+    if word.len() >= ABBREVIATION && candidate.len() > word.len() && candidate.starts_with(word) {
+        return Some(limit);
+    }
+    // A difference in length is a lower bound, and cheap: it keeps long lists of names fast.
+    if word.chars().count().abs_diff(candidate.chars().count()) > limit {
+        return None;
+    }
+    Some(damerau_levenshtein(word, candidate)).filter(|distance| *distance <= limit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{kind, same_parts, similar};
+
+    #[test]
+    fn kinds_have_other_names() {
+        let cases: [(&str, &[&str]); 6] = [
+            ("subscribe", &["sub"]),
+            ("PUB", &["pub"]),
+            ("server", &["rep"]),
+            ("sbu", &["sub"]),
+            ("pusj", &["push"]),
+            ("teapot", &[]),
+        ];
+        for (word, expected) in cases {
+            assert_eq!(kind(word), expected, "{word}");
+        }
+    }
+
+    #[test]
+    fn parts_in_another_order_are_found() {
+        let types = ["uav.Measurement", "uav.Status", "log.Status"];
+        assert_eq!(same_parts("Measurement.uav", types), ["uav.Measurement"]);
+        assert_eq!(same_parts("Status", types), ["uav.Status", "log.Status"]);
+        assert!(same_parts("Command", types).is_empty());
+    }
+
+    #[test]
+    fn nearest_names_come_first() {
+        let cases: [(&str, &[&str], &[&str]); 8] = [
+            ("publ", &["pub", "sub", "push", "pull"], &["pub", "pull"]),
+            ("Gates", &["name", "gates"], &["gates"]),
+            ("conections", &["components", "connections"], &["connections"]),
+            ("measuremnets", &["measurements"], &["measurements"]),
+            ("que", &["share", "queue"], &["queue"]),
+            ("xyz", &["measurements"], &[]),
+            ("a", &["b", "c", "d", "e"], &["b", "c", "d"]),
+            ("pub", &["pub"], &[]),
+        ];
+        for (word, candidates, expected) in cases {
+            assert_eq!(similar(word, candidates.iter().copied()), expected, "{word}");
+        }
+    }
+}
