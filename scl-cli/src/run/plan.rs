@@ -87,8 +87,7 @@ fn plan_component(folder: &Path, launch: &LaunchFile, component: &LaunchComponen
 fn plan_from_package(folder: &Path, components: &[String], release: bool) -> Result<Vec<Program>, Vec<Problem>> {
     let built = build_package(folder, release).map_err(|problem| vec![problem])?;
     let program_of = |name: &String| built.iter().find(|program| plays(program, name));
-    let missing: Vec<&str> =
-        components.iter().filter(|name| program_of(name).is_none()).map(String::as_str).collect();
+    let missing: Vec<&str> = components.iter().filter(|name| program_of(name).is_none()).map(String::as_str).collect();
     if !missing.is_empty() {
         return Err(vec![missing_programs(folder, &missing, &built)]);
     }

@@ -33,7 +33,8 @@ fn check_executable(program: &Program) -> Option<Problem> {
     let component = &program.component;
     let name = program.command.first()?;
     if name.as_encoded_bytes().contains(&b'/') {
-        let path = program.folder.join(name);
+        // Without the `./` that a path in a launch file usually starts with.
+        let path: PathBuf = program.folder.join(name).components().collect();
         return match () {
             () if is_executable(&path) => None,
             () if path.is_file() => Some(
