@@ -98,6 +98,21 @@ impl Diagnostics {
         self.items.push(diagnostic);
     }
 
+    /// Adds several problems.
+    pub fn extend(&mut self, diagnostics: impl IntoIterator<Item = Diagnostic>) {
+        self.items.extend(diagnostics);
+    }
+
+    /// Takes all problems of another collector over.
+    pub fn append(&mut self, mut other: Diagnostics) {
+        self.items.append(&mut other.items);
+    }
+
+    /// Says that nobody needs these.
+    pub(crate) fn discard(mut self) {
+        self.items.clear();
+    }
+
     /// Whether an error is among them.
     pub fn has_errors(&self) -> bool {
         self.items.iter().any(|item| item.severity == Severity::Error)

@@ -11,5 +11,8 @@
 
 pub mod diagnostic;
 pub mod model;
+pub mod parse;
 pub mod source;
+mod suggest;
 pub mod topology;
+mod yaml;

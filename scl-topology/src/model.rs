@@ -20,6 +20,14 @@ pub struct Model {
     pub connections: Vec<ConnectionModel>,
     /// The word `connections`, if the section exists.
     pub connections_key: Option<Span>,
+    /// Some components or sections could not be read, and a problem says so. A component that seems to be unknown may
+    /// be one of them, so that is no further problem.
+    pub components_unread: bool,
+    /// The ends that stand in a connection without shape; a problem says so. Their gates count as connected.
+    pub broken_ends: Vec<Spanned<String>>,
+    /// Part of the file could not be read at all, for example because the text stops to be YAML, so that anything may be
+    /// missing; a problem says so.
+    pub cut_off: bool,
 }
 
 /// One entry of `components`.
@@ -33,6 +41,8 @@ pub struct ComponentModel {
     pub optional: bool,
     /// `gates:`, in file order.
     pub gates: Vec<GateModel>,
+    /// Some gates could not be read, and a problem says so. A gate that seems to be unknown may be one of them.
+    pub gates_unread: bool,
 }
 
 /// One entry of `gates`.
@@ -40,7 +50,8 @@ pub struct ComponentModel {
 pub struct GateModel {
     /// The gate's name.
     pub name: Spanned<String>,
-    /// The kind as written, for example `pub`, perhaps misspelt.
+    /// The kind as written, for example `pub`, perhaps misspelt. Empty where it could not be read and a problem says
+    /// so: such a gate exists, and nothing more is known about it.
     pub kind: Spanned<String>,
     /// The type or types as written, for example `rover.Command -> rover.Status`.
     pub payload: Option<Spanned<String>>,

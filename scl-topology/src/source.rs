@@ -70,6 +70,14 @@ impl SourceFile {
         let column = self.text[start..end].chars().count() + 1;
         LineColumn { line: line as u32, column: column as u32 }
     }
+
+    /// The bytes of the line in which a byte lies, without the line break.
+    pub(crate) fn line_range(&self, byte: u32) -> std::ops::Range<usize> {
+        let line = self.line_starts.partition_point(|&start| start <= byte).max(1);
+        let start = self.line_starts[line - 1] as usize;
+        let end = self.line_starts.get(line).map_or(self.text.len(), |&next| next as usize);
+        start..start + self.text[start..end].trim_end_matches(['\r', '\n']).len()
+    }
 }
 
 /// All texts of one run: the topology file, and the schema files it names.

@@ -1,0 +1,101 @@
+//! Text in, [`Model`] out, and a problem for everything that has no shape.
+//!
+//! The parser never stops at a problem: a gate without a kind does not stop its component, and of a text that is no
+//! YAML the part before the error is kept.
+
+mod component;
+mod connection;
+mod fields;
+mod gate;
+mod name;
+mod option;
+mod pitfall;
+mod sections;
+mod shape;
+#[cfg(test)]
+mod testing;
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::Model;
+use crate::source::{FileId, SourceFile, Sources, Span, Spanned};
+use crate::yaml::{self, Node, NodeKind, Style, Tree};
+
+/// Reads a topology file as it is written.
+///
+/// What has no shape is left out of the model, and each such place is a problem in `problems`: all of `SCL01xx` and
+/// `SCL02xx`. After a syntax error the model holds what stands before it, and only problems of the text itself are
+/// reported, as the others may be its consequences. Takes linear time and does not panic, whatever the text.
+pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Model {
+    let source = sources.file(file);
+    let text = pitfall::check_text(source, file, problems);
+    let tree = yaml::read(&text.text, file);
+    pitfall::check_tree(&tree, &text, source, file, problems);
+    let mut reader = Reader { source, file, problems: Diagnostics::new(), model: Model::default() };
+    reader.read_root(&tree);
+    let Reader { model, problems: found, .. } = reader;
+    if tree.error.is_none() {
+        problems.append(found);
+    } else {
+        found.discard();
+    }
+    model
+}
+
+/// The walk over the tree: where it reads, what it found so far.
+struct Reader<'s> {
+    source: &'s SourceFile,
+    file: FileId,
+    problems: Diagnostics,
+    model: Model,
+}
+
+impl Reader<'_> {
+    fn read_root(&mut self, tree: &Tree) {
+        self.model.cut_off = tree.error.is_some();
+        match &tree.root {
+            Some(Node { kind: NodeKind::Mapping { entries, .. }, .. }) => self.read_sections(entries),
+            Some(root) if !root.is_null() && !matches!(root.kind, NodeKind::Unread) => {
+                let problem = shape::top_level::diagnose(root, self.source);
+                self.report(problem);
+            }
+            _ => {}
+        }
+    }
+
+    fn report(&mut self, problem: Diagnostic) {
+        self.problems.push(problem);
+    }
+}
+
+/// The text of a scalar that is not "no value".
+fn scalar(node: &Node) -> Option<Spanned<String>> {
+    match &node.kind {
+        NodeKind::Scalar { text, .. } if !node.is_null() => Some(Spanned { value: text.clone(), span: node.span }),
+        _ => None,
+    }
+}
+
+/// What a message calls a value of this shape.
+fn shape_word(node: &Node) -> &'static str {
+    match &node.kind {
+        _ if node.is_null() => "empty",
+        NodeKind::Scalar { .. } | NodeKind::Unread => "text",
+        NodeKind::Sequence { .. } => "a list",
+        NodeKind::Mapping { .. } => "a mapping",
+    }
+}
+
+/// Whether a scalar stands without quotes, so that YAML may read it as something other than text.
+fn is_plain(node: &Node) -> bool {
+    matches!(node.kind, NodeKind::Scalar { style: Style::Plain, .. })
+}
+
+/// From the `-` before a list item to its end; in brackets, just the item.
+fn with_dash(item: Span, source: &SourceFile) -> Span {
+    let before = source.text().get(..item.start as usize).unwrap_or("");
+    let trimmed = before.trim_end_matches([' ', '\n', '\r']);
+    if trimmed.ends_with('-') { Span { start: trimmed.len() as u32 - 1, ..item } } else { item }
+}
+
+#[cfg(test)]
+mod tests;

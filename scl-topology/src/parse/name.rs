@@ -1,0 +1,55 @@
+//! A name, wherever one stands: of a component, a gate, a type, a file.
+
+use super::fields::Field;
+use super::{Reader, is_plain, pitfall, scalar, shape};
+use crate::source::Spanned;
+use crate::yaml::{Node, NodeKind, Style};
+
+impl Reader<'_> {
+    /// The name in the value of a key; `what` is its part in a message, for example `component name`.
+    pub(super) fn name_in(&mut self, field: Field<'_>, what: &str) -> Option<Spanned<String>> {
+        if is_empty(field.value) {
+            self.report(pitfall::no_value::in_field(field, what, self.source));
+            return None;
+        }
+        let what_key = format!("`{}`", field.key);
+        self.name(field.value, what, &what_key)
+    }
+
+    /// The name that a node is; `place` is where it stands, for example `` `name` ``.
+    pub(super) fn name(&mut self, node: &Node, what: &str, place: &str) -> Option<Spanned<String>> {
+        match &node.kind {
+            NodeKind::Unread => return None,
+            NodeKind::Scalar { .. } if is_empty(node) => {
+                self.report(pitfall::no_value::in_list(node, what, self.source));
+                return None;
+            }
+            NodeKind::Scalar { text, style: Style::Block } => {
+                self.report(pitfall::text_block_name::diagnose(node, text, self.source));
+                let value = text.trim().to_owned();
+                return (!value.is_empty() && !value.contains('\n')).then_some(Spanned { value, span: node.span });
+            }
+            NodeKind::Scalar { text, .. } if is_plain(node) => self.check_word(node, text),
+            NodeKind::Scalar { .. } => {}
+            _ => {
+                self.report(shape::option_value::not_text(place, node));
+                return None;
+            }
+        }
+        scalar(node)
+    }
+
+    /// Text without quotes that YAML reads as something else.
+    fn check_word(&mut self, node: &Node, text: &str) {
+        let problem =
+            pitfall::boolean_word::find(text, node.span).or_else(|| pitfall::number_name::find(text, node.span));
+        if let Some(problem) = problem {
+            self.report(problem);
+        }
+    }
+}
+
+/// Nothing at all, or quotes with nothing in them.
+pub(super) fn is_empty(node: &Node) -> bool {
+    node.is_null() || matches!(&node.kind, NodeKind::Scalar { text, .. } if text.trim().is_empty())
+}

@@ -1,0 +1,111 @@
+//! `SCL01xx`: where YAML is not YAML, or means something else than it seems to.
+
+mod anchor;
+pub(super) mod boolean_word;
+mod bracket;
+mod depth;
+mod directive;
+pub(super) mod duplicate_key;
+mod empty_file;
+mod indentation;
+mod invisible;
+pub(super) mod merge_key;
+pub(super) mod missing_space;
+pub(super) mod no_value;
+mod not_yaml;
+pub(super) mod number_name;
+pub(super) mod odd_key;
+mod quote;
+mod reserved_character;
+mod scan;
+mod second_document;
+mod tab;
+mod tag;
+pub(super) mod text_block_name;
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::source::{FileId, SourceFile, Span};
+use crate::yaml::{SyntaxError, SyntaxErrorKind, Tree};
+
+/// Where a rule looks: the file, and the text with every reported character replaced by spaces.
+pub(super) struct Place<'s> {
+    source: &'s SourceFile,
+    file: FileId,
+}
+
+impl Place<'_> {
+    /// The span of some bytes of the file.
+    fn span(&self, range: std::ops::Range<usize>) -> Span {
+        Span { file: self.file, start: range.start as u32, end: range.end as u32 }
+    }
+
+    /// The line of a byte, from 1.
+    fn line(&self, at: usize) -> u32 {
+        self.source.line_column(at as u32).line
+    }
+
+    /// The bytes of the line of a byte, without the line break.
+    fn line_range(&self, at: usize) -> std::ops::Range<usize> {
+        self.source.line_range(at as u32)
+    }
+}
+
+/// The text as the parser shall see it.
+pub(super) struct CheckedText {
+    /// Of the same length as the file, with spaces where a reported character stood.
+    pub(super) text: String,
+    /// Tabs are used for indentation, so that what the parser says of the structure means nothing.
+    pub(super) has_tabs: bool,
+}
+
+/// The rules that need no parser.
+pub(super) fn check_text(source: &SourceFile, file: FileId, problems: &mut Diagnostics) -> CheckedText {
+    let place = Place { source, file };
+    let mut text = source.text().to_owned();
+    let scan = scan::scan(&text);
+    invisible::check(&place, &scan, &mut text, problems);
+    directive::check(&place, &mut text, problems);
+    let has_tabs = tab::check(&place, &scan, &mut text, problems);
+    CheckedText { text, has_tabs }
+}
+
+/// The rules about what the parser found, but not about what it means.
+pub(super) fn check_tree(
+    tree: &Tree,
+    text: &CheckedText,
+    source: &SourceFile,
+    file: FileId,
+    problems: &mut Diagnostics,
+) {
+    let place = Place { source, file };
+    anchor::check(tree, &place, problems);
+    problems.extend(tree.tags.iter().map(|tag| tag::diagnose(*tag)));
+    problems.extend(tree.second_document.map(|at| second_document::diagnose(&place, at)));
+    problems.extend(tree.too_deep.map(depth::diagnose));
+    match &tree.error {
+        Some(error) => problems.extend(syntax_error(error, text, &place)),
+        None => problems.extend(empty_file::find(tree, &place)),
+    }
+}
+
+/// The rule that explains best why the parser stopped; none where a problem says so already.
+fn syntax_error(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> Option<Diagnostic> {
+    if text.has_tabs || error.kind == SyntaxErrorKind::Limit {
+        return None;
+    }
+    let explained = match error.kind {
+        SyntaxErrorKind::Bracket => bracket::find(error, &text.text, place),
+        SyntaxErrorKind::Quote => quote::find(error, &text.text, place),
+        SyntaxErrorKind::Character(character) => Some(reserved_character::diagnose(error.at, character, place)),
+        SyntaxErrorKind::Property => reserved_character::find(error.at, place),
+        SyntaxErrorKind::Tab => Some(tab::elsewhere(error.at, place)),
+        SyntaxErrorKind::Directive => Some(directive::diagnose(place, error.at)),
+        _ => None,
+    };
+    explained
+        .or_else(|| missing_space::before(error, place))
+        .or_else(|| quote::find(error, &text.text, place))
+        .or_else(|| bracket::find_open(error, &text.text, place))
+        .or_else(|| indentation::find(error, &text.text, place))
+        .or_else(|| Some(not_yaml::diagnose(error, place)))
+}

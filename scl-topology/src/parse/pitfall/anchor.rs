@@ -1,0 +1,70 @@
+//! SCL0111: anchors and aliases.
+
+use super::Place;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::source::Span;
+use crate::yaml::{Anchor, Node, NodeKind, Tree};
+
+const CODE: &str = "SCL0111";
+
+/// Reports each anchor with its aliases, and each alias without an anchor.
+pub(super) fn check(tree: &Tree, place: &Place<'_>, problems: &mut Diagnostics) {
+    problems.extend(tree.anchors.iter().map(|anchor| diagnose(anchor, tree, place)));
+}
+
+fn diagnose(anchor: &Anchor, tree: &Tree, place: &Place<'_>) -> Diagnostic {
+    const MESSAGE: &str = "YAML anchors and aliases are not supported in a topology";
+    let first_use = anchor.aliases.first().copied();
+    let mut problem = match (anchor.definition, first_use) {
+        (Some(definition), _) => Diagnostic::error(CODE, MESSAGE, definition, "anchor defined here"),
+        (None, Some(alias)) => Diagnostic::error(CODE, MESSAGE, alias, "no anchor of this name stands above"),
+        (None, None) => Diagnostic::fileless(CODE, MESSAGE),
+    };
+    if anchor.definition.is_some() {
+        for alias in &anchor.aliases {
+            problem = problem.label(*alias, "used here");
+        }
+    }
+    let help = match first_use {
+        Some(alias) => help(alias, tree, place),
+        None => "remove it; nothing refers to it".to_owned(),
+    };
+    problem.help(help).note(
+        "a topology is a contract that people read; expanded aliases also make error positions ambiguous and allow \
+         \"billion laughs\" files",
+    )
+}
+
+fn help(alias: Span, tree: &Tree, place: &Place<'_>) -> String {
+    match tree.root.as_ref().and_then(|root| named_place(root, alias)) {
+        Some((key, owner)) => format!("write the {key} of `{owner}` out"),
+        None => format!("write the value out in the place of `{}`", snippet(place, alias)),
+    }
+}
+
+fn snippet<'s>(place: &Place<'s>, span: Span) -> &'s str {
+    place.source.text().get(span.start as usize..span.end as usize).unwrap_or("")
+}
+
+/// The key whose value a node is, and the `name` beside that key. The depth of the tree bounds the recursion.
+fn named_place(node: &Node, wanted: Span) -> Option<(&str, &str)> {
+    if node.span.start > wanted.start || node.span.end < wanted.end {
+        return None;
+    }
+    match &node.kind {
+        NodeKind::Sequence { items } => items.iter().find_map(|item| named_place(item, wanted)),
+        NodeKind::Mapping { entries } => {
+            let name = entries.iter().find(|(key, _)| text(key) == Some("name")).and_then(|(_, name)| text(name));
+            let here = entries.iter().find(|(_, value)| value.span == wanted).and_then(|(key, _)| text(key));
+            here.zip(name).or_else(|| entries.iter().find_map(|(_, value)| named_place(value, wanted)))
+        }
+        _ => None,
+    }
+}
+
+fn text(node: &Node) -> Option<&str> {
+    match &node.kind {
+        NodeKind::Scalar { text, .. } => Some(text),
+        _ => None,
+    }
+}

@@ -1,0 +1,95 @@
+//! SCL0102: brackets that do not match.
+
+use super::{Place, scan};
+use crate::diagnostic::Diagnostic;
+use crate::yaml::SyntaxError;
+use std::ops::Range;
+
+const CODE: &str = "SCL0102";
+
+/// A bracket problem that the parser noticed as such.
+pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    match text.as_bytes().get(error.at) {
+        Some(b'[' | b'{') => Some(never_closed(error.at, text, place)),
+        Some(b']' | b'}') if scan::scan(&text[..error.at]).open_brackets.is_empty() => {
+            Some(never_opened(error.at, text, place))
+        }
+        _ => find_open(error, text, place),
+    }
+}
+
+/// A bracket that is open where the parser stops.
+pub(super) fn find_open(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let open = scan::scan(text.get(..error.at)?).open_brackets.pop()?;
+    match text.as_bytes().get(error.at) {
+        Some(b']' | b'}') => Some(mismatched(open, error.at, text, place)),
+        _ => Some(never_closed(open, text, place)),
+    }
+}
+
+fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+    let bracket = &text[open..open + 1];
+    let next = next_item(open, text, place);
+    let inside = &text[open + 1..next.as_ref().map_or(text.len(), |item| item.start)];
+    let mut problem =
+        Diagnostic::error(CODE, format!("this `{bracket}` is never closed"), place.span(open..open + 1), "opened here");
+    if let Some(item) = next {
+        let thing = if text[item.clone()].starts_with('-') { "list item" } else { "key" };
+        problem = problem.label(place.span(item), format!("a new {thing} starts here, still inside the bracket"));
+    }
+    let close = closing(bracket);
+    problem.help(match last_word(inside) {
+        Some(word) => format!("add `{close}` after `{word}`"),
+        None => format!("add `{close}` after it"),
+    })
+}
+
+fn never_opened(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+    let bracket = &text[at..at + 1];
+    Diagnostic::error(
+        CODE,
+        format!("this `{bracket}` closes nothing"),
+        place.span(at..at + 1),
+        "no bracket is open here",
+    )
+    .help("remove it, or add the opening bracket")
+}
+
+fn mismatched(open: usize, at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+    let (bracket, found) = (&text[open..open + 1], &text[at..at + 1]);
+    let close = closing(bracket);
+    Diagnostic::error(CODE, format!("this `{found}` does not close `{bracket}`"), place.span(at..at + 1), "")
+        .label(place.span(open..open + 1), "opened here")
+        .help(format!("write `{close}` instead"))
+}
+
+fn closing(open: &str) -> char {
+    if open == "[" { ']' } else { '}' }
+}
+
+/// The start of the first later line that looks like a list item or a key, and is not indented deeper than the line
+/// of the bracket.
+fn next_item(open: usize, text: &str, place: &Place<'_>) -> Option<Range<usize>> {
+    let indent_of = |line: &str| line.len() - line.trim_start().len();
+    let indent = indent_of(&text[place.line_range(open)]);
+    let mut start = place.line_range(open).end;
+    for line in text[start..].split_inclusive('\n') {
+        let content = line.trim();
+        let is_item = content.starts_with("- ") || content.split(' ').next().is_some_and(|word| word.ends_with(':'));
+        if is_item && indent_of(line) <= indent && start > open && !line.trim_end().is_empty() {
+            let from = start + indent_of(line);
+            let length = content.find([',', ':']).unwrap_or(content.len());
+            return Some(from..from + length);
+        }
+        start += line.len();
+    }
+    None
+}
+
+fn last_word(inside: &str) -> Option<&str> {
+    let line = inside.lines().rev().map(|line| line.split(" #").next().unwrap_or(line)).find(|line| {
+        let line = line.trim();
+        !line.is_empty() && !line.starts_with('#')
+    })?;
+    line.split([' ', ',', '[', ']', '{', '}']).rfind(|word| !word.is_empty())
+}

@@ -1,0 +1,42 @@
+//! SCL0118: a YAML directive, such as `%YAML 1.1`.
+
+use super::Place;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use std::ops::Range;
+
+const CODE: &str = "SCL0118";
+
+/// Reports the directives before the document, and puts spaces in their place.
+pub(super) fn check(place: &Place<'_>, text: &mut String, problems: &mut Diagnostics) {
+    let directives = leading_directives(text);
+    for directive in &directives {
+        problems.push(diagnose(place, directive.start));
+        text.replace_range(directive.clone(), &" ".repeat(directive.len()));
+    }
+}
+
+pub(super) fn diagnose(place: &Place<'_>, at: usize) -> Diagnostic {
+    let range = place.line_range(at);
+    let line = place.line(at);
+    let marker = place.source.text()[range.end..].trim_start().starts_with("---");
+    let help = if marker { format!("remove lines {line} and {}", line + 1) } else { format!("remove line {line}") };
+    Diagnostic::error(CODE, "YAML directives are not supported", place.span(range), "directive")
+        .help(help)
+        .note("a topology is read as YAML 1.2; see SCL0108 for the words that differ")
+}
+
+/// Lines that start with `%` before anything else than comments.
+fn leading_directives(text: &str) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let content = line.trim_end();
+        if content.starts_with('%') {
+            found.push(start..start + content.len());
+        } else if !content.is_empty() && !content.starts_with('#') {
+            break;
+        }
+        start += line.len();
+    }
+    found
+}

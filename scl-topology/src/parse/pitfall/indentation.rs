@@ -1,0 +1,102 @@
+//! SCL0105: a line whose indentation fits no line above it.
+
+use super::Place;
+use crate::diagnostic::Diagnostic;
+use crate::yaml::SyntaxError;
+use std::ops::Range;
+
+const CODE: &str = "SCL0105";
+
+/// A column at which keys or list items stand, and the word that stood there first.
+#[derive(Debug, Clone)]
+struct Level {
+    indent: usize,
+    is_dash: bool,
+    word: Range<usize>,
+}
+
+/// Looks at the line of a syntax error.
+pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let line = place.line_range(error.at.min(text.len()));
+    let words = levels_of(&text[line.clone()], line.start);
+    let first = words.first()?;
+    let above = levels_above(text, line.start);
+    let same = above.iter().find(|level| level.indent == first.indent);
+    let is_misplaced_key = same.is_some_and(|level| level.is_dash) && !first.is_dash;
+    if same.is_some() && !is_misplaced_key || error.at < first.word.start {
+        return None;
+    }
+    let keys = above.iter().filter(|level| level.is_dash == first.is_dash);
+    let meant = keys.min_by_key(|level| (level.indent.abs_diff(first.indent), std::cmp::Reverse(level.indent)))?;
+    Some(diagnose(first, meant, is_misplaced_key, &above, text, place))
+}
+
+fn diagnose(
+    line: &Level,
+    meant: &Level,
+    is_misplaced_key: bool,
+    above: &[Level],
+    text: &str,
+    place: &Place<'_>,
+) -> Diagnostic {
+    let message = match is_misplaced_key {
+        true => "this key is indented like the `-` of the list item above it, not like its keys".to_owned(),
+        false => format!("this line is indented by {}, which matches no line above it", spaces(line.indent)),
+    };
+    let word = &text[line.word.clone()];
+    let label = format!("{} are indented by {}", owner(meant, above, text), spaces(meant.indent));
+    Diagnostic::error(CODE, message, place.span(line.word.clone()), spaces(line.indent))
+        .label(place.span(meant.word.clone()), label)
+        .help(format!("indent `{word}` by {}", spaces(meant.indent)))
+}
+
+/// Whose keys stand at a level, in words.
+fn owner(level: &Level, above: &[Level], text: &str) -> &'static str {
+    let outer: Vec<&Level> = above.iter().filter(|other| other.indent < level.indent).collect();
+    match outer.as_slice() {
+        _ if level.is_dash => "the items of this list",
+        [section, item] if item.is_dash && &text[section.word.clone()] == "components" => "the keys of this component",
+        _ => "the keys beside it",
+    }
+}
+
+fn spaces(count: usize) -> String {
+    if count == 1 { "1 space".to_owned() } else { format!("{count} spaces") }
+}
+
+/// The levels that are open, or were just left, at the start of a line: the deepest of the lines above it, without
+/// those that a line in between has closed.
+fn levels_above(text: &str, end: usize) -> Vec<Level> {
+    let mut levels: Vec<Level> = Vec::new();
+    let mut start = 0;
+    for line in text[..end].split_inclusive('\n') {
+        let words = levels_of(line, start);
+        if let Some(first) = words.first() {
+            levels.retain(|level| level.indent < first.indent || level.indent == first.indent && !first.is_dash);
+            for word in words {
+                if levels.iter().all(|level| level.indent != word.indent) {
+                    levels.push(word);
+                }
+            }
+        }
+        start += line.len();
+    }
+    levels
+}
+
+/// The columns of one line: each `-`, and the word after them.
+fn levels_of(line: &str, start: usize) -> Vec<Level> {
+    let mut levels = Vec::new();
+    let mut at = line.len() - line.trim_start_matches(' ').len();
+    while line[at..].starts_with("- ") {
+        levels.push(Level { indent: at, is_dash: true, word: start + at..start + at + 1 });
+        at += 1;
+        at += line[at..].len() - line[at..].trim_start_matches(' ').len();
+    }
+    let rest = line[at..].trim_end();
+    if !rest.is_empty() && !rest.starts_with('#') {
+        let length = rest.find([':', ' ', '#']).filter(|found| *found > 0).unwrap_or(rest.len());
+        levels.push(Level { indent: at, is_dash: rest == "-", word: start + at..start + at + length });
+    }
+    levels
+}

@@ -1,0 +1,95 @@
+//! SCL0117: a character that nobody sees, or that only looks like a space.
+
+use super::{Place, scan::Scan};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use std::collections::BTreeMap;
+
+const CODE: &str = "SCL0117";
+
+/// Reports each such character once, at its first place; puts spaces in the place of all of them.
+pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) {
+    let mut places: BTreeMap<char, Vec<usize>> = BTreeMap::new();
+    for (at, character) in text.char_indices() {
+        if is_bad(character, text, at, scan) {
+            places.entry(character).or_default().push(at);
+        }
+    }
+    if places.is_empty() {
+        return;
+    }
+    let mut bytes = std::mem::take(text).into_bytes();
+    for (character, places) in &places {
+        problems.push(diagnose(*character, places, place));
+        for at in places {
+            bytes[*at..*at + character.len_utf8()].fill(b' ');
+        }
+    }
+    // Whole characters became as many spaces, so the text is as valid as before.
+    *text = String::from_utf8_lossy(&bytes).into_owned();
+}
+
+/// Comments and quoted texts may hold spaces and joiners of all kinds, but nothing that hides or reorders text.
+fn is_bad(character: char, text: &str, at: usize, scan: &Scan) -> bool {
+    match character {
+        '\t' | '\n' => false,
+        '\r' => !text[at + 1..].starts_with('\n'),
+        '\0'..='\u{1f}' | '\u{7f}'..='\u{9f}' => true,
+        '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => true,
+        '\u{a0}'
+        | '\u{ad}'
+        | '\u{2000}'..='\u{200d}'
+        | '\u{2028}'
+        | '\u{2029}'
+        | '\u{202f}'
+        | '\u{205f}'
+        | '\u{2060}'
+        | '\u{3000}'
+        | '\u{feff}' => !scan.is_free_text(at),
+        _ => false,
+    }
+}
+
+fn diagnose(character: char, places: &[usize], place: &Place<'_>) -> Diagnostic {
+    let first = places.first().copied().unwrap_or_default();
+    let span = place.span(first..first + character.len_utf8());
+    let (name, label, help) = describe(character);
+    let kind = if character.is_control() { "control character" } else { "invisible character" };
+    let name = if name.is_empty() { String::new() } else { format!(" ({name})") };
+    let mut problem = Diagnostic::error(CODE, format!("{kind} U+{:04X}{name}", u32::from(character)), span, label)
+        .help(help)
+        .note("such characters usually come from a web page or a word processor")
+        .note(
+            "same check: U+FEFF inside the file, U+200B..U+200F, U+202A..U+202E (bidirectional control), U+0085, \
+             U+2028, U+2029, and control characters below U+0020",
+        );
+    if places.len() > 1 {
+        problem = problem.note(format!("it occurs {} times in this file", places.len()));
+    }
+    problem
+}
+
+fn describe(character: char) -> (&'static str, &'static str, &'static str) {
+    const SPACE: &str = "looks like a space, but YAML does not treat it as one";
+    const BREAK: &str = "looks like a line break, but is read in different ways";
+    const REPLACE: &str = "replace it with an ordinary space";
+    const REMOVE: &str = "remove it";
+    match character {
+        '\0' => ("null", "YAML does not allow it", REMOVE),
+        '\r' => ("carriage return without a line feed", BREAK, "save the file with ordinary line ends"),
+        '\u{85}' => ("next line", BREAK, "replace it with an ordinary line break"),
+        '\u{2028}' => ("line separator", BREAK, "replace it with an ordinary line break"),
+        '\u{2029}' => ("paragraph separator", BREAK, "replace it with an ordinary line break"),
+        '\u{a0}' => ("no-break space", SPACE, REPLACE),
+        '\u{202f}' => ("narrow no-break space", SPACE, REPLACE),
+        '\u{3000}' => ("ideographic space", SPACE, REPLACE),
+        '\u{2000}'..='\u{200a}' | '\u{205f}' => ("typographic space", SPACE, REPLACE),
+        '\u{200b}' => ("zero width space", "nothing is to be seen here", REMOVE),
+        '\u{200c}' | '\u{200d}' | '\u{2060}' => ("joiner", "nothing is to be seen here", REMOVE),
+        '\u{ad}' => ("soft hyphen", "nothing is to be seen here", REMOVE),
+        '\u{feff}' => ("byte order mark inside the file", "nothing is to be seen here", REMOVE),
+        '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => {
+            ("bidirectional control", "it changes the order in which the text is shown", REMOVE)
+        }
+        _ => ("", "YAML does not allow it", REMOVE),
+    }
+}

@@ -1,0 +1,64 @@
+//! SCL0103: no space after `:`.
+
+use super::Place;
+use crate::diagnostic::Diagnostic;
+use crate::parse::is_plain;
+use crate::source::{SourceFile, Span};
+use crate::yaml::{Node, SyntaxError};
+
+const CODE: &str = "SCL0103";
+
+/// How many lines the parser may go on before it stumbles.
+const LINES: usize = 3;
+
+/// A word such as `name:sensor` where a mapping is expected.
+pub(in crate::parse) fn in_node(node: &Node, source: &SourceFile) -> Option<Diagnostic> {
+    if !is_plain(node) {
+        return None;
+    }
+    let written = source.text().get(node.span.start as usize..node.span.end as usize)?;
+    let (key, value) = split(written.lines().next()?)?;
+    Some(diagnose(key, value, node.span))
+}
+
+/// A word such as `name:sensor` in the lines before a syntax error.
+pub(super) fn before(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
+    let text = place.source.text();
+    let mut line = place.line_range(error.at);
+    for _ in 0..LINES {
+        let content = &text[line.clone()];
+        let word = content.trim_start_matches([' ', '-']);
+        if let Some((key, value)) = split(word) {
+            let start = line.start + content.len() - word.len();
+            let problem = diagnose(key, value, place.span(start..start));
+            return Some(with_words(problem, error, start, place));
+        }
+        line = place.line_range(line.start.checked_sub(1)?);
+    }
+    None
+}
+
+fn with_words(problem: Diagnostic, error: &SyntaxError, start: usize, place: &Place<'_>) -> Diagnostic {
+    let noticed = place.line(error.at);
+    if noticed == place.line(start) {
+        return problem;
+    }
+    problem.note(format!("the parser notices it only on line {noticed}, where it says \"{}\"", error.words))
+}
+
+/// The problem; the span starts with the key.
+fn diagnose(key: &str, value: &str, at: Span) -> Diagnostic {
+    let colon = at.start + key.len() as u32;
+    let span = Span { start: colon, end: colon + 1, ..at };
+    Diagnostic::error(CODE, "missing space after `:`", span, format!("YAML reads `{key}:{value}` as one word"))
+        .help(format!("write `{key}: {value}`"))
+}
+
+/// Key and value of `name:sensor`; not of `my_crate::Codec`, nor of an address such as `tcp://host`.
+fn split(word: &str) -> Option<(&str, &str)> {
+    let (key, rest) = word.split_once(':')?;
+    let value = rest.split_whitespace().next().filter(|_| !rest.starts_with(char::is_whitespace))?;
+    let is_word = key.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-'));
+    (is_word && !value.starts_with([':', '/', '\\'])).then_some((key, value))
+}

@@ -1,0 +1,46 @@
+//! SCL0110: nothing where a name or value is expected.
+
+use crate::diagnostic::Diagnostic;
+use crate::parse::fields::Field;
+use crate::parse::{component, with_dash};
+use crate::source::{SourceFile, Span};
+use crate::yaml::Node;
+
+const CODE: &str = "SCL0110";
+
+/// `key:` without a value; `what` is what the value would be, for example `component name`.
+pub(in crate::parse) fn in_field(field: Field<'_>, what: &str, source: &SourceFile) -> Diagnostic {
+    let key = field.key;
+    let is_written = field.value.span.start < field.value.span.end;
+    let (span, label) = match is_written {
+        true => (field.value.span, value_label(field.value)),
+        false => {
+            let end = component::end_with_colon(field.key_span, source);
+            (Span { end, ..field.key_span }, "no value follows; YAML reads this as `null`")
+        }
+    };
+    let help = match key {
+        "name" => "write the name after the colon: `name: sensor`".to_owned(),
+        "system" | "schemas" | "codec" => format!("write it after the colon, or remove `{key}`"),
+        _ => "write it after the colon".to_owned(),
+    };
+    diagnose(what, span, label).help(help).note("`~` and `null` are also read as \"no value\"")
+}
+
+/// `-` without an item.
+pub(in crate::parse) fn in_list(item: &Node, what: &str, source: &SourceFile) -> Diagnostic {
+    let span = with_dash(item.span, source);
+    let label =
+        if item.span.start < item.span.end { value_label(item) } else { "nothing follows; YAML reads this as `null`" };
+    diagnose(what, span, label)
+        .help("write it, or remove this entry")
+        .note("`~` and `null` are also read as \"no value\"")
+}
+
+fn diagnose(what: &str, span: Span, label: &str) -> Diagnostic {
+    Diagnostic::error(CODE, format!("the {what} is empty"), span, label)
+}
+
+fn value_label(value: &Node) -> &'static str {
+    if value.is_null() { "YAML reads this as \"no value\"" } else { "nothing between the quotes" }
+}

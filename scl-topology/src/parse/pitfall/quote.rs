@@ -1,0 +1,21 @@
+//! SCL0104: a quote is never closed.
+
+use super::{Place, scan};
+use crate::diagnostic::Diagnostic;
+use crate::yaml::{SyntaxError, SyntaxErrorKind};
+
+/// A quoted text that runs over the end of its line and covers, or ends just before, the place of the error.
+pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let quoted = scan::scan(text).quoted;
+    let next = quoted.partition_point(|range| range.start <= error.at);
+    let range = quoted.get(next.checked_sub(1)?)?.clone();
+    let reaches = range.end >= error.at || error.kind == SyntaxErrorKind::Quote && range.end + 1 >= error.at;
+    let several_lines = text.get(range.clone())?.contains('\n') || range.end == text.len();
+    if !(reaches && several_lines) {
+        return None;
+    }
+    let quote = &text[range.start..range.start + 1];
+    let help = format!("add the closing `{quote}` at the end of line {}", place.line(range.start));
+    let span = place.span(range.start..range.start + 1);
+    Some(Diagnostic::error("SCL0104", "this quoted string is never closed", span, "opened here").help(help))
+}

@@ -1,0 +1,32 @@
+//! SCL0106: a character that cannot start a value.
+
+use super::Place;
+use crate::diagnostic::Diagnostic;
+
+/// The character at the place of the error, if a reserved one stands there.
+pub(super) fn find(at: usize, place: &Place<'_>) -> Option<Diagnostic> {
+    let character = place.source.text().get(at..)?.chars().next()?;
+    matches!(character, '@' | '`' | '%' | '&' | '*' | '!').then(|| diagnose(at, character, place))
+}
+
+pub(super) fn diagnose(at: usize, character: char, place: &Place<'_>) -> Diagnostic {
+    let text = place.source.text();
+    let rest = text.get(at..place.line_range(at).end).unwrap_or("");
+    let word = rest.split([' ', ',', ']', '}']).next().unwrap_or(rest);
+    let span = place.span(at..at + rest.chars().next().map_or(0, char::len_utf8));
+    let before = text.get(place.line_range(at).start..at).unwrap_or("");
+    let is_name = !before.contains("doc:");
+    let then = if is_name { " (it would then fail SCL0303)" } else { "" };
+    Diagnostic::error(
+        "SCL0106",
+        format!("a value cannot start with {} in YAML", ticked(character)),
+        span,
+        "reserved character",
+    )
+    .help(format!("remove it, or quote the value: \"{word}\"{then}"))
+    .note("also reserved at the start: `` ` `` `%` `&` `*` `!` `|` `>` `'` `\"` `#`")
+}
+
+fn ticked(character: char) -> String {
+    if character == '`' { "`` ` ``".to_owned() } else { format!("`{character}`") }
+}

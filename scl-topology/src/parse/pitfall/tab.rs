@@ -1,0 +1,69 @@
+//! SCL0101: a tab is used for indentation.
+
+use super::{Place, scan::Scan};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+
+const CODE: &str = "SCL0101";
+
+/// Reports the first line that is indented with a tab, and how many follow; puts spaces in their place.
+pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
+    let tabs = indenting_tabs(text, scan);
+    let Some(&first) = tabs.first() else { return false };
+    let mut problem = diagnose(first, "a tab character is used for indentation", place)
+        .note("YAML forbids tabs in indentation because their width is not defined");
+    let mut lines: Vec<u32> = tabs.iter().map(|at| place.line(*at)).collect();
+    lines.dedup();
+    if lines.len() > 1 {
+        let last = lines.last().copied().unwrap_or_default();
+        problem = problem.note(format!("{} lines are indented with tabs, up to line {last}", lines.len()));
+    }
+    problems.push(problem);
+    let mut bytes = std::mem::take(text).into_bytes();
+    tabs.iter().for_each(|at| bytes[*at] = b' ');
+    // One ASCII byte took the place of another, so the text is as valid as before.
+    *text = String::from_utf8_lossy(&bytes).into_owned();
+    true
+}
+
+/// A tab elsewhere, where the parser accepts only spaces.
+pub(super) fn elsewhere(at: usize, place: &Place<'_>) -> Diagnostic {
+    let line = place.line_range(at);
+    let text = &place.source.text()[line.clone()];
+    let tab = text.find('\t').map_or(at, |found| line.start + found);
+    diagnose(tab, "a tab character stands where only spaces are allowed", place)
+}
+
+fn diagnose(tab: usize, message: &str, place: &Place<'_>) -> Diagnostic {
+    Diagnostic::error(CODE, message, place.span(tab..tab + 1), "this is a tab (shown as 4 spaces)")
+        .help("replace it with spaces; most editors: \"Convert Indentation to Spaces\"")
+}
+
+/// Tabs before the first other character of a line. Empty lines, comments, quoted texts and text blocks may have them.
+fn indenting_tabs(text: &str, scan: &Scan) -> Vec<usize> {
+    let mut tabs = Vec::new();
+    let mut block: Option<usize> = None;
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let content = line.trim_start_matches([' ', '\t']);
+        let indent = line.len() - content.len();
+        let spaces = line.len() - line.trim_start_matches(' ').len();
+        let is_blank = content.trim().is_empty();
+        if block.is_some_and(|parent| is_blank || spaces > parent) {
+            start += line.len();
+            continue;
+        }
+        block = opens_block(content).then_some(spaces);
+        if !is_blank && !content.starts_with('#') && !scan.is_quoted(start) {
+            tabs.extend((start..start + indent).filter(|at| text.as_bytes()[*at] == b'\t'));
+        }
+        start += line.len();
+    }
+    tabs
+}
+
+/// Whether a line ends with the `|` or `>` of a text block.
+fn opens_block(line: &str) -> bool {
+    let line = line.split(" #").next().unwrap_or(line).trim_end();
+    let header = line.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-'));
+    header.ends_with(": |") || header.ends_with(": >") || header.ends_with("- |") || header.ends_with("- >")
+}

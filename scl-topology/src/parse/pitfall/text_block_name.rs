@@ -1,0 +1,32 @@
+//! SCL0119: a text block where a name belongs.
+
+use crate::diagnostic::Diagnostic;
+use crate::source::{SourceFile, Span};
+use crate::yaml::Node;
+
+pub(in crate::parse) fn diagnose(node: &Node, text: &str, source: &SourceFile) -> Diagnostic {
+    let end = if text.ends_with('\n') { " with a line break" } else { "" };
+    let label = format!("this starts a text block; its value is {text:?}{end}");
+    let problem = Diagnostic::error("SCL0119", "a name must be written on one line", header(node, source), label);
+    let name = text.trim();
+    if name.contains('\n') { problem } else { problem.help(format!("write `{}`", written(node, name, source))) }
+}
+
+/// The `|` or `>`, in the line above the text.
+fn header(node: &Node, source: &SourceFile) -> Span {
+    let before = source.text().get(..node.span.start as usize).unwrap_or("").trim_end();
+    let line = source.line_range(before.len() as u32).start;
+    let found = before.get(line..).and_then(|above| above.find(['|', '>']));
+    found.map_or(node.span, |at| {
+        let start = (line + at) as u32;
+        Span { start, end: start + 1, ..node.span }
+    })
+}
+
+/// The key of the header's line, and the name after it.
+fn written(node: &Node, name: &str, source: &SourceFile) -> String {
+    let header = header(node, source).start as usize;
+    let line = source.line_range(header as u32).start;
+    let before = source.text().get(line..header).unwrap_or("");
+    format!("{}{name}", before.trim_start_matches([' ', '-']))
+}

@@ -1,0 +1,87 @@
+//! The top level: which sections exist, and the small ones.
+
+use super::fields::{Field, Fields};
+use super::{Reader, shape};
+use crate::source::Spanned;
+use crate::suggest::similar;
+use crate::yaml::{Node, NodeKind};
+
+/// The sections of a topology, in the order in which messages list them.
+pub(super) const SECTIONS: [&str; 6] = ["components", "connections", "system", "schemas", "codec", "scl"];
+
+impl Reader<'_> {
+    pub(super) fn read_sections(&mut self, entries: &[(Node, Node)]) {
+        let fields = self.fields(entries, "this file");
+        for field in &fields.list {
+            match field.key {
+                "system" => self.model.system = self.name_in(*field, "system name"),
+                "codec" => self.model.codec = self.name_in(*field, "codec"),
+                "schemas" => self.read_schemas(*field),
+                "scl" => self.read_version(*field),
+                "components" => self.read_components(*field),
+                "connections" => self.read_connections(*field),
+                key if key.starts_with("x-") => {}
+                _ => self.report_unknown_section(*field),
+            }
+        }
+        self.check_missing_sections(&fields);
+    }
+
+    fn read_version(&mut self, field: Field<'_>) {
+        if let Some(problem) = shape::version::find(field) {
+            self.report(problem);
+        }
+    }
+
+    fn read_schemas(&mut self, field: Field<'_>) {
+        match &field.value.kind {
+            NodeKind::Unread => {}
+            NodeKind::Sequence { items } => {
+                for item in items {
+                    let file = self.name(item, "schema file", "a schema");
+                    self.model.schemas.extend(file);
+                }
+            }
+            _ if super::name::is_empty(field.value) => {
+                self.name_in(field, "list of schemas");
+            }
+            _ => {
+                self.report(shape::section_kind::schemas(field));
+                self.model.schemas.extend(super::scalar(field.value));
+            }
+        }
+    }
+
+    fn report_unknown_section(&mut self, field: Field<'_>) {
+        let problem =
+            shape::level::at_top(field, self.source).unwrap_or_else(|| shape::unknown_section::diagnose(field));
+        self.report(problem);
+    }
+
+    fn check_missing_sections(&mut self, fields: &Fields<'_>) {
+        let perhaps = |section: &str| fields.damaged || fields.list.iter().any(|field| is_misspelt(field.key, section));
+        match fields.get("components") {
+            None if perhaps("components") => self.model.components_unread = true,
+            None => {
+                self.model.components_unread = true;
+                self.report(shape::missing_section::diagnose(fields, self.file));
+            }
+            Some(components) if !perhaps("connections") && self.model.broken_ends.is_empty() => {
+                let gates: usize = self.model.components.iter().map(|component| component.gates.len()).sum();
+                let connections = fields.get("connections");
+                self.problems.extend(shape::no_connections::find(components, connections, gates));
+            }
+            Some(_) => {}
+        }
+    }
+}
+
+/// Whether an unknown key was probably meant to be this section.
+fn is_misspelt(key: &str, section: &str) -> bool {
+    !SECTIONS.contains(&key) && similar(key, [section]).contains(&section)
+}
+
+/// A word of the file, with its place.
+pub(super) fn spanned_key(field: Field<'_>) -> Spanned<String> {
+    Spanned { value: field.key.to_owned(), span: field.key_span }
+}

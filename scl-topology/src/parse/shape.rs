@@ -1,0 +1,34 @@
+//! `SCL02xx`: good YAML that has not the shape of a topology.
+
+pub(super) mod component_key;
+pub(super) mod ends;
+pub(super) mod gate;
+pub(super) mod gate_key;
+pub(super) mod gateless;
+pub(super) mod level;
+pub(super) mod missing_section;
+pub(super) mod nameless;
+pub(super) mod no_components;
+pub(super) mod no_connections;
+pub(super) mod option_value;
+pub(super) mod section_kind;
+pub(super) mod top_level;
+pub(super) mod unknown_section;
+pub(super) mod version;
+
+use crate::diagnostic::Diagnostic;
+use crate::suggest::similar;
+
+/// Words in backticks, joined by commas.
+fn ticked<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+    words.into_iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// Adds the names that a misspelt one may have meant; `thing` is what they name, for example `key`.
+fn suggest<'a>(problem: Diagnostic, thing: &str, word: &str, names: impl IntoIterator<Item = &'a str>) -> Diagnostic {
+    match similar(word, names).as_slice() {
+        [] => problem,
+        [one] => problem.help(format!("a {thing} with a similar name exists: `{one}`")),
+        several => problem.help(format!("{thing}s with similar names exist: {}", ticked(several.iter().copied()))),
+    }
+}

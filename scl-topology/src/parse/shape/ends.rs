@@ -1,0 +1,90 @@
+//! SCL0211: a connection that is not a pair of ends.
+
+use crate::diagnostic::Diagnostic;
+use crate::parse::{scalar, shape_word};
+use crate::source::Span;
+use crate::yaml::{Node, NodeKind};
+
+const CODE: &str = "SCL0211";
+const RULE: &str = "a connection joins exactly two gates";
+
+/// A help shows no more pairs than this.
+const SHOWN: usize = 10;
+
+/// A list of one, three or more.
+pub(in crate::parse) fn count(span: Span, items: &[Node]) -> Diagnostic {
+    let (lists, label) = match items.len() {
+        0 => ("is empty".to_owned(), "no gates".to_owned()),
+        1 => ("lists 1".to_owned(), "1 gate".to_owned()),
+        count => (format!("lists {count}"), format!("{count} gates")),
+    };
+    let problem = Diagnostic::error(CODE, format!("{RULE}; this one {lists}"), span, label);
+    let names: Option<Vec<String>> = items.iter().map(|item| scalar(item).map(|name| name.value)).collect();
+    match names.as_deref() {
+        Some([one]) => problem.help(one_end(one)),
+        Some([first, others @ ..]) => problem.help(pairs(first, others)),
+        _ => problem.help("write `[component.gate, component.gate]`"),
+    }
+}
+
+/// `- sensor.measurements`, `- a.b -> c.d`.
+pub(in crate::parse) fn text(item: &Node, text: &str) -> Diagnostic {
+    let ends: Vec<&str> = text.split([' ', ',']).filter(|word| !word.is_empty() && !is_arrow(word)).collect();
+    let arrow = text.split_whitespace().find(|word| is_arrow(word));
+    let label = match (arrow, ends.len()) {
+        (Some(arrow), 0 | 1) => format!("one end of `{arrow}` is missing"),
+        _ => "this is text".to_owned(),
+    };
+    let problem = Diagnostic::error(CODE, format!("{RULE}; this one is text"), item.span, label);
+    match ends.as_slice() {
+        [one] => problem.help(one_end(one)),
+        [first, second] => problem.help(format!("write `[{first}, {second}]`")),
+        _ => problem.help("write `[component.gate, component.gate]`"),
+    }
+}
+
+/// `- sensor.measurements: controller.sensor`.
+pub(in crate::parse) fn mapping(item: &Node) -> Diagnostic {
+    let problem = Diagnostic::error(CODE, format!("{RULE}; this one is a mapping"), item.span, "a key and its value");
+    let NodeKind::Mapping { entries } = &item.kind else { return problem };
+    match entries.as_slice() {
+        [(first, second)] => match (scalar(first), scalar(second)) {
+            (Some(first), Some(second)) => problem.help(format!("write `[{}, {}]`", first.value, second.value)),
+            (Some(first), None) if second.is_null() => problem.help(one_end(&first.value)),
+            _ => problem.help("write `[component.gate, component.gate]`"),
+        },
+        _ => problem.help("write `[component.gate, component.gate]`"),
+    }
+}
+
+/// A list or mapping as one of two ends.
+pub(in crate::parse) fn end_is_not_text(node: &Node) -> Diagnostic {
+    let message = format!("an end of a connection is `component.gate`; this is {}", shape_word(node));
+    let problem = Diagnostic::error(CODE, message, node.span, format!("this is {}", shape_word(node)));
+    let NodeKind::Mapping { entries } = &node.kind else { return problem };
+    match entries.as_slice() {
+        [(component, gate)] => match (scalar(component), scalar(gate)) {
+            (Some(component), Some(gate)) => problem.help(format!("write `{}.{}`", component.value, gate.value)),
+            _ => problem,
+        },
+        _ => problem,
+    }
+}
+
+fn one_end(end: &str) -> String {
+    format!("add the other end: `[{end}, component.gate]`")
+}
+
+fn pairs(first: &str, others: &[String]) -> String {
+    let count = if others.len() == 2 { "two".to_owned() } else { others.len().to_string() };
+    let mut help = format!("to send to {count} subscribers write {count} connections:");
+    others.iter().take(SHOWN).for_each(|other| help.push_str(&format!("\n- [{first}, {other}]")));
+    if others.len() > SHOWN {
+        help.push_str(&format!("\nand {} more", others.len() - SHOWN));
+    }
+    help
+}
+
+fn is_arrow(word: &str) -> bool {
+    matches!(word, "->" | "<-" | "<->" | "=>" | "-->" | "→")
+}

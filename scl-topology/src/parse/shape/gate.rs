@@ -1,0 +1,122 @@
+//! SCL0210: a gate that is not written as `name: kind` or `name: {kind: type, option: value}`.
+
+use super::ticked;
+use crate::diagnostic::Diagnostic;
+use crate::parse::fields::{Field, Fields};
+use crate::parse::gate::is_kind;
+use crate::parse::scalar;
+use crate::source::{Span, Spanned};
+use crate::topology::GateKind;
+use crate::yaml::{Node, NodeKind};
+
+const CODE: &str = "SCL0210";
+
+/// `- measurements`.
+pub(in crate::parse) fn without_kind(name: &str, at: Span) -> Diagnostic {
+    Diagnostic::error(CODE, format!("gate `{name}` has no kind"), at, format!("expected `{name}: pub`"))
+        .help(format!("write the kind after the name: `- {name}: pub`"))
+        .note(kinds())
+}
+
+/// `- measurements: {queue: 4}`.
+pub(in crate::parse) fn without_kind_key(gate: Field<'_>, fields: &Fields<'_>) -> Diagnostic {
+    let name = gate.key;
+    let label = if fields.list.is_empty() { "empty" } else { "only options here" };
+    Diagnostic::error(CODE, format!("gate `{name}` has no kind"), gate.value.span, label)
+        .help(format!("start with kind and type: `{name}: {{pub: Type}}`"))
+        .note(kinds())
+}
+
+/// `- measurements: {pub: A, sub: B}`.
+pub(in crate::parse) fn two_kinds(name: &str, first: &Field<'_>, second: &Field<'_>) -> Diagnostic {
+    let message = format!("gate `{name}` has two kinds, `{}` and `{}`", first.key, second.key);
+    Diagnostic::error(CODE, message, second.key_span, "second kind")
+        .label(first.key_span, "first kind")
+        .help("a gate has one kind; make two gates of it")
+}
+
+/// `- measurements: [pub]`.
+pub(in crate::parse) fn kind_is_list(gate: Field<'_>) -> Diagnostic {
+    let message = format!("the kind of gate `{}` must be one word; this is a list", gate.key);
+    Diagnostic::error(CODE, message, gate.value.span, format!("expected `{}: pub`", gate.key))
+        .help(format!("write `- {}: pub`, or `- {}: {{pub: Type}}`", gate.key, gate.key))
+        .note(kinds())
+}
+
+/// `- measurements: pub Type`: kind and type without braces.
+pub(in crate::parse) fn kind_and_type(gate: Field<'_>, value: &str) -> Option<Diagnostic> {
+    let (kind, payload) = value.split_once(char::is_whitespace).filter(|(kind, _)| is_kind(kind))?;
+    let message = format!("gate `{}` has its type outside of braces", gate.key);
+    let problem = Diagnostic::error(CODE, message, gate.value.span, "kind and type in one word");
+    Some(problem.help(format!("write `{}: {{{kind}: {}}}`", gate.key, payload.trim())))
+}
+
+/// `- measurements: {kind: pub, type: Type}`.
+pub(in crate::parse) fn kind_as_key(gate: Field<'_>, fields: &Fields<'_>) -> Option<Diagnostic> {
+    let field = fields.get("kind").filter(|_| fields.list.iter().all(|field| !is_kind(field.key)))?;
+    let kind = scalar(field.value).filter(|kind| is_kind(&kind.value))?.value;
+    let payload = fields.get("type").and_then(|field| scalar(field.value));
+    let message = format!("the kind of gate `{}` is written as a value", gate.key);
+    let help = match payload {
+        Some(payload) => format!("write `{}: {{{kind}: {}}}`", gate.key, payload.value),
+        None => format!("write `{}: {kind}`", gate.key),
+    };
+    Some(Diagnostic::error(CODE, message, field.key_span, "the kind itself is the key").help(help))
+}
+
+/// Name and kind of `{name: measurements, kind: pub}`; none if the item is written otherwise.
+#[allow(clippy::type_complexity)]
+pub(in crate::parse) fn long_form(fields: &Fields<'_>) -> Option<(Option<Spanned<String>>, Option<Spanned<String>>)> {
+    let name = fields.get("name")?;
+    let kind = fields.get("kind").or_else(|| fields.get("type"))?;
+    Some((scalar(name.value), scalar(kind.value)))
+}
+
+/// `- name: measurements` with `kind: pub` beside it.
+pub(in crate::parse) fn written_long(item: &Node, fields: &Fields<'_>) -> Diagnostic {
+    let value = |key: &str| fields.get(key).and_then(|field| scalar(field.value)).map(|value| value.value);
+    let name = value("name").unwrap_or_else(|| "measurements".to_owned());
+    let kind = value("kind").or_else(|| value("type")).unwrap_or_else(|| "pub".to_owned());
+    let at = fields.list.first().map_or(item.span, |field| field.key_span);
+    Diagnostic::error(CODE, "a gate is written as `name: kind`", at, "the name itself is the key")
+        .help(format!("write `- {name}: {kind}`"))
+        .note(kinds())
+}
+
+/// Two names in one list item.
+pub(in crate::parse) fn several_in_one_item(first: Field<'_>, others: &[&Field<'_>]) -> Diagnostic {
+    let names = ticked(std::iter::once(first.key).chain(others.iter().map(|other| other.key)));
+    let count = if others.is_empty() { 1 } else { others.len() + 1 };
+    let count = if count == 2 { "two".to_owned() } else { count.to_string() };
+    let at = others.first().map_or(first.key_span, |other| other.key_span);
+    Diagnostic::error(CODE, format!("{count} gates in one list item ({names})"), at, "a second gate")
+        .label(first.key_span, "the first gate")
+        .help(match others.first() {
+            Some(second) => format!("start the second with `-`: `- {}: ...`", second.key),
+            None => "start each gate with `-`".to_owned(),
+        })
+}
+
+/// `- {}`.
+pub(in crate::parse) fn empty_mapping(item: &Node) -> Diagnostic {
+    Diagnostic::error(CODE, "this gate has no name", item.span, "expected `measurements: pub`").note(kinds())
+}
+
+/// `- [measurements, pub]`.
+pub(in crate::parse) fn is_list(item: &Node) -> Diagnostic {
+    let problem = Diagnostic::error(CODE, "a gate is written as `name: kind`; this is a list", item.span, "a list");
+    match &item.kind {
+        NodeKind::Sequence { items } => match items.as_slice() {
+            [name, kind] => match (scalar(name), scalar(kind)) {
+                (Some(name), Some(kind)) => problem.help(format!("write `- {}: {}`", name.value, kind.value)),
+                _ => problem.note(kinds()),
+            },
+            _ => problem.help("write `- measurements: pub`").note(kinds()),
+        },
+        _ => problem.note(kinds()),
+    }
+}
+
+fn kinds() -> String {
+    format!("kinds: {}", ticked(GateKind::ALL.map(GateKind::word)))
+}

@@ -1,0 +1,32 @@
+//! SCL0212: an unknown key in a gate.
+
+use super::ticked;
+use crate::diagnostic::Diagnostic;
+use crate::parse::fields::Field;
+use crate::parse::option::{OPTIONS, rule};
+use crate::suggest::similar;
+use crate::topology::GateKind;
+
+/// `kind` is the kind as written, `path` the gate with its component.
+pub(in crate::parse) fn diagnose(field: Field<'_>, kind: &str, path: &str) -> Diagnostic {
+    let message = format!("unknown key `{}` in gate `{path}`", field.key);
+    let mut problem = Diagnostic::error("SCL0212", message, field.key_span, "");
+    for name in similar(field.key, OPTIONS.iter().map(|option| option.key)) {
+        problem = problem.help(format!("a key with a similar name exists: `{name}`{}", only_of(name, kind)));
+    }
+    let keys = OPTIONS.iter().filter(|option| option.kinds.iter().any(|of| of.word() == kind)).map(|option| option.key);
+    match GateKind::ALL.iter().any(|known| known.word() == kind) {
+        true => problem.note(format!("keys of a `{kind}` gate: {}", ticked(std::iter::once(kind).chain(keys)))),
+        false => problem.note(format!("keys of a gate: {}", ticked(OPTIONS.iter().map(|option| option.key)))),
+    }
+}
+
+/// A word on the kinds that have an option, where this kind has not.
+fn only_of(option: &str, kind: &str) -> String {
+    let kinds = rule(option).map_or(&[][..], |rule| rule.kinds);
+    if kinds.iter().any(|of| of.word() == kind) {
+        return String::new();
+    }
+    let words: Vec<String> = kinds.iter().map(|of| format!("`{}`", of.word())).collect();
+    format!(", for {} gates", words.join(" and "))
+}

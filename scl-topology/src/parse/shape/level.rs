@@ -1,0 +1,76 @@
+//! SCL0214: a key that belongs elsewhere.
+
+use crate::diagnostic::Diagnostic;
+use crate::model::ComponentModel;
+use crate::parse::component::{self, head};
+use crate::parse::fields::{Field, Fields};
+use crate::parse::{option, sections};
+use crate::source::{SourceFile, Span};
+use crate::yaml::Node;
+
+const CODE: &str = "SCL0214";
+
+/// A key of a component, or of a gate, at the top level.
+pub(in crate::parse) fn at_top(field: Field<'_>, source: &SourceFile) -> Option<Diagnostic> {
+    let key = field.key;
+    if component::KEYS.contains(&key) {
+        let message = format!("`{key}` belongs inside a component, not at the top level");
+        return Some(problem(message, field.key_span, source).help("indent it below the `- name:` of its component"));
+    }
+    let message = format!("`{key}` belongs inside a gate, not at the top level");
+    option::is_key(key).then(|| problem(message, field.key_span, source).help(in_gate(field)))
+}
+
+/// A section, or an option of a gate, in a component.
+pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: &SourceFile) -> Option<Diagnostic> {
+    let key = field.key;
+    if sections::SECTIONS.contains(&key) {
+        let message = format!("`{key}` belongs at the top level, not inside component `{component}`");
+        return Some(problem(message, field.key_span, source).help("move it to column 1"));
+    }
+    let message = format!("`{key}` belongs inside a gate, not beside the gates of component `{component}`");
+    option::is_key(key).then(|| problem(message, field.key_span, source).help(in_gate(field)))
+}
+
+/// `- measurements: pub` with `queue: 4` below it.
+pub(in crate::parse) fn option_beside_gate(option: Field<'_>, gate: Field<'_>, source: &SourceFile) -> Diagnostic {
+    let message = format!("`{}` belongs inside the braces of gate `{}`, not beside it", option.key, gate.key);
+    problem(message, option.key_span, source).help(format!("write `{}: {{pub: Type, {}: ...}}`", gate.key, option.key))
+}
+
+/// `- gates:` after a component that has no gates: its `-` starts a new component.
+pub(in crate::parse) fn gates_after_dash(
+    item: &Node,
+    fields: &Fields<'_>,
+    above: Option<&ComponentModel>,
+    source: &SourceFile,
+) -> Option<Diagnostic> {
+    let above = above.filter(|component| component.gates.is_empty() && !component.gates_unread)?;
+    let [gates] = fields.list.as_slice() else { return None };
+    if gates.key != "gates" {
+        return None;
+    }
+    let name = &above.name.value;
+    let message = format!("these `gates` belong to component `{name}`, but their `-` starts a new component");
+    Some(
+        Diagnostic::error(CODE, message, head(item, fields, source), "a component of its own")
+            .label(above.name.span, "the component above")
+            .help("replace the `-` by a space"),
+    )
+}
+
+fn problem(message: String, key: Span, source: &SourceFile) -> Diagnostic {
+    let line = source.line_range(key.start);
+    let before = source.text().get(line.start..key.start as usize).unwrap_or("");
+    let label = match before.chars().all(|c| c == ' ') {
+        true if before.is_empty() => "at column 1".to_owned(),
+        true if before.len() == 1 => "indented by 1 space".to_owned(),
+        true => format!("indented by {} spaces", before.len()),
+        false => "not here".to_owned(),
+    };
+    Diagnostic::error(CODE, message, key, label)
+}
+
+fn in_gate(field: Field<'_>) -> String {
+    format!("write it into the braces of a gate: `- name: {{pub: Type, {}: ...}}`", field.key)
+}

@@ -1,0 +1,22 @@
+//! SCL0203: the section `components` is missing.
+
+use super::ticked;
+use crate::diagnostic::Diagnostic;
+use crate::parse::fields::Fields;
+use crate::source::{FileId, Span};
+
+pub(in crate::parse) fn diagnose(fields: &Fields<'_>, file: FileId) -> Diagnostic {
+    const MESSAGE: &str = "the section `components` is missing";
+    const SHOWN: usize = 6;
+    let keys: Vec<&str> = fields.list.iter().map(|field| field.key).collect();
+    let first = fields.list.first().map_or(Span { file, start: 0, end: 0 }, |field| field.key_span);
+    let label = match keys.len() {
+        0 => "this file has no section".to_owned(),
+        count if count > SHOWN => {
+            format!("this file has only {} and {} more", ticked(keys[..SHOWN].iter().copied()), count - SHOWN)
+        }
+        _ => format!("this file has only {}", ticked(keys)),
+    };
+    Diagnostic::error("SCL0203", MESSAGE, first, label)
+        .help("add the section; it declares each component and its gates")
+}

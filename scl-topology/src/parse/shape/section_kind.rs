@@ -1,0 +1,67 @@
+//! SCL0204: a section, or the list of gates, has the wrong kind.
+
+use crate::diagnostic::Diagnostic;
+use crate::model::ComponentModel;
+use crate::parse::component::end_with_colon;
+use crate::parse::fields::Field;
+use crate::parse::shape_word;
+use crate::source::{SourceFile, Span};
+use crate::yaml::{Node, NodeKind};
+
+const CODE: &str = "SCL0204";
+
+/// `components: {sensor: ...}`; `first` is the first component that could be read from it.
+pub(in crate::parse) fn components(section: Field<'_>, first: Option<&ComponentModel>) -> Diagnostic {
+    let name = first.map_or("sensor", |component| component.name.value.as_str());
+    let gate = first.and_then(|component| component.gates.first());
+    let (gate, kind) = match gate {
+        Some(gate) if !gate.kind.value.is_empty() => (gate.name.value.as_str(), gate.kind.value.as_str()),
+        _ => ("measurements", "pub"),
+    };
+    let label = format!("a key, where `- name: {name}` is expected");
+    let example = format!("write:\ncomponents:\n  - name: {name}\n    gates:\n      - {gate}: {kind}");
+    wrong_kind(section, first_key(section.value), label).help(example)
+}
+
+/// `gates: {measurements: pub}`.
+pub(in crate::parse) fn gates(field: Field<'_>, source: &SourceFile) -> Diagnostic {
+    let key = first_key(field.value);
+    let name = source.text().get(key.start as usize..key.end as usize).unwrap_or("measurements");
+    let span = Span { end: end_with_colon(key, source), ..key };
+    let problem = wrong_kind(field, span, format!("a key, where `- {name}: ...` is expected"));
+    problem.help(format!("start each gate with `-`: `- {name}: ...`"))
+}
+
+/// `connections:` that are no list.
+pub(in crate::parse) fn connections(section: Field<'_>) -> Diagnostic {
+    wrong_kind(section, first_key(section.value), String::new())
+        .help("write:\nconnections:\n  - [sensor.measurements, controller.sensor]")
+}
+
+/// `schemas: rover.proto`.
+pub(in crate::parse) fn schemas(section: Field<'_>) -> Diagnostic {
+    let problem = wrong_kind(section, first_key(section.value), String::new());
+    match &section.value.kind {
+        NodeKind::Scalar { text, .. } => problem.help(format!("write `schemas: [{text}]`")),
+        _ => problem.help("write the names of the files in brackets: `schemas: [rover.proto]`"),
+    }
+}
+
+/// Text where a list belongs.
+pub(in crate::parse) fn text(section: Field<'_>) -> Diagnostic {
+    wrong_kind(section, section.value.span, String::new())
+        .help(format!("write each entry on a line of its own below `{}:`, after a `-`", section.key))
+}
+
+fn wrong_kind(section: Field<'_>, at: Span, label: String) -> Diagnostic {
+    let message = format!("`{}` must be a list; this is {}", section.key, shape_word(section.value));
+    let label = if label.is_empty() { format!("this is {}", shape_word(section.value)) } else { label };
+    Diagnostic::error(CODE, message, at, label)
+}
+
+fn first_key(value: &Node) -> Span {
+    match &value.kind {
+        NodeKind::Mapping { entries } => entries.first().map_or(value.span, |(key, _)| key.span),
+        _ => value.span,
+    }
+}

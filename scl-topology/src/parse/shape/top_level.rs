@@ -1,0 +1,26 @@
+//! SCL0201: the top level is not a mapping.
+
+use crate::diagnostic::Diagnostic;
+use crate::parse::{pitfall, sections, with_dash};
+use crate::source::{SourceFile, Span};
+use crate::yaml::{Node, NodeKind};
+
+pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile) -> Diagnostic {
+    if let Some(problem) = pitfall::missing_space::in_node(root, source) {
+        return problem;
+    }
+    let start = with_dash(root.span, source);
+    let end = (source.line_range(start.start).end as u32).min(start.end.max(start.start));
+    let span = Span { end, ..start };
+    let is_list = matches!(root.kind, NodeKind::Sequence { .. });
+    let (thing, label) = if is_list { ("a list", "list item") } else { ("text", "text without a key") };
+    let message = format!("a topology starts with `components:`, and this file starts with {thing}");
+    let problem = Diagnostic::error("SCL0201", message, span, label);
+    match &root.kind {
+        NodeKind::Sequence { .. } => problem.help("put this list under a `components:` key and indent it"),
+        NodeKind::Scalar { text, .. } if sections::SECTIONS.contains(&text.as_str()) => {
+            problem.help(format!("write `{text}:`"))
+        }
+        _ => problem.help("write `components:` and below it a list of components"),
+    }
+}

@@ -1,0 +1,29 @@
+//! SCL0213: a format version that this version of scl does not read.
+
+use super::option_value;
+use crate::diagnostic::Diagnostic;
+use crate::parse::fields::Field;
+use crate::parse::is_plain;
+use crate::parse::option::{Value, is_whole_number};
+use crate::yaml::NodeKind;
+
+/// The only format so far.
+const FORMAT: &str = "1";
+
+pub(in crate::parse) fn find(field: Field<'_>) -> Option<Diagnostic> {
+    match &field.value.kind {
+        NodeKind::Unread => None,
+        NodeKind::Scalar { text, .. } if is_plain(field.value) && text == FORMAT => None,
+        NodeKind::Scalar { text, .. } if is_plain(field.value) && is_whole_number(text) => {
+            Some(unsupported(field, text))
+        }
+        _ => Some(option_value::diagnose(field, Value::Number)),
+    }
+}
+
+fn unsupported(field: Field<'_>, version: &str) -> Diagnostic {
+    let message = format!("this file needs topology format {version}; this version of scl reads format {FORMAT}");
+    let own = env!("CARGO_PKG_VERSION");
+    Diagnostic::error("SCL0213", message, field.value.span, "")
+        .help(format!("update the `scl` crate (this is scl {own}), or use format {FORMAT}"))
+}

@@ -1,0 +1,201 @@
+//! Whole files.
+#![allow(clippy::unwrap_used)]
+
+use super::testing::parse_text;
+use crate::model::Model;
+use expect_test::{Expect, expect};
+
+/// Listing 1 of the paper, byte for byte.
+pub(super) const LISTING_1: &str = "\
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: actuator
+    gates:
+      - setpoint: sub
+  - name: controller
+    gates:
+      - sensor: sub
+      - actuator: pub
+      - events: pub
+      - commands: rep
+  - name: user_interface
+    gates:
+      - events: sub
+      - commands: req
+connections:
+  - [sensor.measurements, controller.sensor]
+  - [actuator.setpoint, controller.actuator]
+  - [controller.events, user_interface.events]
+  - [controller.commands, user_interface.commands]
+";
+
+/// The same system with types, and every option and section.
+pub(super) const TYPED: &str = "\
+scl: 1
+system: rover
+schemas: [rover.proto]
+codec: protobuf
+x-owner: {team: control}
+components:
+  - name: sensor
+    doc: Reads the inertial unit.
+    optional: true
+    gates:
+      - measurements: {pub: rover.Measurement, doc: One reading per period.}
+  - name: actuator
+    gates:
+      - setpoint: {sub: rover.Setpoint, queue: 1}          # only the newest matters
+  - name: controller
+    gates:
+      - sensor: {sub: rover.Measurement, queue: 1}
+      - actuator: pub
+      - events: {pub: rover.Event, backpressure: true, codec: my_crate::Flat}
+      - commands: {rep: rover.Command -> rover.Status, unconnected: ok}
+      - work: {push: rover.Job, share: true}
+  - name: user_interface
+    gates:
+      - events:
+          sub: rover.Event
+          queue: 1000
+          when_full: wait
+      - commands: {req: rover.Command -> rover.Status, timeout: 500ms}
+connections:
+  - [sensor.measurements, controller.sensor]
+  - - actuator.setpoint
+    - controller.actuator
+";
+
+/// The same shapes in flow style, as JSON writes them.
+pub(super) const JSON: &str = r#"{
+  "system": "rover",
+  "components": [
+    {"name": "sensor", "gates": [{"measurements": {"pub": "rover.M", "backpressure": true}}]},
+    {"name": "controller", "optional": false, "gates": [{"sensor": "sub"}, {"log": {"push": "A"}}]}
+  ],
+  "connections": [["sensor.measurements", "controller.sensor"]]
+}
+"#;
+
+fn dump(model: &Model) -> String {
+    let mut out = String::new();
+    let value = |of: &Option<crate::source::Spanned<String>>| of.as_ref().map(|it| it.value.clone());
+    let schemas: Vec<_> = model.schemas.iter().map(|it| &it.value).collect();
+    out.push_str(&format!("{:?} {schemas:?} {:?}\n", value(&model.system), value(&model.codec)));
+    for component in &model.components {
+        let (name, optional) = (&component.name.value, if component.optional { " optional" } else { "" });
+        out.push_str(&format!("{name}{optional} {:?}\n", value(&component.doc)));
+        for gate in &component.gates {
+            out.push_str(&format!("  {}: {} {:?}", gate.name.value, gate.kind.value, value(&gate.payload)));
+            for option in &gate.options {
+                let quote = if option.quoted { "'" } else { "" };
+                out.push_str(&format!(" {}={quote}{}{quote}", option.key.value, option.value.value));
+            }
+            out.push('\n');
+        }
+    }
+    for connection in &model.connections {
+        out.push_str(&format!("{} - {}\n", connection.ends[0].value, connection.ends[1].value));
+    }
+    out
+}
+
+fn check_valid(text: &str, expected: Expect) {
+    let mut dumps = Vec::new();
+    let spellings =
+        [text.to_owned(), text.replace('\n', "\r\n"), format!("\u{feff}{text}"), text.trim_end().to_owned()];
+    for spelling in spellings {
+        let (model, problems, _) = parse_text(&spelling);
+        assert_eq!(problems, [], "{spelling}");
+        dumps.push(dump(&model));
+    }
+    expected.assert_eq(&dumps[0]);
+    assert!(dumps.iter().all(|other| *other == dumps[0]), "{dumps:#?}");
+}
+
+#[test]
+fn listing_1() {
+    check_valid(
+        LISTING_1,
+        expect![[r#"
+        None [] None
+        sensor None
+          measurements: pub None
+        actuator None
+          setpoint: sub None
+        controller None
+          sensor: sub None
+          actuator: pub None
+          events: pub None
+          commands: rep None
+        user_interface None
+          events: sub None
+          commands: req None
+        sensor.measurements - controller.sensor
+        actuator.setpoint - controller.actuator
+        controller.events - user_interface.events
+        controller.commands - user_interface.commands
+    "#]],
+    );
+}
+
+#[test]
+fn every_key() {
+    check_valid(
+        TYPED,
+        expect![[r#"
+        Some("rover") ["rover.proto"] Some("protobuf")
+        sensor optional Some("Reads the inertial unit.")
+          measurements: pub Some("rover.Measurement") doc=One reading per period.
+        actuator None
+          setpoint: sub Some("rover.Setpoint") queue=1
+        controller None
+          sensor: sub Some("rover.Measurement") queue=1
+          actuator: pub None
+          events: pub Some("rover.Event") backpressure=true codec=my_crate::Flat
+          commands: rep Some("rover.Command -> rover.Status") unconnected=ok
+          work: push Some("rover.Job") share=true
+        user_interface None
+          events: sub Some("rover.Event") queue=1000 when_full=wait
+          commands: req Some("rover.Command -> rover.Status") timeout=500ms
+        sensor.measurements - controller.sensor
+        actuator.setpoint - controller.actuator
+    "#]],
+    );
+}
+
+#[test]
+fn flow_style() {
+    check_valid(
+        JSON,
+        expect![[r#"
+        Some("rover") [] None
+        sensor None
+          measurements: pub Some("rover.M") backpressure=true
+        controller None
+          sensor: sub None
+          log: push Some("A")
+        sensor.measurements - controller.sensor
+    "#]],
+    );
+}
+
+#[test]
+fn spans_cover_what_is_written() {
+    let (model, _, sources) = parse_text(TYPED);
+    let events = &model.components[3].gates[0];
+    let spans =
+        [events.span, events.name.span, events.kind.span, events.options[0].value.span, model.connections[1].span];
+    let texts: Vec<_> = spans.iter().map(|span| sources.snippet(*span)).collect();
+    expect![[r#"
+        [
+            "events:\n          sub: rover.Event\n          queue: 1000\n          when_full: wait",
+            "events",
+            "sub",
+            "1000",
+            "- actuator.setpoint\n    - controller.actuator",
+        ]
+    "#]]
+    .assert_debug_eq(&texts);
+}

@@ -1,0 +1,114 @@
+//! The text of a YAML file as a tree in which every node knows its place.
+//!
+//! Only this file and those below it know the YAML parser. A text with a syntax error gives the tree of what stands
+//! before it, and the error beside it.
+
+mod build;
+mod syntax_error;
+
+use crate::source::{FileId, Span};
+use granit_parser::{Event, Parser};
+
+pub(crate) use syntax_error::{SyntaxError, SyntaxErrorKind};
+
+/// A deeper file is no topology; the limit keeps every walk over the tree from overflowing the stack.
+pub(crate) const MAX_DEPTH: usize = 16;
+
+/// One value and its place.
+#[derive(Debug, Clone)]
+pub(crate) struct Node {
+    /// From the first to the last character that belongs to it; quotes and brackets belong.
+    pub(crate) span: Span,
+    /// What it is.
+    pub(crate) kind: NodeKind,
+}
+
+/// The shapes of a value.
+#[derive(Debug, Clone)]
+pub(crate) enum NodeKind {
+    /// Text; empty and plain where no value is written.
+    Scalar { text: String, style: Style },
+    /// A list.
+    Sequence { items: Vec<Node> },
+    /// Keys and values, in file order; a key may occur twice.
+    Mapping { entries: Vec<(Node, Node)> },
+    /// A place whose value could not be read, and about which a problem is reported already.
+    Unread,
+}
+
+/// How a scalar is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Style {
+    /// Without quotes.
+    Plain,
+    /// In single or double quotes.
+    Quoted,
+    /// After `|` or `>`.
+    Block,
+}
+
+impl Node {
+    /// Whether it is "no value" as YAML reads it: nothing, `~` or `null`.
+    pub(crate) fn is_null(&self) -> bool {
+        matches!(&self.kind, NodeKind::Scalar { text, style: Style::Plain }
+            if matches!(text.as_str(), "" | "~" | "null" | "Null" | "NULL"))
+    }
+}
+
+/// `&name`, and the `*name` that refer to it.
+#[derive(Debug, Clone)]
+pub(crate) struct Anchor {
+    /// `&name`; none for aliases of a name that nothing defines.
+    pub(crate) definition: Option<Span>,
+    /// Each `*name`.
+    pub(crate) aliases: Vec<Span>,
+}
+
+/// What a text holds.
+#[derive(Debug, Default)]
+pub(crate) struct Tree {
+    /// The first document's value; none in a file without any.
+    pub(crate) root: Option<Node>,
+    /// Where the text stops to be YAML.
+    pub(crate) error: Option<SyntaxError>,
+    /// Anchors in the order of their definition.
+    pub(crate) anchors: Vec<Anchor>,
+    /// Each `!tag`.
+    pub(crate) tags: Vec<Span>,
+    /// The `---` of a second document; what follows it is not read.
+    pub(crate) second_document: Option<Span>,
+    /// The first value below [`MAX_DEPTH`].
+    pub(crate) too_deep: Option<Span>,
+}
+
+/// Reads a text. Takes linear time and never fails: what is wrong is part of the answer.
+pub(crate) fn read(text: &str, file: FileId) -> Tree {
+    let mut builder = build::Builder::new(text, file);
+    for next in Parser::new_from_str_with_options(text, options()) {
+        match next {
+            Ok((Event::DocumentStart(..), span)) if builder.has_document() => {
+                builder.second_document(&span);
+                break;
+            }
+            Ok((event, span)) => builder.event(event, &span),
+            Err(error) => {
+                builder.fail(SyntaxError::new(&error, text.len()));
+                break;
+            }
+        }
+    }
+    builder.finish()
+}
+
+fn options() -> granit_parser::Options {
+    granit_parser::options! {
+        emit_comments: false,
+        emit_anchor_events: true,
+        emit_unresolved_aliases: true,
+        // The limit of the specification; a longer key has no meaning here, but a better message of its own.
+        simple_key_max_lookahead: 1024,
+    }
+}
+
+#[cfg(test)]
+mod tests;
