@@ -5,7 +5,7 @@ use super::ending::Ending;
 use super::output::Output;
 use nix::sys::signal::Signal;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
 /// How long the output of a program that has ended may still come, from what it has started elsewhere.
@@ -77,10 +77,7 @@ impl Supervisor {
     /// The next event, or none when something is due first.
     fn next_event(&self) -> Option<Event> {
         let Some(due) = self.next_due() else { return self.events.recv().ok() };
-        match self.events.recv_timeout(due.saturating_duration_since(Instant::now())) {
-            Ok(event) => Some(event),
-            Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => None,
-        }
+        self.events.recv_timeout(due.saturating_duration_since(Instant::now())).ok()
     }
 
     fn next_due(&self) -> Option<Instant> {
