@@ -1,6 +1,14 @@
 //! What the checker has to say: one [`Diagnostic`] a problem, gathered in [`Diagnostics`].
 
+mod json;
+mod limit;
+mod render;
+
 use crate::source::Span;
+
+pub use json::to_json;
+pub use limit::{MOST_SHOWN, limit};
+pub use render::{render, render_headless, render_styled};
 
 /// How bad it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -82,6 +90,11 @@ impl Diagnostic {
 }
 
 /// The collector. Stages push into it and go on; whoever made it must read it.
+///
+/// # Panics
+///
+/// In debug builds, dropping one with problems in it panics, unless the thread does so already: whoever makes a
+/// collector has to end with [`Diagnostics::into_sorted`], or hand its problems over with [`Diagnostics::append`].
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     items: Vec<Diagnostic>,
@@ -118,10 +131,38 @@ impl Diagnostics {
         self.items.iter().any(|item| item.severity == Severity::Error)
     }
 
-    /// All of them, sorted by position.
+    /// All of them, sorted by position; those without a place come first.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
         let mut items = std::mem::take(&mut self.items);
         items.sort_by_key(|item| item.primary.as_ref().map(|label| (label.span, item.code)));
         items
+    }
+}
+
+impl Drop for Diagnostics {
+    fn drop(&mut self) {
+        let is_read = self.items.is_empty() || std::thread::panicking();
+        debug_assert!(is_read, "problems were found and nobody read them: {:?}", self.items);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Diagnostic, Diagnostics};
+
+    #[test]
+    #[should_panic(expected = "nobody read them")]
+    fn forgotten_problems_are_a_bug() {
+        let mut problems = Diagnostics::new();
+        problems.push(Diagnostic::fileless("SCL0001", "no file"));
+    }
+
+    #[test]
+    fn append_hands_problems_over() {
+        let (mut all, mut some) = (Diagnostics::new(), Diagnostics::new());
+        some.push(Diagnostic::fileless("SCL0001", "no file"));
+        all.append(some);
+        assert!(all.has_errors());
+        assert_eq!(all.into_sorted().len(), 1);
     }
 }

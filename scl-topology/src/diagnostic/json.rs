@@ -1,0 +1,85 @@
+//! A diagnostic as one line of JSON, for programs.
+
+use super::{Diagnostic, Label, Severity};
+use crate::source::Sources;
+use serde_json::Value;
+
+/// One object without line breaks:
+/// `{"code","severity","message","file","line","column","end_line","end_column","labels":[...],"helps":[...],"notes":[...]}`.
+///
+/// A label is `{"file","line","column","end_line","end_column","text"}`; the first one is the primary label. Lines and
+/// columns count from 1, columns in characters, and the end is one past the last character. Without a place, `file` and
+/// the positions are `null`.
+pub fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> String {
+    let severity = match diagnostic.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Lint => "lint",
+    };
+    let mut fields: Vec<(&str, String)> =
+        vec![("code", text(diagnostic.code)), ("severity", text(severity)), ("message", text(&diagnostic.message))];
+    fields.extend(place(diagnostic.primary.as_ref(), sources));
+    let labels = diagnostic.primary.iter().chain(&diagnostic.secondary).map(|of| label(of, sources));
+    fields.push(("labels", list(labels)));
+    fields.push(("helps", list(diagnostic.helps.iter().map(|help| text(help)))));
+    fields.push(("notes", list(diagnostic.notes.iter().map(|note| text(note)))));
+    object(&fields)
+}
+
+fn label(label: &Label, sources: &Sources) -> String {
+    let mut fields = place(Some(label), sources);
+    fields.push(("text", text(&label.text)));
+    object(&fields)
+}
+
+fn place(label: Option<&Label>, sources: &Sources) -> Vec<(&'static str, String)> {
+    const KEYS: [&str; 5] = ["file", "line", "column", "end_line", "end_column"];
+    let Some(span) = label.map(|label| label.span) else {
+        return KEYS.map(|key| (key, Value::Null.to_string())).to_vec();
+    };
+    let file = sources.file(span.file);
+    let (start, end) = (file.line_column(span.start), file.line_column(span.end));
+    let numbers = [start.line, start.column, end.line, end.column].map(|number| number.to_string());
+    KEYS.into_iter().zip(std::iter::once(text(file.path())).chain(numbers)).collect()
+}
+
+fn text(text: &str) -> String {
+    Value::from(text).to_string()
+}
+
+fn list(items: impl Iterator<Item = String>) -> String {
+    format!("[{}]", items.collect::<Vec<_>>().join(","))
+}
+
+fn object(fields: &[(&str, String)]) -> String {
+    let fields: Vec<String> = fields.iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
+    format!("{{{}}}", fields.join(","))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::to_json;
+    use crate::diagnostic::Diagnostic;
+    use crate::source::{Sources, Span};
+    use expect_test::expect;
+
+    #[test]
+    fn one_line_with_every_field() {
+        let mut sources = Sources::new();
+        let file = sources.add("t.yaml", "ä: \"b\"\r\nc:\n");
+        let span = |start, end| Span { file, start, end };
+        let problem = Diagnostic::warning("SCL0999", "a \"quote\"\nand more", span(4, 7), "why")
+            .label(span(9, 10), "")
+            .help("one\ntwo")
+            .note("rule");
+        let json = to_json(&problem, &sources);
+        assert!(serde_json::from_str::<serde_json::Value>(&json).is_ok());
+        expect![[r#"{"code":"SCL0999","severity":"warning","message":"a \"quote\"\nand more","file":"t.yaml","line":1,"column":4,"end_line":1,"end_column":7,"labels":[{"file":"t.yaml","line":1,"column":4,"end_line":1,"end_column":7,"text":"why"},{"file":"t.yaml","line":2,"column":1,"end_line":2,"end_column":2,"text":""}],"helps":["one\ntwo"],"notes":["rule"]}"#]].assert_eq(&json);
+    }
+
+    #[test]
+    fn nulls_without_a_place() {
+        let json = to_json(&Diagnostic::fileless("SCL0001", "no file"), &Sources::new());
+        expect![[r#"{"code":"SCL0001","severity":"error","message":"no file","file":null,"line":null,"column":null,"end_line":null,"end_column":null,"labels":[],"helps":[],"notes":[]}"#]].assert_eq(&json);
+    }
+}

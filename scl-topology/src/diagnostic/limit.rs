@@ -1,0 +1,69 @@
+//! SCL0008: no more problems than somebody reads.
+
+use super::{Diagnostic, Severity};
+
+/// How many problems the macro shows.
+pub const MOST_SHOWN: usize = 20;
+
+/// The first [`MOST_SHOWN`] problems, errors before all others, in the order given; then one that says how many are
+/// missing. `path` is the file as messages name it.
+pub fn limit(problems: Vec<Diagnostic>, path: &str) -> Vec<Diagnostic> {
+    let total = problems.len();
+    let errors = problems.iter().filter(|problem| problem.severity == Severity::Error).count();
+    let (mut errors_left, mut others_left) = (errors.min(MOST_SHOWN), MOST_SHOWN.saturating_sub(errors));
+    let mut shown: Vec<Diagnostic> = problems
+        .into_iter()
+        .filter(|problem| {
+            let left = if problem.severity == Severity::Error { &mut errors_left } else { &mut others_left };
+            let is_shown = *left > 0;
+            *left = left.saturating_sub(1);
+            is_shown
+        })
+        .collect();
+    if total > shown.len() {
+        shown.push(missing(total - shown.len(), errors > MOST_SHOWN, path));
+    }
+    shown
+}
+
+/// Where only warnings are missing, the file stays usable.
+fn missing(count: usize, has_errors: bool, path: &str) -> Diagnostic {
+    let message = match count {
+        1 => format!("1 more problem in {path} is not shown"),
+        _ => format!("{count} more problems in {path} are not shown"),
+    };
+    let mut problem =
+        Diagnostic::fileless("SCL0008", message).help(format!("run `scl check {path}` to see all of them"));
+    if !has_errors {
+        problem.severity = Severity::Warning;
+    }
+    problem
+}
+
+#[cfg(test)]
+mod tests {
+    use super::limit;
+    use crate::diagnostic::{Diagnostic, Severity};
+
+    fn problems(warnings: usize, errors: usize) -> Vec<Diagnostic> {
+        let mut warning = Diagnostic::fileless("SCL0206", "w");
+        warning.severity = Severity::Warning;
+        let mut all = vec![warning; warnings];
+        all.extend(vec![Diagnostic::fileless("SCL0301", "e"); errors]);
+        all
+    }
+
+    #[test]
+    fn errors_are_shown_before_warnings() {
+        let last = |warnings, errors| {
+            let shown = limit(problems(warnings, errors), "topology.yaml");
+            let kept = |code| shown.iter().filter(|problem| problem.code == code).count();
+            let last = shown.last().map(|problem| (problem.severity, problem.message.clone()));
+            (kept("SCL0206"), kept("SCL0301"), last.filter(|_| kept("SCL0008") > 0))
+        };
+        let missing = |text: &str| format!("{text} not shown");
+        assert_eq!(last(3, 17), (3, 17, None));
+        assert_eq!(last(4, 17), (3, 17, Some((Severity::Warning, missing("1 more problem in topology.yaml is")))));
+        assert_eq!(last(5, 52), (0, 20, Some((Severity::Error, missing("37 more problems in topology.yaml are")))));
+    }
+}
