@@ -1,7 +1,7 @@
-//! The `scl` command: checks, draws and runs SCL systems.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod duration;
+mod print;
 mod run;
 
 use clap::{Parser, Subcommand};

@@ -10,17 +10,20 @@ mod output;
 mod plan;
 mod problem;
 mod program;
+mod reports;
 mod supervisor;
 
 pub(crate) use orphan_guard::{GUARD_WORD, START_WORD, StartArguments, keep_watch, start_component};
 
 use crate::duration::parse_duration;
+use crate::print::print_err;
 use children::{Event, Running};
 use clap::Args;
 use orphan_guard::{OrphanGuard, stop_signals};
 use output::Output;
 use problem::Problem;
 use program::Program;
+use reports::Reports;
 use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -53,7 +56,7 @@ A launch file:
     sensor:
       command: [./sensor, --rate, 100]   # a list is executed as it is
     controller:
-      command: ./controller | tee log    # a text is given to the shell
+      command: ./controller 2>> log      # a text is given to the shell
       environment: {GAIN: 0.5}
       folder: control                    # default: the folder of the launch file
 
@@ -81,7 +84,7 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(problems) => {
-            problems.iter().for_each(|problem| eprintln!("{problem}"));
+            problems.iter().for_each(|problem| print_err(&format!("{problem}\n")));
             ExitCode::from(COULD_NOT_RUN)
         }
     }
@@ -92,18 +95,25 @@ fn run_programs(programs: &[Program], limits: Limits) -> Result<bool, Problem> {
     let output = Arc::new(Output::new(programs.iter().map(|program| program.component.clone()).collect()));
     let (sender, events) = channel();
     listen_for_signals(sender.clone()).map_err(|error| Problem::new(format!("cannot listen for signals: {error}")))?;
+    let reports = Reports::new(Arc::clone(&output));
     // Values are dropped in the opposite order: the guard ends while the programs are not reaped yet, so that the group
     // numbers that it knows are still theirs.
-    let mut supervisor = Supervisor::new(events, Arc::clone(&output), limits);
+    let mut supervisor = Supervisor::new(events, &reports, limits);
     let mut guard = OrphanGuard::start().map_err(|error| Problem::new(format!("cannot start the guard: {error}")))?;
     for (component, program) in programs.iter().enumerate() {
         let started = Running::start(component, program, &mut guard, &output, &sender);
-        supervisor.add(started.map_err(|error| {
-            Problem::new(format!("cannot start component `{}`: {error}", program.component))
-                .help("the components that were started have been stopped again")
-        })?);
+        supervisor.add(started.map_err(|error| cannot_start(program, &error))?);
     }
-    Ok(supervisor.wait_for_all())
+    let all_in_order = supervisor.wait_for_all();
+    drop(guard);
+    drop(supervisor);
+    reports.finish(limits.grace);
+    Ok(all_in_order)
+}
+
+fn cannot_start(program: &Program, error: &io::Error) -> Problem {
+    Problem::new(format!("cannot start component `{}`: {error}", program.component))
+        .help("the components that were started have been stopped again")
 }
 
 /// Turns the signals that ask us to stop into events. They are blocked in this thread and so in all that it starts, and

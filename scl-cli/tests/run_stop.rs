@@ -118,6 +118,16 @@ fn nobody_reading_stops_the_run() {
     assert!(process.wait().unwrap().code().is_some());
 }
 
+#[test]
+fn a_reader_that_takes_nothing_does_not_keep_the_run_from_stopping() {
+    let system = System::of(&[("sensor", "exec yes")]);
+    let mut run = system.start(&["--grace", "1s"]);
+    // From here on nobody reads, so the pipes fill and every writer waits.
+    run.wait_for_line("sensor | y");
+    run.signal("-TERM");
+    assert_eq!(run.wait_unread().code(), Some(0));
+}
+
 /// Starts a component that holds the pipe `alive` open, with a child that holds it too.
 fn start_family(system: &System) -> system::Started {
     let mut run = system.start(&NO_END_OF_GRACE);

@@ -7,7 +7,7 @@
 //!   sensor:
 //!     command: [./sensor, --rate, 100]    # a list is executed as it is
 //!   controller:
-//!     command: ./controller | tee log     # a text is given to the shell
+//!     command: ./controller 2>> log       # a text is given to the shell
 //!     environment: {GAIN: 0.5}
 //!     folder: control                     # where it runs; default: the folder of this file
 //! ```

@@ -7,6 +7,7 @@
 //! - One `scl __guard` holds the read end of a pipe whose write end only `scl run` holds. When the pipe ends, it kills
 //!   the whole process group of each component, and so what the programs have started in their turn.
 
+use crate::print::print_err;
 use clap::Args;
 use nix::sys::signal::{SigSet, Signal, killpg};
 use nix::unistd::Pid;
@@ -49,7 +50,7 @@ pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
     // `scl run` blocks these signals to wait for them, and a program would inherit that.
     let unblocked = stop_signals().thread_unblock();
     if let Err(error) = unblocked.and_then(|()| die_with_parent()) {
-        eprintln!("scl: cannot prepare the start: {error}");
+        print_err(&format!("scl: cannot prepare the start: {error}\n"));
         return ExitCode::from(CANNOT_EXECUTE);
     }
     // The parent may have ended before the kernel knew of our wish; then nobody would ever stop this program.
@@ -58,7 +59,7 @@ pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
     }
     let [program, rest @ ..] = arguments.command.as_slice() else { return ExitCode::from(CANNOT_EXECUTE) };
     let error = Command::new(program).args(rest).exec();
-    eprintln!("scl: cannot execute `{}`: {error}", program.display());
+    print_err(&format!("scl: cannot execute `{}`: {error}\n", program.display()));
     ExitCode::from(CANNOT_EXECUTE)
 }
 

@@ -78,16 +78,15 @@ impl Output {
         Ok(())
     }
 
-    /// Says something about a component, on standard error.
-    pub(crate) fn report(&self, component: usize, text: &str) {
-        let line = format!("{}  {text}\n", self.painted_name(component, Stream::Err));
-        // When standard error is gone there is nobody left to tell.
-        let _ = self.write(Stream::Err, line.as_bytes());
+    /// The name of a component as it stands before a report on it.
+    pub(crate) fn report_name(&self, component: usize) -> String {
+        self.painted_name(component, Stream::Err)
     }
 
-    /// Says something about the whole run, on standard error.
-    pub(crate) fn announce(&self, text: &str) {
-        let _ = self.write(Stream::Err, format!("scl: {text}\n").as_bytes());
+    /// Writes a report of our own, on standard error.
+    pub(crate) fn write_report(&self, line: &str) {
+        // When standard error is gone there is nobody left to tell.
+        let _ = self.write(Stream::Err, line.as_bytes());
     }
 
     fn painted_name(&self, component: usize, stream: Stream) -> String {

@@ -4,6 +4,7 @@ use super::cargo_package::{BuiltProgram, build_package};
 use super::launch_file::{LaunchComponent, LaunchFile, parse_launch_file};
 use super::problem::{Problem, quoted_list};
 use super::program::{Program, check_programs};
+use crate::print::print_err;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -69,7 +70,7 @@ fn note_missing(launch: &LaunchFile, components: &[String]) {
     let is_launched = |name: &String| launch.components.iter().any(|component| component.name == *name);
     let missing: Vec<&str> = components.iter().filter(|name| !is_launched(name)).map(String::as_str).collect();
     if !missing.is_empty() {
-        eprintln!("note: not in the launch file, so not started: {}", quoted_list(missing));
+        print_err(&format!("note: not in the launch file, so not started: {}\n", quoted_list(missing)));
     }
 }
 

@@ -2,9 +2,8 @@
 
 use super::children::{Event, Running};
 use super::ending::Ending;
-use super::output::Output;
+use super::reports::Reports;
 use nix::sys::signal::Signal;
-use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
@@ -39,22 +38,22 @@ struct Component {
 
 /// Watches the programs until all have ended.
 #[derive(Debug)]
-pub(crate) struct Supervisor {
+pub(crate) struct Supervisor<'a> {
     components: Vec<Component>,
     events: Receiver<Event>,
-    output: Arc<Output>,
+    reports: &'a Reports,
     grace: Duration,
     phase: Phase,
     failed: bool,
 }
 
-impl Supervisor {
+impl<'a> Supervisor<'a> {
     /// No programs yet; the time of the run counts from here.
-    pub(crate) fn new(events: Receiver<Event>, output: Arc<Output>, limits: Limits) -> Supervisor {
+    pub(crate) fn new(events: Receiver<Event>, reports: &'a Reports, limits: Limits) -> Self {
         // A time too far to be counted is never.
         let until = limits.run_for.and_then(|time| Instant::now().checked_add(time));
         let phase = Phase::Running { until };
-        Self { components: Vec::new(), events, output, grace: limits.grace, phase, failed: false }
+        Self { components: Vec::new(), events, reports, grace: limits.grace, phase, failed: false }
     }
 
     /// Takes charge of a program that has just been started; the order is that of the component numbers in events.
@@ -113,7 +112,7 @@ impl Supervisor {
     fn take_request(&mut self, signal: Signal) {
         match self.phase {
             Phase::Running { .. } => {
-                self.output.announce(&format!("stopping on {}; once more kills at once", signal.as_str()));
+                self.reports.announce(&format!("stopping on {}; once more kills at once", signal.as_str()));
                 self.stop(signal);
             }
             Phase::Stopping { .. } => self.kill(),
@@ -126,7 +125,7 @@ impl Supervisor {
         match self.phase {
             Phase::Running { until: Some(until) } if until <= now => self.stop(Signal::SIGTERM),
             Phase::Stopping { kill_at: Some(kill_at), .. } if kill_at <= now => {
-                self.output.announce(&format!("not stopped within {:?}: {}", self.grace, self.names_of_living()));
+                self.reports.announce(&format!("not stopped within {:?}: {}", self.grace, self.names_of_living()));
                 self.kill();
             }
             _ => {}
@@ -163,7 +162,7 @@ impl Supervisor {
 
     fn names_of_living(&self) -> String {
         let living = self.components.iter().enumerate().filter(|(_, component)| component.ended.is_none());
-        living.map(|(index, _)| format!("`{}`", self.output.name(index))).collect::<Vec<_>>().join(", ")
+        living.map(|(index, _)| format!("`{}`", self.reports.name(index))).collect::<Vec<_>>().join(", ")
     }
 
     /// Reports each end once, after the last output of its component.
@@ -173,7 +172,7 @@ impl Supervisor {
             if component.open_streams == 0 || at.elapsed() >= LATE_OUTPUT {
                 component.reported = true;
                 let after = at.saturating_duration_since(component.program.started).as_secs_f64();
-                self.output.report(index, &format!("{ending} after {after:.1} s"));
+                self.reports.report(index, &format!("{ending} after {after:.1} s"));
             }
         }
     }

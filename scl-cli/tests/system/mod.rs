@@ -101,6 +101,11 @@ impl Started {
         kill(signal, self.process_id());
     }
 
+    /// Waits for the end without reading another byte.
+    pub(crate) fn wait_unread(mut self) -> ExitStatus {
+        self.process.wait().unwrap()
+    }
+
     /// Waits for the end; gives the rest of both streams.
     pub(crate) fn finish(mut self) -> (ExitStatus, String, String) {
         let (mut out, mut err) = (String::new(), String::new());
