@@ -6,7 +6,7 @@ mod system;
 use system::{FOREVER, System, kill, wait_for_writers_to_end, without_times};
 
 /// Ignores what asks it to stop; says so each time.
-const STUBBORN: &str = "trap 'echo caught' INT TERM; echo ready; while :; do tail -f /dev/null & wait; done";
+const STUBBORN: &str = "trap 'echo caught' INT TERM; echo ready; while :; do tail -f /dev/null >/dev/null & wait; done";
 /// Long enough that only another reason can end the test.
 const NO_END_OF_GRACE: [&str; 2] = ["--grace", "1h"];
 
@@ -51,7 +51,8 @@ fn a_failed_component_stops_the_others() {
 #[test]
 fn a_signal_is_passed_on_and_a_clean_stop_is_success() {
     for (signal, word) in [("-INT", "INT"), ("-TERM", "TERM"), ("-HUP", "HUP")] {
-        let stopping = format!("trap 'echo got {word}; exit 0' {word}; echo ready; tail -f /dev/null & wait");
+        let stopping =
+            format!("trap 'echo got {word}; exit 0' {word}; echo ready; tail -f /dev/null >/dev/null & wait");
         let system = System::of(&[("sensor", &stopping)]);
         let mut run = system.start(&NO_END_OF_GRACE);
         run.wait_for_line("sensor | ready");
@@ -65,7 +66,7 @@ fn a_signal_is_passed_on_and_a_clean_stop_is_success() {
 
 #[test]
 fn a_failure_while_stopping_is_a_failure() {
-    let system = System::of(&[("sensor", "trap 'exit 9' TERM; echo ready; tail -f /dev/null & wait")]);
+    let system = System::of(&[("sensor", "trap 'exit 9' TERM; echo ready; tail -f /dev/null >/dev/null & wait")]);
     let mut run = system.start(&NO_END_OF_GRACE);
     run.wait_for_line("sensor | ready");
     run.signal("-TERM");
@@ -101,7 +102,7 @@ fn who_does_not_stop_in_time_is_named_and_killed() {
 
 #[test]
 fn what_a_program_leaves_behind_ends_with_it() {
-    let system = System::of(&[("sensor", "exec 3>alive; (trap '' TERM; tail -f /dev/null) & echo started")]);
+    let system = System::of(&[("sensor", "exec 3>alive; (trap '' TERM; tail -f /dev/null >/dev/null) & echo started")]);
     let pipe = system.make_pipe("alive");
     let run = system.start(&NO_END_OF_GRACE);
     assert_eq!(wait_for_writers_to_end(&pipe), "");
@@ -135,7 +136,7 @@ fn start_family(system: &System) -> system::Started {
     run
 }
 
-const FAMILY: &str = "exec 3>alive; tail -f /dev/null & echo ready; tail -f /dev/null & wait";
+const FAMILY: &str = "exec 3>alive; tail -f /dev/null >/dev/null & echo ready; tail -f /dev/null >/dev/null & wait";
 
 #[test]
 fn no_orphan_survives_a_killed_runner() {
@@ -150,7 +151,7 @@ fn no_orphan_survives_a_killed_runner() {
 
 #[test]
 fn the_programs_end_even_if_the_guard_was_killed_before_the_runner() {
-    let system = System::of(&[("sensor", "exec 3>alive; echo ready; exec tail -f /dev/null")]);
+    let system = System::of(&[("sensor", "exec 3>alive; echo ready; exec tail -f /dev/null >/dev/null")]);
     let pipe = system.make_pipe("alive");
     let reader = std::thread::spawn(move || wait_for_writers_to_end(&pipe));
     let run = start_family(&system);

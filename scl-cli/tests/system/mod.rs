@@ -6,8 +6,8 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, ExitStatus, Output, Stdio};
 
-/// A program that never ends by itself and holds no trap.
-pub(crate) const FOREVER: &str = "exec tail -f /dev/null";
+/// A program that never ends by itself. (`tail` would notice the end of a pipe to which it writes.)
+pub(crate) const FOREVER: &str = "exec tail -f /dev/null >/dev/null";
 
 /// A folder with a system in it.
 pub(crate) struct System {
