@@ -11,6 +11,8 @@
 //!     environment: {GAIN: 0.5}
 //!     folder: control                     # where it runs; default: the folder of this file
 //! ```
+//!
+//! A number is passed on as YAML understands it (`0.50` becomes `0.5`); in quotes it stays as it is written.
 
 use super::launch_text::LaunchText;
 use super::problem::{Problem, closest_name, quoted_list};
@@ -239,3 +241,6 @@ fn shown(value: &Value) -> String {
         scalar => format!("`{}`", scalar_text(scalar).unwrap_or_default()),
     }
 }
+
+#[cfg(test)]
+mod tests;
