@@ -60,6 +60,11 @@ impl Diagnostic {
         Self::new(code, Severity::Warning, message, Some(Label { span: at, text: label.into() }))
     }
 
+    /// A lint, off unless asked for, with a headline and its place.
+    pub fn lint(code: &'static str, message: impl Into<String>, at: Span, label: impl Into<String>) -> Self {
+        Self::new(code, Severity::Lint, message, Some(Label { span: at, text: label.into() }))
+    }
+
     /// An error about a file that has no text to show.
     pub fn fileless(code: &'static str, message: impl Into<String>) -> Self {
         Self::new(code, Severity::Error, message, None)

@@ -33,10 +33,10 @@ pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Mod
     let mut reader = Reader { source, file, problems: Diagnostics::new(), model: Model::default() };
     reader.read_root(&tree);
     let Reader { model, problems: found, .. } = reader;
-    if tree.error.is_none() {
-        problems.append(found);
-    } else {
-        found.discard();
+    // What is wrong with the shape may be a consequence, so it waits until the text can be read to its end.
+    match tree.error.is_some() || tree.too_deep.is_some() {
+        true => found.discard(),
+        false => problems.append(found),
     }
     model
 }
@@ -51,7 +51,7 @@ struct Reader<'s> {
 
 impl Reader<'_> {
     fn read_root(&mut self, tree: &Tree) {
-        self.model.cut_off = tree.error.is_some();
+        self.model.cut_off = tree.error.is_some() || tree.too_deep.is_some();
         match &tree.root {
             Some(Node { kind: NodeKind::Mapping { entries, .. }, .. }) => self.read_sections(entries),
             Some(root) if !root.is_null() && !matches!(root.kind, NodeKind::Unread) => {

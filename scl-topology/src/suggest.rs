@@ -28,6 +28,42 @@ pub(crate) fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
     near.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
+/// What people call the kinds of gates elsewhere.
+const KIND_WORDS: [(&str, &[&str]); 6] = [
+    ("pub", &["publish", "publisher", "publishes", "out", "output", "source", "sender", "topic"]),
+    ("sub", &["subscribe", "subscriber", "subscribes", "in", "input", "sink", "receiver", "listener"]),
+    ("req", &["client", "request", "requester", "call", "caller", "ask"]),
+    ("rep", &["server", "service", "reply", "replier", "response", "responder", "answer"]),
+    ("push", &["pusher", "pushes"]),
+    ("pull", &["puller", "pulls"]),
+];
+
+/// The kinds of gate that a word may have meant, at most three: in another case, by another name, or misspelt by one
+/// letter.
+pub(crate) fn kind(word: &str) -> Vec<&'static str> {
+    let lower = word.to_lowercase();
+    let known = KIND_WORDS.iter().find(|(kind, synonyms)| *kind == lower || synonyms.contains(&lower.as_str()));
+    match known {
+        Some((kind, _)) => vec![kind],
+        None => similar(word, KIND_WORDS.iter().map(|(kind, _)| *kind)),
+    }
+}
+
+/// The candidates that consist of the same parts in another order, or that end with the same part:
+/// `Measurement` and `Measurement.uav` may have meant `uav.Measurement`.
+pub(crate) fn same_parts<'a>(dotted: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let parts = sorted_parts(dotted);
+    let last = dotted.rsplit('.').next();
+    let fits = |candidate: &&str| sorted_parts(candidate) == parts || candidate.rsplit('.').next() == last;
+    candidates.into_iter().filter(fits).take(MOST).collect()
+}
+
+fn sorted_parts(dotted: &str) -> Vec<String> {
+    let mut parts: Vec<String> = dotted.split('.').map(str::to_lowercase).collect();
+    parts.sort();
+    parts
+}
+
 /// How far two lower-case words are apart, if not more than `limit`.
 fn distance(word: &str, candidate: &str, limit: usize) -> Option<usize> {
     // An abbreviation, such as `que` for `queue`, is as good as the last typing error that we accept.
@@ -43,7 +79,30 @@ fn distance(word: &str, candidate: &str, limit: usize) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::similar;
+    use super::{kind, same_parts, similar};
+
+    #[test]
+    fn kinds_have_other_names() {
+        let cases: [(&str, &[&str]); 6] = [
+            ("subscribe", &["sub"]),
+            ("PUB", &["pub"]),
+            ("server", &["rep"]),
+            ("sbu", &["sub"]),
+            ("pusj", &["push"]),
+            ("teapot", &[]),
+        ];
+        for (word, expected) in cases {
+            assert_eq!(kind(word), expected, "{word}");
+        }
+    }
+
+    #[test]
+    fn parts_in_another_order_are_found() {
+        let types = ["uav.Measurement", "uav.Status", "log.Status"];
+        assert_eq!(same_parts("Measurement.uav", types), ["uav.Measurement"]);
+        assert_eq!(same_parts("Status", types), ["uav.Status", "log.Status"]);
+        assert!(same_parts("Command", types).is_empty());
+    }
 
     #[test]
     fn nearest_names_come_first() {

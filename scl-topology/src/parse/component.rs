@@ -146,7 +146,7 @@ fn unread_component(name: Spanned<String>) -> ComponentModel {
 pub(super) fn head(item: &Node, fields: &Fields<'_>, source: &crate::source::SourceFile) -> Span {
     let start = super::with_dash(item.span, source);
     match fields.list.first() {
-        Some(first) => Span { end: end_with_colon(first.key_span, source), ..start },
+        Some(first) => Span { end: first.key_span.end, ..start },
         None => start,
     }
 }

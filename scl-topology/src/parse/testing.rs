@@ -1,9 +1,10 @@
 //! What the tests of the rules share.
 
 use super::parse;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, render};
 use crate::model::Model;
 use crate::source::Sources;
+use expect_test::Expect;
 
 /// Parses a text under the name `topology.yaml`; the problems are sorted by position.
 pub(super) fn parse_text(text: &str) -> (Model, Vec<Diagnostic>, Sources) {
@@ -12,4 +13,25 @@ pub(super) fn parse_text(text: &str) -> (Model, Vec<Diagnostic>, Sources) {
     let mut problems = Diagnostics::new();
     let model = parse(&sources, file, &mut problems);
     (model, problems.into_sorted(), sources)
+}
+
+/// The codes of a text's problems, sorted by position.
+pub(super) fn codes(text: &str) -> Vec<&'static str> {
+    parse_text(text).1.iter().map(|problem| problem.code).collect()
+}
+
+/// Checks that an example gives this code, no other error, and these words, with either line end and with a byte order
+/// mark.
+pub(super) fn check(code: &str, text: &str, expected: Expect) {
+    let spellings = [text.to_owned(), text.replace('\n', "\r\n"), format!("\u{feff}{text}")];
+    let [plain, others @ ..] = spellings.map(|spelling| {
+        let (_, problems, sources) = parse_text(&spelling);
+        let other = problems.iter().find(|problem| problem.code != code && problem.severity == Severity::Error);
+        assert!(other.is_none(), "{other:?} in {spelling:?}");
+        let texts: Vec<String> =
+            problems.iter().filter(|problem| problem.code == code).map(|problem| render(problem, &sources)).collect();
+        texts.join("\n\n")
+    });
+    expected.assert_eq(&plain);
+    others.iter().for_each(|other| assert_eq!(*other, plain));
 }

@@ -6,77 +6,13 @@ use crate::model::Model;
 use expect_test::{Expect, expect};
 
 /// Listing 1 of the paper, byte for byte.
-pub(super) const LISTING_1: &str = "\
-components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: actuator
-    gates:
-      - setpoint: sub
-  - name: controller
-    gates:
-      - sensor: sub
-      - actuator: pub
-      - events: pub
-      - commands: rep
-  - name: user_interface
-    gates:
-      - events: sub
-      - commands: req
-connections:
-  - [sensor.measurements, controller.sensor]
-  - [actuator.setpoint, controller.actuator]
-  - [controller.events, user_interface.events]
-  - [controller.commands, user_interface.commands]
-";
+const LISTING_1: &str = include_str!("../../tests/files/listing_1.yaml");
 
 /// The same system with types, and every option and section.
-pub(super) const TYPED: &str = "\
-scl: 1
-system: rover
-schemas: [rover.proto]
-codec: protobuf
-x-owner: {team: control}
-components:
-  - name: sensor
-    doc: Reads the inertial unit.
-    optional: true
-    gates:
-      - measurements: {pub: rover.Measurement, doc: One reading per period.}
-  - name: actuator
-    gates:
-      - setpoint: {sub: rover.Setpoint, queue: 1}          # only the newest matters
-  - name: controller
-    gates:
-      - sensor: {sub: rover.Measurement, queue: 1}
-      - actuator: pub
-      - events: {pub: rover.Event, backpressure: true, codec: my_crate::Flat}
-      - commands: {rep: rover.Command -> rover.Status, unconnected: ok}
-      - work: {push: rover.Job, share: true}
-  - name: user_interface
-    gates:
-      - events:
-          sub: rover.Event
-          queue: 1000
-          when_full: wait
-      - commands: {req: rover.Command -> rover.Status, timeout: 500ms}
-connections:
-  - [sensor.measurements, controller.sensor]
-  - - actuator.setpoint
-    - controller.actuator
-";
+const EVERY_KEY: &str = include_str!("../../tests/files/every_key.yaml");
 
-/// The same shapes in flow style, as JSON writes them.
-pub(super) const JSON: &str = r#"{
-  "system": "rover",
-  "components": [
-    {"name": "sensor", "gates": [{"measurements": {"pub": "rover.M", "backpressure": true}}]},
-    {"name": "controller", "optional": false, "gates": [{"sensor": "sub"}, {"log": {"push": "A"}}]}
-  ],
-  "connections": [["sensor.measurements", "controller.sensor"]]
-}
-"#;
+/// The same shapes in flow style, as FLOW writes them.
+const FLOW: &str = include_str!("../../tests/files/flow.json");
 
 fn dump(model: &Model) -> String {
     let mut out = String::new();
@@ -143,7 +79,7 @@ fn listing_1() {
 #[test]
 fn every_key() {
     check_valid(
-        TYPED,
+        EVERY_KEY,
         expect![[r#"
         Some("rover") ["rover.proto"] Some("protobuf")
         sensor optional Some("Reads the inertial unit.")
@@ -168,7 +104,7 @@ fn every_key() {
 #[test]
 fn flow_style() {
     check_valid(
-        JSON,
+        FLOW,
         expect![[r#"
         Some("rover") [] None
         sensor None
@@ -183,7 +119,7 @@ fn flow_style() {
 
 #[test]
 fn spans_cover_what_is_written() {
-    let (model, _, sources) = parse_text(TYPED);
+    let (model, _, sources) = parse_text(EVERY_KEY);
     let events = &model.components[3].gates[0];
     let spans =
         [events.span, events.name.span, events.kind.span, events.options[0].value.span, model.connections[1].span];

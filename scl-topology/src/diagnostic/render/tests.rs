@@ -24,7 +24,11 @@ fn check(text: &str, primary: &str, secondary: &[&str], expected: Expect) {
 #[test]
 fn two_places_far_apart() {
     let text = "a: 1\nb: 2\nc: 3\nd: 4\ne: 5\nf: 6\n";
-    check(text, "f", &["b"], expect![[r#"
+    check(
+        text,
+        "f",
+        &["b"],
+        expect![[r#"
         error: [SCL0999] a headline
          --> dir/topology.yaml:6:1
           |
@@ -36,8 +40,13 @@ fn two_places_far_apart() {
           |
           = help: one
                   two
-          = note: the rule"#]]);
-    check(&text.replace('\n', "\r\n"), "f", &["b"], expect![[r#"
+          = note: the rule"#]],
+    );
+    check(
+        &text.replace('\n', "\r\n"),
+        "f",
+        &["b"],
+        expect![[r#"
         error: [SCL0999] a headline
          --> dir/topology.yaml:6:1
           |
@@ -49,12 +58,17 @@ fn two_places_far_apart() {
           |
           = help: one
                   two
-          = note: the rule"#]]);
+          = note: the rule"#]],
+    );
 }
 
 #[test]
 fn columns_count_characters_and_carets_count_cells() {
-    check("名前: 漢字 x # end", "漢字", &["x"], expect![[r#"
+    check(
+        "名前: 漢字 x # end",
+        "漢字",
+        &["x"],
+        expect![[r#"
         error: [SCL0999] a headline
          --> dir/topology.yaml:1:5
           |
@@ -65,8 +79,13 @@ fn columns_count_characters_and_carets_count_cells() {
           |
           = help: one
                   two
-          = note: the rule"#]]);
-    check("a:\tb\tc", "b", &["c"], expect![[r#"
+          = note: the rule"#]],
+    );
+    check(
+        "a:\tb\tc",
+        "b",
+        &["c"],
+        expect![[r#"
         error: [SCL0999] a headline
          --> dir/topology.yaml:1:4
           |
@@ -77,8 +96,13 @@ fn columns_count_characters_and_carets_count_cells() {
           |
           = help: one
                   two
-          = note: the rule"#]]);
-    check("e\u{301}: x", "x", &[], expect![[r#"
+          = note: the rule"#]],
+    );
+    check(
+        "e\u{301}: x",
+        "x",
+        &[],
+        expect![[r#"
         error: [SCL0999] a headline
          --> dir/topology.yaml:1:5
           |
@@ -87,12 +111,17 @@ fn columns_count_characters_and_carets_count_cells() {
           |
           = help: one
                   two
-          = note: the rule"#]]);
+          = note: the rule"#]],
+    );
 }
 
 #[test]
 fn points_and_ends_of_lines() {
-    check("a:\r\nb:", "", &[], expect![[r#"
+    check(
+        "a:\r\nb:",
+        "",
+        &[],
+        expect![[r#"
         error: [SCL0999] a headline
          --> dir/topology.yaml:1:1
           |
@@ -101,8 +130,13 @@ fn points_and_ends_of_lines() {
           |
           = help: one
                   two
-          = note: the rule"#]]);
-    check("", "", &[], expect![[r#"
+          = note: the rule"#]],
+    );
+    check(
+        "",
+        "",
+        &[],
+        expect![[r#"
         error: [SCL0999] a headline
          --> dir/topology.yaml:1:1
           |
@@ -111,8 +145,13 @@ fn points_and_ends_of_lines() {
           |
           = help: one
                   two
-          = note: the rule"#]]);
-    check("a:\r\nb: c\r\n", "a:\r\nb", &[], expect![[r#"
+          = note: the rule"#]],
+    );
+    check(
+        "a:\r\nb: c\r\n",
+        "a:\r\nb",
+        &[],
+        expect![[r#"
         error: [SCL0999] a headline
          --> dir/topology.yaml:1:1
           |
@@ -121,7 +160,8 @@ fn points_and_ends_of_lines() {
           |
           = help: one
                   two
-          = note: the rule"#]]);
+          = note: the rule"#]],
+    );
 }
 
 #[test]
@@ -141,7 +181,8 @@ fn a_label_in_another_file() {
          ::: topology.yaml:1:11
           |
         1 | schemas: [a.proto]
-          |           ------- named here"#]].assert_eq(&render(&problem, &sources));
+          |           ------- named here"#]]
+    .assert_eq(&render(&problem, &sources));
 }
 
 #[test]
@@ -150,7 +191,8 @@ fn without_a_place() {
     expect![[r#"
         error: [SCL0001] no \u{1b}[31m file\nhere
          |
-         = help: look"#]].assert_eq(&render(&problem, &Sources::new()));
+         = help: look"#]]
+    .assert_eq(&render(&problem, &Sources::new()));
 }
 
 #[test]
@@ -163,7 +205,8 @@ fn headless_starts_with_the_code() {
          --> t.yaml:1:4
           |
         1 | a: b
-          |    ^"#]].assert_eq(&render_headless(&problem, &sources));
+          |    ^"#]]
+    .assert_eq(&render_headless(&problem, &sources));
     assert!(render_styled(&problem, &sources).contains("\u{1b}["));
 }
 

@@ -7,12 +7,18 @@ use crate::yaml::{Anchor, Node, NodeKind, Tree};
 
 const CODE: &str = "SCL0111";
 
+/// Only the first anchors get a help made for their place, as finding it takes a walk over the whole tree.
+const EXPLAINED: usize = 20;
+
 /// Reports each anchor with its aliases, and each alias without an anchor.
 pub(super) fn check(tree: &Tree, place: &Place<'_>, problems: &mut Diagnostics) {
-    problems.extend(tree.anchors.iter().map(|anchor| diagnose(anchor, tree, place)));
+    for (number, anchor) in tree.anchors.iter().enumerate() {
+        let root = tree.root.as_ref().filter(|_| number < EXPLAINED);
+        problems.push(diagnose(anchor, root, place));
+    }
 }
 
-fn diagnose(anchor: &Anchor, tree: &Tree, place: &Place<'_>) -> Diagnostic {
+fn diagnose(anchor: &Anchor, root: Option<&Node>, place: &Place<'_>) -> Diagnostic {
     const MESSAGE: &str = "YAML anchors and aliases are not supported in a topology";
     let first_use = anchor.aliases.first().copied();
     let mut problem = match (anchor.definition, first_use) {
@@ -26,7 +32,7 @@ fn diagnose(anchor: &Anchor, tree: &Tree, place: &Place<'_>) -> Diagnostic {
         }
     }
     let help = match first_use {
-        Some(alias) => help(alias, tree, place),
+        Some(alias) => help(alias, root, place),
         None => "remove it; nothing refers to it".to_owned(),
     };
     problem.help(help).note(
@@ -35,8 +41,8 @@ fn diagnose(anchor: &Anchor, tree: &Tree, place: &Place<'_>) -> Diagnostic {
     )
 }
 
-fn help(alias: Span, tree: &Tree, place: &Place<'_>) -> String {
-    match tree.root.as_ref().and_then(|root| named_place(root, alias)) {
+fn help(alias: Span, root: Option<&Node>, place: &Place<'_>) -> String {
+    match root.and_then(|root| named_place(root, alias)) {
         Some((key, owner)) => format!("write the {key} of `{owner}` out"),
         None => format!("write the value out in the place of `{}`", snippet(place, alias)),
     }
@@ -66,5 +72,39 @@ fn text(node: &Node) -> Option<&str> {
     match &node.kind {
         NodeKind::Scalar { text, .. } => Some(text),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: a
+    gates: &g
+      - x: pub
+  - name: b
+    gates: *g
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0111",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0111] YAML anchors and aliases are not supported in a topology
+             --> topology.yaml:3:12
+              |
+            3 |     gates: &g
+              |            ^^ anchor defined here
+            ...
+            6 |     gates: *g
+              |            -- used here
+              |
+              = help: write the gates of `b` out
+              = note: a topology is a contract that people read; expanded aliases also make error positions ambiguous and allow "billion laughs" files"#]],
+        );
     }
 }

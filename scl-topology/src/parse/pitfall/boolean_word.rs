@@ -41,3 +41,34 @@ fn better(word: &str) -> &'static str {
         _ => "rejected",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: heater
+    gates:
+      - on: sub
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0108",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0108] `on` is a boolean in YAML 1.1
+             --> topology.yaml:4:9
+              |
+            4 |       - on: sub
+              |         ^^ YAML 1.1 tools such as PyYAML read this as `true`
+              |
+              = help: quote it: "on"
+              = help: or choose a name that says more: `switch_on`
+              = note: a topology file is read by bindings in several languages, so it must mean the same in YAML 1.1 and 1.2
+              = note: PyYAML: yes, no, on, off, true, false in lower, Title and UPPER case; YAML 1.1 also lists y and n ("the Norway problem")"#]],
+        );
+    }
+}

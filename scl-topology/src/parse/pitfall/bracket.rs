@@ -93,3 +93,32 @@ fn last_word(inside: &str) -> Option<&str> {
     })?;
     line.split([' ', ',', '[', ']', '{', '}']).rfind(|word| !word.is_empty())
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "connections:
+  - [sensor.measurements, controller.sensor
+  - [controller.actuator, actuator.setpoint]
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0102",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0102] this `[` is never closed
+             --> topology.yaml:2:5
+              |
+            2 |   - [sensor.measurements, controller.sensor
+              |     ^ opened here
+            3 |   - [controller.actuator, actuator.setpoint]
+              |   ---------------------- a new list item starts here, still inside the bracket
+              |
+              = help: add `]` after `controller.sensor`"#]],
+        );
+    }
+}

@@ -40,3 +40,31 @@ fn leading_directives(text: &str) -> Vec<Range<usize>> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "%YAML 1.1
+---
+components: []
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0118",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0118] YAML directives are not supported
+             --> topology.yaml:1:1
+              |
+            1 | %YAML 1.1
+              | ^^^^^^^^^ directive
+              |
+              = help: remove lines 1 and 2
+              = note: a topology is read as YAML 1.2; see SCL0108 for the words that differ"#]],
+        );
+    }
+}

@@ -17,3 +17,37 @@ pub(in crate::parse) fn diagnose(second: &Field<'_>, first: Span, owner: &str) -
         .help(help)
         .note("YAML tools disagree which one wins: PyYAML silently keeps the second")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+    gates:
+      - status: pub
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0107",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0107] the key `gates` is written twice in this component
+             --> topology.yaml:5:5
+              |
+            3 |     gates:
+              |     ----- first time
+            4 |       - measurements: pub
+            5 |     gates:
+              |     ^^^^^ second time
+              |
+              = help: merge the two lists
+              = note: YAML tools disagree which one wins: PyYAML silently keeps the second"#]],
+        );
+    }
+}

@@ -20,3 +20,32 @@ pub(super) fn find(tree: &Tree, place: &Place<'_>) -> Option<Diagnostic> {
     let example = "a minimal topology:\ncomponents:\n  - name: sensor\n    gates:\n      - measurements: pub";
     Some(Diagnostic::error("SCL0115", "the topology file is empty", span, label).help(example))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "# TODO
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0115",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0115] the topology file is empty
+             --> topology.yaml:1:1
+              |
+            1 | # TODO
+              | ^^^^^^ only comments here
+              |
+              = help: a minimal topology:
+                      components:
+                        - name: sensor
+                          gates:
+                            - measurements: pub"#]],
+        );
+    }
+}

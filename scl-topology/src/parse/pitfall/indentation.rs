@@ -2,7 +2,7 @@
 
 use super::Place;
 use crate::diagnostic::Diagnostic;
-use crate::yaml::SyntaxError;
+use crate::yaml::{MAX_DEPTH, SyntaxError};
 use std::ops::Range;
 
 const CODE: &str = "SCL0105";
@@ -88,7 +88,7 @@ fn levels_above(text: &str, end: usize) -> Vec<Level> {
 fn levels_of(line: &str, start: usize) -> Vec<Level> {
     let mut levels = Vec::new();
     let mut at = line.len() - line.trim_start_matches(' ').len();
-    while line[at..].starts_with("- ") {
+    while line[at..].starts_with("- ") && levels.len() < MAX_DEPTH {
         levels.push(Level { indent: at, is_dash: true, word: start + at..start + at + 1 });
         at += 1;
         at += line[at..].len() - line[at..].trim_start_matches(' ').len();
@@ -99,4 +99,34 @@ fn levels_of(line: &str, start: usize) -> Vec<Level> {
         levels.push(Level { indent: at, is_dash: rest == "-", word: start + at..start + at + length });
     }
     levels
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: sensor
+   gates:
+      - measurements: pub
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0105",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0105] this line is indented by 3 spaces, which matches no line above it
+             --> topology.yaml:3:4
+              |
+            2 |   - name: sensor
+              |     ---- the keys of this component are indented by 4 spaces
+            3 |    gates:
+              |    ^^^^^ 3 spaces
+              |
+              = help: indent `gates` by 4 spaces"#]],
+        );
+    }
 }

@@ -93,3 +93,31 @@ fn describe(character: char) -> (&'static str, &'static str, &'static str) {
         _ => ("", "YAML does not allow it", REMOVE),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name:\u{a0}sensor
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0117",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0117] invisible character U+00A0 (no-break space)
+             --> topology.yaml:2:10
+              |
+            2 |   - name: sensor
+              |          ^ looks like a space, but YAML does not treat it as one
+              |
+              = help: replace it with an ordinary space
+              = note: such characters usually come from a web page or a word processor
+              = note: same check: U+FEFF inside the file, U+200B..U+200F, U+202A..U+202E (bidirectional control), U+0085, U+2028, U+2029, and control characters below U+0020"#]],
+        );
+    }
+}

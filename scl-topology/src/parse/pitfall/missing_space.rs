@@ -62,3 +62,31 @@ fn split(word: &str) -> Option<(&str, &str)> {
         && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-'));
     (is_word && !value.starts_with([':', '/', '\\'])).then_some((key, value))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name:sensor
+    gates: []
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0103",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0103] missing space after `:`
+             --> topology.yaml:2:9
+              |
+            2 |   - name:sensor
+              |         ^ YAML reads `name:sensor` as one word
+              |
+              = help: write `name: sensor`
+              = note: the parser notices it only on line 3, where it says "mapping values are not allowed in this context""#]],
+        );
+    }
+}

@@ -44,3 +44,31 @@ fn diagnose(what: &str, span: Span, label: &str) -> Diagnostic {
 fn value_label(value: &Node) -> &'static str {
     if value.is_null() { "YAML reads this as \"no value\"" } else { "nothing between the quotes" }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name:
+    gates: []
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0110",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0110] the component name is empty
+             --> topology.yaml:2:5
+              |
+            2 |   - name:
+              |     ^^^^^ no value follows; YAML reads this as `null`
+              |
+              = help: write the name after the colon: `name: sensor`
+              = note: `~` and `null` are also read as "no value""#]],
+        );
+    }
+}

@@ -91,3 +91,31 @@ fn as_name(word: &str) -> String {
     let rest: String = word.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     format!("v{}", rest.trim_matches('_'))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: 1.10
+    gates: []
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0109",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0109] a name is expected here, and `1.10` is a number
+             --> topology.yaml:2:11
+              |
+            2 |   - name: 1.10
+              |           ^^^^ YAML reads this as the number 1.1
+              |
+              = help: names start with a letter: `v1_10`
+              = note: also read as numbers by YAML 1.1 or 1.2: 017, 0o17, 0x1F, 1_000, 12:30:45 (base 60), 1e3, .inf; and dates such as 2024-01-01"#]],
+        );
+    }
+}

@@ -19,3 +19,30 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     let span = place.span(range.start..range.start + 1);
     Some(Diagnostic::error("SCL0104", "this quoted string is never closed", span, "opened here").help(help))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: \"sensor
+    gates: []
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0104",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0104] this quoted string is never closed
+             --> topology.yaml:2:11
+              |
+            2 |   - name: "sensor
+              |           ^ opened here
+              |
+              = help: add the closing `"` at the end of line 2"#]],
+        );
+    }
+}

@@ -30,3 +30,30 @@ pub(super) fn diagnose(at: usize, character: char, place: &Place<'_>) -> Diagnos
 fn ticked(character: char) -> String {
     if character == '`' { "`` ` ``".to_owned() } else { format!("`{character}`") }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: @sensor
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0106",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0106] a value cannot start with `@` in YAML
+             --> topology.yaml:2:11
+              |
+            2 |   - name: @sensor
+              |           ^ reserved character
+              |
+              = help: remove it, or quote the value: "@sensor" (it would then fail SCL0303)
+              = note: also reserved at the start: `` ` `` `%` `&` `*` `!` `|` `>` `'` `"` `#`"#]],
+        );
+    }
+}

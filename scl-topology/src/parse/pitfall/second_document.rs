@@ -13,3 +13,30 @@ pub(super) fn diagnose(place: &Place<'_>, at: Span) -> Diagnostic {
     Diagnostic::error("SCL0114", "a topology is one YAML document; a second one starts here", span, "second document")
         .help(help)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components: []
+---
+connections: []
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0114",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0114] a topology is one YAML document; a second one starts here
+             --> topology.yaml:2:1
+              |
+            2 | ---
+              | ^^^ second document
+              |
+              = help: remove the `---` line"#]],
+        );
+    }
+}

@@ -11,11 +11,10 @@ pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems:
     let Some(&first) = tabs.first() else { return false };
     let mut problem = diagnose(first, "a tab character is used for indentation", place)
         .note("YAML forbids tabs in indentation because their width is not defined");
-    let mut lines: Vec<u32> = tabs.iter().map(|at| place.line(*at)).collect();
-    lines.dedup();
-    if lines.len() > 1 {
-        let last = lines.last().copied().unwrap_or_default();
-        problem = problem.note(format!("{} lines are indented with tabs, up to line {last}", lines.len()));
+    let lines = tabs.chunk_by(|before, after| !text[*before..*after].contains('\n')).count();
+    if lines > 1 {
+        let last = place.line(tabs.last().copied().unwrap_or(first));
+        problem = problem.note(format!("{lines} lines are indented with tabs, up to line {last}"));
     }
     problems.push(problem);
     let mut bytes = std::mem::take(text).into_bytes();
@@ -66,4 +65,31 @@ fn opens_block(line: &str) -> bool {
     let line = line.split(" #").next().unwrap_or(line).trim_end();
     let header = line.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-'));
     header.ends_with(": |") || header.ends_with(": >") || header.ends_with("- |") || header.ends_with("- >")
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+\t- name: sensor
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0101",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0101] a tab character is used for indentation
+             --> topology.yaml:2:1
+              |
+            2 |     - name: sensor
+              | ^^^^ this is a tab (shown as 4 spaces)
+              |
+              = help: replace it with spaces; most editors: "Convert Indentation to Spaces"
+              = note: YAML forbids tabs in indentation because their width is not defined"#]],
+        );
+    }
 }

@@ -30,3 +30,30 @@ fn written(node: &Node, name: &str, source: &SourceFile) -> String {
     let before = source.text().get(line..header).unwrap_or("");
     format!("{}{name}", before.trim_start_matches([' ', '-']))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: |
+      sensor
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0119",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0119] a name must be written on one line
+             --> topology.yaml:2:11
+              |
+            2 |   - name: |
+              |           ^ this starts a text block; its value is "sensor\n" with a line break
+              |
+              = help: write `name: sensor`"#]],
+        );
+    }
+}

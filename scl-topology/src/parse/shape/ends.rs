@@ -88,3 +88,32 @@ fn pairs(first: &str, others: &[String]) -> String {
 fn is_arrow(word: &str) -> bool {
     matches!(word, "->" | "<-" | "<->" | "=>" | "-->" | "→")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components: []
+connections:
+  - [controller.events, user_interface.events, logger.events]
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0211",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0211] a connection joins exactly two gates; this one lists 3
+             --> topology.yaml:3:5
+              |
+            3 |   - [controller.events, user_interface.events, logger.events]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ 3 gates
+              |
+              = help: to send to two subscribers write two connections:
+                      - [controller.events, user_interface.events]
+                      - [controller.events, logger.events]"#]],
+        );
+    }
+}

@@ -89,7 +89,7 @@ pub(in crate::parse) fn several_in_one_item(first: Field<'_>, others: &[&Field<'
     let count = if others.is_empty() { 1 } else { others.len() + 1 };
     let count = if count == 2 { "two".to_owned() } else { count.to_string() };
     let at = others.first().map_or(first.key_span, |other| other.key_span);
-    Diagnostic::error(CODE, format!("{count} gates in one list item ({names})"), at, "a second gate")
+    Diagnostic::error(CODE, format!("{count} gates in one list item ({names})"), at, "the second gate")
         .label(first.key_span, "the first gate")
         .help(match others.first() {
             Some(second) => format!("start the second with `-`: `- {}: ...`", second.key),
@@ -119,4 +119,45 @@ pub(in crate::parse) fn is_list(item: &Node) -> Diagnostic {
 
 fn kinds() -> String {
     format!("kinds: {}", ticked(GateKind::ALL.map(GateKind::word)))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: sensor
+    gates:
+      - measurements
+      - status: pub
+        health: pub
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0210",
+            EXAMPLE,
+            expect![[r#"
+                error: [SCL0210] gate `measurements` has no kind
+                 --> topology.yaml:4:9
+                  |
+                4 |       - measurements
+                  |         ^^^^^^^^^^^^ expected `measurements: pub`
+                  |
+                  = help: write the kind after the name: `- measurements: pub`
+                  = note: kinds: `pub`, `sub`, `req`, `rep`, `push`, `pull`
+
+                error: [SCL0210] two gates in one list item (`status`, `health`)
+                 --> topology.yaml:6:9
+                  |
+                5 |       - status: pub
+                  |         ------ the first gate
+                6 |         health: pub
+                  |         ^^^^^^ the second gate
+                  |
+                  = help: start the second with `-`: `- health: ...`"#]],
+        );
+    }
 }

@@ -30,3 +30,32 @@ fn only_of(option: &str, kind: &str) -> String {
     let words: Vec<String> = kinds.iter().map(|of| format!("`{}`", of.word())).collect();
     format!(", for {} gates", words.join(" and "))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, que: 4}
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0212",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0212] unknown key `que` in gate `sensor.measurements`
+             --> topology.yaml:4:42
+              |
+            4 |       - measurements: {pub: Measurement, que: 4}
+              |                                          ^^^
+              |
+              = help: a key with a similar name exists: `queue`, for `sub` and `pull` gates
+              = note: keys of a `pub` gate: `pub`, `doc`, `codec`, `backpressure`, `unconnected`"#]],
+        );
+    }
+}

@@ -17,3 +17,33 @@ pub(in crate::parse) fn find(component: &Spanned<String>, gates: Option<Field<'_
     }
     Some(problem.help("add a gate, or remove the component").help("if it is meant, write `gates: []`"))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: logger
+    gates:
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0209",
+            EXAMPLE,
+            expect![[r#"
+            warning: [SCL0209] component `logger` has no gates
+             --> topology.yaml:2:11
+              |
+            2 |   - name: logger
+              |           ^^^^^^ it cannot be part of any connection
+            3 |     gates:
+              |     ------ empty
+              |
+              = help: add a gate, or remove the component
+              = help: if it is meant, write `gates: []`"#]],
+        );
+    }
+}

@@ -74,3 +74,33 @@ fn problem(message: String, key: Span, source: &SourceFile) -> Diagnostic {
 fn in_gate(field: Field<'_>) -> String {
     format!("write it into the braces of a gate: `- name: {{pub: Type, {}: ...}}`", field.key)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+    connections:
+      - [sensor.measurements, controller.sensor]
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0214",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0214] `connections` belongs at the top level, not inside component `sensor`
+             --> topology.yaml:5:5
+              |
+            5 |     connections:
+              |     ^^^^^^^^^^^ indented by 4 spaces
+              |
+              = help: move it to column 1"#]],
+        );
+    }
+}

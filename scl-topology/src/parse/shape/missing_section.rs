@@ -20,3 +20,29 @@ pub(in crate::parse) fn diagnose(fields: &Fields<'_>, file: FileId) -> Diagnosti
     Diagnostic::error("SCL0203", MESSAGE, first, label)
         .help("add the section; it declares each component and its gates")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "connections:
+  - [sensor.measurements, controller.sensor]
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0203",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0203] the section `components` is missing
+             --> topology.yaml:1:1
+              |
+            1 | connections:
+              | ^^^^^^^^^^^ this file has only `connections`
+              |
+              = help: add the section; it declares each component and its gates"#]],
+        );
+    }
+}

@@ -23,3 +23,30 @@ pub(in crate::parse) fn not_a_mapping(item: &Node) -> Diagnostic {
         _ => problem.help("write `- name: sensor` and below it `gates:`"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - gates:
+      - measurements: pub
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0208",
+            EXAMPLE,
+            expect![[r#"
+                error: [SCL0208] this component has no name
+                 --> topology.yaml:2:3
+                  |
+                2 |   - gates:
+                  |   ^^^^^^^ `name` is missing
+                  |
+                  = help: add `name: ...`"#]],
+        );
+    }
+}

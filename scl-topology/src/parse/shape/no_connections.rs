@@ -21,3 +21,32 @@ pub(in crate::parse) fn find(
     };
     Some(problem.help("if the gates are wired later, silence this with `connections: []`"))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0206",
+            EXAMPLE,
+            expect![[r#"
+            warning: [SCL0206] the topology has no connections
+             --> topology.yaml:1:1
+              |
+            1 | components:
+              | ^^^^^^^^^^ 1 gate is declared here
+              |
+              = help: add a `connections:` section
+              = help: if the gates are wired later, silence this with `connections: []`"#]],
+        );
+    }
+}

@@ -67,3 +67,31 @@ fn meant(value: &Node, expected: Value) -> Option<String> {
         lower => similar(lower, words.iter().copied()).first().map(|word| (*word).to_owned()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, queue: many}
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0215",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0215] `queue` must be a whole number
+             --> topology.yaml:4:49
+              |
+            4 |       - measurements: {pub: Measurement, queue: many}
+              |                                                 ^^^^ this is text
+              |
+              = help: for example `queue: 16`"#]],
+        );
+    }
+}

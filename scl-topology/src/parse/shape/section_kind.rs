@@ -65,3 +65,35 @@ fn first_key(value: &Node) -> Span {
         _ => value.span,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components:
+  sensor:
+    gates:
+      - measurements: pub
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0204",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0204] `components` must be a list; this is a mapping
+             --> topology.yaml:2:3
+              |
+            2 |   sensor:
+              |   ^^^^^^ a key, where `- name: sensor` is expected
+              |
+              = help: write:
+                      components:
+                        - name: sensor
+                          gates:
+                            - measurements: pub"#]],
+        );
+    }
+}

@@ -24,3 +24,30 @@ pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile) -> Diagnostic
         _ => problem.help("write `components:` and below it a list of components"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "- name: sensor
+  gates:
+    - measurements: pub
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0201",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0201] a topology starts with `components:`, and this file starts with a list
+             --> topology.yaml:1:1
+              |
+            1 | - name: sensor
+              | ^^^^^^^^^^^^^^ list item
+              |
+              = help: put this list under a `components:` key and indent it"#]],
+        );
+    }
+}

@@ -12,3 +12,31 @@ pub(in crate::parse) fn diagnose(field: Field<'_>) -> Diagnostic {
         .note(format!("sections: {}", ticked(SECTIONS)))
         .note("keys that start with `x-` are ignored, for your own use")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "components: []
+conections: []
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0202",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0202] unknown section `conections`
+             --> topology.yaml:2:1
+              |
+            2 | conections: []
+              | ^^^^^^^^^^ not a section of a topology
+              |
+              = help: a section with a similar name exists: `connections`
+              = note: sections: `components`, `connections`, `system`, `schemas`, `codec`, `scl`
+              = note: keys that start with `x-` are ignored, for your own use"#]],
+        );
+    }
+}

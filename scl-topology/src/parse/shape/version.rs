@@ -27,3 +27,29 @@ fn unsupported(field: Field<'_>, version: &str) -> Diagnostic {
     Diagnostic::error("SCL0213", message, field.value.span, "")
         .help(format!("update the `scl` crate (this is scl {own}), or use format {FORMAT}"))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    const EXAMPLE: &str = "scl: 3
+components: []
+";
+
+    #[test]
+    fn example() {
+        check(
+            "SCL0213",
+            EXAMPLE,
+            expect![[r#"
+            error: [SCL0213] this file needs topology format 3; this version of scl reads format 1
+             --> topology.yaml:1:6
+              |
+            1 | scl: 3
+              |      ^
+              |
+              = help: update the `scl` crate (this is scl 0.1.0), or use format 1"#]],
+        );
+    }
+}

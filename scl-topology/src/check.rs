@@ -1,0 +1,121 @@
+//! The checks: a [`Model`] becomes a [`Topology`], or every reason why it cannot is told.
+
+mod backpressure;
+mod cardinality;
+mod codec_agreement;
+mod codec_name;
+mod connection_end;
+mod draft;
+mod duplicate_component;
+mod duplicate_connection;
+mod duplicate_gate;
+mod exchange_type;
+mod finish;
+mod fitting_sender;
+mod gate_kind;
+mod inference;
+mod letter_case;
+mod look_alike;
+mod message_type;
+mod name_characters;
+mod name_length;
+mod name_start;
+mod named;
+mod needless_mark;
+mod option_fit;
+mod option_value;
+mod pair_kinds;
+mod path_length;
+mod payload_type;
+mod prelude_type;
+mod reserved_name;
+mod rust_keyword;
+mod rust_name_collision;
+mod schema_type;
+mod self_connection;
+mod snake_case;
+mod system_name;
+#[cfg(test)]
+pub(crate) mod testing;
+#[cfg(test)]
+mod together;
+mod unconnected;
+mod unknown_component;
+mod unknown_gate;
+mod wording;
+
+use crate::diagnostic::Diagnostics;
+use crate::model::Model;
+use crate::source::Sources;
+use crate::topology::Topology;
+use draft::Draft;
+
+/// What the checks need to know besides the file's text.
+#[derive(Debug, Clone, Default)]
+pub struct Facts {
+    /// The file's name without its ending: the system's name unless the file has one.
+    pub default_system: String,
+    /// What the schemas declare, in the order of the file's `schemas`. `None` if the file names none or they could not
+    /// be compiled: then types are not looked up.
+    pub messages: Option<Vec<SchemaMessages>>,
+}
+
+/// The messages of one schema file.
+#[derive(Debug, Clone, Default)]
+pub struct SchemaMessages {
+    /// Full names, for example `rover.Measurement`.
+    pub names: Vec<String>,
+}
+
+/// Checks everything and never stops at the first problem.
+///
+/// Gives `None` if `problems` holds an error in the end, be it from here or from the parser. A part that is wrong is
+/// left out of the later checks, so that each mistake is told once. Of a text that is no YAML nothing is checked.
+pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Diagnostics) -> Option<Topology> {
+    // What is left of a text that stops to be YAML proves nothing.
+    if model.cut_off {
+        return None;
+    }
+    check_names(model, problems);
+    let mut draft = Draft::new(model, sources);
+    let system = system_name::system_name(model, facts);
+
+    gate_kind::check(&mut draft, problems);
+    payload_type::check(&mut draft, problems);
+    schema_type::check(&mut draft, facts, problems);
+    option_value::check(&mut draft, problems);
+    let codec = codec_name::check(&mut draft, problems);
+
+    connection_end::check(&mut draft, problems);
+    duplicate_connection::check(&mut draft, problems);
+    pair_kinds::check(&mut draft, problems);
+    self_connection::check(&draft, problems);
+    cardinality::check(&draft, problems);
+    backpressure::check(&draft, problems);
+
+    inference::check(&mut draft, problems);
+    message_type::check(&draft, facts.messages.is_some(), problems);
+    exchange_type::check(&draft, facts.messages.is_some(), problems);
+    codec_agreement::check(&draft, problems);
+
+    unconnected::check(&draft, problems);
+    needless_mark::check(&draft, problems);
+    path_length::check(&draft, &system, problems);
+
+    if problems.has_errors() { None } else { finish::finish(&draft, system, &codec) }
+}
+
+fn check_names(model: &Model, problems: &mut Diagnostics) {
+    duplicate_component::check(model, problems);
+    duplicate_gate::check(model, problems);
+    name_characters::check(model, problems);
+    look_alike::check(model, problems);
+    name_start::check(model, problems);
+    rust_keyword::check(model, problems);
+    rust_name_collision::check(model, problems);
+    letter_case::check(model, problems);
+    reserved_name::check(model, problems);
+    name_length::check(model, problems);
+    prelude_type::check(model, problems);
+    snake_case::check(model, problems);
+}

@@ -1,0 +1,75 @@
+//! SCL0410: a receiver that would make its sender wait, and a sender that never waits.
+
+use super::draft::Draft;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::topology::{GateKind, WhenFull};
+
+pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
+    for (link, source, sink) in draft.flows() {
+        let waits = draft.gates[sink].options.when_full == WhenFull::Wait;
+        if waits && !draft.gates[source].options.backpressure {
+            problems.push(report(draft, link, source, sink));
+        }
+    }
+}
+
+fn report(draft: &Draft<'_>, link: usize, source: usize, sink: usize) -> Diagnostic {
+    let (sender, receiver) = match draft.gates[source].kind {
+        Some(GateKind::Push) => ("pusher", "puller"),
+        _ => ("publisher", "subscriber"),
+    };
+    let headline = format!("`{}` would make `{}` wait, which it does not allow", draft.path(sink), draft.path(source));
+    let gate = draft.gates[source].model;
+    let mut found = Diagnostic::error("SCL0410", headline, draft.links[link].model.span, "")
+        .label(draft.gates[source].declaration(), format!("never waits for a {receiver}"));
+    if let Some(option) = draft.gates[sink].option("when_full") {
+        found = found.label(option.key.span.to(option.value.span), format!("makes the {sender} wait"));
+    }
+    let kind = &gate.kind.value;
+    let message = super::unconnected::type_text(draft, source);
+    let name = &gate.name.value;
+    found
+        .help(format!("allow it on the {sender}: `{name}: {{{kind}: {message}, backpressure: true}}`"))
+        .help(format!("or let the {receiver} lose messages: `when_full: drop_oldest`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn delivery_options_of_the_two_ends_do_not_fit() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement}
+  - name: recorder
+    gates:
+      - measurements: {sub: Measurement, when_full: wait}
+connections:
+  - [sensor.measurements, recorder.measurements]
+"#;
+        example(
+            "SCL0410",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0410] `recorder.measurements` would make `sensor.measurements` wait, which it does not allow
+             --> topology.yaml:9:5
+              |
+            4 |       - measurements: {pub: Measurement}
+              |                        ---------------- never waits for a subscriber
+            ...
+            7 |       - measurements: {sub: Measurement, when_full: wait}
+              |                                          --------------- makes the publisher wait
+            8 | connections:
+            9 |   - [sensor.measurements, recorder.measurements]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+              |
+              = help: allow it on the publisher: `measurements: {pub: Measurement, backpressure: true}`
+              = help: or let the subscriber lose messages: `when_full: drop_oldest`
+        "#]],
+        );
+    }
+}

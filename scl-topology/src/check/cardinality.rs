@@ -1,0 +1,219 @@
+//! How many peers a gate may have. SCL0511, a lint: a subscriber with several publishers. SCL0512: a requester with two
+//! repliers. SCL0513: a pusher with several pullers that does not say that they share the work.
+
+use super::draft::Draft;
+use super::wording::{example_type, listed};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::topology::GateKind;
+
+pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
+    for (gate, links) in links_by_gate(draft).into_iter().enumerate() {
+        if links.len() < 2 {
+            continue;
+        }
+        match draft.gates[gate].kind {
+            Some(GateKind::Sub) => problems.push(several_publishers(draft, gate, &links)),
+            Some(GateKind::Req) => problems.push(several_repliers(draft, gate, &links)),
+            Some(GateKind::Push) if !draft.gates[gate].options.share => {
+                problems.push(several_pullers(draft, gate, &links));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The connections of each gate, with the gate at the other end.
+fn links_by_gate(draft: &Draft<'_>) -> Vec<Vec<(usize, usize)>> {
+    let mut links = vec![Vec::new(); draft.gates.len()];
+    for (link, source, sink) in draft.flows() {
+        links[source].push((link, sink));
+        links[sink].push((link, source));
+    }
+    links
+}
+
+fn several_publishers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> Diagnostic {
+    let path = draft.path(gate);
+    let headline = format!("gate `{path}` subscribes to several publishers");
+    let second = links[1].1;
+    let (first_owner, second_owner) = (draft.component_name(links[0].1), draft.component_name(second));
+    let extra = format!("{second_owner}_{}", draft.gates[gate].model.name.value);
+    let place = draft.end_span(links[1].0, gate);
+    let label = format!("second publisher: `{}`", draft.path(second));
+    let mut found = Diagnostic::lint("SCL0511", headline, place, label);
+    found = found.label(draft.end_span(links[0].0, gate), format!("first publisher: `{}`", draft.path(links[0].1)));
+    for &(link, publisher) in &links[2..] {
+        found = found.label(draft.end_span(link, gate), format!("another publisher: `{}`", draft.path(publisher)));
+    }
+    found
+        .help(format!("declare a second gate: `- {extra}: sub`"))
+        .help(format!(
+            "if `{first_owner}` and `{second_owner}` are two implementations of one component, declare one component and \
+             start either program"
+        ))
+        .note("messages of all its publishers arrive at this gate, in the order of arrival")
+}
+
+fn several_repliers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> Diagnostic {
+    let count = match links.len() {
+        2 => "two".to_owned(),
+        more => more.to_string(),
+    };
+    let headline = format!("gate `{}` asks {count} repliers", draft.path(gate));
+    let name = &draft.gates[gate].model.name.value;
+    let names = links.iter().map(|&(_, replier)| format!("{}_{name}", draft.component_name(replier)));
+    peers("SCL0512", headline, draft, gate, links, |which, path| format!("{which} replier: `{path}`"))
+        .help(format!("declare one `req` gate for each replier: {}", listed(names)))
+        .note(format!("with {count} repliers it is not defined who answers (ZeroMQ would alternate between them)"))
+        .note("many requesters of one replier are allowed")
+}
+
+fn several_pullers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> Diagnostic {
+    let count = match links.len() {
+        2 => "two components".to_owned(),
+        more => format!("{more} gates"),
+    };
+    let path = draft.path(gate);
+    let headline = format!("gate `{path}` pushes to {count}, so each of them gets only a part of the messages");
+    let name = &draft.gates[gate].model.name.value;
+    let payload = draft.gates[gate].model.payload.as_ref();
+    let message = payload.map_or_else(|| example_type(name), |payload| payload.value.clone());
+    peers("SCL0513", headline, draft, gate, links, |which, _| format!("{which} receiver"))
+        .help("if both need every message, make the gates `pub` and `sub`")
+        .help(format!("if the work is to be shared, say so: `{name}: {{push: {message}, share: true}}`"))
+        .note("many pushers into one `pull` gate are allowed")
+}
+
+/// An error at the second peer, with a label on each of the others.
+fn peers(
+    code: &'static str,
+    headline: String,
+    draft: &Draft<'_>,
+    gate: usize,
+    links: &[(usize, usize)],
+    label: impl Fn(&str, &str) -> String,
+) -> Diagnostic {
+    let words = ["first", "second", "third", "fourth", "fifth"];
+    let word = |at: usize| words.get(at).copied().unwrap_or("another");
+    let text = |at: usize| label(word(at), &draft.path(links[at].1));
+    let place = |at: usize| draft.end_span(links[at].0, gate);
+    let mut found = Diagnostic::error(code, headline, place(1), text(1));
+    for at in (0..links.len()).filter(|&at| at != 1) {
+        found = found.label(place(at), text(at));
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn subscriber_with_several_publishers() {
+        let yaml = r#"
+components:
+  - name: gps
+    gates:
+      - fix: pub
+  - name: replay
+    gates:
+      - fix: pub
+  - name: autopilot
+    gates:
+      - fix: sub
+connections:
+  - [gps.fix, autopilot.fix]
+  - [replay.fix, autopilot.fix]
+"#;
+        example(
+            "SCL0511",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0511] gate `autopilot.fix` subscribes to several publishers
+              --> topology.yaml:13:18
+               |
+            12 |   - [gps.fix, autopilot.fix]
+               |               ------------- first publisher: `gps.fix`
+            13 |   - [replay.fix, autopilot.fix]
+               |                  ^^^^^^^^^^^^^ second publisher: `replay.fix`
+               |
+               = help: declare a second gate: `- replay_fix: sub`
+               = help: if `gps` and `replay` are two implementations of one component, declare one component and start either program
+               = note: messages of all its publishers arrive at this gate, in the order of arrival
+        "#]],
+        );
+    }
+
+    #[test]
+    fn requester_with_two_repliers() {
+        let yaml = r#"
+components:
+  - name: ui
+    gates:
+      - commands: req
+  - name: autopilot
+    gates:
+      - commands: rep
+  - name: camera
+    gates:
+      - commands: rep
+connections:
+  - [ui.commands, autopilot.commands]
+  - [ui.commands, camera.commands]
+"#;
+        example(
+            "SCL0512",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0512] gate `ui.commands` asks two repliers
+              --> topology.yaml:13:6
+               |
+            12 |   - [ui.commands, autopilot.commands]
+               |      ----------- first replier: `autopilot.commands`
+            13 |   - [ui.commands, camera.commands]
+               |      ^^^^^^^^^^^ second replier: `camera.commands`
+               |
+               = help: declare one `req` gate for each replier: `autopilot_commands`, `camera_commands`
+               = note: with two repliers it is not defined who answers (ZeroMQ would alternate between them)
+               = note: many requesters of one replier are allowed
+        "#]],
+        );
+    }
+
+    #[test]
+    fn push_pull_cardinality() {
+        let yaml = r#"
+components:
+  - name: camera
+    gates:
+      - frames: push
+  - name: detector
+    gates:
+      - frames: pull
+  - name: recorder
+    gates:
+      - frames: pull
+connections:
+  - [camera.frames, detector.frames]
+  - [camera.frames, recorder.frames]
+"#;
+        example(
+            "SCL0513",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0513] gate `camera.frames` pushes to two components, so each of them gets only a part of the messages
+              --> topology.yaml:13:6
+               |
+            12 |   - [camera.frames, detector.frames]
+               |      ------------- first receiver
+            13 |   - [camera.frames, recorder.frames]
+               |      ^^^^^^^^^^^^^ second receiver
+               |
+               = help: if both need every message, make the gates `pub` and `sub`
+               = help: if the work is to be shared, say so: `frames: {push: Frame, share: true}`
+               = note: many pushers into one `pull` gate are allowed
+        "#]],
+        );
+    }
+}

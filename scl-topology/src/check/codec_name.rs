@@ -1,0 +1,118 @@
+//! SCL0407: a word that is no codec. Sets the codecs that gates name themselves.
+
+use super::draft::Draft;
+use super::wording::either;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::source::Spanned;
+use crate::suggest::similar;
+use crate::topology::Codec;
+
+const NAMES: [&str; 6] = ["protobuf", "json", "cbor", "msgpack", "postcard", "raw"];
+
+/// What people write for a codec.
+const SYNONYMS: [(&str, &str); 6] = [
+    ("proto", "protobuf"),
+    ("pb", "protobuf"),
+    ("prost", "protobuf"),
+    ("messagepack", "msgpack"),
+    ("bytes", "raw"),
+    ("none", "raw"),
+];
+
+/// Reads the codecs of the gates, and gives the one of the whole file.
+pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) -> Codec {
+    for gate in &mut draft.gates {
+        let Some(option) = gate.option("codec") else { continue };
+        match codec_of(&option.value.value) {
+            Some(codec) => gate.codec = Some(Spanned { value: codec, span: option.key.span.to(option.value.span) }),
+            None => {
+                gate.codec_broken = true;
+                problems.push(report(&option.value));
+            }
+        }
+    }
+    let Some(written) = &draft.model.codec else { return Codec::Protobuf };
+    codec_of(&written.value).unwrap_or_else(|| {
+        problems.push(report(written));
+        Codec::Protobuf
+    })
+}
+
+/// The word of the file for a codec.
+pub(super) fn word(codec: &Codec) -> &str {
+    match codec {
+        Codec::Protobuf => "protobuf",
+        Codec::Json => "json",
+        Codec::Cbor => "cbor",
+        Codec::Msgpack => "msgpack",
+        Codec::Postcard => "postcard",
+        Codec::Raw => "raw",
+        Codec::Path(path) => path,
+    }
+}
+
+fn codec_of(word: &str) -> Option<Codec> {
+    Some(match word {
+        "protobuf" => Codec::Protobuf,
+        "json" => Codec::Json,
+        "cbor" => Codec::Cbor,
+        "msgpack" => Codec::Msgpack,
+        "postcard" => Codec::Postcard,
+        "raw" => Codec::Raw,
+        path if is_rust_path(path) => Codec::Path(path.to_owned()),
+        _ => return None,
+    })
+}
+
+fn is_rust_path(text: &str) -> bool {
+    let path = text.strip_prefix("::").unwrap_or(text);
+    let is_word = |word: &str| {
+        word.starts_with(super::named::may_start) && word.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+    };
+    text.contains("::") && path.split("::").all(is_word)
+}
+
+fn report(written: &Spanned<String>) -> Diagnostic {
+    let headline = format!("unknown codec `{}`", written.value);
+    let found = Diagnostic::error("SCL0407", headline, written.span, "");
+    let lower = written.value.to_lowercase();
+    let synonym = SYNONYMS.iter().find(|(other, _)| *other == lower).map(|(_, name)| vec![*name]);
+    let meant = synonym.unwrap_or_else(|| similar(&written.value, NAMES));
+    let found = if meant.is_empty() { found } else { found.help(format!("did you mean {}?", either(&meant))) };
+    let found = if written.value.contains('.') {
+        found.help(format!("a codec of your own is named by its Rust path: `{}`", written.value.replace('.', "::")))
+    } else {
+        found
+    };
+    found.note("codecs: `protobuf` (default), `json`, `cbor`, `msgpack`, `postcard`, `raw`")
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn unknown_codec() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, codec: protobuff}
+"#;
+        example(
+            "SCL0407",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0407] unknown codec `protobuff`
+             --> topology.yaml:4:49
+              |
+            4 |       - measurements: {pub: Measurement, codec: protobuff}
+              |                                                 ^^^^^^^^^
+              |
+              = help: did you mean `protobuf`?
+              = note: codecs: `protobuf` (default), `json`, `cbor`, `msgpack`, `postcard`, `raw`
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,174 @@
+//! SCL0503: an end that is not `component.gate`. Finds the gates of all other ends, and hands on what it cannot find.
+
+use super::draft::Draft;
+use super::wording::{either, listed};
+use super::{unknown_component, unknown_gate};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::source::Spanned;
+
+pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
+    for link in 0..draft.links.len() {
+        for end in 0..2 {
+            let text = &draft.links[link].model.ends[end];
+            let found = resolved(draft, &text.value);
+            draft.links[link].ends[end] = found;
+        }
+        for end in 0..2 {
+            if draft.links[link].ends[end].is_none() {
+                report(draft, link, end, problems);
+            }
+        }
+    }
+    name_all(draft);
+}
+
+fn resolved(draft: &Draft<'_>, text: &str) -> Option<usize> {
+    let (component, gate) = text.split_once('.')?;
+    draft.gate(component, gate)
+}
+
+/// A gate that any connection names counts as connected, so that a broken connection is reported once.
+fn name_all(draft: &mut Draft<'_>) {
+    let whole = draft.links.iter().flat_map(|link| link.ends.into_iter().flatten());
+    let broken = draft.model.broken_ends.iter().filter_map(|end| resolved(draft, &end.value));
+    let named: Vec<usize> = whole.chain(broken).collect();
+    for gate in named {
+        draft.gates[gate].named = true;
+    }
+}
+
+fn report(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnostics) {
+    let text = &draft.links[link].model.ends[end];
+    if text.value.is_empty() {
+        return;
+    }
+    match parts(&text.value) {
+        None => problems.push(misshapen(draft, text)),
+        Some((component, _)) if draft.component(component).is_none() => {
+            unknown_component::check(draft, link, end, problems);
+        }
+        Some(_) => unknown_gate::check(draft, link, end, problems),
+    }
+}
+
+/// Component and gate, where the text has that shape.
+pub(super) fn parts(text: &str) -> Option<(&str, &str)> {
+    let (component, gate) = text.split_once('.')?;
+    let is_name = |name: &str| {
+        !name.is_empty() && name.chars().all(|letter| letter.is_alphanumeric() || letter == '_' || letter == '-')
+    };
+    (is_name(component) && is_name(gate)).then_some((component, gate))
+}
+
+fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
+    let headline = "a connection end is written `component.gate`";
+    if let Some((mended, label)) = respelt(&text.value) {
+        let known = resolved(draft, &mended);
+        if let Some(gate) = known {
+            draft.gates[gate].named = true;
+        }
+        return Diagnostic::error("SCL0503", headline, text.span, label).help(format!("write `{mended}`"));
+    }
+    let owners = if draft.may_search() { owners(draft, &text.value) } else { Vec::new() };
+    if let Some(&gate) = owners.first() {
+        return without_component(draft, headline, text, gate, &owners);
+    }
+    if draft.component(&text.value).is_some() {
+        let gates: Vec<String> = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
+        return Diagnostic::error("SCL0503", headline, text.span, "which gate?").note(format!(
+            "gates of `{}`: {}",
+            text.value,
+            super::wording::shortened(&gates)
+        ));
+    }
+    let (label, help) = oddity(&text.value);
+    Diagnostic::error("SCL0503", headline, text.span, label).help(help)
+}
+
+/// The gates of this name, of any component.
+fn owners(draft: &Draft<'_>, gate: &str) -> Vec<usize> {
+    let is_meant = |at: &usize| draft.gates[*at].model.name.value == gate && !draft.gates[*at].duplicate;
+    (0..draft.gates.len()).filter(is_meant).collect()
+}
+
+fn without_component(
+    draft: &mut Draft<'_>,
+    headline: &str,
+    text: &Spanned<String>,
+    gate: usize,
+    owners: &[usize],
+) -> Diagnostic {
+    let found = Diagnostic::error("SCL0503", headline, text.span, "which component?");
+    let paths: Vec<String> = owners.iter().map(|&gate| draft.path(gate)).collect();
+    match paths.as_slice() {
+        [only] => {
+            draft.gates[gate].named = true;
+            let label = format!("only `{}` has a gate of this name", draft.component_name(gate));
+            found.label(draft.gates[gate].model.name.span, label).help(format!("write `{only}`"))
+        }
+        [_, _] | [_, _, _] => found.help(format!("write {}", either(&paths))),
+        _ => found.note(format!("gates of this name: {}", listed(&paths))),
+    }
+}
+
+/// An end with another separator, or with spaces, as it was meant.
+fn respelt(text: &str) -> Option<(String, String)> {
+    let separator = ["->", "::", "/", ":", " . ", " .", ". "].into_iter().find(|separator| text.contains(separator))?;
+    let mended = text.split(separator).map(str::trim).collect::<Vec<_>>().join(".");
+    parts(&mended)?;
+    let label = match separator.trim() {
+        "." => "a space beside the dot".to_owned(),
+        other => format!("`{other}` instead of a dot"),
+    };
+    Some((mended, label))
+}
+
+/// What is odd about an end that nothing else explains.
+fn oddity(text: &str) -> (&'static str, &'static str) {
+    let dots = text.matches('.').count();
+    match text {
+        _ if text.contains('*') => ("no wildcards", "write one connection for each gate"),
+        _ if text.ends_with('.') => ("no gate after the dot", "write the gate after the dot"),
+        _ if text.starts_with('.') => ("no component before the dot", "write the component before the dot"),
+        _ if dots > 1 => ("more than one dot", "write the component and its gate, with one dot between them"),
+        _ if dots == 0 => ("no dot", "write the component, a dot and its gate"),
+        _ => ("not two names", "write the component, a dot and its gate"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn end_is_not_component_gate() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [measurements, controller.sensor]
+"#;
+        example(
+            "SCL0503",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0503] a connection end is written `component.gate`
+             --> topology.yaml:9:6
+              |
+            4 |       - measurements: pub
+              |         ------------ only `sensor` has a gate of this name
+            ...
+            9 |   - [measurements, controller.sensor]
+              |      ^^^^^^^^^^^^ which component?
+              |
+              = help: write `sensor.measurements`
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,215 @@
+//! What the rules work on: the model's gates and connections in flat lists, and what the rules have found out so far.
+//!
+//! A part that a rule rejected is `None` here, and later rules pass over it, so that one mistake is reported once.
+
+use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
+use crate::source::{Sources, Span, Spanned};
+use crate::topology::{Codec, GateKind, GateOptions, Payload, WhenFull};
+use std::collections::HashMap;
+use std::time::Duration;
+
+/// How many unknown names are compared with all others.
+const MOST_SEARCHES: usize = 200;
+
+/// The whole file.
+pub(super) struct Draft<'m> {
+    pub(super) model: &'m Model,
+    pub(super) sources: &'m Sources,
+    pub(super) components: Vec<DraftComponent<'m>>,
+    pub(super) gates: Vec<DraftGate<'m>>,
+    pub(super) links: Vec<Link<'m>>,
+    /// The names of all components, sorted, once each.
+    pub(super) component_names: Vec<&'m str>,
+    /// How many unknown names may still be compared with all others, see [`Draft::may_search`].
+    searches_left: usize,
+    components_by_name: HashMap<&'m str, Vec<usize>>,
+    gate_by_name: HashMap<(&'m str, &'m str), usize>,
+}
+
+/// A component; one that is declared twice is here twice.
+pub(super) struct DraftComponent<'m> {
+    pub(super) model: &'m ComponentModel,
+    pub(super) gates: Vec<usize>,
+}
+
+/// A gate.
+pub(super) struct DraftGate<'m> {
+    pub(super) component: usize,
+    pub(super) model: &'m GateModel,
+    /// `None` if the word is no kind.
+    pub(super) kind: Option<GateKind>,
+    /// `None` if the type is unusable; [`Payload::Bytes`] if there is none.
+    pub(super) payload: Option<Payload>,
+    /// Whose type it is, where it was taken over.
+    pub(super) payload_from: Option<usize>,
+    /// The gate's own codec, or the one taken over.
+    pub(super) codec: Option<Spanned<Codec>>,
+    /// Whether the codec is written but unusable.
+    pub(super) codec_broken: bool,
+    pub(super) options: GateOptions,
+    /// Whether an earlier gate of the component has its name.
+    pub(super) duplicate: bool,
+    /// Whether a connection names it, be the connection good or not.
+    pub(super) named: bool,
+}
+
+/// A connection.
+pub(super) struct Link<'m> {
+    pub(super) model: &'m ConnectionModel,
+    /// The gates at its ends, where they were found.
+    pub(super) ends: [Option<usize>; 2],
+    /// Source and sink, if the kinds fit and nothing else is wrong with the pair.
+    pub(super) flow: Option<(usize, usize)>,
+}
+
+impl<'m> Draft<'m> {
+    pub(super) fn new(model: &'m Model, sources: &'m Sources) -> Self {
+        let links = model.connections.iter().map(|model| Link { model, ends: [None; 2], flow: None }).collect();
+        let mut draft = Draft {
+            model,
+            sources,
+            components: Vec::with_capacity(model.components.len()),
+            gates: Vec::new(),
+            links,
+            component_names: sorted_names(model),
+            searches_left: MOST_SEARCHES,
+            components_by_name: HashMap::new(),
+            gate_by_name: HashMap::new(),
+        };
+        for component in &model.components {
+            draft.add_component(component);
+        }
+        draft
+    }
+
+    fn add_component(&mut self, model: &'m ComponentModel) {
+        let index = self.components.len();
+        let first_gate = self.gates.len();
+        self.components_by_name.entry(&model.name.value).or_default().push(index);
+        for gate in &model.gates {
+            let at = self.gates.len();
+            let first = *self.gate_by_name.entry((&model.name.value, &gate.name.value)).or_insert(at);
+            self.gates.push(DraftGate::new(index, gate, first != at));
+        }
+        self.components.push(DraftComponent { model, gates: (first_gate..self.gates.len()).collect() });
+    }
+
+    /// Whether the names that an unknown one resembles should be looked for. That compares it with all names, so in a
+    /// file with very many mistakes the later ones go without: time stays linear, and nobody reads so many.
+    pub(super) fn may_search(&mut self) -> bool {
+        self.searches_left = self.searches_left.saturating_sub(1);
+        self.searches_left > 0
+    }
+
+    /// All declarations of a component.
+    pub(super) fn declarations(&self, name: &str) -> impl Iterator<Item = &'m ComponentModel> + '_ {
+        let indices = self.components_by_name.get(name).into_iter().flatten();
+        indices.map(|&index| self.components[index].model)
+    }
+
+    pub(super) fn component(&self, name: &str) -> Option<usize> {
+        self.components_by_name.get(name).and_then(|all| all.first()).copied()
+    }
+
+    /// A gate by its names; of a component that is declared twice, a gate of either declaration.
+    pub(super) fn gate(&self, component: &str, gate: &str) -> Option<usize> {
+        self.gate_by_name.get(&(component, gate)).copied()
+    }
+
+    /// The gates of all declarations of a component, without repeated names.
+    pub(super) fn gates_of(&self, component: &str) -> impl Iterator<Item = usize> + '_ {
+        let declarations = self.components_by_name.get(component).into_iter().flatten();
+        let gates = declarations.flat_map(|&index| self.components[index].gates.iter().copied());
+        gates.filter(|&gate| !self.gates[gate].duplicate)
+    }
+
+    pub(super) fn component_name(&self, gate: usize) -> &'m str {
+        &self.components[self.gates[gate].component].model.name.value
+    }
+
+    /// `component.gate`.
+    pub(super) fn path(&self, gate: usize) -> String {
+        format!("{}.{}", self.component_name(gate), self.gates[gate].model.name.value)
+    }
+
+    /// `component.gate` in quotes, with its kind: `` `controller.commands` (rep)``.
+    pub(super) fn path_and_kind(&self, gate: usize) -> String {
+        format!("`{}` ({})", self.path(gate), self.gates[gate].model.kind.value)
+    }
+
+    /// The connections whose ends fit, as (index, source, sink).
+    pub(super) fn flows(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
+        let links = self.links.iter().enumerate();
+        links.filter_map(|(index, link)| link.flow.map(|(source, sink)| (index, source, sink)))
+    }
+
+    /// Where a connection writes a gate.
+    pub(super) fn end_span(&self, link: usize, gate: usize) -> Span {
+        let link = &self.links[link];
+        let at = usize::from(link.ends[0] != Some(gate));
+        link.model.ends[at].span
+    }
+
+    /// The place of a part of a longer text, for example of a gate in `component.gate`.
+    ///
+    /// A text that is written with escapes does not contain its parts as they are; then the whole place is given.
+    pub(super) fn part(&self, whole: Span, part: &str, last: bool) -> Span {
+        let text = self.sources.snippet(whole);
+        let found = if last { text.rfind(part) } else { text.find(part) };
+        match found {
+            Some(at) if !part.is_empty() => {
+                let start = whole.start + at as u32;
+                Span { start, end: start + part.len() as u32, ..whole }
+            }
+            _ => whole,
+        }
+    }
+}
+
+impl<'m> DraftGate<'m> {
+    fn new(component: usize, model: &'m GateModel, duplicate: bool) -> Self {
+        DraftGate {
+            component,
+            model,
+            kind: None,
+            payload: Some(Payload::Bytes),
+            payload_from: None,
+            codec: None,
+            codec_broken: false,
+            options: default_options(),
+            duplicate,
+            named: false,
+        }
+    }
+
+    /// An option by its key, as written.
+    pub(super) fn option(&self, key: &str) -> Option<&'m crate::model::OptionModel> {
+        self.model.options.iter().find(|option| option.key.value == key)
+    }
+
+    /// The place of kind and type, without the name: `pub: rover.Event`.
+    pub(super) fn declaration(&self) -> Span {
+        match &self.model.payload {
+            Some(payload) => self.model.kind.span.to(payload.span),
+            None => self.model.span,
+        }
+    }
+}
+
+fn sorted_names(model: &Model) -> Vec<&str> {
+    let mut names: Vec<&str> = model.components.iter().map(|component| component.name.value.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+fn default_options() -> GateOptions {
+    GateOptions {
+        queue: 100,
+        when_full: WhenFull::DropOldest,
+        backpressure: false,
+        timeout: Duration::from_secs(1),
+        share: false,
+        unconnected_ok: false,
+    }
+}

@@ -1,0 +1,62 @@
+//! SCL0510: the same two gates connected twice. Takes the second out, so that it is not counted as another peer.
+
+use super::draft::Draft;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use std::collections::HashMap;
+
+pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
+    let mut first: HashMap<(usize, usize), usize> = HashMap::new();
+    for at in 0..draft.links.len() {
+        let [Some(a), Some(b)] = draft.links[at].ends else { continue };
+        let earlier = *first.entry((a.min(b), a.max(b))).or_insert(at);
+        if earlier == at {
+            continue;
+        }
+        let same_order = draft.links[earlier].ends == draft.links[at].ends;
+        let label = if same_order { "same two gates" } else { "same two gates, in the other order" };
+        let span = draft.links[at].model.span;
+        let found = Diagnostic::error("SCL0510", "this connection is already declared", span, label)
+            .label(draft.links[earlier].model.span, "first declared here")
+            .help("remove one of the two");
+        problems.push(found);
+        draft.links[at].flow = None;
+        draft.links[at].ends = [None; 2];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn duplicate_connection() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+  - [controller.sensor, sensor.measurements]
+"#;
+        example(
+            "SCL0510",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0510] this connection is already declared
+              --> topology.yaml:10:5
+               |
+             9 |   - [sensor.measurements, controller.sensor]
+               |     ---------------------------------------- first declared here
+            10 |   - [controller.sensor, sensor.measurements]
+               |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ same two gates, in the other order
+               |
+               = help: remove one of the two
+        "#]],
+        );
+    }
+}

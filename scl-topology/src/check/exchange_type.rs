@@ -1,0 +1,172 @@
+//! A requester and a replier of different types. SCL0602: the requests differ. SCL0603: the replies differ. SCL0604: one
+//! end has the two the wrong way round.
+
+use super::draft::Draft;
+use super::message_type::differ;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::source::Span;
+use crate::topology::{Payload, TypeName};
+
+type Exchange<'a> = (&'a TypeName, &'a TypeName);
+
+pub(super) fn check(draft: &Draft<'_>, with_schemas: bool, problems: &mut Diagnostics) {
+    for (link, asker, answerer) in draft.flows() {
+        let (Some(asked), Some(answered)) = (exchange(draft, asker), exchange(draft, answerer)) else { continue };
+        let span = draft.links[link].model.span;
+        let requests = differ(asked.0, answered.0, with_schemas);
+        let replies = differ(asked.1, answered.1, with_schemas);
+        let swapped = asked.0.dotted() == answered.1.dotted() && asked.1.dotted() == answered.0.dotted();
+        match (requests, replies) {
+            (false, false) => {}
+            _ if swapped => problems.push(swap(span, &draft.path(asker), asked, answered)),
+            (false, true) => problems.push(reply(span, asked, answered)),
+            (true, same) => problems.push(request(span, asked, answered, !same)),
+        }
+    }
+}
+
+fn exchange<'a>(draft: &'a Draft<'_>, gate: usize) -> Option<Exchange<'a>> {
+    match &draft.gates[gate].payload {
+        Some(Payload::Exchange { request, reply }) => Some((request, reply)),
+        _ => None,
+    }
+}
+
+fn request(span: Span, asked: Exchange<'_>, answered: Exchange<'_>, replies_agree: bool) -> Diagnostic {
+    let label = format!("`{}` is asked, `{}` is understood", asked.0.dotted(), answered.0.dotted());
+    let found = Diagnostic::error("SCL0602", "the request types of this connection differ", span, label)
+        .label(answered.0.span(), "the replier understands this")
+        .label(asked.0.span(), "the requester sends this");
+    match replies_agree {
+        true => found.help(format!("the reply types agree (`{}`)", asked.1.dotted())),
+        false => found.help(format!(
+            "the reply types differ too: `{}` is answered, `{}` is expected",
+            answered.1.dotted(),
+            asked.1.dotted()
+        )),
+    }
+}
+
+fn reply(span: Span, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic {
+    let label = format!("`{}` is answered, `{}` is expected", answered.1.dotted(), asked.1.dotted());
+    Diagnostic::error("SCL0603", "the reply types of this connection differ", span, label)
+        .label(answered.1.span(), "the replier answers this")
+        .label(asked.1.span(), "the requester expects this")
+        .help(format!("the request types agree (`{}`)", asked.0.dotted()))
+}
+
+fn swap(span: Span, asker: &str, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic {
+    let (request, reply) = (answered.0.dotted(), answered.1.dotted());
+    Diagnostic::error("SCL0604", "request and reply types are swapped on one end", span, "")
+        .label(answered.0.span().to(answered.1.span()), format!("the replier takes `{request}` and answers `{reply}`"))
+        .label(asked.0.span().to(asked.1.span()), "the requester has them the other way round")
+        .help(format!("on both ends the left type is what the `req` gate sends; swap them on `{asker}`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn request_types_differ() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Cmd -> Status}
+connections:
+  - [controller.commands, ui.commands]
+"#;
+        example(
+            "SCL0602",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0602] the request types of this connection differ
+             --> topology.yaml:9:5
+              |
+            4 |       - commands: {rep: Command -> Status}
+              |                         ------- the replier understands this
+            ...
+            7 |       - commands: {req: Cmd -> Status}
+              |                         --- the requester sends this
+            8 | connections:
+            9 |   - [controller.commands, ui.commands]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Cmd` is asked, `Command` is understood
+              |
+              = help: the reply types agree (`Status`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn reply_types_differ() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Command -> Ack}
+connections:
+  - [controller.commands, ui.commands]
+"#;
+        example(
+            "SCL0603",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0603] the reply types of this connection differ
+             --> topology.yaml:9:5
+              |
+            4 |       - commands: {rep: Command -> Status}
+              |                                    ------ the replier answers this
+            ...
+            7 |       - commands: {req: Command -> Ack}
+              |                                    --- the requester expects this
+            8 | connections:
+            9 |   - [controller.commands, ui.commands]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Status` is answered, `Ack` is expected
+              |
+              = help: the request types agree (`Command`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn request_and_reply_swapped() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Status -> Command}
+connections:
+  - [controller.commands, ui.commands]
+"#;
+        example(
+            "SCL0604",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0604] request and reply types are swapped on one end
+             --> topology.yaml:9:5
+              |
+            4 |       - commands: {rep: Command -> Status}
+              |                         ----------------- the replier takes `Command` and answers `Status`
+            ...
+            7 |       - commands: {req: Status -> Command}
+              |                         ----------------- the requester has them the other way round
+            8 | connections:
+            9 |   - [controller.commands, ui.commands]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+              |
+              = help: on both ends the left type is what the `req` gate sends; swap them on `ui.commands`
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,51 @@
+//! From a draft without errors to the topology.
+
+use super::draft::{Draft, DraftGate};
+use crate::rust_name::{component_type, gate_field};
+use crate::topology::{Codec, Component, ComponentId, Connection, ConnectionId, Gate, GateId, Payload, Topology};
+
+/// `None` if a part of the draft has been rejected, of which a problem speaks.
+pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec) -> Option<Topology> {
+    let connections: Vec<Connection> = draft.links.iter().map(connection).collect::<Option<_>>()?;
+    let mut gates: Vec<Gate> = draft.gates.iter().map(|gate| finish_gate(gate, codec)).collect::<Option<_>>()?;
+    for (at, connection) in connections.iter().enumerate() {
+        for end in [connection.source, connection.sink] {
+            gates[end.0 as usize].connections.push(ConnectionId(at as u32));
+        }
+    }
+    let components = draft.components.iter().map(|component| Component {
+        name: component.model.name.value.clone(),
+        rust_name: component_type(&component.model.name.value),
+        doc: component.model.doc.as_ref().map(|doc| doc.value.clone()),
+        optional: component.model.optional,
+        span: component.model.name.span,
+        gates: component.gates.iter().map(|&gate| GateId(gate as u32)).collect(),
+    });
+    Some(Topology { system, components: components.collect(), gates, connections })
+}
+
+fn connection(link: &super::draft::Link<'_>) -> Option<Connection> {
+    let (source, sink) = link.flow?;
+    Some(Connection { source: GateId(source as u32), sink: GateId(sink as u32), span: link.model.span })
+}
+
+fn finish_gate(gate: &DraftGate<'_>, default_codec: &Codec) -> Option<Gate> {
+    let payload = gate.payload.clone()?;
+    let codec = match (&payload, &gate.codec) {
+        (Payload::Bytes, _) => Codec::Raw,
+        (_, Some(codec)) => codec.value.clone(),
+        (_, None) => default_codec.clone(),
+    };
+    Some(Gate {
+        component: ComponentId(gate.component as u32),
+        name: gate.model.name.value.clone(),
+        rust_name: gate_field(&gate.model.name.value),
+        kind: gate.kind?,
+        payload,
+        codec,
+        options: gate.options.clone(),
+        doc: gate.option("doc").map(|doc| doc.value.value.clone()),
+        span: gate.model.name.span,
+        connections: Vec::new(),
+    })
+}

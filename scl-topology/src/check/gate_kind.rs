@@ -1,0 +1,82 @@
+//! SCL0401: a word that is no kind of gate. Sets the kind of every other gate.
+
+use super::draft::Draft;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::source::Spanned;
+use crate::suggest;
+use crate::topology::GateKind;
+
+const KINDS: &str = "kinds: `pub` and `sub` (one to many, no answer), `req` and `rep` (question and answer), `push` and \
+                     `pull` (many to one, no answer)";
+
+pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
+    for gate in &mut draft.gates {
+        let word = &gate.model.kind;
+        gate.kind = kind_of(&word.value);
+        // An empty word stands for a gate that could not be read, which has its own problem.
+        if gate.kind.is_none() && !word.value.is_empty() {
+            problems.push(report(word));
+        }
+    }
+    poison_contradictions(draft);
+}
+
+/// A gate that is declared twice, with two kinds, has none: nobody knows which is meant.
+fn poison_contradictions(draft: &mut Draft<'_>) {
+    for at in 0..draft.gates.len() {
+        if !draft.gates[at].duplicate {
+            continue;
+        }
+        let name = draft.gates[at].model.name.value.as_str();
+        if let Some(first) = draft.gate(draft.component_name(at), name) {
+            if draft.gates[first].kind != draft.gates[at].kind {
+                draft.gates[first].kind = None;
+            }
+            draft.gates[first].payload = None;
+        }
+    }
+}
+
+fn kind_of(word: &str) -> Option<GateKind> {
+    GateKind::ALL.into_iter().find(|kind| kind.word() == word)
+}
+
+fn report(word: &Spanned<String>) -> Diagnostic {
+    let found = Diagnostic::error("SCL0401", format!("unknown gate kind `{}`", word.value), word.span, "");
+    let found = match suggest::kind(&word.value).as_slice() {
+        [] => found,
+        [one] => found.help(format!("the kind is called `{one}`")),
+        several => found.help(format!("did you mean {}?", super::wording::either(several))),
+    };
+    found.note(KINDS)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn unknown_gate_kind() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - sensor: subscribe
+"#;
+        example(
+            "SCL0401",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0401] unknown gate kind `subscribe`
+             --> topology.yaml:4:17
+              |
+            4 |       - sensor: subscribe
+              |                 ^^^^^^^^^
+              |
+              = help: the kind is called `sub`
+              = note: kinds: `pub` and `sub` (one to many, no answer), `req` and `rep` (question and answer), `push` and `pull` (many to one, no answer)
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,164 @@
+//! Types and codecs that one end leaves out are taken over from the other. SCL0607, a lint, says where; SCL0402, a lint,
+//! finds the connections on which neither end has a type.
+
+use super::draft::Draft;
+use super::wording::example_type;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::topology::{GateKind, Payload};
+use std::collections::VecDeque;
+
+pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
+    let peers = peers(draft);
+    take_over_types(draft, &peers);
+    take_over_codecs(draft, &peers);
+    for gate in 0..draft.gates.len() {
+        if let Some(origin) = draft.gates[gate].payload_from {
+            taken_over(draft, gate, origin).into_iter().for_each(|found| problems.push(found));
+        }
+    }
+    for (link, source, sink) in draft.flows() {
+        let untyped = |gate: usize| draft.gates[gate].payload == Some(Payload::Bytes);
+        if untyped(source) && untyped(sink) {
+            problems.push(without_type(draft, link, source));
+        }
+    }
+}
+
+fn peers(draft: &Draft<'_>) -> Vec<Vec<usize>> {
+    let mut peers = vec![Vec::new(); draft.gates.len()];
+    for (_, source, sink) in draft.flows() {
+        peers[source].push(sink);
+        peers[sink].push(source);
+    }
+    peers
+}
+
+/// Types spread from the gates that have one, breadth first, so that each gate gets that of its nearest peer, and of
+/// several the first in the file.
+fn take_over_types(draft: &mut Draft<'_>, peers: &[Vec<usize>]) {
+    let is_typed = |gate: &usize| !matches!(draft.gates[*gate].payload, None | Some(Payload::Bytes));
+    let mut reached: VecDeque<usize> = (0..draft.gates.len()).filter(is_typed).collect();
+    while let Some(gate) = reached.pop_front() {
+        for &peer in &peers[gate] {
+            if draft.gates[peer].payload == Some(Payload::Bytes) {
+                draft.gates[peer].payload = draft.gates[gate].payload.clone();
+                draft.gates[peer].payload_from = Some(draft.gates[gate].payload_from.unwrap_or(gate));
+                reached.push_back(peer);
+            }
+        }
+    }
+}
+
+fn take_over_codecs(draft: &mut Draft<'_>, peers: &[Vec<usize>]) {
+    let mut reached: VecDeque<usize> =
+        (0..draft.gates.len()).filter(|&gate| draft.gates[gate].codec.is_some()).collect();
+    while let Some(gate) = reached.pop_front() {
+        for &peer in &peers[gate] {
+            if draft.gates[peer].codec.is_none() && !draft.gates[peer].codec_broken {
+                draft.gates[peer].codec = draft.gates[gate].codec.clone();
+                reached.push_back(peer);
+            }
+        }
+    }
+}
+
+fn taken_over(draft: &Draft<'_>, gate: usize, origin: usize) -> Option<Diagnostic> {
+    let written = draft.gates[origin].model.payload.as_ref()?;
+    let model = draft.gates[gate].model;
+    let (text, from) = (written.value.trim(), draft.path(origin));
+    let headline = format!("gate `{}` has no type of its own; it takes `{text}` from `{from}`", draft.path(gate));
+    let found = Diagnostic::lint("SCL0607", headline, model.span, format!("inferred: `{text}`"))
+        .label(written.span, "from here")
+        .help(format!("write `{}: {{{}: {text}}}` to pin the contract", model.name.value, model.kind.value));
+    Some(found)
+}
+
+fn without_type(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
+    let mut found = Diagnostic::lint(
+        "SCL0402",
+        "this connection carries bytes of no declared type",
+        draft.links[link].model.span,
+        "neither end names a type",
+    );
+    for gate in draft.links[link].ends.into_iter().flatten() {
+        found = found.label(draft.gates[gate].model.span, "no type");
+    }
+    let model = draft.gates[source].model;
+    let (name, kind) = (&model.name.value, &model.kind.value);
+    let types = match draft.gates[source].kind {
+        Some(GateKind::Req) => format!("{} -> Status", example_type(name)),
+        _ => example_type(name),
+    };
+    found.help(format!("name it on one end: `{name}: {{{kind}: {types}}}`; the other end takes it over"))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn connection_without_a_message_type() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+"#;
+        example(
+            "SCL0402",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0402] this connection carries bytes of no declared type
+             --> topology.yaml:9:5
+              |
+            4 |       - measurements: pub
+              |         ----------------- no type
+            ...
+            7 |       - sensor: sub
+              |         ----------- no type
+            8 | connections:
+            9 |   - [sensor.measurements, controller.sensor]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ neither end names a type
+              |
+              = help: name it on one end: `measurements: {pub: Measurement}`; the other end takes it over
+        "#]],
+        );
+    }
+
+    #[test]
+    fn type_taken_over_from_the_other_end() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement}
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+"#;
+        example(
+            "SCL0607",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0607] gate `controller.sensor` has no type of its own; it takes `Measurement` from `sensor.measurements`
+             --> topology.yaml:7:9
+              |
+            4 |       - measurements: {pub: Measurement}
+              |                             ----------- from here
+            ...
+            7 |       - sensor: sub
+              |         ^^^^^^^^^^^ inferred: `Measurement`
+              |
+              = help: write `sensor: {sub: Measurement}` to pin the contract
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,123 @@
+//! SCL0304: a letter outside of ASCII, above all one that looks like an ASCII letter: the two names on the screen would
+//! be equal, and the file still wrong.
+
+use super::named::{Noun, names};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::Model;
+use crate::source::Spanned;
+
+/// Letters and the ASCII letters that they are taken for.
+const CYRILLIC: (&str, &str) = ("аеорсухіјѕһԁАВЕКМНОРСТУХЅІЈ", "aeopcyxijshdABEKMHOPCTYXSIJ");
+const GREEK: (&str, &str) = ("ονικρυαΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "ovikpuaABEZHIKMNOPTYX");
+
+/// How people write these letters where a keyboard lacks them.
+const TRANSLITERATIONS: [(&str, &str); 22] = [
+    ("ä", "ae"),
+    ("ö", "oe"),
+    ("ü", "ue"),
+    ("Ä", "Ae"),
+    ("Ö", "Oe"),
+    ("Ü", "Ue"),
+    ("ß", "ss"),
+    ("æ", "ae"),
+    ("ø", "oe"),
+    ("åàáâã", "a"),
+    ("éèêë", "e"),
+    ("íìîï", "i"),
+    ("óòôõ", "o"),
+    ("úùû", "u"),
+    ("çćč", "c"),
+    ("ñńň", "n"),
+    ("šś", "s"),
+    ("žźż", "z"),
+    ("ýÿ", "y"),
+    ("ł", "l"),
+    ("ř", "r"),
+    ("µμ", "u"),
+];
+
+pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+    for (noun, name) in names(model) {
+        if let Some(letter) = name.value.chars().find(|&letter| is_foreign(letter)) {
+            problems.push(report(noun, name, letter));
+        }
+    }
+}
+
+pub(super) fn has_foreign_letter(name: &str) -> bool {
+    name.chars().any(is_foreign)
+}
+
+fn is_foreign(letter: char) -> bool {
+    !letter.is_ascii() && letter.is_alphabetic()
+}
+
+fn report(noun: Noun, name: &Spanned<String>, letter: char) -> Diagnostic {
+    let start = format!("{} name `{}` contains the", noun.word(), name.value);
+    let code = format!("(U+{:04X})", u32::from(letter));
+    let found = match twin(letter) {
+        Some((script, twin)) => {
+            let headline = format!("{start} {script} letter `{letter}` {code}, which looks like `{twin}`");
+            Diagnostic::error("SCL0304", headline, name.span, format!("not the Latin `{twin}`"))
+        }
+        None => {
+            let headline = format!("{start} letter `{letter}` {code}, which is not ASCII");
+            Diagnostic::error("SCL0304", headline, name.span, "allowed: a-z A-Z 0-9 _ -")
+        }
+    };
+    let found = match retyped(&name.value) {
+        Some(ascii) if twin(letter).is_some() => found.help(format!("retype the name in ASCII: `{ascii}`")),
+        Some(ascii) => found.help(format!("write `{ascii}`")),
+        None => found.help("write the name in ASCII letters"),
+    };
+    found.note("names are ASCII, so that the file, the socket paths and all language bindings agree")
+}
+
+/// The script of a letter and the ASCII letter it is taken for.
+fn twin(letter: char) -> Option<(&'static str, char)> {
+    [("Cyrillic", CYRILLIC), ("Greek", GREEK)].into_iter().find_map(|(script, (letters, twins))| {
+        let at = letters.chars().position(|other| other == letter)?;
+        Some((script, twins.chars().nth(at)?))
+    })
+}
+
+/// The name in ASCII, if each of its letters has a usual replacement.
+fn retyped(name: &str) -> Option<String> {
+    let mut out = String::new();
+    for letter in name.chars() {
+        match (letter.is_ascii(), twin(letter)) {
+            (true, _) => out.push(letter),
+            (false, Some((_, twin))) => out.push(twin),
+            (false, None) => out.push_str(TRANSLITERATIONS.iter().find(|(from, _)| from.contains(letter))?.1),
+        }
+    }
+    Some(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn look_alike_character_in_a_name() {
+        let yaml = r#"
+components:
+  - name: sеnsor
+"#;
+        example(
+            "SCL0304",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0304] component name `sеnsor` contains the Cyrillic letter `е` (U+0435), which looks like `e`
+             --> topology.yaml:2:11
+              |
+            2 |   - name: sеnsor
+              |           ^^^^^^ not the Latin `e`
+              |
+              = help: retype the name in ASCII: `sensor`
+              = note: names are ASCII, so that the file, the socket paths and all language bindings agree
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,156 @@
+//! SCL0601: a sender and a receiver of different types. The connections of one gate are reported together, at the gate
+//! if it alone differs from all its peers.
+
+use super::draft::Draft;
+use super::wording::listed;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::topology::{GateKind, Payload, TypeName};
+use std::collections::BTreeMap;
+
+/// A connection whose ends differ: its index, and the gate at the other end of the gate it is grouped by.
+type Peer = (usize, usize);
+
+pub(super) fn check(draft: &Draft<'_>, with_schemas: bool, problems: &mut Diagnostics) {
+    let mut by_source: BTreeMap<usize, Vec<Peer>> = BTreeMap::new();
+    for (link, source, sink) in draft.flows() {
+        if let (Some(sent), Some(expected)) = (message(draft, source), message(draft, sink))
+            && differ(sent, expected, with_schemas)
+        {
+            by_source.entry(source).or_default().push((link, sink));
+        }
+    }
+    let mut by_sink: BTreeMap<usize, Vec<Peer>> = BTreeMap::new();
+    for (source, peers) in by_source {
+        match peers.as_slice() {
+            [(link, sink)] => by_sink.entry(*sink).or_default().push((*link, source)),
+            _ => problems.push(report(draft, source, &peers)),
+        }
+    }
+    for (sink, peers) in by_sink {
+        problems.push(report(draft, sink, &peers));
+    }
+}
+
+/// Whether two types are surely not one. Without schemas, names that end alike may be aliases, which the compiler knows.
+pub(super) fn differ(a: &TypeName, b: &TypeName, with_schemas: bool) -> bool {
+    a.dotted() != b.dotted() && (with_schemas || last(a) != last(b))
+}
+
+fn last(name: &TypeName) -> Option<&str> {
+    name.dotted().rsplit('.').next()
+}
+
+fn message<'a>(draft: &'a Draft<'_>, gate: usize) -> Option<&'a TypeName> {
+    match &draft.gates[gate].payload {
+        Some(Payload::Message(name)) => Some(name),
+        _ => None,
+    }
+}
+
+fn report(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnostic {
+    let wanted = |peer: usize| message(draft, peer).map(TypeName::dotted);
+    let agreed = peers.iter().all(|&(_, peer)| wanted(peer) == wanted(peers[0].1));
+    let all = draft.flows().filter(|&(_, source, sink)| source == hub || sink == hub).count() == peers.len();
+    match peers {
+        [_, _, ..] if agreed && all => hub_differs(draft, hub, peers),
+        _ => connection_differs(draft, hub, peers),
+    }
+}
+
+fn connection_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnostic {
+    let (link, peer) = peers[0];
+    let [source, sink] = if is_source(draft, hub) { [hub, peer] } else { [peer, hub] };
+    let (sent, expected) = (type_of(draft, source), type_of(draft, sink));
+    let headline = match peers.len() {
+        1 => "the two ends of this connection use different message types".to_owned(),
+        more => format!("{more} connections of `{}` use different message types at their two ends", draft.path(hub)),
+    };
+    let label = format!("`{sent}` is sent, `{expected}` is expected");
+    let mut found = Diagnostic::error("SCL0601", headline, draft.links[link].model.span, label);
+    for gate in std::iter::once(hub).chain(peers.iter().map(|&(_, peer)| peer)) {
+        found = with_type(draft, found, gate);
+    }
+    found
+        .help(format!("use `{sent}` on both ends, if `{}` takes it as it is", draft.component_name(sink)))
+        .help("or put a component between them that converts")
+}
+
+fn hub_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnostic {
+    let (own, theirs) = (type_of(draft, hub), type_of(draft, peers[0].1));
+    let path = draft.path(hub);
+    let (headline, verb) = match is_source(draft, hub) {
+        true => (format!("`{path}` sends `{own}`, but all its receivers expect `{theirs}`"), "sent"),
+        false => (format!("`{path}` expects `{own}`, but all its senders send `{theirs}`"), "expected"),
+    };
+    let place = message(draft, hub).map_or(draft.gates[hub].model.span, TypeName::span);
+    let mut found = Diagnostic::error("SCL0601", headline, place, verb);
+    for &(_, peer) in peers {
+        found = with_type(draft, found, peer);
+    }
+    let paths = peers.iter().map(|&(_, peer)| draft.path(peer));
+    found.help(format!("use `{theirs}` for `{path}` too")).note(format!("the other ends agree: {}", listed(paths)))
+}
+
+/// Shows the type of a gate, once for gates that have it from one place.
+fn with_type(draft: &Draft<'_>, found: Diagnostic, gate: usize) -> Diagnostic {
+    let Some(name) = message(draft, gate) else { return found };
+    if found.secondary.iter().any(|label| label.span == name.span()) {
+        return found;
+    }
+    let role = if is_source(draft, gate) { "sent" } else { "expected" };
+    match draft.gates[gate].payload_from {
+        Some(_) => {
+            found.label(name.span(), format!("{role} by `{}`, which takes its type from here", draft.path(gate)))
+        }
+        None => found.label(name.span(), role),
+    }
+}
+
+fn is_source(draft: &Draft<'_>, gate: usize) -> bool {
+    draft.gates[gate].kind.is_some_and(GateKind::is_source)
+}
+
+fn type_of<'a>(draft: &'a Draft<'_>, gate: usize) -> &'a str {
+    message(draft, gate).map_or("", TypeName::dotted)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn published_and_subscribed_types_differ() {
+        let yaml = r#"
+components:
+  - name: autopilot
+    gates:
+      - attitude: {pub: Attitude}
+  - name: blackbox
+    gates:
+      - attitude: {sub: Telemetry}
+connections:
+  - [autopilot.attitude, blackbox.attitude]
+"#;
+        example(
+            "SCL0601",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0601] the two ends of this connection use different message types
+             --> topology.yaml:9:5
+              |
+            4 |       - attitude: {pub: Attitude}
+              |                         -------- sent
+            ...
+            7 |       - attitude: {sub: Telemetry}
+              |                         --------- expected
+            8 | connections:
+            9 |   - [autopilot.attitude, blackbox.attitude]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Attitude` is sent, `Telemetry` is expected
+              |
+              = help: use `Attitude` on both ends, if `blackbox` takes it as it is
+              = help: or put a component between them that converts
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,82 @@
+//! SCL0305: a name that starts with a digit or a hyphen. No programming language can spell it.
+
+use super::named::{Noun, is_allowed, may_start, names};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::Model;
+use crate::source::Spanned;
+
+const ORDINALS: [(&str, &str); 9] = [
+    ("1st", "first"),
+    ("2nd", "second"),
+    ("3rd", "third"),
+    ("4th", "fourth"),
+    ("5th", "fifth"),
+    ("6th", "sixth"),
+    ("7th", "seventh"),
+    ("8th", "eighth"),
+    ("9th", "ninth"),
+];
+
+pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+    for (noun, name) in names(model) {
+        let first = name.value.chars().next();
+        let spelt = name.value.chars().all(is_allowed) && !name.value.contains("--");
+        if let Some(first) = first.filter(|&first| spelt && !may_start(first)) {
+            problems.push(report(noun, name, first));
+        }
+    }
+}
+
+fn report(noun: Noun, name: &Spanned<String>, first: char) -> Diagnostic {
+    let headline = format!("a {} name must start with a letter", noun.word());
+    let start = if first == '-' { "starts with a hyphen" } else { "starts with a digit" };
+    let found = Diagnostic::error("SCL0305", headline, name.span, start);
+    match alternatives(&name.value) {
+        Some(ways) => found.help(format!("for example {ways}")),
+        None => found.help("put a word before it"),
+    }
+}
+
+/// `2nd_sensor` could be `second_sensor` or `sensor_2`.
+fn alternatives(name: &str) -> Option<String> {
+    let digits: String = name.chars().take_while(char::is_ascii_digit).collect();
+    let ordinal = ORDINALS.iter().find(|(short, _)| name.starts_with(short));
+    let rest = ordinal.map_or(&name[digits.len()..], |(short, _)| &name[short.len()..]);
+    let rest = rest.trim_matches(['_', '-']);
+    let moved = match (rest.is_empty(), digits.is_empty()) {
+        (true, _) => return None,
+        (false, true) => format!("`{rest}`"),
+        (false, false) => format!("`{rest}_{digits}`"),
+    };
+    Some(match ordinal {
+        Some((_, word)) => format!("`{word}_{rest}` or {moved}"),
+        None => moved,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn name_starts_with_the_wrong_character() {
+        let yaml = r#"
+components:
+  - name: 2nd_sensor
+"#;
+        example(
+            "SCL0305",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0305] a component name must start with a letter
+             --> topology.yaml:2:11
+              |
+            2 |   - name: 2nd_sensor
+              |           ^^^^^^^^^^ starts with a digit
+              |
+              = help: for example `second_sensor` or `sensor_2`
+        "#]],
+        );
+    }
+}

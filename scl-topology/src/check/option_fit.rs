@@ -1,0 +1,92 @@
+//! SCL0408: an option on a kind of gate that has no use for it.
+
+use super::wording::listed;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::OptionModel;
+use crate::topology::GateKind;
+
+use GateKind::{Pub, Pull, Push, Rep, Req, Sub};
+
+/// Options that only some kinds have. The others are for all.
+const KINDS: [(&str, &[GateKind]); 5] = [
+    ("queue", &[Sub, Pull]),
+    ("when_full", &[Sub, Pull]),
+    ("backpressure", &[Pub, Push]),
+    ("timeout", &[Req]),
+    ("share", &[Push]),
+];
+
+pub(super) fn check(kind: Option<GateKind>, option: &OptionModel, problems: &mut Diagnostics) {
+    let key = option.key.value.as_str();
+    let (Some(kind), Some(rule)) = (kind, misfit(kind, key)) else { return };
+    let headline = format!("option `{key}` is not available on a `{}` gate", kind.word());
+    let found = Diagnostic::error("SCL0408", headline, option.key.span, "").help("remove it");
+    let other = kind.opposite();
+    let found = match fits(other, key) {
+        true => found.help(format!("or write it at the `{}` end of the connection", other.word())),
+        false => found,
+    };
+    problems.push(found.note(rule));
+}
+
+/// Why a kind has no such option, if it has none.
+pub(super) fn misfit(kind: Option<GateKind>, key: &str) -> Option<String> {
+    let kind = kind.filter(|&kind| !fits(kind, key))?;
+    let (_, kinds) = KINDS.iter().find(|(other, _)| *other == key)?;
+    let words: Vec<&str> = kinds.iter().map(|kind| kind.word()).collect();
+    let belongs = match words.as_slice() {
+        [only] => format!("`{key}` is for `{only}`"),
+        _ => format!("`{key}` is for {}", listed(words).replace(", ", " and ")),
+    };
+    Some(match reason(kind, key) {
+        Some(reason) => format!("{reason}; {belongs}"),
+        None => belongs,
+    })
+}
+
+fn fits(kind: GateKind, key: &str) -> bool {
+    KINDS.iter().all(|(other, kinds)| *other != key || kinds.contains(&kind))
+}
+
+fn reason(kind: GateKind, key: &str) -> Option<&'static str> {
+    match (kind, key) {
+        (Req | Rep, "queue" | "when_full") => {
+            Some("`req` and `rep` take turns, so there is never more than one message waiting")
+        }
+        (Pub | Push, "queue" | "when_full") => Some("each receiver says how many messages may wait for it"),
+        (Sub | Pull, "backpressure") => Some("a receiver asks for it with `when_full: wait`"),
+        (Rep, "timeout") => Some("each requester says how long it waits"),
+        (Pub, "share") => Some("every subscriber gets every message"),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn option_does_not_fit_the_kind() {
+        let yaml = r#"
+components:
+  - name: ui
+    gates:
+      - commands: {req: Command -> Status, queue: 8}
+"#;
+        example(
+            "SCL0408",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0408] option `queue` is not available on a `req` gate
+             --> topology.yaml:4:44
+              |
+            4 |       - commands: {req: Command -> Status, queue: 8}
+              |                                            ^^^^^
+              |
+              = help: remove it
+              = note: `req` and `rep` take turns, so there is never more than one message waiting; `queue` is for `sub` and `pull`
+        "#]],
+        );
+    }
+}

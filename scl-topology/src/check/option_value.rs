@@ -1,0 +1,123 @@
+//! SCL0409: an option value out of its range. Sets the options of every gate.
+
+use super::draft::Draft;
+use super::option_fit;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::OptionModel;
+use crate::topology::{GateKind, GateOptions, WhenFull};
+use std::time::Duration;
+
+/// The longest queue, in messages. Memory is reserved for what a queue may hold, so a slip of the finger is refused.
+const LONGEST_QUEUE: u32 = 1_000_000;
+
+/// The longest wait for an answer: a day.
+const LONGEST_TIMEOUT: Duration = Duration::from_secs(24 * 60 * 60);
+
+pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
+    for gate in &mut draft.gates {
+        for option in &gate.model.options {
+            match read(option, &mut gate.options) {
+                Ok(()) => option_fit::check(gate.kind, option, problems),
+                Err(range) => problems.push(report(gate.kind, option, range)),
+            }
+        }
+    }
+}
+
+/// What the value must be, and what to do.
+struct Range {
+    rule: String,
+    help: &'static str,
+}
+
+/// Takes a value over. The parser has seen to its shape; only its range is in question.
+fn read(option: &OptionModel, options: &mut GateOptions) -> Result<(), Range> {
+    let value = option.value.value.as_str();
+    match option.key.value.as_str() {
+        "queue" => options.queue = queue(value)?,
+        "timeout" => options.timeout = timeout(value)?,
+        "when_full" => {
+            options.when_full = match value {
+                "wait" => WhenFull::Wait,
+                "drop_newest" => WhenFull::DropNewest,
+                _ => WhenFull::DropOldest,
+            }
+        }
+        "backpressure" => options.backpressure = value == "true",
+        "share" => options.share = value == "true",
+        "unconnected" => options.unconnected_ok = value == "ok",
+        _ => {}
+    }
+    Ok(())
+}
+
+fn queue(text: &str) -> Result<u32, Range> {
+    let range = |rule: String| Range { rule, help: "leave it out to get the default, 100" };
+    let digits = text.strip_prefix('+').unwrap_or(text);
+    if text.starts_with('-') || digits.bytes().all(|digit| digit == b'0') {
+        return Err(range("at least 1".to_owned()));
+    }
+    match digits.parse() {
+        Ok(length) if length <= LONGEST_QUEUE => Ok(length),
+        _ => Err(range(format!("at most {LONGEST_QUEUE}"))),
+    }
+}
+
+fn timeout(text: &str) -> Result<Duration, Range> {
+    let range = |rule: &str| Range { rule: rule.to_owned(), help: "leave it out to get the default, 1s" };
+    let unit = text.find(|letter: char| letter.is_ascii_alphabetic()).unwrap_or(text.len());
+    let number: f64 = text[..unit].trim().parse().unwrap_or(0.0);
+    let seconds = match &text[unit..] {
+        "us" => number / 1e6,
+        "ms" => number / 1e3,
+        _ => number,
+    };
+    if seconds > LONGEST_TIMEOUT.as_secs_f64() {
+        return Err(range("at most a day, 86400s"));
+    }
+    // Less than a microsecond cannot be measured, so it counts as nothing.
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(timeout) if timeout >= Duration::from_micros(1) => Ok(timeout),
+        _ => Err(range("more than 0")),
+    }
+}
+
+fn report(kind: Option<GateKind>, option: &OptionModel, range: Range) -> Diagnostic {
+    let headline = format!("`{}` must be {}", option.key.value, range.rule);
+    let found = Diagnostic::error("SCL0409", headline, option.value.span, "").help(range.help);
+    // Who mends the value should not have to come back for the place.
+    match option_fit::misfit(kind, &option.key.value) {
+        Some(rule) => found.note(rule),
+        None => found,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn option_value_out_of_range() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, queue: 0}
+"#;
+        example(
+            "SCL0409",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0409] `queue` must be at least 1
+             --> topology.yaml:4:49
+              |
+            4 |       - measurements: {pub: Measurement, queue: 0}
+              |                                                 ^
+              |
+              = help: leave it out to get the default, 100
+              = note: each receiver says how many messages may wait for it; `queue` is for `sub` and `pull`
+        "#]],
+        );
+    }
+}

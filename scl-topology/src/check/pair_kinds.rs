@@ -1,0 +1,173 @@
+//! SCL0505: both ends send, or both receive. SCL0506: the ends belong to different patterns. Finds source and sink of
+//! every other connection.
+
+use super::draft::Draft;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::topology::GateKind;
+
+pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
+    for link in 0..draft.links.len() {
+        let [Some(a), Some(b)] = draft.links[link].ends else { continue };
+        let (Some(kind_a), Some(kind_b)) = (draft.gates[a].kind, draft.gates[b].kind) else { continue };
+        if a == b {
+            continue;
+        }
+        if kind_a.opposite() == kind_b {
+            draft.links[link].flow = Some(if kind_a.is_source() { (a, b) } else { (b, a) });
+        } else if kind_a == kind_b {
+            problems.push(same_direction(draft, link, [a, b], kind_a));
+        } else {
+            problems.push(different_patterns(draft, link, [a, b], [kind_a, kind_b]));
+        }
+    }
+}
+
+fn same_direction(draft: &Draft<'_>, link: usize, [a, b]: [usize; 2], kind: GateKind) -> Diagnostic {
+    let (both, one, nobody) = match kind {
+        GateKind::Pub => ("publish", "sends", "nobody receives"),
+        GateKind::Sub => ("subscribe", "receives", "nobody sends"),
+        GateKind::Req => ("ask", "asks", "nobody answers"),
+        GateKind::Rep => ("answer", "answers", "nobody asks"),
+        GateKind::Push => ("push", "sends", "nobody receives"),
+        GateKind::Pull => ("pull", "receives", "nobody sends"),
+    };
+    let wanted = kind.opposite();
+    let (word, other) = (kind.word(), wanted.word());
+    let headline = format!("both ends of this connection {both}");
+    let mut found = Diagnostic::error("SCL0505", headline, draft.links[link].model.span, nobody)
+        .label(draft.gates[a].model.kind.span, one)
+        .label(draft.gates[b].model.kind.span, format!("{one} too"))
+        .help(format!("a `{word}` gate connects to a `{other}` gate; should one of the two be `{other}`?"));
+    let fitting = [fitting(draft, a, b), fitting(draft, b, a)];
+    for fit in fitting.iter().flatten() {
+        found = found.help(fit.clone());
+    }
+    match fitting {
+        [None, None] => found.note(nobody_is(draft, [a, b], other)),
+        _ => found,
+    }
+}
+
+fn nobody_is(draft: &Draft<'_>, [a, b]: [usize; 2], kind: &str) -> String {
+    let (a, b) = (draft.component_name(a), draft.component_name(b));
+    match a == b {
+        true => format!("no gate of `{a}` is a `{kind}`"),
+        false => format!("no gate of `{a}` or `{b}` is a `{kind}`"),
+    }
+}
+
+fn different_patterns(draft: &Draft<'_>, link: usize, [a, b]: [usize; 2], kinds: [GateKind; 2]) -> Diagnostic {
+    let [a_word, b_word] = kinds.map(GateKind::word);
+    let headline = format!("a `{a_word}` gate cannot be connected to a `{b_word}` gate");
+    let mut found = Diagnostic::error("SCL0506", headline, draft.links[link].model.span, "")
+        .label(draft.gates[a].model.span, doing(kinds[0]))
+        .label(draft.gates[b].model.span, doing(kinds[1]));
+    // The end with an obvious partner comes first.
+    for fit in [fitting(draft, b, a), fitting(draft, a, b)].into_iter().flatten() {
+        found = found.help(fit);
+    }
+    found.note("pairs that fit: pub - sub, req - rep, push - pull")
+}
+
+fn doing(kind: GateKind) -> &'static str {
+    match kind {
+        GateKind::Pub => "publishes, gets no answer",
+        GateKind::Sub => "receives, gives no answer",
+        GateKind::Req => "asks, waits for an answer",
+        GateKind::Rep => "answers",
+        GateKind::Push => "hands on work, gets no answer",
+        GateKind::Pull => "takes work, gives no answer",
+    }
+}
+
+/// What `gate` could be connected to in the component of `other`: the gate of its own name, else the only one that fits.
+fn fitting(draft: &Draft<'_>, gate: usize, other: usize) -> Option<String> {
+    let wanted = draft.gates[gate].kind?.opposite();
+    let fits: Vec<usize> = draft
+        .gates_of(draft.component_name(other))
+        .filter(|&at| at != gate && at != other && draft.gates[at].kind == Some(wanted))
+        .collect();
+    let name = &draft.gates[gate].model.name.value;
+    let namesake = fits.iter().find(|&&at| draft.gates[at].model.name.value == *name);
+    let best = namesake.or(if fits.len() == 1 { fits.first() } else { None })?;
+    Some(format!("`{}` fits {}", draft.path(gate), draft.path_and_kind(*best)))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn both_ends_send_or_both_receive() {
+        let yaml = r#"
+components:
+  - name: gps
+    gates:
+      - fix: pub
+  - name: imu
+    gates:
+      - rate: pub
+connections:
+  - [gps.fix, imu.rate]
+"#;
+        example(
+            "SCL0505",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0505] both ends of this connection publish
+             --> topology.yaml:9:5
+              |
+            4 |       - fix: pub
+              |              --- sends
+            ...
+            7 |       - rate: pub
+              |               --- sends too
+            8 | connections:
+            9 |   - [gps.fix, imu.rate]
+              |     ^^^^^^^^^^^^^^^^^^^ nobody receives
+              |
+              = help: a `pub` gate connects to a `sub` gate; should one of the two be `sub`?
+              = note: no gate of `gps` or `imu` is a `sub`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn ends_of_different_patterns() {
+        let yaml = r#"
+components:
+  - name: controller
+    gates:
+      - commands: rep
+      - events: pub
+  - name: ui
+    gates:
+      - commands: req
+      - events: sub
+connections:
+  - [controller.events, ui.commands]
+"#;
+        example(
+            "SCL0506",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0506] a `pub` gate cannot be connected to a `req` gate
+              --> topology.yaml:11:5
+               |
+             5 |       - events: pub
+               |         ----------- publishes, gets no answer
+            ...
+             8 |       - commands: req
+               |         ------------- asks, waits for an answer
+            ...
+            11 |   - [controller.events, ui.commands]
+               |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+               |
+               = help: `ui.commands` fits `controller.commands` (rep)
+               = help: `controller.events` fits `ui.events` (sub)
+               = note: pairs that fit: pub - sub, req - rep, push - pull
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,183 @@
+//! SCL0403: a text that is no type name. SCL0404: one type where two are needed, or two where one is. Sets the payload
+//! of every other gate.
+
+use super::draft::{Draft, DraftGate};
+use super::wording::example_type;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::source::Spanned;
+use crate::topology::{GateKind, Payload, TypeName};
+
+pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
+    for at in 0..draft.gates.len() {
+        let gate = &draft.gates[at];
+        let Some(written) = gate.model.payload.as_ref() else {
+            if gate.kind.is_none() {
+                draft.gates[at].payload = None;
+            }
+            continue;
+        };
+        let read = read_payload(draft, gate, written, problems);
+        let gate = &mut draft.gates[at];
+        gate.payload = if gate.payload.is_some() { read } else { None };
+    }
+}
+
+fn read_payload(
+    draft: &Draft<'_>,
+    gate: &DraftGate<'_>,
+    written: &Spanned<String>,
+    problems: &mut Diagnostics,
+) -> Option<Payload> {
+    let parts: Vec<&str> = written.value.split("->").map(str::trim).collect();
+    let mut types = Vec::new();
+    for (at, part) in parts.iter().enumerate() {
+        let span = if parts.len() == 1 { written.span } else { draft.part(written.span, part, at > 0) };
+        match fault(part) {
+            None => types.push(TypeName { dotted: (*part).to_owned(), span }),
+            Some(fault) => problems.push(no_type(part, span, &fault)),
+        }
+    }
+    if types.len() != parts.len() {
+        return None;
+    }
+    let fitted = fit(gate.kind?, types);
+    if fitted.is_none() {
+        problems.push(misfit(gate, gate.kind?, written, &parts));
+    }
+    fitted
+}
+
+fn fit(kind: GateKind, types: Vec<TypeName>) -> Option<Payload> {
+    let asks = matches!(kind, GateKind::Req | GateKind::Rep);
+    let mut types = types.into_iter();
+    match (asks, types.next(), types.next(), types.next()) {
+        (false, Some(message), None, None) => Some(Payload::Message(message)),
+        (true, Some(request), Some(reply), None) => Some(Payload::Exchange { request, reply }),
+        _ => None,
+    }
+}
+
+fn misfit(gate: &DraftGate<'_>, kind: GateKind, written: &Spanned<String>, parts: &[&str]) -> Diagnostic {
+    let name = &gate.model.name.value;
+    let word = kind.word();
+    match (kind, parts) {
+        (GateKind::Req | GateKind::Rep, [only]) => {
+            let takes = match kind {
+                GateKind::Req => "what it asks and what it gets back",
+                _ => "what it is asked and what it answers",
+            };
+            let headline = format!("a `{word}` gate needs two types, {takes}");
+            Diagnostic::error("SCL0404", headline, written.span, "only one type is given")
+                .help(format!("write `{name}: {{{word}: {only} -> Status}}`"))
+        }
+        (GateKind::Req | GateKind::Rep, _) => {
+            let headline = format!("a `{word}` gate has two types, a request and its reply");
+            Diagnostic::error("SCL0404", headline, written.span, format!("{} types are given", parts.len()))
+                .help(format!("write `{name}: {{{word}: {} -> {}}}`", parts[0], parts[parts.len() - 1]))
+        }
+        _ => {
+            let (does, meant) = match kind {
+                GateKind::Pub | GateKind::Push => ("sends one type and gets no answer", "req"),
+                _ => ("receives one type and gives no answer", "rep"),
+            };
+            let headline = format!("a `{word}` gate {does}; did you mean `{meant}`?");
+            Diagnostic::error("SCL0404", headline, written.span, format!("{} types are given", parts.len()))
+                .help(format!("write `{name}: {{{word}: {}}}`", parts[0]))
+                .help(format!("or `{name}: {{{meant}: {}}}`", written.value.trim()))
+        }
+    }
+}
+
+/// Why a text is no type name, and what to write instead.
+struct Fault {
+    label: &'static str,
+    help: String,
+}
+
+fn fault(text: &str) -> Option<Fault> {
+    let is_word = |word: &str| {
+        word != "_"
+            && word.starts_with(super::named::may_start)
+            && word.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+    };
+    if text.split('.').all(is_word) {
+        return None;
+    }
+    let dotted = text.trim_start_matches("::").replace("::", ".");
+    let owned = text.trim_start_matches('&').trim_start_matches("mut ").trim();
+    let owned = if owned == "str" { "String" } else { owned };
+    let (label, help) = match text {
+        "" => ("a type is missing", format!("write a type, for example `{}`", example_type("status"))),
+        _ if text.starts_with('&') => ("a reference", format!("use an owned type: `{owned}`")),
+        _ if dotted != text && dotted.split('.').all(is_word) => ("a Rust path", format!("write `{dotted}`")),
+        _ if text.contains('<') => ("a type with parameters", "give it a name in Rust: `type Name = ...;`".to_owned()),
+        _ if text.starts_with(['(', '[']) => ("a type without a name", "make a struct of it, and name it".to_owned()),
+        _ if text.starts_with("dyn ") || text.starts_with("impl ") => {
+            ("a trait", "use a type, such as a struct or an enum".to_owned())
+        }
+        _ if text.contains("..") || text.starts_with('.') || text.ends_with('.') => {
+            ("a part between the dots is empty", "write each part of the name".to_owned())
+        }
+        _ => ("not a dotted name", "write a name such as `uav.Measurement`".to_owned()),
+    };
+    Some(Fault { label, help })
+}
+
+fn no_type(text: &str, span: crate::source::Span, fault: &Fault) -> Diagnostic {
+    Diagnostic::error("SCL0403", format!("`{text}` cannot be a message type"), span, fault.label).help(&*fault.help).note(
+        "a message type is a dotted name, such as `uav.Measurement`: words of letters, digits and `_`, joined by `.`",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn not_a_type_name() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: "&str"}
+"#;
+        example(
+            "SCL0403",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0403] `&str` cannot be a message type
+             --> topology.yaml:4:29
+              |
+            4 |       - measurements: {pub: "&str"}
+              |                             ^^^^^^ a reference
+              |
+              = help: use an owned type: `String`
+              = note: a message type is a dotted name, such as `uav.Measurement`: words of letters, digits and `_`, joined by `.`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn types_do_not_fit_the_kind() {
+        let yaml = r#"
+components:
+  - name: ui
+    gates:
+      - commands: {req: Command}
+"#;
+        example(
+            "SCL0404",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0404] a `req` gate needs two types, what it asks and what it gets back
+             --> topology.yaml:4:25
+              |
+            4 |       - commands: {req: Command}
+              |                         ^^^^^^^ only one type is given
+              |
+              = help: write `commands: {req: Command -> Status}`
+        "#]],
+        );
+    }
+}

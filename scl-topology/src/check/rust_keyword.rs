@@ -1,0 +1,121 @@
+//! SCL0306: a gate whose field needs `r#`. SCL0307: a name that not even `r#` makes usable.
+
+use super::named::{Noun, is_well_formed, names};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::Model;
+use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
+use crate::source::Spanned;
+
+/// Other words for the keywords that name a thing in a real system.
+const ALTERNATIVES: [(&str, &str); 12] = [
+    ("type", "kind"),
+    ("loop", "cycle"),
+    ("move", "motion"),
+    ("match", "hit"),
+    ("ref", "reference"),
+    ("abstract", "summary"),
+    ("final", "last"),
+    ("static", "fixed"),
+    ("use", "usage"),
+    ("in", "input"),
+    ("box", "bounds"),
+    ("override", "manual"),
+];
+
+pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+    for (noun, name) in names(model).filter(|(noun, _)| *noun != Noun::System) {
+        if is_unusable(noun, &name.value) {
+            problems.push(unusable(name));
+        }
+    }
+    for component in &model.components {
+        for gate in component.gates.iter().filter(|gate| is_well_formed(&gate.name.value)) {
+            if is_keyword(&gate_field(&gate.name.value)) {
+                problems.push(escaped(&component.name.value, &gate.name));
+            }
+        }
+    }
+}
+
+fn is_unusable(noun: Noun, name: &str) -> bool {
+    is_unescapable(name)
+        || match noun {
+            Noun::Component => is_well_formed(name) && is_unescapable(&component_type(name)),
+            _ => is_well_formed(name) && is_unescapable(&gate_field(name)),
+        }
+}
+
+fn unusable(name: &Spanned<String>) -> Diagnostic {
+    let word = &name.value;
+    let headline = format!("`{word}` is a Rust keyword that cannot be used as a name, not even as `r#{word}`");
+    let others: Vec<&str> = ["crate", "self", "Self", "super", "_"].into_iter().filter(|other| other != word).collect();
+    Diagnostic::error("SCL0307", headline, name.span, "")
+        .help("choose another name")
+        .note(format!("the others: {}", super::wording::listed(others)))
+}
+
+fn escaped(component: &str, name: &Spanned<String>) -> Diagnostic {
+    let field = gate_field(&name.value);
+    let label = format!("in Rust code you will have to write `{}.r#{field}`", gate_field(component));
+    let help = match ALTERNATIVES.iter().find(|(word, _)| *word == field) {
+        Some((_, other)) => format!("choose another name, for example `{other}`"),
+        None => format!("choose another name, for example `{field}_`"),
+    };
+    Diagnostic::warning("SCL0306", format!("gate name `{}` is a Rust keyword", name.value), name.span, label)
+        .help(help)
+        .note(
+            "checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)",
+        )
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn gate_name_is_a_rust_keyword() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - type: pub
+"#;
+        example(
+            "SCL0306",
+            yaml.trim_start(),
+            expect![[r#"
+            warning: [SCL0306] gate name `type` is a Rust keyword
+             --> topology.yaml:4:9
+              |
+            4 |       - type: pub
+              |         ^^^^ in Rust code you will have to write `sensor.r#type`
+              |
+              = help: choose another name, for example `kind`
+              = note: checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn keyword_that_cannot_be_escaped() {
+        let yaml = r#"
+components:
+  - name: crate
+"#;
+        example(
+            "SCL0307",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0307] `crate` is a Rust keyword that cannot be used as a name, not even as `r#crate`
+             --> topology.yaml:2:11
+              |
+            2 |   - name: crate
+              |           ^^^^^
+              |
+              = help: choose another name
+              = note: the others: `self`, `Self`, `super`, `_`
+        "#]],
+        );
+    }
+}

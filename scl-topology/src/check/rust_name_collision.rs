@@ -1,0 +1,112 @@
+//! SCL0308 and SCL0309: names that differ in the file and would be one in Rust.
+
+use super::named::is_well_formed;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::Model;
+use crate::rust_name::{component_type, gate_field};
+use crate::source::Spanned;
+use std::collections::HashMap;
+
+pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+    let names = model.components.iter().map(|component| &component.name);
+    for (first, second, rust) in collisions(names, component_type) {
+        let (a, b) = (&first.value, &second.value);
+        let headline = format!("components `{a}` and `{b}` would both become the Rust type `{rust}`");
+        let help = "rename one of them; use `_` in all names";
+        problems.push(report("SCL0308", headline, [first, second], &rust).help(help));
+    }
+    for component in &model.components {
+        let names = component.gates.iter().map(|gate| &gate.name);
+        for (first, second, rust) in collisions(names, gate_field) {
+            let (a, b, owner) = (&first.value, &second.value, &component.name.value);
+            let headline = format!("gates `{a}` and `{b}` of `{owner}` would both become the Rust field `{rust}`");
+            problems.push(report("SCL0309", headline, [first, second], &rust).help("rename one of them"));
+        }
+    }
+}
+
+type Name = Spanned<String>;
+
+/// The names that meet an earlier, different name in Rust. Equal names are another rule's.
+fn collisions<'m>(
+    names: impl Iterator<Item = &'m Name>,
+    rust: fn(&str) -> String,
+) -> Vec<(&'m Name, &'m Name, String)> {
+    let mut first: HashMap<String, &Name> = HashMap::new();
+    let mut found = Vec::new();
+    for name in names.filter(|name| is_well_formed(&name.value)) {
+        let rust = rust(&name.value);
+        match first.get(&rust) {
+            Some(other) if other.value != name.value => found.push((*other, name, rust)),
+            Some(_) => {}
+            None => {
+                first.insert(rust, name);
+            }
+        }
+    }
+    found
+}
+
+fn report(code: &'static str, headline: String, [first, second]: [&Name; 2], rust: &str) -> Diagnostic {
+    Diagnostic::error(code, headline, second.span, format!("also becomes `{rust}`"))
+        .label(first.span, format!("becomes `{rust}`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn two_components_become_the_same_rust_type() {
+        let yaml = r#"
+components:
+  - name: user-interface
+    gates: []
+  - name: user_interface
+    gates: []
+"#;
+        example(
+            "SCL0308",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0308] components `user-interface` and `user_interface` would both become the Rust type `UserInterface`
+             --> topology.yaml:4:11
+              |
+            2 |   - name: user-interface
+              |           -------------- becomes `UserInterface`
+            3 |     gates: []
+            4 |   - name: user_interface
+              |           ^^^^^^^^^^^^^^ also becomes `UserInterface`
+              |
+              = help: rename one of them; use `_` in all names
+        "#]],
+        );
+    }
+
+    #[test]
+    fn two_gates_become_the_same_rust_field() {
+        let yaml = r#"
+components:
+  - name: actuator
+    gates:
+      - set-point: sub
+      - setPoint: sub
+"#;
+        example(
+            "SCL0309",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0309] gates `set-point` and `setPoint` of `actuator` would both become the Rust field `set_point`
+             --> topology.yaml:5:9
+              |
+            4 |       - set-point: sub
+              |         --------- becomes `set_point`
+            5 |       - setPoint: sub
+              |         ^^^^^^^^ also becomes `set_point`
+              |
+              = help: rename one of them
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,66 @@
+//! What the tests of the rules share: a text goes in, the words that users read come out.
+
+use super::{Facts, SchemaMessages, check};
+use crate::diagnostic::render;
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
+use crate::parse::parse;
+use crate::source::Sources;
+use crate::topology::Topology;
+use expect_test::Expect;
+
+/// The warnings that small examples cannot but have: no connections, and gates without a peer.
+const USUAL: [&str; 7] = ["SCL0206", "SCL0209", "SCL0701", "SCL0702", "SCL0703", "SCL0704", "SCL0705"];
+
+/// The one problem of an example, as text; the same with the line ends of Windows.
+#[track_caller]
+pub(super) fn example(code: &str, yaml: &str, expected: Expect) {
+    example_with(code, yaml, None, expected);
+}
+
+/// The same for a file whose schemas declare these messages.
+#[track_caller]
+pub(super) fn example_with(code: &str, yaml: &str, messages: Option<&[&str]>, expected: Expect) {
+    let text = told(code, yaml, messages);
+    assert_eq!(text, told(code, &yaml.replace('\n', "\r\n"), messages), "line ends change the words");
+    expected.assert_eq(&text);
+}
+
+fn told(code: &str, yaml: &str, messages: Option<&[&str]>) -> String {
+    let (found, sources) = problems(yaml, messages);
+    let is_usual = |found: &Diagnostic| USUAL.contains(&found.code) || found.severity == Severity::Lint;
+    let told = found.iter().filter(|found| found.code == code || !is_usual(found));
+    let texts: Vec<String> = told.map(|found| render(found, &sources)).collect();
+    format!("{}\n", texts.join("\n\n").trim_end())
+}
+
+/// The codes of all problems but lints, in the order of their places.
+pub(super) fn codes(yaml: &str) -> Vec<&'static str> {
+    let (found, _) = problems(yaml, None);
+    found.into_iter().filter(|found| found.severity != Severity::Lint).map(|found| found.code).collect()
+}
+
+/// Every problem.
+pub(super) fn problems(yaml: &str, messages: Option<&[&str]>) -> (Vec<Diagnostic>, Sources) {
+    let (_, found, sources) = run(yaml, messages);
+    (found, sources)
+}
+
+/// The topology of a text without errors.
+#[track_caller]
+pub(crate) fn topology(yaml: &str) -> Topology {
+    let (topology, found, sources) = run(yaml, None);
+    let texts: Vec<String> = found.iter().map(|found| render(found, &sources)).collect();
+    topology.unwrap_or_else(|| panic!("{}", texts.join("\n")))
+}
+
+fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnostic>, Sources) {
+    let mut sources = Sources::new();
+    let file = sources.add("topology.yaml", yaml);
+    let mut problems = Diagnostics::new();
+    let model = parse(&sources, file, &mut problems);
+    let declared = |names: &[&str]| SchemaMessages { names: names.iter().map(|&name| name.to_owned()).collect() };
+    let messages = messages.map(|names| vec![declared(names)]);
+    let facts = Facts { default_system: "topology".to_owned(), messages };
+    let topology = check(&model, &facts, &sources, &mut problems);
+    (topology, problems.into_sorted(), sources)
+}

@@ -1,0 +1,124 @@
+//! SCL0501: an end of a component that does not exist. SCL0504: its two names are swapped.
+
+use super::connection_end::parts;
+use super::draft::Draft;
+use super::wording::{either, listed};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::suggest::similar;
+
+pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnostics) {
+    let text = &draft.links[link].model.ends[end];
+    let Some((component, gate)) = parts(&text.value) else { return };
+    let headline = format!("unknown component `{component}`");
+    if let Some(swapped) = draft.gate(gate, component) {
+        draft.gates[swapped].named = true;
+        return problems.push(swap(headline, text.span, gate, component));
+    }
+    if draft.model.components_unread {
+        return;
+    }
+    let place = draft.part(text.span, component, false);
+    let mut found = Diagnostic::error("SCL0501", headline, place, "no component has this name");
+    let meant = if draft.may_search() { meant(draft, component, gate) } else { Vec::new() };
+    if let [only] = meant.as_slice()
+        && let Some(at) = draft.component(only)
+    {
+        found = found.label(draft.components[at].model.name.span, "a similar name is declared here");
+    }
+    for name in &meant {
+        if let Some(gate) = draft.gate(name, gate) {
+            draft.gates[gate].named = true;
+        }
+    }
+    if !meant.is_empty() {
+        found = found.help(format!("did you mean {}?", either(&meant)));
+    }
+    problems.push(found.note(declared(draft)));
+}
+
+/// The report of an end whose two names are in the wrong order.
+pub(super) fn swap(headline: String, span: crate::source::Span, component: &str, gate: &str) -> Diagnostic {
+    Diagnostic::error("SCL0504", headline, span, "component and gate are swapped")
+        .help(format!("write `{component}.{gate}`"))
+}
+
+/// Similar components; those that have the gate, if there are any.
+fn meant(draft: &Draft<'_>, component: &str, gate: &str) -> Vec<String> {
+    let near = similar(component, draft.component_names.iter().copied());
+    let owners: Vec<&str> = near.iter().copied().filter(|other| draft.gate(other, gate).is_some()).collect();
+    let best = if owners.is_empty() { near } else { owners };
+    best.into_iter().map(str::to_owned).collect()
+}
+
+fn declared(draft: &Draft<'_>) -> String {
+    match draft.component_names.as_slice() {
+        [] => "no components are declared".to_owned(),
+        names => format!("declared components: {}", listed(names)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn unknown_component() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controler.sensor]
+"#;
+        example(
+            "SCL0501",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0501] unknown component `controler`
+             --> topology.yaml:9:27
+              |
+            5 |   - name: controller
+              |           ---------- a similar name is declared here
+            ...
+            9 |   - [sensor.measurements, controler.sensor]
+              |                           ^^^^^^^^^ no component has this name
+              |
+              = help: did you mean `controller`?
+              = note: declared components: `controller`, `sensor`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn component_and_gate_swapped() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [measurements.sensor, controller.sensor]
+"#;
+        example(
+            "SCL0504",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0504] unknown component `measurements`
+             --> topology.yaml:9:6
+              |
+            9 |   - [measurements.sensor, controller.sensor]
+              |      ^^^^^^^^^^^^^^^^^^^ component and gate are swapped
+              |
+              = help: write `sensor.measurements`
+        "#]],
+        );
+    }
+}

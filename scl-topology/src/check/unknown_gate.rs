@@ -1,0 +1,108 @@
+//! SCL0502: an end with a gate that its component does not have.
+
+use super::connection_end::parts;
+use super::draft::Draft;
+use super::unknown_component::swap;
+use super::wording::{either, shortened};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::source::Spanned;
+use crate::suggest::similar;
+
+pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnostics) {
+    let text = &draft.links[link].model.ends[end];
+    let Some((component, gate)) = parts(&text.value) else { return };
+    let headline = format!("component `{component}` has no gate `{gate}`");
+    if let Some(swapped) = draft.gate(gate, component) {
+        draft.gates[swapped].named = true;
+        return problems.push(swap(headline, text.span, gate, component));
+    }
+    // The gate may be one of those that could not be read.
+    if draft.declarations(component).any(|twin| twin.gates_unread) {
+        return;
+    }
+    let meant = meant(draft, link, end, component, gate);
+    problems.push(report(draft, text, headline, [component, gate], &meant));
+    for gate in meant {
+        draft.gates[gate].named = true;
+    }
+}
+
+/// Similar gates of the component that would fit the other end.
+fn meant(draft: &Draft<'_>, link: usize, end: usize, component: &str, gate: &str) -> Vec<usize> {
+    let other = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind);
+    let fits = |at: &usize| match (other, draft.gates[*at].kind) {
+        (Some(other), Some(kind)) => kind == other.opposite(),
+        _ => true,
+    };
+    let candidates = draft.gates_of(component).filter(fits).map(|at| draft.gates[at].model.name.value.as_str());
+    similar(gate, candidates).into_iter().filter_map(|name| draft.gate(component, name)).collect()
+}
+
+fn report(
+    draft: &Draft<'_>,
+    text: &Spanned<String>,
+    headline: String,
+    [component, gate]: [&str; 2],
+    meant: &[usize],
+) -> Diagnostic {
+    let place = draft.part(text.span, gate, true);
+    let mut found = Diagnostic::error("SCL0502", headline, place, "unknown gate");
+    if let [only] = meant {
+        found = found.label(draft.gates[*only].model.name.span, "a similar gate is declared here");
+    }
+    if !meant.is_empty() {
+        let names: Vec<&str> = meant.iter().map(|&at| draft.gates[at].model.name.value.as_str()).collect();
+        found = found.help(format!("did you mean {}?", either(&names)));
+    }
+    let all: Vec<String> = draft.gates_of(component).map(|at| described(draft, at)).collect();
+    match all.is_empty() {
+        true => found.note(format!("`{component}` has no gates")),
+        false => found.note(format!("gates of `{component}`: {}", shortened(&all))),
+    }
+}
+
+fn described(draft: &Draft<'_>, gate: usize) -> String {
+    let model = draft.gates[gate].model;
+    if model.kind.value.is_empty() {
+        return format!("`{}`", model.name.value);
+    }
+    format!("`{}` ({})", model.name.value, model.kind.value)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::testing::example;
+    use expect_test::expect;
+
+    #[test]
+    fn unknown_gate() {
+        let yaml = r#"
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurement, controller.sensor]
+"#;
+        example(
+            "SCL0502",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0502] component `sensor` has no gate `measurement`
+             --> topology.yaml:9:13
+              |
+            4 |       - measurements: pub
+              |         ------------ a similar gate is declared here
+            ...
+            9 |   - [sensor.measurement, controller.sensor]
+              |             ^^^^^^^^^^^ unknown gate
+              |
+              = help: did you mean `measurements`?
+              = note: gates of `sensor`: `measurements` (pub)
+        "#]],
+        );
+    }
+}

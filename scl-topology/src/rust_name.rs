@@ -1,0 +1,94 @@
+//! The Rust names that components and gates get.
+
+/// Words that are keywords in some edition from 2015 to 2024, or reserved for one to come.
+const KEYWORDS: [&str; 48] = [
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn", "else", "enum",
+    "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod", "move",
+    "mut", "override", "priv", "pub", "ref", "return", "static", "struct", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
+/// Words that stay keywords even with `r#` before them.
+const UNESCAPABLE: [&str; 5] = ["crate", "self", "Self", "super", "_"];
+
+/// The type of a component: `user_interface` and `user-interface` become `UserInterface`; capitals stay as they are.
+pub fn component_type(name: &str) -> String {
+    let mut out = String::with_capacity(name.len());
+    for word in name.split(['_', '-']) {
+        let mut letters = word.chars();
+        if let Some(first) = letters.next() {
+            out.push(first.to_ascii_uppercase());
+            out.push_str(letters.as_str());
+        }
+    }
+    if out.is_empty() || out.starts_with(|first: char| first.is_ascii_digit()) {
+        out.insert(0, '_');
+    }
+    out
+}
+
+/// The field of a gate, without `r#`: `setPoint` and `set-point` become `set_point`.
+pub fn gate_field(name: &str) -> String {
+    let mut out = String::with_capacity(name.len() + 4);
+    let letters: Vec<char> = name.chars().collect();
+    for (at, &letter) in letters.iter().enumerate() {
+        if letter.is_ascii_uppercase() && starts_word(&letters, at) {
+            out.push('_');
+        }
+        out.push(if letter == '-' { '_' } else { letter.to_ascii_lowercase() });
+    }
+    out
+}
+
+/// A capital starts a word after a small letter or a digit, and as the last of several capitals: `GPSFix` is `gps_fix`.
+fn starts_word(letters: &[char], at: usize) -> bool {
+    let Some(&before) = at.checked_sub(1).and_then(|at| letters.get(at)) else { return false };
+    let next_is_small = letters.get(at + 1).is_some_and(char::is_ascii_lowercase);
+    before.is_ascii_lowercase() || before.is_ascii_digit() || (before.is_ascii_uppercase() && next_is_small)
+}
+
+/// Whether a field of this name is written with `r#`.
+pub fn is_keyword(name: &str) -> bool {
+    KEYWORDS.contains(&name)
+}
+
+/// Whether not even `r#` makes a name of it.
+pub fn is_unescapable(name: &str) -> bool {
+    UNESCAPABLE.contains(&name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn components_become_types() {
+        let cases = [
+            ("user_interface", "UserInterface"),
+            ("user-interface", "UserInterface"),
+            ("pySysMoCo", "PySysMoCo"),
+            ("GPS_", "GPS"),
+            ("_1", "_1"),
+            ("_", "_"),
+        ];
+        for (name, expected) in cases {
+            assert_eq!(component_type(name), expected);
+        }
+    }
+
+    #[test]
+    fn gates_become_fields() {
+        let cases = [
+            ("core_mon", "core_mon"),
+            ("set-point", "set_point"),
+            ("setPoint", "set_point"),
+            ("GPSFix", "gps_fix"),
+            ("v2Data", "v2_data"),
+            ("_x", "_x"),
+            ("A_B", "a_b"),
+        ];
+        for (name, expected) in cases {
+            assert_eq!(gate_field(name), expected);
+        }
+    }
+}
