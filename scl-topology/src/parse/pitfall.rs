@@ -83,6 +83,11 @@ pub(super) fn check_tree(
     problems.extend(tree.second_document.map(|at| second_document::diagnose(&place, at)));
     problems.extend(tree.too_deep.map(depth::diagnose));
     match &tree.error {
+        Some(error) if error.kind == SyntaxErrorKind::Limit => {
+            // The parser may notice it before it hands out the first of the nested values.
+            let at = place.span(error.at..error.at);
+            problems.extend(tree.too_deep.is_none().then(|| depth::diagnose(at)));
+        }
         Some(error) => problems.extend(syntax_error(error, text, &place)),
         None => problems.extend(empty_file::find(tree, &place)),
     }
@@ -90,7 +95,7 @@ pub(super) fn check_tree(
 
 /// The rule that explains best why the parser stopped; none where a problem says so already.
 fn syntax_error(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> Option<Diagnostic> {
-    if text.has_tabs || error.kind == SyntaxErrorKind::Limit {
+    if text.has_tabs {
         return None;
     }
     let explained = match error.kind {
