@@ -1,0 +1,111 @@
+//! What all gates of a component share.
+
+use super::blocking::OwnedRuntime;
+use crate::error::{BlockingError, NotFlushed};
+use crate::gate::Outgoing;
+use crate::place::{Claim, ComponentLock};
+use crate::spec::ComponentSpec;
+use crate::sync::{AbortOnDrop, lock};
+use std::future::poll_fn;
+use std::sync::{Arc, Mutex};
+use std::task::{Context, Poll, Waker};
+use std::time::{Duration, Instant};
+
+/// The part of a component that lives as long as any of its gates.
+pub struct Core {
+    spec: &'static ComponentSpec,
+    connections: Mutex<Vec<Connection>>,
+    announcement: Mutex<Option<Claim>>,
+    runtime: Option<Arc<OwnedRuntime>>,
+    /// Let go last: as soon as it is free, another program may play this component.
+    _lock: ComponentLock,
+}
+
+/// A sending connection and the task that drives it.
+struct Connection {
+    outgoing: Arc<Mutex<Outgoing>>,
+    _task: AbortOnDrop,
+}
+
+impl Core {
+    pub(super) fn new(spec: &'static ComponentSpec, lock: ComponentLock, runtime: Option<Arc<OwnedRuntime>>) -> Self {
+        Self { spec, connections: Mutex::default(), announcement: Mutex::default(), runtime, _lock: lock }
+    }
+
+    pub(crate) fn spec(&self) -> &'static ComponentSpec {
+        self.spec
+    }
+
+    pub(super) fn announced(&self, announcement: Claim) {
+        *lock(&self.announcement) = Some(announcement);
+    }
+
+    /// Keeps a connection moving, whether its gate is used or not.
+    pub(super) fn drive(&self, outgoing: Outgoing) -> Arc<Mutex<Outgoing>> {
+        let outgoing = Arc::new(Mutex::new(outgoing));
+        let driven = Arc::clone(&outgoing);
+        let task = tokio::spawn(poll_fn(move |cx| {
+            lock(&driven).drive(cx);
+            Poll::<()>::Pending
+        }));
+        let task = AbortOnDrop(task.abort_handle());
+        lock(&self.connections).push(Connection { outgoing: Arc::clone(&outgoing), _task: task });
+        outgoing
+    }
+
+    /// Whether the component was opened for a program without async.
+    pub(crate) fn owns_runtime(&self) -> bool {
+        self.runtime.is_some()
+    }
+
+    /// Waits for a future from a plain thread.
+    pub(crate) fn block_on<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
+        match &self.runtime {
+            Some(runtime) => runtime.block_on(future),
+            None => super::blocking::wait_beside(future),
+        }
+    }
+
+    /// Waits until connected peers have taken everything, at most for a given time.
+    pub(super) async fn flush(&self, timeout: Duration) -> Result<(), NotFlushed> {
+        let started = Instant::now();
+        // The library writes replies in tasks of its own, which have not run yet when the last reply was just given.
+        for _ in 0..3 {
+            tokio::task::yield_now().await;
+        }
+        let flushed = poll_fn(|cx| self.poll_flushed(cx));
+        match tokio::time::timeout(timeout, flushed).await {
+            Ok(()) => Ok(()),
+            Err(_elapsed) => {
+                let waiting = lock(&self.connections).iter().map(|one| lock(&one.outgoing).waiting()).sum();
+                Err(NotFlushed { component: self.spec.name, waiting, waited: started.elapsed() })
+            }
+        }
+    }
+
+    fn poll_flushed(&self, cx: &mut Context<'_>) -> Poll<()> {
+        for connection in &*lock(&self.connections) {
+            let mut outgoing = lock(&connection.outgoing);
+            if !outgoing.is_flushed() {
+                outgoing.wake_when_flushed(cx.waker());
+                return Poll::Pending;
+            }
+        }
+        Poll::Ready(())
+    }
+}
+
+/// Hands over what connected peers take at once.
+impl Drop for Core {
+    fn drop(&mut self) {
+        for connection in &*lock(&self.connections) {
+            lock(&connection.outgoing).drive(&mut Context::from_waker(Waker::noop()));
+        }
+    }
+}
+
+impl std::fmt::Debug for Core {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Core").field(&self.spec.name).finish()
+    }
+}

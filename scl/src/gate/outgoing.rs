@@ -1,0 +1,168 @@
+//! One connection at its sending end: the link, and the queue of what the peer has not taken.
+
+use super::GateName;
+use super::holding::Holding;
+use super::stats::Counts;
+use crate::spec::WhenFull;
+use crate::transport::Outlet;
+use bytes::Bytes;
+use std::collections::VecDeque;
+use std::task::{Context, Poll, Waker};
+
+/// One connection at its sending end.
+pub(crate) struct Outgoing {
+    link: Box<dyn Outlet>,
+    waiting: VecDeque<Bytes>,
+    holding: Holding,
+    present: bool,
+    /// Wakes the connection's task; senders use it too, so that whatever they leave behind is picked up there.
+    task: Waker,
+    /// A sender that waits for room.
+    sender: Option<Waker>,
+    /// A task that waits until everything is handed over.
+    flusher: Option<Waker>,
+    counts: Counts,
+    dropping: bool,
+    gate: GateName,
+    peer: String,
+}
+
+impl Outgoing {
+    pub(crate) fn new(link: Box<dyn Outlet>, holding: Holding, gate: GateName, peer: String) -> Self {
+        Self {
+            link,
+            waiting: VecDeque::new(),
+            holding,
+            present: false,
+            task: Waker::noop().clone(),
+            sender: None,
+            flusher: None,
+            counts: Counts::default(),
+            dropping: false,
+            gate,
+            peer,
+        }
+    }
+
+    /// Moves on; called by the connection's task whenever it is woken.
+    pub(crate) fn drive(&mut self, cx: &mut Context<'_>) {
+        if !self.task.will_wake(cx.waker()) {
+            self.task = cx.waker().clone();
+        }
+        let present = self.link.drive(cx);
+        if present != self.present {
+            self.present = present;
+            let (gate, peer) = (self.gate, &self.peer);
+            tracing::debug!(%gate, peer, "{}", if present { "connected" } else { "disconnected" });
+        }
+        self.hand_over();
+    }
+
+    /// Takes a message without waiting; a full queue treats it as declared.
+    pub(crate) fn send(&mut self, message: Bytes) {
+        let message = match self.try_link(message) {
+            Ok(()) => return,
+            Err(message) => message,
+        };
+        if !self.present && !self.holding.for_absent {
+            return;
+        }
+        if self.waiting.len() >= self.holding.capacity && !self.make_room() {
+            return;
+        }
+        self.waiting.push_back(message);
+    }
+
+    /// Ready when a message would find room, or would not have to wait for it.
+    pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        let waits = self.holding.when_full == WhenFull::Wait && (self.present || self.holding.wait_for_absent);
+        if !waits || self.waiting.len() < self.holding.capacity {
+            return Poll::Ready(());
+        }
+        self.sender = Some(cx.waker().clone());
+        Poll::Pending
+    }
+
+    /// Whether nothing waits that the peer, if it is there, could still be given.
+    pub(crate) fn is_flushed(&self) -> bool {
+        !self.present || (self.waiting.is_empty() && self.link.is_flushed())
+    }
+
+    /// Wakes a task when the queue has moved on; it then asks [`Self::is_flushed`] again.
+    pub(crate) fn wake_when_flushed(&mut self, waker: &Waker) {
+        self.flusher = Some(waker.clone());
+    }
+
+    pub(crate) fn is_connected(&self) -> bool {
+        self.present
+    }
+
+    /// Whether a message would go out at once.
+    pub(crate) fn is_free(&self) -> bool {
+        self.present && self.waiting.is_empty()
+    }
+
+    pub(crate) fn waiting(&self) -> usize {
+        self.waiting.len()
+    }
+
+    pub(crate) fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    fn try_link(&mut self, message: Bytes) -> Result<(), Bytes> {
+        if !self.present || !self.waiting.is_empty() {
+            return Err(message);
+        }
+        let size = message.len();
+        self.link.offer(&mut Context::from_waker(&self.task), message)?;
+        self.counts.moved(size);
+        Ok(())
+    }
+
+    /// Gives the link what waits, in order, as far as it takes it.
+    fn hand_over(&mut self) {
+        let full = self.waiting.len() >= self.holding.capacity;
+        while self.present
+            && let Some(message) = self.waiting.pop_front()
+        {
+            let size = message.len();
+            match self.link.offer(&mut Context::from_waker(&self.task), message) {
+                Ok(()) => self.counts.moved(size),
+                Err(message) => {
+                    self.waiting.push_front(message);
+                    break;
+                }
+            }
+        }
+        self.dropping &= !self.waiting.is_empty();
+        if self.is_flushed()
+            && let Some(flusher) = self.flusher.take()
+        {
+            flusher.wake();
+        }
+        if full
+            && self.waiting.len() < self.holding.capacity
+            && let Some(sender) = self.sender.take()
+        {
+            sender.wake();
+        }
+    }
+
+    /// Whether the new message has a place now.
+    fn make_room(&mut self) -> bool {
+        let newest = self.holding.when_full == WhenFull::DropNewest;
+        if !newest {
+            self.waiting.pop_front();
+        }
+        self.counts.dropped(newest);
+        // With a queue of one, replacing the old value by the new is what was asked for, and nothing to warn about.
+        if !self.dropping && self.holding.capacity > 1 {
+            self.dropping = true;
+            let (gate, peer, queue) = (self.gate, &self.peer, self.holding.capacity);
+            let reason = if self.present { "is too slow" } else { "is not there" };
+            tracing::warn!(%gate, queue, "`{peer}` {reason}: its queue is full, messages are dropped");
+        }
+        !newest
+    }
+}

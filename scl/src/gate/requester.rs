@@ -1,0 +1,142 @@
+//! The `req` gate.
+
+use super::stats::Counts;
+use super::{AnyGate, GateName, GateStats, Peers};
+use crate::codec::{Codec, DecodeError, EncodeError};
+use crate::component::Core;
+use crate::error::CallError;
+use crate::spec::{GateSpec, LinkSpec};
+use crate::transport::{Answer, Asker};
+use bytes::{Bytes, BytesMut};
+use std::future::poll_fn;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Asks the `rep` gate that this gate is connected to, one request at a time.
+pub struct Req<A, B> {
+    core: Arc<Core>,
+    spec: &'static GateSpec,
+    name: GateName,
+    /// `None` for a gate that is meant to be unconnected.
+    link: Option<Box<dyn Asker>>,
+    encode: fn(&A, &mut BytesMut) -> Result<(), EncodeError>,
+    decode: fn(Bytes) -> Result<B, DecodeError>,
+    last_id: u64,
+    asked: u64,
+    counts: Counts,
+}
+
+impl<A, B> Req<A, B> {
+    pub(crate) fn new<C: Codec<A> + Codec<B>>(
+        core: Arc<Core>,
+        spec: &'static GateSpec,
+        link: Option<Box<dyn Asker>>,
+    ) -> Self {
+        let name = GateName::new(core.spec().name, spec.name);
+        let (encode, decode) = (<C as Codec<A>>::encode, <C as Codec<B>>::decode);
+        Self { core, spec, name, link, encode, decode, last_id: 0, asked: 0, counts: Counts::default() }
+    }
+
+    /// Asks, and waits for the answer, together no longer than the gate's `timeout`.
+    ///
+    /// A replier that is not there yet, or that restarts, is waited for within that time.
+    ///
+    /// # Errors
+    /// [`CallError::Timeout`] when no answer came in time, [`CallError::PeerLost`] when the replier went away after it
+    /// was asked; either way the next call starts afresh and never meets an answer to this one.
+    ///
+    /// # Cancel safety
+    /// Cancel safe: a call that is dropped may still be answered, and its answer is then discarded.
+    pub async fn call(&mut self, request: &A) -> Result<B, CallError> {
+        let mut body = BytesMut::new();
+        let encoded = (self.encode)(request, &mut body);
+        encoded.map_err(|source| CallError::Encode { gate: self.name, source })?;
+        let started = Instant::now();
+        let timeout = self.spec.timeout;
+        match tokio::time::timeout(timeout, self.exchange(body.freeze())).await {
+            Ok(answer) => answer,
+            Err(_elapsed) => {
+                let connected = self.connected();
+                let waited = started.elapsed();
+                Err(CallError::Timeout { gate: self.name, peers: Peers(self.spec.links), waited, connected })
+            }
+        }
+    }
+
+    /// [`call`](Self::call) from a program without async.
+    ///
+    /// # Errors
+    /// Those of `call`, and [`CallError::Blocking`] inside async code, or when the program was told to stop.
+    pub fn call_blocking(&mut self, request: &A) -> Result<B, CallError> {
+        let core = Arc::clone(&self.core);
+        core.block_on(self.call(request)).map_err(|source| CallError::Blocking { gate: self.name, source })?
+    }
+
+    /// The gate's `timeout`.
+    pub fn timeout(&self) -> Duration {
+        self.spec.timeout
+    }
+
+    /// Whether the replier is connected.
+    pub fn connected(&self) -> bool {
+        self.missing().is_empty()
+    }
+
+    /// What this gate has done so far.
+    pub fn stats(&self) -> GateStats {
+        let mut stats = GateStats { sent: self.asked, received: self.counts.messages, ..GateStats::default() };
+        self.counts.add_to(&mut stats);
+        stats.peers = usize::from(self.link.is_some() && self.connected());
+        stats
+    }
+
+    async fn exchange(&mut self, body: Bytes) -> Result<B, CallError> {
+        let (name, peers) = (self.name, Peers(self.spec.links));
+        let Some(link) = self.link.as_mut() else { return std::future::pending().await };
+        self.last_id += 1;
+        let mut body = body;
+        loop {
+            poll_fn(|cx| link.poll_connected(cx)).await;
+            match link.ask(self.last_id, body) {
+                Ok(()) => break,
+                Err(refused) => body = refused,
+            }
+            tokio::task::yield_now().await;
+        }
+        self.asked += 1;
+        loop {
+            match poll_fn(|cx| link.poll_answer(cx)).await {
+                Answer::Reply { id, body } if id == self.last_id => {
+                    self.counts.moved(body.len());
+                    return (self.decode)(body).map_err(|source| {
+                        self.counts.rejected += 1;
+                        CallError::Decode { gate: name, peers, source }
+                    });
+                }
+                Answer::Reply { .. } => tracing::debug!(gate = %name, "the answer to an earlier call came too late"),
+                Answer::Lost => return Err(CallError::PeerLost { gate: name, peers }),
+            }
+        }
+    }
+}
+
+impl<A, B> AnyGate for Req<A, B> {
+    fn spec(&self) -> &'static GateSpec {
+        self.spec
+    }
+
+    fn missing(&self) -> Vec<&'static LinkSpec> {
+        let connected = self.link.as_ref().is_none_or(|link| link.is_connected());
+        self.spec.links.iter().filter(|link| link.required && !connected).collect()
+    }
+
+    fn core(&self) -> &Arc<Core> {
+        &self.core
+    }
+}
+
+impl<A, B> std::fmt::Debug for Req<A, B> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Req").field(&self.spec.name).finish()
+    }
+}

@@ -1,0 +1,78 @@
+//! ZeroMQ, over Unix sockets or loopback TCP, by the pure-Rust `zeromq` library.
+//!
+//! The library leaves much open that SCL promises; each file here hides what concerns its role, and says how:
+//!
+//! | role | socket | what the library lacks |
+//! |---|---|---|
+//! | publish | XPUB, one a connection | a publisher is not told that a subscriber left ([`accepted`]) |
+//! | subscribe | SUB, one a publisher | reconnecting backs off to 30 s ([`line`]) |
+//! | push | PUSH | 100,000 messages of its own queue, a lost peer unnoticed ([`push`]) |
+//! | pull | PULL | |
+//! | request | DEALER with an id frame | REQ never recovers from a restarted peer ([`request`]) |
+//! | reply | ROUTER | |
+
+mod accepted;
+mod dial;
+mod frames;
+mod line;
+mod listen;
+mod peers;
+mod publish;
+mod pull;
+mod push;
+mod reply;
+mod request;
+mod subscribe;
+
+use super::{Answerer, Asker, Inlet, Outlet, Transport, TransportError};
+use crate::place::SystemDir;
+use std::sync::Arc;
+
+/// How the listening ends listen; connecting ends find either.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Medium {
+    /// Unix sockets in the runtime folder.
+    #[default]
+    Ipc,
+    /// TCP on 127.0.0.1, the port told in the runtime folder.
+    Tcp,
+}
+
+/// The transport over the `zeromq` library.
+pub struct ZeroMq {
+    place: Arc<SystemDir>,
+    medium: Medium,
+}
+
+impl ZeroMq {
+    /// Ends that meet in a system's folder.
+    pub fn new(place: SystemDir, medium: Medium) -> Self {
+        Self { place: Arc::new(place), medium }
+    }
+}
+
+impl Transport for ZeroMq {
+    fn publish(&self, endpoint: &str) -> Result<Box<dyn Outlet>, TransportError> {
+        Ok(Box::new(publish::Publishing::open(&self.place, self.medium, endpoint)?))
+    }
+
+    fn subscribe(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError> {
+        Ok(Box::new(subscribe::Subscribing::open(&self.place, endpoint)))
+    }
+
+    fn push(&self, endpoint: &str) -> Result<Box<dyn Outlet>, TransportError> {
+        Ok(Box::new(push::Pushing::open(&self.place, endpoint)))
+    }
+
+    fn pull(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError> {
+        Ok(Box::new(pull::Pulling::open(&self.place, self.medium, endpoint)?))
+    }
+
+    fn request(&self, endpoint: &str) -> Result<Box<dyn Asker>, TransportError> {
+        Ok(Box::new(request::Requesting::open(&self.place, endpoint)))
+    }
+
+    fn reply(&self, endpoint: &str) -> Result<Box<dyn Answerer>, TransportError> {
+        Ok(Box::new(reply::Replying::open(&self.place, self.medium, endpoint)?))
+    }
+}

@@ -1,0 +1,145 @@
+//! Who is still connected to a listening socket, read from the operating system.
+//!
+//! The library's XPUB forgets a subscriber that went away without telling anyone, and then sends to nobody with
+//! success. So the publisher looks up the operating system's sockets that were accepted at its address, and, whenever
+//! it wakes, whether they are still open in this process: the library closes them as it forgets them.
+
+use std::fs;
+use std::net::{SocketAddr, TcpListener};
+use std::os::unix::net::UnixListener;
+use std::path::{Path, PathBuf};
+
+/// The address that a listener, and each socket it accepts, is bound to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum LocalAddress {
+    Unix(PathBuf),
+    Tcp(u16),
+    /// Not known; then nobody is ever seen to leave.
+    Unknown,
+}
+
+impl LocalAddress {
+    pub(super) fn of_unix(listener: &UnixListener) -> Self {
+        let path = listener.local_addr().ok().and_then(|address| address.as_pathname().map(Path::to_owned));
+        path.map_or(Self::Unknown, Self::Unix)
+    }
+
+    pub(super) fn of_tcp(listener: &TcpListener) -> Self {
+        listener.local_addr().map_or(Self::Unknown, |address: SocketAddr| Self::Tcp(address.port()))
+    }
+}
+
+/// The accepted sockets of one listener that stand for subscribers.
+#[derive(Debug)]
+pub(super) struct Accepted {
+    address: LocalAddress,
+    open: Vec<OpenSocket>,
+    /// Set when a subscriber is there whose socket could not be found: then it is taken to stay.
+    untraceable: bool,
+}
+
+/// A descriptor of this process and the socket that it was seen to hold.
+#[derive(Debug, PartialEq, Eq)]
+struct OpenSocket {
+    descriptor: PathBuf,
+    socket: PathBuf,
+}
+
+impl Accepted {
+    pub(super) fn at(address: LocalAddress) -> Self {
+        Self { address, open: Vec::new(), untraceable: false }
+    }
+
+    /// Somebody subscribed: finds the sockets accepted so far.
+    pub(super) fn subscribed(&mut self) {
+        self.open = open_sockets(&self.address);
+        self.untraceable = self.open.is_empty();
+    }
+
+    /// Forgets the sockets that are closed by now; whether anybody is left.
+    pub(super) fn any_left(&mut self) -> bool {
+        self.open.retain(OpenSocket::is_open);
+        self.untraceable || !self.open.is_empty()
+    }
+}
+
+impl OpenSocket {
+    fn is_open(&self) -> bool {
+        fs::read_link(&self.descriptor).is_ok_and(|target| target == self.socket)
+    }
+}
+
+fn open_sockets(address: &LocalAddress) -> Vec<OpenSocket> {
+    let inodes = match address {
+        LocalAddress::Unix(path) => unix_inodes(&read("/proc/self/net/unix"), path),
+        LocalAddress::Tcp(port) => tcp_inodes(&read("/proc/self/net/tcp"), *port),
+        LocalAddress::Unknown => return Vec::new(),
+    };
+    let wanted: Vec<PathBuf> = inodes.into_iter().map(|inode| format!("socket:[{inode}]").into()).collect();
+    let Ok(descriptors) = fs::read_dir("/proc/self/fd") else { return Vec::new() };
+    descriptors
+        .flatten()
+        .filter_map(|entry| {
+            let socket = fs::read_link(entry.path()).ok()?;
+            wanted.contains(&socket).then(|| OpenSocket { descriptor: entry.path(), socket })
+        })
+        .collect()
+}
+
+fn read(path: &str) -> String {
+    fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
+}
+
+/// The connected sockets bound to a path: `Num RefCount Protocol Flags Type St Inode Path`, state 03.
+fn unix_inodes(table: &str, path: &Path) -> Vec<String> {
+    let path = path.to_string_lossy();
+    let inode = |line: &str| {
+        let mut columns = line.split_ascii_whitespace();
+        let state = columns.by_ref().nth(5)?;
+        let inode = columns.next()?;
+        (state == "03" && line.ends_with(&*path)).then(|| inode.to_owned())
+    };
+    table.lines().filter_map(inode).collect()
+}
+
+/// The established sockets on a local port: `sl local rem st tx:rx tr:tm retrnsmt uid timeout inode`, state 01.
+fn tcp_inodes(table: &str, port: u16) -> Vec<String> {
+    let suffix = format!(":{port:04X}");
+    let inode = |line: &str| {
+        let columns: Vec<&str> = line.split_ascii_whitespace().collect();
+        let ours = columns.get(1)?.ends_with(&suffix) && *columns.get(3)? == "01";
+        columns.get(9).filter(|_| ours).map(|inode| (*inode).to_owned())
+    };
+    table.lines().filter_map(inode).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::os::unix::net::UnixStream;
+
+    #[test]
+    fn a_closed_connection_is_seen_to_be_gone() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let listener = UnixListener::bind(folder.path().join("a b.sock")).expect("bound");
+        let mut accepted = Accepted::at(LocalAddress::of_unix(&listener));
+        let _client = UnixStream::connect(folder.path().join("a b.sock")).expect("connected");
+        let (server, _) = listener.accept().expect("accepted");
+        accepted.subscribed();
+        assert!(accepted.any_left() && !accepted.untraceable);
+        drop(server);
+        assert!(!accepted.any_left());
+    }
+
+    #[test]
+    fn tcp_connections_are_found_by_their_port() {
+        let listener = TcpListener::bind("127.0.0.1:0").expect("bound");
+        let mut accepted = Accepted::at(LocalAddress::of_tcp(&listener));
+        let _client = std::net::TcpStream::connect(listener.local_addr().expect("address")).expect("connected");
+        let (server, _) = listener.accept().expect("accepted");
+        accepted.subscribed();
+        assert!(accepted.any_left() && !accepted.untraceable);
+        drop(server);
+        assert!(!accepted.any_left());
+    }
+}

@@ -1,0 +1,101 @@
+//! A connection that is dialled again whenever it is lost: a task dials, the end that uses the socket says when it is
+//! lost.
+
+use super::dial::{Dials, Probe, dial};
+use crate::place::SystemDir;
+use crate::sync::{AbortOnDrop, lock};
+use futures_core::Stream;
+use std::pin::Pin;
+use std::sync::{Arc, Mutex};
+use std::task::{Context, Poll, Waker};
+use tokio::sync::Notify;
+use zeromq::SocketEvent;
+
+/// One end of a connection that comes back.
+pub(super) struct Line<S> {
+    shared: Arc<Shared<S>>,
+    current: Option<Dialled<S>>,
+    _task: AbortOnDrop,
+}
+
+/// A connected socket.
+pub(super) struct Dialled<S> {
+    pub(super) socket: S,
+    pub(super) probe: Option<Probe>,
+    events: Pin<Box<dyn Stream<Item = SocketEvent> + Send>>,
+}
+
+impl<S> Dialled<S> {
+    /// Ready when the library reports that the peer left. A receiving socket notices that only while it is polled, so
+    /// this is to be asked after a poll that found nothing.
+    pub(super) fn poll_lost(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        loop {
+            match self.events.as_mut().poll_next(cx) {
+                Poll::Ready(Some(SocketEvent::Disconnected(_)) | None) => return Poll::Ready(()),
+                Poll::Ready(Some(_)) => {}
+                Poll::Pending => return Poll::Pending,
+            }
+        }
+    }
+}
+
+struct Shared<S> {
+    slot: Mutex<Slot<S>>,
+    lost: Notify,
+}
+
+struct Slot<S> {
+    arrived: Option<Dialled<S>>,
+    waiting: Option<Waker>,
+    /// Whether a socket is in the slot or in use.
+    connected: bool,
+}
+
+impl<S: Dials> Line<S> {
+    /// Dials an endpoint, and again whenever the connection is lost.
+    pub(super) fn open(place: &Arc<SystemDir>, endpoint: &str) -> Self {
+        let slot = Mutex::new(Slot { arrived: None, waiting: None, connected: false });
+        let shared = Arc::new(Shared { slot, lost: Notify::new() });
+        let task = tokio::spawn(dial_for_ever(Arc::clone(&shared), Arc::clone(place), endpoint.to_owned()));
+        Self { shared, current: None, _task: AbortOnDrop(task.abort_handle()) }
+    }
+
+    /// The connected socket, as soon as there is one.
+    pub(super) fn poll_socket(&mut self, cx: &mut Context<'_>) -> Poll<&mut Dialled<S>> {
+        if self.current.is_none() {
+            let mut slot = lock(&self.shared.slot);
+            self.current = slot.arrived.take();
+            if self.current.is_none() {
+                slot.waiting = Some(cx.waker().clone());
+            }
+        }
+        self.current.as_mut().map_or(Poll::Pending, Poll::Ready)
+    }
+
+    /// Gives up the socket; the task dials again.
+    pub(super) fn lost(&mut self) {
+        self.current = None;
+        lock(&self.shared.slot).connected = false;
+        self.shared.lost.notify_one();
+    }
+
+    pub(super) fn is_connected(&self) -> bool {
+        lock(&self.shared.slot).connected
+    }
+}
+
+async fn dial_for_ever<S: Dials>(shared: Arc<Shared<S>>, place: Arc<SystemDir>, endpoint: String) {
+    loop {
+        let (mut socket, probe) = dial::<S>(&place, &endpoint).await;
+        let events = Box::pin(socket.monitor());
+        {
+            let mut slot = lock(&shared.slot);
+            slot.arrived = Some(Dialled { socket, probe, events });
+            slot.connected = true;
+            if let Some(waker) = slot.waiting.take() {
+                waker.wake();
+            }
+        }
+        shared.lost.notified().await;
+    }
+}

@@ -1,0 +1,52 @@
+//! The listening side of an endpoint: bound safely by [`place`](crate::place), handed to the library.
+
+use super::Medium;
+use super::accepted::LocalAddress;
+use crate::place::{self, Claim, SystemDir};
+use crate::transport::TransportError;
+use std::task::{Context, Poll, Waker};
+use zeromq::{Listener, Socket};
+
+/// A socket that listens, with what removes its endpoint again.
+pub(super) struct Listening<S> {
+    pub(super) socket: S,
+    pub(super) address: LocalAddress,
+    pub(super) guard: Claim,
+}
+
+/// Binds a fresh socket of the library to an endpoint.
+pub(super) fn listen<S: Socket>(
+    place: &SystemDir,
+    medium: Medium,
+    endpoint: &str,
+) -> Result<Listening<S>, TransportError> {
+    let (listener, address, guard) = bind(place, medium, endpoint)?;
+    let mut socket = S::new();
+    adopt(&mut socket, listener).map_err(|reason| TransportError::Refused { endpoint: endpoint.to_owned(), reason })?;
+    Ok(Listening { socket, address, guard })
+}
+
+fn bind(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<(Listener, LocalAddress, Claim), TransportError> {
+    match medium {
+        Medium::Ipc => {
+            let bound = place::bind_ipc(place, endpoint)?;
+            let address = LocalAddress::of_unix(&bound.listener);
+            Ok((Listener::from(bound.listener), address, bound.guard))
+        }
+        Medium::Tcp => {
+            let bound = place::bind_tcp(place, endpoint)?;
+            let address = LocalAddress::of_tcp(&bound.listener);
+            Ok((Listener::from(bound.listener), address, bound.guard))
+        }
+    }
+}
+
+/// Adopting a bound listener is asynchronous in the library's signature only: it never waits.
+fn adopt<S: Socket>(socket: &mut S, listener: Listener) -> Result<(), String> {
+    let mut adopting = socket.bind_listener(listener);
+    match adopting.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(Ok(_)) => Ok(()),
+        Poll::Ready(Err(error)) => Err(error.to_string()),
+        Poll::Pending => Err("the library did not take the listener at once".to_owned()),
+    }
+}

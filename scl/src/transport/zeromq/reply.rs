@@ -1,0 +1,74 @@
+//! The replying end: a ROUTER, so that each request can be answered when its answer is ready, in any order.
+
+use super::Medium;
+use super::frames::poll_message;
+use super::listen::listen;
+use crate::place::{Claim, SystemDir};
+use crate::transport::{Answerer, Asked, RequesterGone, Responder, TransportError};
+use bytes::Bytes;
+use std::task::{Context, Poll, Waker};
+use zeromq::{RouterRecvHalf, RouterSendHalf, RouterSocket, SocketSend, ZmqMessage};
+
+pub(super) struct Replying {
+    requests: RouterRecvHalf,
+    replies: RouterSendHalf,
+    malformed: u64,
+    _guard: Claim,
+}
+
+impl Replying {
+    pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
+        let listening = listen::<RouterSocket>(place, medium, endpoint)?;
+        let (replies, requests) = listening.socket.split();
+        Ok(Self { requests, replies, malformed: 0, _guard: listening.guard })
+    }
+}
+
+impl Answerer for Replying {
+    fn poll_asked(&mut self, cx: &mut Context<'_>) -> Poll<Asked> {
+        loop {
+            match poll_message(&mut self.requests, cx) {
+                Poll::Ready(Ok(message)) => match split_envelope(message) {
+                    Some((envelope, body)) => {
+                        let responder = Box::new(Envelope { frames: envelope, replies: self.replies.clone() });
+                        return Poll::Ready(Asked { body, responder });
+                    }
+                    None => self.malformed += 1,
+                },
+                Poll::Ready(Err(error)) => tracing::debug!(%error, "a requester was dropped"),
+                Poll::Pending => return Poll::Pending,
+            }
+        }
+    }
+
+    fn malformed(&self) -> u64 {
+        self.malformed
+    }
+}
+
+/// Splits `[identity, .., empty, body]` behind the empty frame.
+fn split_envelope(mut message: ZmqMessage) -> Option<(ZmqMessage, Bytes)> {
+    let delimiter = message.iter().skip(1).position(Bytes::is_empty)? + 1;
+    if message.len() != delimiter + 2 {
+        return None;
+    }
+    let body = message.split_off(delimiter + 1).into_vecdeque().pop_front()?;
+    Some((message, body))
+}
+
+/// The frames that lead back to one requester.
+struct Envelope {
+    frames: ZmqMessage,
+    replies: RouterSendHalf,
+}
+
+impl Responder for Envelope {
+    fn respond(mut self: Box<Self>, body: Bytes) -> Result<(), RequesterGone> {
+        self.frames.push_back(body);
+        // The library only queues here; its writer runs as a task of its own.
+        match self.replies.send(self.frames).as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+            Poll::Ready(Ok(())) => Ok(()),
+            Poll::Ready(Err(_)) | Poll::Pending => Err(RequesterGone),
+        }
+    }
+}
