@@ -1,5 +1,7 @@
+//! The `scl` command: checks, draws and runs SCL systems.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod check;
 mod duration;
 mod print;
 mod run;
@@ -18,6 +20,7 @@ struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
+    Check(check::CheckArguments),
     Run(run::RunArguments),
     #[command(name = run::START_WORD, hide = true)]
     Start(run::StartArguments),
@@ -27,6 +30,7 @@ enum Command {
 
 fn main() -> ExitCode {
     match CommandLine::parse().command {
+        Command::Check(arguments) => check::check(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Start(arguments) => run::start_component(&arguments),
         Command::Guard => run::keep_watch(),
