@@ -3,6 +3,7 @@
 
 mod check;
 mod duration;
+mod graph;
 mod print;
 mod run;
 
@@ -21,6 +22,7 @@ struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     Check(check::CheckArguments),
+    Graph(graph::GraphArguments),
     Run(run::RunArguments),
     #[command(name = run::START_WORD, hide = true)]
     Start(run::StartArguments),
@@ -31,6 +33,7 @@ enum Command {
 fn main() -> ExitCode {
     match CommandLine::parse().command {
         Command::Check(arguments) => check::check(&arguments),
+        Command::Graph(arguments) => graph::graph(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Start(arguments) => run::start_component(&arguments),
         Command::Guard => run::keep_watch(),
