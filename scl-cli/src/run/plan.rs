@@ -4,6 +4,7 @@ use super::cargo_package::{BuiltProgram, build_package};
 use super::launch_file::{LaunchComponent, LaunchFile, parse_launch_file};
 use super::problem::{Problem, quoted_list};
 use super::program::{Program, check_programs};
+use crate::check::{load_file, show_errors};
 use crate::print::print_err;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -43,8 +44,19 @@ fn find_folder(place: &Path) -> Result<(PathBuf, PathBuf), Problem> {
 }
 
 /// The components of the topology beside the launch file, where there is one.
-fn component_names(_folder: &Path) -> Result<Option<Vec<String>>, Vec<Problem>> {
-    Ok(None)
+fn component_names(folder: &Path) -> Result<Option<Vec<String>>, Vec<Problem>> {
+    let path = folder.join(TOPOLOGY_FILE);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let loaded = load_file(&path);
+    let Some(topology) = &loaded.topology else {
+        show_errors(&loaded);
+        return Err(vec![
+            Problem::new("the topology has errors, so nothing was started").at(path.display().to_string()),
+        ]);
+    };
+    Ok(Some(topology.components().map(|(_, component)| component.name().to_owned()).collect()))
 }
 
 fn nothing_to_start(folder: &Path) -> Problem {
