@@ -19,7 +19,7 @@ connections:
   - [sensor.measurements, controller.sensor]
 ";
 
-/// Both errors are of different stages of nothing but the text's shape, so that they come together.
+/// With two errors.
 const ERRORS: &str = "\
 componets:
   - name: sensor
@@ -160,6 +160,15 @@ fn the_worst_of_several_files_is_the_exit_code() {
     ] {
         let output = system.scl(&[&["check"], arguments].concat()).output().unwrap();
         assert_eq!(output.status.code(), Some(code), "{arguments:?}");
+    }
+}
+
+#[test]
+fn colours_are_for_those_who_want_them() {
+    let system = System::of_files(&[("topology.yaml", ERRORS)]);
+    for (variable, coloured) in [("CLICOLOR_FORCE", true), ("NO_COLOR", false)] {
+        let output = system.scl(&["check"]).env(variable, "1").output().unwrap();
+        assert_eq!(output.stderr.contains(&b'\x1b'), coloured, "{variable}");
     }
 }
 
