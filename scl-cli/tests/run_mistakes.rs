@@ -21,7 +21,7 @@ fn check(launch: &str, expected: &Expect) {
 #[test]
 fn unknown_keys_get_a_suggestion_and_the_list() {
     check(
-        "transprt: ipc\ncomponents:\n  # sensor: comand\n  sensor: {command: ls, comand: ls}\n  b: {command: ls, colour: red}\n",
+        "transprt: ipc\ncomponents:\n  # sensor: {comand: ls}\n  sensor: {command: ls, comand: ls}\n  b: {command: ls, colour: red}\n",
         &expect![[r#"
             error: unknown key `transprt` in a launch file
              --> launch.yaml:1:1
