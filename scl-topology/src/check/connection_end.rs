@@ -138,7 +138,7 @@ fn oddity(text: &str) -> (&'static str, &'static str) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use crate::check::testing::{advice, example};
     use expect_test::expect;
 
     #[test]
@@ -170,5 +170,28 @@ connections:
               = help: write `sensor.measurements`
         "#]],
         );
+    }
+
+    #[test]
+    fn other_shapes_of_ends() {
+        let ends = ["a.b.c", "ui/ask", "ui::ask", "ui->ask", "ui . ask", "ui.", ".ask", "ui.*", "ui", "nothing"];
+        let advice = |end: &str| {
+            advice(&format!(
+                "components:\n  - name: ui\n    gates:\n      - ask: req\n      - fix: sub\nconnections:\n  - ['{end}', x.z]\n"
+            ))
+        };
+        let told: String = ends.iter().map(|end| format!("{end:8} {}\n", advice(end))).collect();
+        expect![[r#"
+            a.b.c    SCL0503 a connection end is written `component.gate` [write the component and its gate, with one dot between them]; SCL0501 unknown component `x` []
+            ui/ask   SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
+            ui::ask  SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
+            ui->ask  SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
+            ui . ask SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
+            ui.      SCL0503 a connection end is written `component.gate` [write the gate after the dot]; SCL0501 unknown component `x` []
+            .ask     SCL0503 a connection end is written `component.gate` [write the component before the dot]; SCL0501 unknown component `x` []
+            ui.*     SCL0503 a connection end is written `component.gate` [write one connection for each gate]; SCL0501 unknown component `x` []
+            ui       SCL0503 a connection end is written `component.gate` []; SCL0501 unknown component `x` []
+            nothing  SCL0503 a connection end is written `component.gate` [write the component, a dot and its gate]; SCL0501 unknown component `x` []
+        "#]].assert_eq(&told);
     }
 }

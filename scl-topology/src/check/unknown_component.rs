@@ -42,11 +42,18 @@ pub(super) fn swap(headline: String, span: crate::source::Span, component: &str,
         .help(format!("write `{component}.{gate}`"))
 }
 
-/// Similar components; those that have the gate, if there are any.
+/// Similar components that have the gate; without such, those that have a similar gate.
 fn meant(draft: &Draft<'_>, component: &str, gate: &str) -> Vec<String> {
     let near = similar(component, draft.component_names.iter().copied());
+    let has_similar = |other: &str| {
+        let gates = draft.gates_of(other).map(|at| draft.gates[at].model.name.value.as_str());
+        !similar(gate, gates).is_empty() || draft.declarations(other).any(|twin| twin.gates_unread)
+    };
     let owners: Vec<&str> = near.iter().copied().filter(|other| draft.gate(other, gate).is_some()).collect();
-    let best = if owners.is_empty() { near } else { owners };
+    let best = match owners.is_empty() {
+        true => near.into_iter().filter(|other| has_similar(other)).collect(),
+        false => owners,
+    };
     best.into_iter().map(str::to_owned).collect()
 }
 
@@ -118,6 +125,34 @@ connections:
               |      ^^^^^^^^^^^^^^^^^^^ component and gate are swapped
               |
               = help: write `sensor.measurements`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_similar_component_without_the_gate_is_not_offered() {
+        let yaml = "
+components:
+  - name: aircomm_swarm
+    gates:
+      - out: pub
+  - name: pilot
+    gates:
+      - orders: sub
+connections:
+  - [aircomm.report, pilot.orders]
+";
+        example(
+            "SCL0501",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0501] unknown component `aircomm`
+             --> topology.yaml:9:6
+              |
+            9 |   - [aircomm.report, pilot.orders]
+              |      ^^^^^^^ no component has this name
+              |
+              = note: declared components: `aircomm_swarm`, `pilot`
         "#]],
         );
     }

@@ -105,4 +105,37 @@ connections:
         "#]],
         );
     }
+
+    #[test]
+    fn only_gates_that_fit_the_other_end_are_offered() {
+        let yaml = "
+components:
+  - name: ui
+    gates:
+      - ask: req
+  - name: pilot
+    gates:
+      - orders: rep
+      - border: pub
+connections:
+  - [ui.ask, pilot.order]
+";
+        example(
+            "SCL0502",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0502] component `pilot` has no gate `order`
+              --> topology.yaml:10:20
+               |
+             7 |       - orders: rep
+               |         ------ a similar gate is declared here
+            ...
+            10 |   - [ui.ask, pilot.order]
+               |                    ^^^^^ unknown gate
+               |
+               = help: did you mean `orders`?
+               = note: gates of `pilot`: `orders` (rep), `border` (pub)
+        "#]],
+        );
+    }
 }

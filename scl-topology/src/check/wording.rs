@@ -42,7 +42,7 @@ pub(super) fn either<S: AsRef<str>>(names: &[S]) -> String {
 pub(super) fn example_type(gate: &str) -> String {
     let name = crate::rust_name::component_type(gate);
     match name.strip_suffix('s') {
-        Some(singular) if singular.len() > 1 && !singular.ends_with('s') => singular.to_owned(),
+        Some(singular) if singular.len() > 1 && !singular.ends_with(['s', 'u', 'i']) => singular.to_owned(),
         _ => name,
     }
 }
@@ -67,9 +67,13 @@ mod tests {
 
     #[test]
     fn example_types_are_singular() {
-        for (gate, expected) in
-            [("measurements", "Measurement"), ("set-point", "SetPoint"), ("pass", "Pass"), ("s", "S")]
-        {
+        for (gate, expected) in [
+            ("measurements", "Measurement"),
+            ("set-point", "SetPoint"),
+            ("pass", "Pass"),
+            ("status", "Status"),
+            ("s", "S"),
+        ] {
             assert_eq!(example_type(gate), expected);
         }
     }
