@@ -1,1 +1,76 @@
+//! Reads a topology file, and the schema files it names, from disk, and has them checked.
+//!
+//! The macro and the command line share it, so that both read alike and say the same words. It is the only place of SCL
+//! that reads these files; what is in them, `scl-topology` judges.
+//!
+//! ```text
+//! Request --read--> text --parse--> Model --compile--> messages --check--> Topology
+//! ```
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+#![deny(missing_docs)]
 
+mod read;
+mod request;
+mod schemas;
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
+mod unreadable;
+
+pub use request::{LookedIn, Request};
+pub use schemas::Schemas;
+
+use scl_topology::check::{Facts, check};
+use scl_topology::diagnostic::{Diagnostic, Diagnostics};
+use scl_topology::model::Model;
+use scl_topology::parse::parse;
+use scl_topology::source::{FileId, Sources};
+use scl_topology::topology::Topology;
+use std::path::PathBuf;
+
+/// Everything that came out of reading one topology file. A stage that could not go on leaves what it has.
+#[derive(Debug, Default)]
+pub struct Loaded {
+    /// The texts that the diagnostics point into.
+    pub sources: Sources,
+    /// The topology file among them; `None` if it could not be read.
+    pub file: Option<FileId>,
+    /// The file as written, as far as it could be read.
+    pub model: Model,
+    /// The checked topology; `None` exactly if one of the diagnostics is an error.
+    pub topology: Option<Topology>,
+    /// What was found, sorted by position: errors, warnings and lints.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The files that were read: a change of one of them may change the result.
+    pub files_read: Vec<PathBuf>,
+    /// The compiled schemas; `None` if the file names none, or if one of them is wrong.
+    pub schemas: Option<Schemas>,
+}
+
+/// Reads, parses and checks one topology file.
+///
+/// Never panics and never waits: what is no regular file is not opened, and no file is read past its limit. Each problem
+/// is in [`Loaded::diagnostics`], all of them at once.
+pub fn load(request: &Request) -> Loaded {
+    let mut loaded = Loaded::default();
+    let mut problems = Diagnostics::new();
+    match read::read_text(&request.path, request.max_size) {
+        Ok(text) => check_text(request, text, &mut loaded, &mut problems),
+        Err(cause) => problems.push(unreadable::diagnose(request, cause)),
+    }
+    loaded.diagnostics = problems.into_sorted();
+    loaded
+}
+
+fn check_text(request: &Request, text: String, loaded: &mut Loaded, problems: &mut Diagnostics) {
+    let file = loaded.sources.add(&request.shown_as, text);
+    loaded.file = Some(file);
+    loaded.files_read.push(request.path.clone());
+    loaded.model = parse(&loaded.sources, file, problems);
+    let compiled = schemas::compile(request, &loaded.model, &mut loaded.sources, problems);
+    let facts = Facts { default_system: request.default_system(), messages: compiled.messages };
+    loaded.files_read.extend(compiled.files_read);
+    loaded.schemas = compiled.schemas;
+    loaded.topology = check(&loaded.model, &facts, &loaded.sources, problems);
+}

@@ -1,1 +1,45 @@
+//! The macros of SCL. Use them through the crate `scl`, which also brings what the generated code needs.
+//!
+//! This crate holds no rule: what is wrong with a topology, `scl-topology` finds and words; here it only becomes compile
+//! errors, and a topology without errors becomes structs.
+#![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod arguments;
+mod expand;
+mod locate;
+mod main_attribute;
+#[cfg(test)]
+mod tests;
+
+use proc_macro::{TokenStream, TokenTree};
+
+/// What `scl::topology!` calls, with `$crate` as its first token.
+#[doc(hidden)]
+#[proc_macro]
+pub fn __topology(input: TokenStream) -> TokenStream {
+    let surroundings = locate::Surroundings::of_compiler(source_file(&input));
+    expand::expand_topology(input.into(), &surroundings).into()
+}
+
+/// Turns a function that takes a component into the program's `main`.
+///
+/// ```text
+/// #[scl::main]
+/// async fn main(mut sensor: Sensor) -> scl::Result<()> {
+///     sensor.measurements.send(&rover::Measurement { data: 7 }).await?;
+///     Ok(())
+/// }
+/// ```
+///
+/// The component is opened before the function runs. `async fn` runs on a current-thread runtime, `fn` on the plain main
+/// thread. An error that the function returns is printed with its causes, and the program ends with exit code 1.
+#[proc_macro_attribute]
+pub fn main(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    main_attribute::expand_main(arguments.into(), item.into()).into()
+}
+
+/// The source file with the path literal; unknown to some tools, rust-analyzer among them.
+fn source_file(input: &TokenStream) -> Option<std::path::PathBuf> {
+    let literal = input.clone().into_iter().find(|token| matches!(token, TokenTree::Literal(_)))?;
+    literal.span().local_file()
+}

@@ -63,6 +63,6 @@ pub mod parse;
 pub mod resolve;
 pub mod rust_name;
 pub mod source;
-mod suggest;
+pub mod suggest;
 pub mod topology;
 mod yaml;

@@ -12,7 +12,7 @@ const ABBREVIATION: usize = 3;
 ///
 /// A candidate that differs only in case comes first; the others are within a third of the word's length of edits,
 /// at least one, or start with the word. Candidates that are equally near keep their order.
-pub(crate) fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+pub fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let lower = word.to_lowercase();
     let limit = (word.chars().count() / 3).max(1);
     let mut near: Vec<(usize, &'a str)> = candidates

@@ -1,0 +1,42 @@
+//! What to load, and how messages call it.
+
+use std::path::PathBuf;
+
+/// Which file to load.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// The path to read.
+    pub path: PathBuf,
+    /// How messages name the file, for example relative to the working folder.
+    pub shown_as: String,
+    /// The most bytes that a file may have, the topology as well as each schema. [`Request::MAX_SIZE`] by default.
+    pub max_size: u64,
+    /// Every place in which the file was looked for, to be listed if it is nowhere.
+    pub looked_in: Vec<LookedIn>,
+}
+
+/// One place in which a file was looked for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LookedIn {
+    /// The path that would have been read.
+    pub path: PathBuf,
+    /// Which place that is: `next to this source file`; may be empty.
+    pub what: String,
+}
+
+impl Request {
+    /// The limit of a file's size unless another is asked for: 1 MiB.
+    pub const MAX_SIZE: u64 = 1024 * 1024;
+
+    /// A request for the file at `path`, which messages call by that path.
+    pub fn new(path: impl Into<PathBuf>) -> Self {
+        let path = path.into();
+        let shown_as = path.display().to_string();
+        Self { path, shown_as, max_size: Self::MAX_SIZE, looked_in: Vec::new() }
+    }
+
+    /// The system's name if the file gives none: the file's name without its ending.
+    pub(crate) fn default_system(&self) -> String {
+        self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+    }
+}

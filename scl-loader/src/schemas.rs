@@ -1,0 +1,44 @@
+//! `schemas:` of a topology file: found, compiled without `protoc`, or refused with `SCL0406`.
+
+#[cfg(feature = "protobuf")]
+mod broken;
+#[cfg(feature = "protobuf")]
+mod compile;
+#[cfg(feature = "protobuf")]
+mod disk;
+#[cfg(not(feature = "protobuf"))]
+mod switched_off;
+
+#[cfg(feature = "protobuf")]
+pub(crate) use compile::compile;
+#[cfg(not(feature = "protobuf"))]
+pub(crate) use switched_off::compile;
+
+use scl_topology::check::SchemaMessages;
+use std::path::PathBuf;
+
+/// The compiled schema files of a topology, with all that they import.
+#[derive(Debug, Clone)]
+pub struct Schemas {
+    #[cfg(feature = "protobuf")]
+    descriptors: prost_types::FileDescriptorSet,
+}
+
+#[cfg(feature = "protobuf")]
+impl Schemas {
+    /// Each file after the files that it imports; comments are kept.
+    pub fn file_descriptor_set(&self) -> &prost_types::FileDescriptorSet {
+        &self.descriptors
+    }
+}
+
+/// What this stage hands on.
+#[derive(Default)]
+pub(crate) struct Compiled {
+    /// The messages by entry of `schemas:`; `None` unless every file compiled.
+    pub(crate) messages: Option<Vec<SchemaMessages>>,
+    /// The compiled files; `None` likewise, and if there are none.
+    pub(crate) schemas: Option<Schemas>,
+    /// The schema files that were read, wrong ones included.
+    pub(crate) files_read: Vec<PathBuf>,
+}

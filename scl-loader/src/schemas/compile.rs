@@ -1,0 +1,100 @@
+//! Schema files become descriptors, each wrong one a problem.
+
+use super::broken;
+use super::disk::{Disk, FilesRead, SchemaFile};
+use super::{Compiled, Schemas};
+use crate::read::{Unreadable, read_text};
+use crate::request::Request;
+use crate::unreadable::similar_file;
+use protox::Compiler;
+use scl_topology::check::SchemaMessages;
+use scl_topology::diagnostic::{Diagnostic, Diagnostics};
+use scl_topology::model::Model;
+use scl_topology::source::{Sources, Spanned};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// Compiles every entry of `schemas:`; goes on after a wrong one, so that each is reported.
+pub(crate) fn compile(request: &Request, model: &Model, sources: &mut Sources, problems: &mut Diagnostics) -> Compiled {
+    if model.schemas.is_empty() {
+        return Compiled::default();
+    }
+    let folder = request.path.parent().map(Path::to_path_buf).unwrap_or_default();
+    let files = FilesRead::default();
+    let disk = Disk { folders: include_folders(&folder, model), max_size: request.max_size, files: files.clone() };
+    let mut compiler = Compiler::with_file_resolver(disk);
+    compiler.include_imports(true).include_source_info(true);
+    let mut all_well = true;
+    for schema in &model.schemas {
+        let found = find(schema, &folder, request.max_size);
+        let compiled = found.and_then(|()| {
+            let outcome = compiler.open_file(&schema.value);
+            outcome.map(|_| ()).map_err(|error| broken::diagnose(&error, schema, &snapshot(&files), request, sources))
+        });
+        if let Err(problem) = compiled {
+            all_well = false;
+            problems.push(problem);
+        }
+    }
+    let files_read = snapshot(&files).into_iter().map(|file| file.path).collect();
+    if !all_well {
+        return Compiled { files_read, ..Compiled::default() };
+    }
+    let schemas = Some(Schemas { descriptors: compiler.file_descriptor_set() });
+    Compiled { messages: Some(messages_by_entry(&compiler, model)), schemas, files_read }
+}
+
+/// Imports are looked for beside the topology file, then beside the schemas that it names.
+fn include_folders(folder: &Path, model: &Model) -> Vec<PathBuf> {
+    let mut folders = vec![folder.to_path_buf()];
+    for schema in &model.schemas {
+        let beside = folder.join(&schema.value).parent().map(Path::to_path_buf).unwrap_or_default();
+        if !folders.contains(&beside) {
+            folders.push(beside);
+        }
+    }
+    folders
+}
+
+/// Whether an entry names a readable file, in SCL's own words, as the compiler would call it "not included".
+fn find(schema: &Spanned<String>, folder: &Path, max_size: u64) -> Result<(), Diagnostic> {
+    let path = folder.join(&schema.value);
+    let name = &schema.value;
+    match read_text(&path, max_size) {
+        Ok(_) => Ok(()),
+        Err(Unreadable::Missing) => {
+            let problem =
+                Diagnostic::error("SCL0406", format!("cannot find the schema file `{name}`"), schema.span, "");
+            let problem = match similar_file(&path, &[]) {
+                Some(near) => problem.help(format!("a file with a similar name exists: `{near}`")),
+                None => problem,
+            };
+            Err(problem.note("schemas are looked for beside the topology file"))
+        }
+        Err(cause) => {
+            let why = super::disk::why(Path::new(name), cause);
+            Err(Diagnostic::error("SCL0406", format!("the schema file {why}"), schema.span, ""))
+        }
+    }
+}
+
+/// The messages that each entry declares; those that are only imported count for the first.
+fn messages_by_entry(compiler: &Compiler, model: &Model) -> Vec<SchemaMessages> {
+    let pool = compiler.descriptor_pool();
+    let mut by_entry: Vec<SchemaMessages> = model.schemas.iter().map(|_| SchemaMessages::default()).collect();
+    for message in pool.all_messages().filter(|message| !message.is_map_entry()) {
+        let file = message.parent_file();
+        if file.package_name() == "google.protobuf" {
+            continue;
+        }
+        let entry = model.schemas.iter().position(|schema| schema.value == file.name()).unwrap_or(0);
+        if let Some(entry) = by_entry.get_mut(entry) {
+            entry.names.push(message.full_name().to_owned());
+        }
+    }
+    by_entry
+}
+
+fn snapshot(files: &Mutex<Vec<SchemaFile>>) -> Vec<SchemaFile> {
+    files.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}

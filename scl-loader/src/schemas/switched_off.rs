@@ -1,0 +1,19 @@
+//! Without the feature `protobuf`, `schemas:` is refused by name.
+
+use super::Compiled;
+use crate::request::Request;
+use scl_topology::diagnostic::{Diagnostic, Diagnostics};
+use scl_topology::model::Model;
+use scl_topology::source::Sources;
+
+/// Reports the first schema, if there is one.
+pub(crate) fn compile(_: &Request, model: &Model, _: &mut Sources, problems: &mut Diagnostics) -> Compiled {
+    if let Some(schema) = model.schemas.first() {
+        let message = format!("the schema file `{}` needs the feature `protobuf`", schema.value);
+        let problem = Diagnostic::error("SCL0406", message, schema.span, "this build of SCL compiles no schemas")
+            .help("switch it on in Cargo.toml: scl = { version = \"..\", features = [\"protobuf\"] }")
+            .note("without `schemas`, types are looked up in your Rust code");
+        problems.push(problem);
+    }
+    Compiled::default()
+}

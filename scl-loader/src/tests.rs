@@ -1,0 +1,269 @@
+//! Whole files, loaded from disk.
+
+use crate::testing::{folder, load_from};
+use crate::{Loaded, LookedIn, Request, load};
+use expect_test::{Expect, expect};
+use scl_topology::diagnostic::{Severity, render};
+use std::fs;
+use std::process::Command;
+
+const GOOD: &str = "\
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+";
+
+fn rendered(loaded: &Loaded) -> String {
+    let told = loaded.diagnostics.iter().filter(|problem| problem.severity != Severity::Lint);
+    told.map(|problem| render(problem, &loaded.sources) + "\n").collect()
+}
+
+fn errors(loaded: &Loaded) -> Vec<&'static str> {
+    let errors = loaded.diagnostics.iter().filter(|problem| problem.severity == Severity::Error);
+    errors.map(|problem| problem.code).collect()
+}
+
+/// What loading `name` from a folder with these files says, with the folder's own path left out.
+#[track_caller]
+fn says(files: &[(&str, &str)], name: &str, expected: Expect) {
+    let folder = folder(files);
+    let loaded = load_from(&folder, name);
+    expected.assert_eq(&rendered(&loaded).replace(&folder.path().display().to_string(), "<folder>"));
+}
+
+#[test]
+fn a_good_file_gives_a_topology() {
+    let folder = folder(&[("rover.yaml", GOOD)]);
+    let loaded = load_from(&folder, "rover.yaml");
+    assert_eq!(rendered(&loaded), "");
+    assert_eq!(loaded.topology.unwrap().system(), "rover");
+    assert_eq!(loaded.files_read, [folder.path().join("rover.yaml")]);
+}
+
+#[test]
+fn a_broken_file_leaves_its_model() {
+    let folder = folder(&[("rover.yaml", &GOOD.replace("controller.sensor]", "controller.nothing]"))]);
+    let loaded = load_from(&folder, "rover.yaml");
+    assert_eq!(errors(&loaded), ["SCL0502"]);
+    assert!(loaded.topology.is_none());
+    assert_eq!(loaded.model.components.len(), 2);
+}
+
+#[test]
+fn an_empty_file_is_an_error() {
+    let folder = folder(&[("t.yaml", "")]);
+    assert_eq!(errors(&load_from(&folder, "t.yaml")), ["SCL0115"]);
+}
+
+#[test]
+fn a_missing_file_names_its_neighbour_and_the_places() {
+    let folder = folder(&[("topology.yml", GOOD)]);
+    let looked_in = ["topology.yaml", "uav/topology.yaml"]
+        .map(|name| LookedIn { path: folder.path().join(name), what: "place".into() });
+    let shown_as = "topology.yaml".to_owned();
+    let request =
+        Request { shown_as, looked_in: looked_in.into(), ..Request::new(folder.path().join("topology.yaml")) };
+    let text = rendered(&load(&request)).replace(&folder.path().display().to_string(), "<folder>");
+    expect![[r#"
+        error: [SCL0001] cannot find the topology file `topology.yaml`
+         |
+         = help: a file with a similar name exists: `topology.yml`
+         = note: looked in:
+                 `<folder>/topology.yaml` (place)
+                 `<folder>/uav/topology.yaml` (place)
+    "#]]
+    .assert_eq(&text);
+}
+
+#[test]
+fn a_folder_is_no_file() {
+    says(
+        &[("config/topology.yaml", GOOD)],
+        "config",
+        expect![[r#"
+        error: [SCL0002] the topology path `config` is a directory, not a file
+         |
+         = help: did you mean `config/topology.yaml`?
+    "#]],
+    );
+}
+
+#[test]
+fn bytes_that_are_no_text_are_named() {
+    let folder = folder(&[]);
+    fs::write(folder.path().join("t.yaml"), b"\xff\xfec\0").unwrap();
+    expect![[r#"
+        error: [SCL0003] the topology file `t.yaml` is not valid UTF-8
+         |
+         = help: save the file as UTF-8 (without or with a BOM)
+         = note: the first invalid byte is 0xFF, at byte 0 (line 1, column 1)
+         = note: 0xFF 0xFE is the mark of UTF-16; Windows Notepad writes it as "Unicode"
+    "#]]
+    .assert_eq(&rendered(&load_from(&folder, "t.yaml")));
+}
+
+#[test]
+fn a_large_file_is_not_read() {
+    let folder = folder(&[("t.yaml", GOOD)]);
+    let request = Request { max_size: 100, shown_as: "t.yaml".into(), ..Request::new(folder.path().join("t.yaml")) };
+    expect![[r#"
+        error: [SCL0004] the topology file `t.yaml` is 176 bytes; the limit is 100 bytes
+         |
+         = help: is this the right file? a topology of 1000 components is about 200 KiB
+         = note: the limit protects the compiler process, in which this macro runs; raise it with `scl::topology!("t.yaml", max_size = "8MiB")`
+    "#]].assert_eq(&rendered(&load(&request)));
+}
+
+#[test]
+#[cfg(unix)]
+fn what_is_no_regular_file_is_never_opened() {
+    let folder = folder(&[]);
+    let path = |name: &str| folder.path().join(name);
+    assert!(Command::new("mkfifo").arg(path("pipe")).status().unwrap().success());
+    std::os::unix::fs::symlink(path("round"), path("round")).unwrap();
+    std::os::unix::fs::symlink(path("nowhere"), path("dangling")).unwrap();
+    let cases = [
+        (path("pipe"), "is a named pipe, not a file"),
+        ("/dev/zero".into(), "is a device, not a file"),
+        (path("round"), "is a symbolic link that leads to no file"),
+        (path("dangling"), "is a symbolic link that leads to no file"),
+    ];
+    for (path, words) in cases {
+        let loaded = load(&Request::new(&path));
+        assert_eq!(loaded.diagnostics.len(), 1, "{path:?}");
+        assert_eq!(loaded.diagnostics[0].code, "SCL0002", "{path:?}");
+        assert!(loaded.diagnostics[0].message.ends_with(words), "{}", loaded.diagnostics[0].message);
+        assert!(loaded.files_read.is_empty(), "{path:?}");
+    }
+}
+
+#[cfg(not(feature = "protobuf"))]
+#[test]
+fn schemas_need_their_feature() {
+    says(
+        &[("t.yaml", &format!("schemas: [rover.proto]\n{GOOD}"))],
+        "t.yaml",
+        expect![[r#"
+            error: [SCL0406] the schema file `rover.proto` needs the feature `protobuf`
+             --> t.yaml:1:11
+              |
+            1 | schemas: [rover.proto]
+              |           ^^^^^^^^^^^ this build of SCL compiles no schemas
+              |
+              = help: switch it on in Cargo.toml: scl = { version = "..", features = ["protobuf"] }
+              = note: without `schemas`, types are looked up in your Rust code
+        "#]],
+    );
+}
+
+#[cfg(feature = "protobuf")]
+mod schemas {
+    use super::*;
+
+    const PROTO: &str = "syntax = \"proto3\";\npackage rover;\nmessage Measurement { double data = 1; }\n";
+
+    fn typed(schemas: &str, message: &str) -> String {
+        format!(
+            "schemas: {schemas}\n{}",
+            GOOD.replace("measurements: pub", &format!("measurements: {{pub: {message}}}"))
+        )
+    }
+
+    #[test]
+    fn messages_of_several_files_and_folders_are_known() {
+        let base = "syntax = \"proto3\";\npackage base;\nmessage Pose { message Axis { double x = 1; } }\n";
+        let rover = "syntax = \"proto3\";\npackage rover;\nimport \"base.proto\";\nimport \"google/protobuf/timestamp.proto\";\n\
+                     message Measurement { base.Pose pose = 1; google.protobuf.Timestamp at = 2; }\n";
+        let yaml = typed("[proto/rover.proto]", "base.Pose.Axis");
+        let folder = folder(&[("t.yaml", &yaml), ("proto/rover.proto", rover), ("proto/base.proto", base)]);
+        let loaded = load_from(&folder, "t.yaml");
+        assert_eq!(rendered(&loaded), "");
+        assert!(loaded.schemas.is_some());
+        let names: Vec<String> =
+            loaded.files_read.iter().map(|path| path.file_name().unwrap().to_string_lossy().into_owned()).collect();
+        assert_eq!(names, ["t.yaml", "rover.proto", "base.proto"]);
+    }
+
+    #[test]
+    fn an_unknown_message_is_an_error() {
+        let folder = folder(&[("t.yaml", &typed("[rover.proto]", "rover.Mesurement")), ("rover.proto", PROTO)]);
+        assert_eq!(errors(&load_from(&folder, "t.yaml")), ["SCL0405"]);
+    }
+
+    #[test]
+    fn a_missing_schema_names_its_neighbour() {
+        says(
+            &[("t.yaml", &typed("[rover.prot]", "rover.Measurement")), ("rover.proto", PROTO)],
+            "t.yaml",
+            expect![[r#"
+                error: [SCL0406] cannot find the schema file `rover.prot`
+                 --> t.yaml:1:11
+                  |
+                1 | schemas: [rover.prot]
+                  |           ^^^^^^^^^^
+                  |
+                  = help: a file with a similar name exists: `rover.proto`
+                  = note: schemas are looked for beside the topology file
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_wrong_schema_is_shown_at_its_own_line() {
+        let wrong = PROTO.replace("double data", "double");
+        says(
+            &[("t.yaml", &typed("[rover.proto]", "rover.Measurement")), ("rover.proto", &wrong)],
+            "t.yaml",
+            expect![[r#"
+                error: [SCL0406] the schema file `rover.proto` does not compile: expected an identifier, but found `=`
+                 --> rover.proto:3:30
+                  |
+                3 | message Measurement { double = 1; }
+                  |                              ^ found here
+                  |
+                 ::: t.yaml:1:11
+                  |
+                1 | schemas: [rover.proto]
+                  |           ----------- compiled because of this line
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_missing_import_is_shown_where_it_is_written() {
+        let wrong = format!("{PROTO}import \"nowhere.proto\";\n");
+        says(
+            &[("t.yaml", &typed("[rover.proto]", "rover.Measurement")), ("rover.proto", &wrong)],
+            "t.yaml",
+            expect![[r#"
+                error: [SCL0406] the schema file `rover.proto` does not compile: import `nowhere.proto` not found
+                 --> rover.proto:4:1
+                  |
+                4 | import "nowhere.proto";
+                  | ^^^^^^^^^^^^^^^^^^^^^^^ imported here
+                  |
+                 ::: t.yaml:1:11
+                  |
+                1 | schemas: [rover.proto]
+                  |           ----------- compiled because of this line
+            "#]],
+        );
+    }
+
+    #[test]
+    fn each_wrong_schema_is_reported() {
+        let files = [
+            ("t.yaml", typed("[a.proto, b.proto, c.proto]", "rover.Measurement")),
+            ("a.proto", "message {".into()),
+            ("b.proto", "package".into()),
+        ];
+        let folder = folder(&files.each_ref().map(|(name, text)| (*name, text.as_str())));
+        assert_eq!(errors(&load_from(&folder, "t.yaml")), ["SCL0406"; 3]);
+    }
+}

@@ -1,0 +1,145 @@
+//! What stands between the brackets of `topology!( )`.
+
+use proc_macro2::{Span, TokenStream, TokenTree};
+use scl_topology::diagnostic::Diagnostic;
+use syn::parse::{Parse, ParseStream};
+use syn::punctuated::Punctuated;
+use syn::{Ident, LitStr, Token, bracketed};
+
+/// The arguments, understood.
+pub(crate) struct Arguments {
+    /// `$crate` of the crate `scl`, however the user calls it.
+    pub(crate) krate: TokenTree,
+    /// The path of the topology file.
+    pub(crate) path: LitStr,
+    /// `only = [sensor, controller]`.
+    pub(crate) only: Option<Vec<Ident>>,
+    /// `max_size = "8MiB"`, in bytes.
+    pub(crate) max_size: Option<u64>,
+}
+
+/// Arguments that make no sense: what to say, and where.
+pub(crate) struct BadArguments {
+    pub(crate) problem: Diagnostic,
+    pub(crate) span: Span,
+}
+
+impl Arguments {
+    /// Reads the tokens that the wrapper in `scl` hands on: `$crate`, a comma, then the user's.
+    pub(crate) fn parse(input: TokenStream) -> Result<Self, BadArguments> {
+        syn::parse2(input).map_err(|error| BadArguments { problem: in_our_words(&error), span: error.span() })
+    }
+}
+
+impl Parse for Arguments {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let krate = input.parse()?;
+        input.parse::<Token![,]>()?;
+        let path = parse_path(input)?;
+        let mut arguments = Arguments { krate, path, only: None, max_size: None };
+        while !input.is_empty() {
+            input.parse::<Token![,]>().map_err(|error| syn::Error::new(error.span(), NOT_ONE_LITERAL))?;
+            if !input.is_empty() {
+                arguments.parse_option(input)?;
+            }
+        }
+        Ok(arguments)
+    }
+}
+
+const NOT_ONE_LITERAL: &str = "expected one string literal with the path of the topology file";
+
+fn parse_path(input: ParseStream<'_>) -> syn::Result<LitStr> {
+    let path = input.parse::<LitStr>().map_err(|error| syn::Error::new(error.span(), NOT_ONE_LITERAL))?;
+    if path.value().trim().is_empty() {
+        return Err(syn::Error::new(path.span(), "the path of the topology file is empty"));
+    }
+    Ok(path)
+}
+
+impl Arguments {
+    fn parse_option(&mut self, input: ParseStream<'_>) -> syn::Result<()> {
+        let name: Ident = input.parse().map_err(|error| syn::Error::new(error.span(), "expected an option"))?;
+        let is_twice = match name.to_string().as_str() {
+            "only" => self.only.replace(parse_only(input)?).is_some(),
+            "max_size" => self.max_size.replace(parse_max_size(input)?).is_some(),
+            other => return Err(syn::Error::new(name.span(), format!("unknown option `{other}`"))),
+        };
+        if is_twice {
+            return Err(syn::Error::new(name.span(), format!("the option `{name}` is written twice")));
+        }
+        Ok(())
+    }
+}
+
+fn parse_only(input: ParseStream<'_>) -> syn::Result<Vec<Ident>> {
+    input.parse::<Token![=]>()?;
+    let list;
+    bracketed!(list in input);
+    Ok(Punctuated::<Ident, Token![,]>::parse_terminated(&list)?.into_iter().collect())
+}
+
+fn parse_max_size(input: ParseStream<'_>) -> syn::Result<u64> {
+    input.parse::<Token![=]>()?;
+    let size: LitStr = input.parse()?;
+    parse_size(&size.value()).ok_or_else(|| {
+        syn::Error::new(size.span(), format!("`{}` is no size; write for example `8MiB` or `512KiB`", size.value()))
+    })
+}
+
+fn parse_size(text: &str) -> Option<u64> {
+    let (digits, unit) = text.split_at(text.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(text.len()));
+    let factor: u64 = match unit.trim() {
+        "" | "B" => 1,
+        "KiB" => 1 << 10,
+        "MiB" => 1 << 20,
+        "GiB" => 1 << 30,
+        _ => return None,
+    };
+    digits.parse::<u64>().ok()?.checked_mul(factor)
+}
+
+fn in_our_words(error: &syn::Error) -> Diagnostic {
+    Diagnostic::fileless("SCL0005", error.to_string())
+        .help("write `scl::topology!(\"topology.yaml\")`")
+        .note("the options are `only = [sensor, controller]` and `max_size = \"8MiB\"`")
+        .note("`concat!` and `env!` are not expanded before a proc macro sees them")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn good_arguments_are_understood() {
+        let input = r#"scl, "a.yaml", only = [sensor, controller], max_size = "8MiB","#;
+        let Ok(arguments) = Arguments::parse(input.parse().unwrap()) else { panic!("refused") };
+        assert_eq!(arguments.path.value(), "a.yaml");
+        assert_eq!(arguments.max_size, Some(8 * 1024 * 1024));
+        let only: Vec<String> = arguments.only.unwrap().iter().map(Ident::to_string).collect();
+        assert_eq!(only, ["sensor", "controller"]);
+    }
+
+    #[test]
+    fn bad_arguments_are_refused() {
+        let cases = [
+            ("scl,", NOT_ONE_LITERAL),
+            ("scl, topology.yaml", NOT_ONE_LITERAL),
+            (r#"scl, concat!("a", "b")"#, NOT_ONE_LITERAL),
+            (r#"scl, "a" "b""#, NOT_ONE_LITERAL),
+            (r#"scl, 7"#, NOT_ONE_LITERAL),
+            (r#"scl, """#, "the path of the topology file is empty"),
+            (r#"scl, "a", nly = [b]"#, "unknown option `nly`"),
+            (r#"scl, "a", only = [b], only = [c]"#, "the option `only` is written twice"),
+            (r#"scl, "a", max_size = "8 MB""#, "`8 MB` is no size; write for example `8MiB` or `512KiB`"),
+            (
+                r#"scl, "a", max_size = "99999999999GiB""#,
+                "`99999999999GiB` is no size; write for example `8MiB` or `512KiB`",
+            ),
+        ];
+        for (input, message) in cases {
+            let Err(bad) = Arguments::parse(input.parse().unwrap()) else { panic!("accepted {input}") };
+            assert_eq!((bad.problem.code, bad.problem.message.as_str()), ("SCL0005", message), "{input}");
+        }
+    }
+}

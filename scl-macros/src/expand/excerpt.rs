@@ -1,0 +1,30 @@
+//! A line of the topology file, drawn like rustc's, for notes that rustc prints.
+
+use scl_topology::source::{Sources, Span};
+
+/// `--> topology.yaml:4:9`, the line, and carets below the span.
+pub(super) fn excerpt(sources: &Sources, span: Span) -> String {
+    let file = sources.file(span.file);
+    let at = file.line_column(span.start);
+    let line = file.text().lines().nth(at.line as usize - 1).unwrap_or("").trim_end().replace('\t', "    ");
+    let number = at.line.to_string();
+    let margin = " ".repeat(number.len());
+    let length = sources.snippet(span).lines().next().unwrap_or("").chars().count().max(1);
+    let indent = " ".repeat(at.column as usize - 1);
+    let carets = "^".repeat(length);
+    format!("{margin}--> {}\n{margin} |\n{number} | {line}\n{margin} | {indent}{carets}", sources.place(span))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn carets_stand_below_the_span() {
+        let mut sources = Sources::new();
+        let file = sources.add("t.yaml", "a:\r\n  - measurements: pub\r\n");
+        let drawn = excerpt(&sources, Span { file, start: 8, end: 20 });
+        let expected = " --> t.yaml:2:5\n  |\n2 |   - measurements: pub\n  |     ^^^^^^^^^^^^";
+        assert_eq!(drawn, expected);
+    }
+}

@@ -1,0 +1,160 @@
+//! `#[scl::main]`.
+
+use proc_macro2::{Span, TokenStream};
+use quote::{quote, quote_spanned};
+use syn::spanned::Spanned;
+use syn::{FnArg, ItemFn, PatType, Safety, Type};
+
+/// Expands the attribute. What is wrong becomes compile errors, all of them, and the function stays, so that an editor
+/// keeps completing inside it.
+pub(crate) fn expand_main(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    let function: ItemFn = match syn::parse2(item.clone()) {
+        Ok(function) => function,
+        Err(_) => {
+            let problem = compile_error(item.span(), "`#[scl::main]` goes on a function");
+            return quote! { #problem #item };
+        }
+    };
+    let problems = check(&arguments, &function);
+    match component(&function) {
+        Some(component) if problems.is_empty() => expand_function(&function, component),
+        _ => expand_broken(&function, &problems),
+    }
+}
+
+fn expand_function(function: &ItemFn, component: &Type) -> TokenStream {
+    let name = &function.sig.ident;
+    let runner = match function.sig.asyncness {
+        Some(_) => quote!(__scl_main_async),
+        None => quote!(__scl_main_blocking),
+    };
+    let mut inner = function.clone();
+    inner.vis = syn::Visibility::Inherited;
+    let visibility = &function.vis;
+    quote! {
+        #visibility fn main() -> ::std::process::ExitCode {
+            #inner
+            <#component>::#runner(#name)
+        }
+    }
+}
+
+/// Keeps the body where an editor sees it, and a `main`, so that its lack is not reported as well.
+fn expand_broken(function: &ItemFn, problems: &[TokenStream]) -> TokenStream {
+    if function.sig.ident != "main" {
+        return quote! { #(#problems)* #function };
+    }
+    let has_receiver = function.sig.inputs.iter().any(|input| matches!(input, FnArg::Receiver(_)));
+    let kept = if has_receiver { quote!() } else { quote!(#[allow(dead_code)] #function) };
+    quote! { #(#problems)* fn main() { #kept } }
+}
+
+fn check(arguments: &TokenStream, function: &ItemFn) -> Vec<TokenStream> {
+    let signature = &function.sig;
+    let mut problems = Vec::new();
+    let mut report = |span: Span, message: &str| problems.push(compile_error(span, message));
+    if !arguments.is_empty() {
+        report(arguments.span(), "`#[scl::main]` takes no arguments");
+    }
+    if signature.ident != "main" {
+        report(signature.ident.span(), &format!("`#[scl::main]` goes on `main`, not on `{}`", signature.ident));
+    }
+    if !signature.generics.params.is_empty() || signature.generics.where_clause.is_some() {
+        report(signature.generics.span(), "`main` cannot be generic: it takes one component of the topology");
+    }
+    let safety = match &signature.safety {
+        Safety::Safe(word) => Some(word.span()),
+        Safety::Unsafe(word) => Some(word.span()),
+        Safety::Default => None,
+    };
+    let qualifiers = [signature.constness.map(|word| word.span()), safety, signature.abi.as_ref().map(Spanned::span)];
+    if let Some(qualifier) = qualifiers.into_iter().flatten().next() {
+        report(qualifier, "`main` is `async fn` or `fn`, nothing else");
+    }
+    check_inputs(function, &mut report);
+    problems
+}
+
+fn check_inputs(function: &ItemFn, report: &mut impl FnMut(Span, &str)) {
+    const EXAMPLE: &str = "write for example `async fn main(mut sensor: Sensor)`";
+    let inputs = &function.sig.inputs;
+    if let Some(receiver) = inputs.iter().find(|input| matches!(input, FnArg::Receiver(_))) {
+        report(receiver.span(), &format!("`main` takes a component, not `self`\n  = help: {EXAMPLE}"));
+    } else if inputs.is_empty() {
+        let message = format!("`main` takes the component that this program plays\n  = help: {EXAMPLE}");
+        report(function.sig.paren_token.span.join(), &message);
+    } else if let Some(second) = inputs.iter().nth(1) {
+        let message = "`main` takes one component: a program plays one component\n  \
+                       = help: to play several, open the others with `open()`";
+        report(second.span(), message);
+    } else if let Some(FnArg::Typed(PatType { ty, .. })) = inputs.first()
+        && !matches!(**ty, Type::Path(_))
+    {
+        report(ty.span(), &format!("`main` takes a component by value\n  = help: {EXAMPLE}"));
+    }
+}
+
+/// The type of the only argument.
+fn component(function: &ItemFn) -> Option<&Type> {
+    match function.sig.inputs.first() {
+        Some(FnArg::Typed(argument)) => Some(&argument.ty),
+        _ => None,
+    }
+}
+
+fn compile_error(span: Span, message: &str) -> TokenStream {
+    quote_spanned! { span => ::core::compile_error! { #message } }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn expanded(arguments: &str, item: &str) -> String {
+        let tokens = expand_main(arguments.parse().unwrap(), item.parse().unwrap());
+        syn::parse2::<syn::File>(tokens.clone()).unwrap_or_else(|error| panic!("{item}: {error}: {tokens}"));
+        tokens.to_string()
+    }
+
+    #[test]
+    fn good_functions_run_their_component() {
+        let cases = [
+            (
+                "async fn main(mut c: Controller) -> scl::Result<()> { Ok(()) }",
+                "< Controller > :: __scl_main_async (main)",
+            ),
+            ("fn main(c: crate::a::Controller) {}", "< crate :: a :: Controller > :: __scl_main_blocking (main)"),
+            ("pub fn main(Actuator { setpoint, .. }: Actuator) {}", "< Actuator > :: __scl_main_blocking (main)"),
+        ];
+        for (item, call) in cases {
+            let output = expanded("", item);
+            assert!(output.contains(call), "{output}");
+            assert!(!output.contains("compile_error"), "{output}");
+        }
+    }
+
+    #[test]
+    fn each_mistake_is_named() {
+        let cases = [
+            ("", "async fn main() {}", "takes the component that this program plays"),
+            ("", "async fn main(a: Sensor, b: Actuator) {}", "a program plays one component"),
+            ("", "async fn main(self) {}", "not `self`"),
+            ("", "async fn main<T>(a: T) {}", "cannot be generic"),
+            ("", "async fn start(a: Sensor) {}", "not on `start`"),
+            ("", "fn main(a: &Sensor) {}", "by value"),
+            ("", "unsafe fn main(a: Sensor) {}", "nothing else"),
+            ("", "struct Sensor;", "goes on a function"),
+            ("flavor = 1", "async fn main(a: Sensor) {}", "takes no arguments"),
+        ];
+        for (arguments, item, message) in cases {
+            let output = expanded(arguments, item);
+            assert_eq!(output.matches("compile_error").count(), 1, "{output}");
+            assert!(output.contains(message), "{output}");
+        }
+    }
+
+    #[test]
+    fn several_mistakes_are_all_named() {
+        assert_eq!(expanded("x", "fn begin<T>() {}").matches("compile_error").count(), 4);
+    }
+}
