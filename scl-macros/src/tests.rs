@@ -92,6 +92,7 @@ connections:
 fn listing_1_becomes_four_structs() {
     let tokens = expand(LISTING_1);
     assert_eq!(errors(&tokens), 0, "{tokens}");
+    assert!(!tokens.to_string().contains("deprecated"), "lints are not shown: {tokens}");
     let expected = [
         "Sensor measurements",
         "Actuator setpoint",
