@@ -130,12 +130,13 @@ fn a_full_queue_is_said_by_the_call_that_never_waits() {
 }
 
 #[test]
-fn a_call_says_when_its_replier_is_lost_or_not_running() {
+fn a_call_says_when_its_replier_goes_away() {
     let place = Place::new("ipc");
-    let (mut source, sink) = (open(&place, "source"), open(&place, "sink"));
+    let (mut source, mut sink) = (open(&place, "source"), open(&place, "sink"));
     source.does("ready 30000", "ready");
+    sink.tell("hear");
     source.tell("call 1");
-    // Nobody serves; the replier goes away while it is asked.
+    sink.says("heard");
     sink.kill();
     source.says(
         "error: gate `source.question` got no answer: `sink.answer` went away after it was asked; the next call waits \

@@ -72,6 +72,8 @@ async fn play_source() -> scl::Result<()> {
 async fn play_sink() -> scl::Result<()> {
     let mut sink = Sink::open().await?;
     say("open");
+    // Requests that are never answered.
+    let mut heard = Vec::new();
     let mut commands = Commands::listen();
     while let Some(words) = commands.next().await {
         let count = words.get(1).and_then(|word| word.parse::<u64>().ok()).unwrap_or(1);
@@ -100,6 +102,10 @@ async fn play_sink() -> scl::Result<()> {
                         Err(error) => say(format!("error: {error}")),
                     }
                 }
+            }
+            "hear" => {
+                heard.push(sink.answer.recv().await?);
+                say("heard");
             }
             other => say(format!("unknown command `{other}`")),
         }
