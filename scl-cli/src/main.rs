@@ -1,1 +1,41 @@
-fn main() {}
+//! The `scl` command: checks, draws and runs SCL systems.
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+mod check;
+mod duration;
+mod graph;
+mod print;
+mod run;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Checks, draws and runs systems made of components that talk through typed gates.
+#[derive(Parser)]
+#[command(name = "scl", version, arg_required_else_help = true)]
+#[command(after_help = "Exit code: 0 fine (or only warnings), 1 errors or a failed component, 2 could not run.")]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Check(check::CheckArguments),
+    Graph(graph::GraphArguments),
+    Run(run::RunArguments),
+    #[command(name = run::START_WORD, hide = true)]
+    Start(run::StartArguments),
+    #[command(name = run::GUARD_WORD, hide = true)]
+    Guard,
+}
+
+fn main() -> ExitCode {
+    match CommandLine::parse().command {
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Graph(arguments) => graph::graph(&arguments),
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Start(arguments) => run::start_component(&arguments),
+        Command::Guard => run::keep_watch(),
+    }
+}

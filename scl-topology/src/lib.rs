@@ -54,6 +54,7 @@
 //! assert_eq!(topology.map(|topology| topology.connections().len()), Some(4));
 //! ```
 #![deny(missing_docs)]
+#![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod check;
 pub mod diagnostic;

@@ -25,6 +25,18 @@ use crate::yaml::{self, Node, NodeKind, Style, Tree};
 /// What has no shape is left out of the model, and each such place is a problem in `problems`: all of `SCL01xx` and
 /// `SCL02xx`. After a syntax error the model holds what stands before it, and only problems of the text itself are
 /// reported, as the others may be its consequences. Takes linear time and does not panic, whatever the text.
+///
+/// ```
+/// use scl_topology::{diagnostic::{Diagnostics, render}, parse::parse, source::Sources};
+///
+/// let mut sources = Sources::new();
+/// let file = sources.add("topology.yaml", "components:\n  - name: 1.10\n    gates: []\n");
+/// let mut problems = Diagnostics::new();
+/// let model = parse(&sources, file, &mut problems);
+/// assert_eq!(model.components.len(), 1);
+/// let problems = problems.into_sorted();
+/// assert!(render(&problems[0], &sources).starts_with("error: [SCL0109] a name is expected here"));
+/// ```
 pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Model {
     let source = sources.file(file);
     let text = pitfall::check_text(source, file, problems);
@@ -99,3 +111,5 @@ fn with_dash(item: Span, source: &SourceFile) -> Span {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod variants;

@@ -86,7 +86,7 @@ fn deep_nesting_is_one_problem() {
 
 #[test]
 fn one_long_line() {
-    const SIZE: usize = 1 << 15;
+    const SIZE: usize = 1 << 13;
     for unit in [
         "a", "a ", "[", "]", "{", "\"", "'", "\\", ":", "a:", "a: ", "- ", "-", "#", "\t", "\0", "\u{feff}", "é",
         "&a ", "*a ", "!", "%", "@", "|", ">", "[a,", "{a: b},", "\r", "? ", "[]", "a: 'b", "\"\\",
@@ -109,7 +109,7 @@ fn a_mebibyte() {
 
 #[test]
 fn many_short_lines() {
-    const SIZE: usize = 1 << 15;
+    const SIZE: usize = 1 << 13;
     for unit in [
         "a\n",
         "- a\n",

@@ -89,7 +89,7 @@ fn report(written: &Spanned<String>) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use crate::check::testing::{advice, example};
     use expect_test::expect;
 
     #[test]
@@ -114,5 +114,24 @@ components:
               = note: codecs: `protobuf` (default), `json`, `cbor`, `msgpack`, `postcard`, `raw`
         "#]],
         );
+    }
+
+    #[test]
+    fn codecs_have_other_names() {
+        let codecs = ["pb", "JSON", "messagepack", "my_crate.Flat", "xml", "my_crate::Flat"];
+        let advice = |codec: &str| {
+            advice(&format!(
+                "components:\n  - name: a\n    gates:\n      - x: {{pub: T, codec: '{codec}', unconnected: ok}}\n"
+            ))
+        };
+        let told: String = codecs.iter().map(|codec| format!("{codec}: {}\n", advice(codec))).collect();
+        expect![[r#"
+            pb: SCL0407 unknown codec `pb` [did you mean `protobuf`?]
+            JSON: SCL0407 unknown codec `JSON` [did you mean `json`?]
+            messagepack: SCL0407 unknown codec `messagepack` [did you mean `msgpack`?]
+            my_crate.Flat: SCL0407 unknown codec `my_crate.Flat` [a codec of your own is named by its Rust path: `my_crate::Flat`]
+            xml: SCL0407 unknown codec `xml` []
+            my_crate::Flat: 
+        "#]].assert_eq(&told);
     }
 }

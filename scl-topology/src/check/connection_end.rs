@@ -69,16 +69,16 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
         }
         return Diagnostic::error("SCL0503", headline, text.span, label).help(format!("write `{mended}`"));
     }
-    let owners = owners(draft, &text.value);
+    let owners = if draft.may_search() { owners(draft, &text.value) } else { Vec::new() };
     if let Some(&gate) = owners.first() {
         return without_component(draft, headline, text, gate, &owners);
     }
     if draft.component(&text.value).is_some() {
-        let gates = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
+        let gates: Vec<String> = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
         return Diagnostic::error("SCL0503", headline, text.span, "which gate?").note(format!(
             "gates of `{}`: {}",
             text.value,
-            super::wording::shortened(gates)
+            super::wording::shortened(&gates)
         ));
     }
     let (label, help) = oddity(&text.value);
@@ -138,7 +138,7 @@ fn oddity(text: &str) -> (&'static str, &'static str) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use crate::check::testing::{advice, example};
     use expect_test::expect;
 
     #[test]
@@ -170,5 +170,28 @@ connections:
               = help: write `sensor.measurements`
         "#]],
         );
+    }
+
+    #[test]
+    fn other_shapes_of_ends() {
+        let ends = ["a.b.c", "ui/ask", "ui::ask", "ui->ask", "ui . ask", "ui.", ".ask", "ui.*", "ui", "nothing"];
+        let advice = |end: &str| {
+            advice(&format!(
+                "components:\n  - name: ui\n    gates:\n      - ask: req\n      - fix: sub\nconnections:\n  - ['{end}', x.z]\n"
+            ))
+        };
+        let told: String = ends.iter().map(|end| format!("{end:8} {}\n", advice(end))).collect();
+        expect![[r#"
+            a.b.c    SCL0503 a connection end is written `component.gate` [write the component and its gate, with one dot between them]; SCL0501 unknown component `x` []
+            ui/ask   SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
+            ui::ask  SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
+            ui->ask  SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
+            ui . ask SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
+            ui.      SCL0503 a connection end is written `component.gate` [write the gate after the dot]; SCL0501 unknown component `x` []
+            .ask     SCL0503 a connection end is written `component.gate` [write the component before the dot]; SCL0501 unknown component `x` []
+            ui.*     SCL0503 a connection end is written `component.gate` [write one connection for each gate]; SCL0501 unknown component `x` []
+            ui       SCL0503 a connection end is written `component.gate` []; SCL0501 unknown component `x` []
+            nothing  SCL0503 a connection end is written `component.gate` [write the component, a dot and its gate]; SCL0501 unknown component `x` []
+        "#]].assert_eq(&told);
     }
 }

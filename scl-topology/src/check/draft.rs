@@ -8,6 +8,9 @@ use crate::topology::{Codec, GateKind, GateOptions, Payload, WhenFull};
 use std::collections::HashMap;
 use std::time::Duration;
 
+/// How many unknown names are compared with all others.
+const MOST_SEARCHES: usize = 200;
+
 /// The whole file.
 pub(super) struct Draft<'m> {
     pub(super) model: &'m Model,
@@ -15,6 +18,10 @@ pub(super) struct Draft<'m> {
     pub(super) components: Vec<DraftComponent<'m>>,
     pub(super) gates: Vec<DraftGate<'m>>,
     pub(super) links: Vec<Link<'m>>,
+    /// The names of all components, sorted, once each.
+    pub(super) component_names: Vec<&'m str>,
+    /// How many unknown names may still be compared with all others, see [`Draft::may_search`].
+    searches_left: usize,
     components_by_name: HashMap<&'m str, Vec<usize>>,
     gate_by_name: HashMap<(&'m str, &'m str), usize>,
 }
@@ -64,6 +71,8 @@ impl<'m> Draft<'m> {
             components: Vec::with_capacity(model.components.len()),
             gates: Vec::new(),
             links,
+            component_names: sorted_names(model),
+            searches_left: MOST_SEARCHES,
             components_by_name: HashMap::new(),
             gate_by_name: HashMap::new(),
         };
@@ -83,6 +92,19 @@ impl<'m> Draft<'m> {
             self.gates.push(DraftGate::new(index, gate, first != at));
         }
         self.components.push(DraftComponent { model, gates: (first_gate..self.gates.len()).collect() });
+    }
+
+    /// Whether the names that an unknown one resembles should be looked for. That compares it with all names, so in a
+    /// file with very many mistakes the later ones go without: time stays linear, and nobody reads so many.
+    pub(super) fn may_search(&mut self) -> bool {
+        self.searches_left = self.searches_left.saturating_sub(1);
+        self.searches_left > 0
+    }
+
+    /// All declarations of a component.
+    pub(super) fn declarations(&self, name: &str) -> impl Iterator<Item = &'m ComponentModel> + '_ {
+        let indices = self.components_by_name.get(name).into_iter().flatten();
+        indices.map(|&index| self.components[index].model)
     }
 
     pub(super) fn component(&self, name: &str) -> Option<usize> {
@@ -172,6 +194,13 @@ impl<'m> DraftGate<'m> {
             None => self.model.span,
         }
     }
+}
+
+fn sorted_names(model: &Model) -> Vec<&str> {
+    let mut names: Vec<&str> = model.components.iter().map(|component| component.name.value.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
 }
 
 fn default_options() -> GateOptions {

@@ -96,7 +96,7 @@ fn retyped(name: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use crate::check::testing::{advice, example};
     use expect_test::expect;
 
     #[test]
@@ -119,5 +119,19 @@ components:
               = note: names are ASCII, so that the file, the socket paths and all language bindings agree
         "#]],
         );
+    }
+
+    #[test]
+    fn other_letters_have_usual_replacements() {
+        let names = ["höhensensor", "Größe", "φ", "cafés", "αx"];
+        let advice = |name: &str| advice(&format!("components:\n  - name: {name}\n    gates: []\n"));
+        let told: String = names.iter().map(|name| format!("{}\n", advice(name))).collect();
+        expect![[r#"
+            SCL0304 component name `höhensensor` contains the letter `ö` (U+00F6), which is not ASCII [write `hoehensensor`]
+            SCL0304 component name `Größe` contains the letter `ö` (U+00F6), which is not ASCII [write `Groesse`]
+            SCL0304 component name `φ` contains the letter `φ` (U+03C6), which is not ASCII [write the name in ASCII letters]
+            SCL0304 component name `cafés` contains the letter `é` (U+00E9), which is not ASCII [write `cafes`]
+            SCL0304 component name `αx` contains the Greek letter `α` (U+03B1), which looks like `a` [retype the name in ASCII: `ax`]
+        "#]].assert_eq(&told);
     }
 }

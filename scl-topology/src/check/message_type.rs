@@ -153,4 +153,96 @@ connections:
         "#]],
         );
     }
+
+    #[test]
+    fn a_publisher_that_alone_differs_is_pointed_at() {
+        let yaml = "
+components:
+  - name: gps
+    gates:
+      - fix: {pub: Fix}
+  - name: log
+    gates:
+      - fix: {sub: Place}
+  - name: view
+    gates:
+      - fix: {sub: Place}
+  - name: pilot
+    gates:
+      - fix: {sub: Place}
+connections:
+  - [gps.fix, log.fix]
+  - [gps.fix, view.fix]
+  - [gps.fix, pilot.fix]
+";
+        example(
+            "SCL0601",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0601] `gps.fix` sends `Fix`, but all its receivers expect `Place`
+              --> topology.yaml:4:20
+               |
+             4 |       - fix: {pub: Fix}
+               |                    ^^^ sent
+            ...
+             7 |       - fix: {sub: Place}
+               |                    ----- expected
+            ...
+            10 |       - fix: {sub: Place}
+               |                    ----- expected
+            ...
+            13 |       - fix: {sub: Place}
+               |                    ----- expected
+               |
+               = help: use `Place` for `gps.fix` too
+               = note: the other ends agree: `log.fix`, `view.fix`, `pilot.fix`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn subscribers_of_one_publisher_are_reported_together() {
+        let yaml = "
+components:
+  - name: gps
+    gates:
+      - fix: {pub: Fix}
+  - name: log
+    gates:
+      - fix: {sub: Place}
+  - name: view
+    gates:
+      - fix: {sub: Fix}
+  - name: pilot
+    gates:
+      - fix: {sub: Position}
+connections:
+  - [gps.fix, log.fix]
+  - [gps.fix, view.fix]
+  - [gps.fix, pilot.fix]
+";
+        example(
+            "SCL0601",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0601] 2 connections of `gps.fix` use different message types at their two ends
+              --> topology.yaml:15:5
+               |
+             4 |       - fix: {pub: Fix}
+               |                    --- sent
+            ...
+             7 |       - fix: {sub: Place}
+               |                    ----- expected
+            ...
+            13 |       - fix: {sub: Position}
+               |                    -------- expected
+            14 | connections:
+            15 |   - [gps.fix, log.fix]
+               |     ^^^^^^^^^^^^^^^^^^ `Fix` is sent, `Place` is expected
+               |
+               = help: use `Fix` on both ends, if `log` takes it as it is
+               = help: or put a component between them that converts
+        "#]],
+        );
+    }
 }

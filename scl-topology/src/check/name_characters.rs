@@ -59,7 +59,7 @@ fn mended(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use crate::check::testing::{advice, example};
     use expect_test::expect;
 
     #[test]
@@ -82,5 +82,20 @@ components:
               = note: the dot separates component and gate in `component.gate`, so a name cannot contain one either
         "#]],
         );
+    }
+
+    #[test]
+    fn other_characters() {
+        let names = ["a.b", "a/b", "a--b", "a+b!", "a:b"];
+        let advice = |name: &str| advice(&format!("components:\n  - name: '{name}'\n    gates: []\n"));
+        let told: String = names.iter().map(|name| format!("{}\n", advice(name))).collect();
+        expect![[r#"
+            SCL0303 a component name cannot contain a dot [write `a_b`]
+            SCL0303 a component name cannot contain a slash [write `a_b`]
+            SCL0303 a component name cannot contain two hyphens in a row [write `a_b`]
+            SCL0303 a component name cannot contain `+` [write `a_b`]
+            SCL0303 a component name cannot contain a colon [write `a_b`]
+        "#]]
+        .assert_eq(&told);
     }
 }

@@ -56,7 +56,7 @@ fn alternatives(name: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use crate::check::testing::{advice, example};
     use expect_test::expect;
 
     #[test]
@@ -78,5 +78,19 @@ components:
               = help: for example `second_sensor` or `sensor_2`
         "#]],
         );
+    }
+
+    #[test]
+    fn other_starts() {
+        let names = ["3sensors", "4", "-left", "1st-row"];
+        let advice = |name: &str| advice(&format!("components:\n  - name: '{name}'\n    gates: []\n"));
+        let told: String = names.iter().map(|name| format!("{}\n", advice(name))).collect();
+        expect![[r#"
+            SCL0305 a component name must start with a letter [for example `sensors_3`]
+            SCL0305 a component name must start with a letter [put a word before it]
+            SCL0305 a component name must start with a letter [for example `left`]
+            SCL0305 a component name must start with a letter [for example `first_row` or `row_1`]
+        "#]]
+        .assert_eq(&told);
     }
 }

@@ -63,7 +63,7 @@ fn reason(kind: GateKind, key: &str) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use crate::check::testing::{advice, example};
     use expect_test::expect;
 
     #[test]
@@ -88,5 +88,43 @@ components:
               = note: `req` and `rep` take turns, so there is never more than one message waiting; `queue` is for `sub` and `pull`
         "#]],
         );
+    }
+
+    #[test]
+    fn each_option_has_its_kinds() {
+        let options = ["queue: 1", "when_full: wait", "backpressure: true", "timeout: 1s", "share: true"];
+        let kinds = ["pub: T", "sub: T", "req: A -> B", "rep: A -> B", "push: T", "pull: T"];
+        let mut told = String::new();
+        for (option, kind) in options.iter().flat_map(|option| kinds.map(|kind| (option, kind))) {
+            let gate = format!("{{{kind}, {option}, unconnected: ok}}");
+            let advice = advice(&format!("components:\n  - name: a\n    gates:\n      - x: {gate}\n"));
+            if !advice.is_empty() {
+                told.push_str(&format!("{advice}\n"));
+            }
+        }
+        expect![[r#"
+            SCL0408 option `queue` is not available on a `pub` gate [remove it | or write it at the `sub` end of the connection]
+            SCL0408 option `queue` is not available on a `req` gate [remove it]
+            SCL0408 option `queue` is not available on a `rep` gate [remove it]
+            SCL0408 option `queue` is not available on a `push` gate [remove it | or write it at the `pull` end of the connection]
+            SCL0408 option `when_full` is not available on a `pub` gate [remove it | or write it at the `sub` end of the connection]
+            SCL0408 option `when_full` is not available on a `req` gate [remove it]
+            SCL0408 option `when_full` is not available on a `rep` gate [remove it]
+            SCL0408 option `when_full` is not available on a `push` gate [remove it | or write it at the `pull` end of the connection]
+            SCL0408 option `backpressure` is not available on a `sub` gate [remove it | or write it at the `pub` end of the connection]
+            SCL0408 option `backpressure` is not available on a `req` gate [remove it]
+            SCL0408 option `backpressure` is not available on a `rep` gate [remove it]
+            SCL0408 option `backpressure` is not available on a `pull` gate [remove it | or write it at the `push` end of the connection]
+            SCL0408 option `timeout` is not available on a `pub` gate [remove it]
+            SCL0408 option `timeout` is not available on a `sub` gate [remove it]
+            SCL0408 option `timeout` is not available on a `rep` gate [remove it | or write it at the `req` end of the connection]
+            SCL0408 option `timeout` is not available on a `push` gate [remove it]
+            SCL0408 option `timeout` is not available on a `pull` gate [remove it]
+            SCL0408 option `share` is not available on a `pub` gate [remove it]
+            SCL0408 option `share` is not available on a `sub` gate [remove it]
+            SCL0408 option `share` is not available on a `req` gate [remove it]
+            SCL0408 option `share` is not available on a `rep` gate [remove it]
+            SCL0408 option `share` is not available on a `pull` gate [remove it | or write it at the `push` end of the connection]
+        "#]].assert_eq(&told);
     }
 }

@@ -94,7 +94,7 @@ fn report(kind: Option<GateKind>, option: &OptionModel, range: Range) -> Diagnos
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use crate::check::testing::{advice, example};
     use expect_test::expect;
 
     #[test]
@@ -119,5 +119,35 @@ components:
               = note: each receiver says how many messages may wait for it; `queue` is for `sub` and `pull`
         "#]],
         );
+    }
+
+    #[test]
+    fn ranges_have_two_ends() {
+        let gates = [
+            "sub: T, queue: 1",
+            "sub: T, queue: -3",
+            "sub: T, queue: 1000000",
+            "sub: T, queue: 1000001",
+            "sub: T, queue: 99999999999999999999",
+            "req: A -> B, timeout: 0s",
+            "req: A -> B, timeout: 1us",
+            "req: A -> B, timeout: -1s",
+            "req: A -> B, timeout: 86401s",
+        ];
+        let advice = |gate: &str| {
+            advice(&format!("components:\n  - name: a\n    gates:\n      - x: {{{gate}, unconnected: ok}}\n"))
+        };
+        let told: String = gates.iter().map(|gate| format!("{gate}: {}\n", advice(gate))).collect();
+        expect![[r#"
+            sub: T, queue: 1: 
+            sub: T, queue: -3: SCL0409 `queue` must be at least 1 [leave it out to get the default, 100]
+            sub: T, queue: 1000000: 
+            sub: T, queue: 1000001: SCL0409 `queue` must be at most 1000000 [leave it out to get the default, 100]
+            sub: T, queue: 99999999999999999999: SCL0409 `queue` must be at most 1000000 [leave it out to get the default, 100]
+            req: A -> B, timeout: 0s: SCL0409 `timeout` must be more than 0 [leave it out to get the default, 1s]
+            req: A -> B, timeout: 1us: 
+            req: A -> B, timeout: -1s: SCL0409 `timeout` must be more than 0 [leave it out to get the default, 1s]
+            req: A -> B, timeout: 86401s: SCL0409 `timeout` must be at most a day, 86400s [leave it out to get the default, 1s]
+        "#]].assert_eq(&told);
     }
 }

@@ -170,4 +170,40 @@ connections:
         "#]],
         );
     }
+
+    #[test]
+    fn a_gate_that_fits_is_offered() {
+        let yaml = "
+components:
+  - name: gps
+    gates:
+      - fix: pub
+  - name: pilot
+    gates:
+      - fix_out: pub
+      - fix: sub
+connections:
+  - [gps.fix, pilot.fix_out]
+";
+        example(
+            "SCL0505",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0505] both ends of this connection publish
+              --> topology.yaml:10:5
+               |
+             4 |       - fix: pub
+               |              --- sends
+            ...
+             7 |       - fix_out: pub
+               |                  --- sends too
+            ...
+            10 |   - [gps.fix, pilot.fix_out]
+               |     ^^^^^^^^^^^^^^^^^^^^^^^^ nobody receives
+               |
+               = help: a `pub` gate connects to a `sub` gate; should one of the two be `sub`?
+               = help: `gps.fix` fits `pilot.fix` (sub)
+        "#]],
+        );
+    }
 }

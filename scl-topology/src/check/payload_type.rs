@@ -2,7 +2,6 @@
 //! of every other gate.
 
 use super::draft::{Draft, DraftGate};
-use super::wording::example_type;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Spanned;
 use crate::topology::{GateKind, Payload, TypeName};
@@ -107,7 +106,7 @@ fn fault(text: &str) -> Option<Fault> {
     let owned = text.trim_start_matches('&').trim_start_matches("mut ").trim();
     let owned = if owned == "str" { "String" } else { owned };
     let (label, help) = match text {
-        "" => ("a type is missing", format!("write a type, for example `{}`", example_type("status"))),
+        "" => ("nothing stands here", "write a type, for example `Status`".to_owned()),
         _ if text.starts_with('&') => ("a reference", format!("use an owned type: `{owned}`")),
         _ if dotted != text && dotted.split('.').all(is_word) => ("a Rust path", format!("write `{dotted}`")),
         _ if text.contains('<') => ("a type with parameters", "give it a name in Rust: `type Name = ...;`".to_owned()),
@@ -124,14 +123,18 @@ fn fault(text: &str) -> Option<Fault> {
 }
 
 fn no_type(text: &str, span: crate::source::Span, fault: &Fault) -> Diagnostic {
-    Diagnostic::error("SCL0403", format!("`{text}` cannot be a message type"), span, fault.label).help(&*fault.help).note(
+    let headline = match text {
+        "" => "a message type is missing".to_owned(),
+        _ => format!("`{text}` cannot be a message type"),
+    };
+    Diagnostic::error("SCL0403", headline, span, fault.label).help(&*fault.help).note(
         "a message type is a dotted name, such as `uav.Measurement`: words of letters, digits and `_`, joined by `.`",
     )
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use crate::check::testing::{advice, example};
     use expect_test::expect;
 
     #[test]
@@ -179,5 +182,41 @@ components:
               = help: write `commands: {req: Command -> Status}`
         "#]],
         );
+    }
+
+    #[test]
+    fn other_texts_that_are_no_types() {
+        let gates = [
+            "pub: 'nav::Fix'",
+            "pub: 'Vec<u8>'",
+            "pub: '&mut T'",
+            "pub: '(A, B)'",
+            "pub: 'dyn T'",
+            "pub: a..b",
+            "pub: a.2",
+            "pub: _",
+            "pub: A -> B",
+            "sub: A -> B",
+            "rep: A",
+            "req: A -> B -> C",
+            "req: 'A ->'",
+        ];
+        let advice = |gate: &str| advice(&format!("components:\n  - name: a\n    gates:\n      - x: {{{gate}}}\n"));
+        let told: String = gates.iter().map(|gate| format!("{gate:16} {}\n", advice(gate))).collect();
+        expect![[r#"
+            pub: 'nav::Fix'  SCL0403 `nav::Fix` cannot be a message type [write `nav.Fix`]
+            pub: 'Vec<u8>'   SCL0403 `Vec<u8>` cannot be a message type [give it a name in Rust: `type Name = ...;`]
+            pub: '&mut T'    SCL0403 `&mut T` cannot be a message type [use an owned type: `T`]
+            pub: '(A, B)'    SCL0403 `(A, B)` cannot be a message type [make a struct of it, and name it]
+            pub: 'dyn T'     SCL0403 `dyn T` cannot be a message type [use a type, such as a struct or an enum]
+            pub: a..b        SCL0403 `a..b` cannot be a message type [write each part of the name]
+            pub: a.2         SCL0403 `a.2` cannot be a message type [write a name such as `uav.Measurement`]
+            pub: _           SCL0403 `_` cannot be a message type [write a name such as `uav.Measurement`]
+            pub: A -> B      SCL0404 a `pub` gate sends one type and gets no answer; did you mean `req`? [write `x: {pub: A}` | or `x: {req: A -> B}`]
+            sub: A -> B      SCL0404 a `sub` gate receives one type and gives no answer; did you mean `rep`? [write `x: {sub: A}` | or `x: {rep: A -> B}`]
+            rep: A           SCL0404 a `rep` gate needs two types, what it is asked and what it answers [write `x: {rep: A -> Status}`]
+            req: A -> B -> C SCL0404 a `req` gate has two types, a request and its reply [write `x: {req: A -> C}`]
+            req: 'A ->'      SCL0403 a message type is missing [write a type, for example `Status`]
+        "#]].assert_eq(&told);
     }
 }

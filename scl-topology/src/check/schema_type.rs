@@ -90,4 +90,33 @@ components:
         "#]],
         );
     }
+
+    #[test]
+    fn the_last_part_of_a_name_finds_its_package() {
+        let yaml = "
+schemas: [uav.proto]
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement}
+";
+        example_with(
+            "SCL0405",
+            yaml.trim_start(),
+            Some(&["uav.Measurement"]),
+            expect![[r#"
+            error: [SCL0405] unknown message type `Measurement`
+             --> topology.yaml:5:29
+              |
+            1 | schemas: [uav.proto]
+              |           --------- declares `uav.Measurement`
+            ...
+            5 |       - measurements: {pub: Measurement}
+              |                             ^^^^^^^^^^^ not in the schemas
+              |
+              = help: did you mean `uav.Measurement`?
+              = note: message types in `schemas`: `uav.Measurement`
+        "#]],
+        );
+    }
 }

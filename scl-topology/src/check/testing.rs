@@ -39,6 +39,14 @@ pub(super) fn codes(yaml: &str) -> Vec<&'static str> {
     found.into_iter().filter(|found| found.severity != Severity::Lint).map(|found| found.code).collect()
 }
 
+/// Headlines and helps of all errors, in one line.
+pub(super) fn advice(yaml: &str) -> String {
+    let (found, _) = problems(yaml, None);
+    let errors = found.iter().filter(|found| found.severity == Severity::Error && found.code != "SCL0703");
+    let told = errors.map(|found| format!("{} {} [{}]", found.code, found.message, found.helps.join(" | ")));
+    told.collect::<Vec<_>>().join("; ")
+}
+
 /// Every problem.
 pub(super) fn problems(yaml: &str, messages: Option<&[&str]>) -> (Vec<Diagnostic>, Sources) {
     let (_, found, sources) = run(yaml, messages);
@@ -62,5 +70,10 @@ fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnost
     let messages = messages.map(|names| vec![declared(names)]);
     let facts = Facts { default_system: "topology".to_owned(), messages };
     let topology = check(&model, &facts, &sources, &mut problems);
+    assert_eq!(
+        topology.is_none(),
+        problems.has_errors(),
+        "a topology comes out exactly when there is no error: {yaml}"
+    );
     (topology, problems.into_sorted(), sources)
 }

@@ -1,6 +1,8 @@
 //! Several mistakes at once: all are told, and nothing that only follows from them.
 
-use super::testing::codes;
+use super::testing::{codes, problems};
+use crate::diagnostic::Severity;
+use crate::source::Span;
 
 /// Two components with the gates given, and connections.
 fn file(a: &str, b: &str, connections: &str) -> String {
@@ -78,5 +80,76 @@ fn sound_files_are_silent() {
     ];
     for (what, yaml) in cases {
         assert_eq!(codes(&yaml), [""; 0], "{what}\n{yaml}");
+    }
+}
+
+/// Every word of this file matters: without it, doubled or misspelt, it is another file.
+const TYPED: &str = "system: rover
+schemas: [rover.proto]
+codec: protobuf
+components:
+  - name: sensor
+    doc: Reads the inertial unit.
+    gates:
+      - measurements: {pub: rover.Measurement, backpressure: true}
+  - name: pilot
+    optional: true
+    gates:
+      - sensor: {sub: rover.Measurement, queue: 10, when_full: wait}
+      - orders: {rep: rover.Order -> rover.Answer, codec: json}
+      - jobs: {push: rover.Job, share: true}
+  - name: ground
+    gates:
+      - orders: {req: rover.Order -> rover.Answer, timeout: 500ms}
+      - jobs: pull
+connections:
+  - [sensor.measurements, pilot.sensor]
+  - [ground.orders, pilot.orders]
+  - [pilot.jobs, ground.jobs]
+";
+
+/// The places of words, with `.` and `-` as ends of words.
+fn words(text: &str) -> Vec<std::ops::Range<usize>> {
+    let mut words = Vec::new();
+    let mut start = 0;
+    for (at, letter) in text.char_indices().filter(|(_, letter)| !letter.is_alphanumeric() && *letter != '_') {
+        if start < at {
+            words.push(start..at);
+        }
+        start = at + letter.len_utf8();
+    }
+    words
+}
+
+#[test]
+fn every_misspelt_name_of_a_connection_is_told_on_its_line() {
+    assert_eq!(codes(TYPED), [""; 0]);
+    let ends = TYPED.find("connections:\n").unwrap() + "connections:\n".len();
+    for word in words(TYPED).into_iter().filter(|word| word.start >= ends) {
+        let mut mutant = TYPED.to_owned();
+        mutant.insert(word.start + 1, 'q');
+        let line = mutant[..word.start].matches('\n').count() as u32 + 1;
+        let (found, sources) = problems(&mutant, None);
+        let at = |span: Span| sources.file(span.file).line_column(span.start).line;
+        let errors: Vec<u32> = found
+            .iter()
+            .filter(|found| found.severity == Severity::Error)
+            .filter_map(|found| found.primary.as_ref())
+            .map(|label| at(label.span))
+            .collect();
+        assert_eq!(errors, [line], "{mutant}");
+    }
+}
+
+#[test]
+fn no_missing_or_doubled_word_makes_a_panic() {
+    for word in words(TYPED) {
+        let text = &TYPED[word.clone()];
+        for other in ["", &format!("{text}{text}"), &format!("{text}.{text}"), "-", "ö", "0"] {
+            let mut mutant = TYPED.to_owned();
+            mutant.replace_range(word.clone(), other);
+            // `codes` also holds that a topology comes out exactly when there is no error.
+            codes(&mutant);
+        }
     }
 }

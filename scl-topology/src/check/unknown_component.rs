@@ -19,7 +19,7 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     }
     let place = draft.part(text.span, component, false);
     let mut found = Diagnostic::error("SCL0501", headline, place, "no component has this name");
-    let meant = meant(draft, component, gate);
+    let meant = if draft.may_search() { meant(draft, component, gate) } else { Vec::new() };
     if let [only] = meant.as_slice()
         && let Some(at) = draft.component(only)
     {
@@ -42,24 +42,25 @@ pub(super) fn swap(headline: String, span: crate::source::Span, component: &str,
         .help(format!("write `{component}.{gate}`"))
 }
 
-/// Similar components; those that have the gate, if there are any.
+/// Similar components that have the gate; without such, those that have a similar gate.
 fn meant(draft: &Draft<'_>, component: &str, gate: &str) -> Vec<String> {
-    let mut names: Vec<&str> = draft.model.components.iter().map(|other| other.name.value.as_str()).collect();
-    names.dedup();
-    let near = similar(component, names);
+    let near = similar(component, draft.component_names.iter().copied());
+    let has_similar = |other: &str| {
+        let gates = draft.gates_of(other).map(|at| draft.gates[at].model.name.value.as_str());
+        !similar(gate, gates).is_empty() || draft.declarations(other).any(|twin| twin.gates_unread)
+    };
     let owners: Vec<&str> = near.iter().copied().filter(|other| draft.gate(other, gate).is_some()).collect();
-    let best = if owners.is_empty() { near } else { owners };
+    let best = match owners.is_empty() {
+        true => near.into_iter().filter(|other| has_similar(other)).collect(),
+        false => owners,
+    };
     best.into_iter().map(str::to_owned).collect()
 }
 
 fn declared(draft: &Draft<'_>) -> String {
-    let mut names: Vec<&str> = draft.model.components.iter().map(|other| other.name.value.as_str()).collect();
-    names.sort_unstable();
-    names.dedup();
-    if names.is_empty() {
-        "no components are declared".to_owned()
-    } else {
-        format!("declared components: {}", listed(names))
+    match draft.component_names.as_slice() {
+        [] => "no components are declared".to_owned(),
+        names => format!("declared components: {}", listed(names)),
     }
 }
 
@@ -124,6 +125,34 @@ connections:
               |      ^^^^^^^^^^^^^^^^^^^ component and gate are swapped
               |
               = help: write `sensor.measurements`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_similar_component_without_the_gate_is_not_offered() {
+        let yaml = "
+components:
+  - name: aircomm_swarm
+    gates:
+      - out: pub
+  - name: pilot
+    gates:
+      - orders: sub
+connections:
+  - [aircomm.report, pilot.orders]
+";
+        example(
+            "SCL0501",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0501] unknown component `aircomm`
+             --> topology.yaml:9:6
+              |
+            9 |   - [aircomm.report, pilot.orders]
+              |      ^^^^^^^ no component has this name
+              |
+              = note: declared components: `aircomm_swarm`, `pilot`
         "#]],
         );
     }

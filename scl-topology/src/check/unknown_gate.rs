@@ -16,9 +16,8 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
         draft.gates[swapped].named = true;
         return problems.push(swap(headline, text.span, gate, component));
     }
-    let twins = draft.model.components.iter().filter(|other| other.name.value == component);
     // The gate may be one of those that could not be read.
-    if twins.clone().any(|twin| twin.gates_unread) {
+    if draft.declarations(component).any(|twin| twin.gates_unread) {
         return;
     }
     let meant = meant(draft, link, end, component, gate);
@@ -58,7 +57,7 @@ fn report(
     let all: Vec<String> = draft.gates_of(component).map(|at| described(draft, at)).collect();
     match all.is_empty() {
         true => found.note(format!("`{component}` has no gates")),
-        false => found.note(format!("gates of `{component}`: {}", shortened(all))),
+        false => found.note(format!("gates of `{component}`: {}", shortened(&all))),
     }
 }
 
@@ -103,6 +102,39 @@ connections:
               |
               = help: did you mean `measurements`?
               = note: gates of `sensor`: `measurements` (pub)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn only_gates_that_fit_the_other_end_are_offered() {
+        let yaml = "
+components:
+  - name: ui
+    gates:
+      - ask: req
+  - name: pilot
+    gates:
+      - orders: rep
+      - border: pub
+connections:
+  - [ui.ask, pilot.order]
+";
+        example(
+            "SCL0502",
+            yaml.trim_start(),
+            expect![[r#"
+            error: [SCL0502] component `pilot` has no gate `order`
+              --> topology.yaml:10:20
+               |
+             7 |       - orders: rep
+               |         ------ a similar gate is declared here
+            ...
+            10 |   - [ui.ask, pilot.order]
+               |                    ^^^^^ unknown gate
+               |
+               = help: did you mean `orders`?
+               = note: gates of `pilot`: `orders` (rep), `border` (pub)
         "#]],
         );
     }

@@ -5,15 +5,21 @@ const MOST: usize = 10;
 
 /// `` `a`, `b` and 3 more``: at most ten names, in the order given.
 pub(super) fn listed<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> String {
-    let names: Vec<String> = names.into_iter().map(|name| format!("`{}`", name.as_ref())).collect();
-    shortened(names)
+    let mut names = names.into_iter();
+    let shown: Vec<String> = names.by_ref().take(MOST).map(|name| format!("`{}`", name.as_ref())).collect();
+    with_rest(&shown, names.count())
 }
 
 /// Like [`listed`], for items that carry their own quotes: `` `events` (pub), `commands` (rep)``.
-pub(super) fn shortened(items: Vec<String>) -> String {
-    match items.len().checked_sub(MOST) {
-        None | Some(0) => items.join(", "),
-        Some(rest) => format!("{} and {rest} more", items[..MOST].join(", ")),
+pub(super) fn shortened(items: &[String]) -> String {
+    let shown = &items[..items.len().min(MOST)];
+    with_rest(shown, items.len() - shown.len())
+}
+
+fn with_rest(shown: &[String], rest: usize) -> String {
+    match rest {
+        0 => shown.join(", "),
+        rest => format!("{} and {rest} more", shown.join(", ")),
     }
 }
 
@@ -36,7 +42,7 @@ pub(super) fn either<S: AsRef<str>>(names: &[S]) -> String {
 pub(super) fn example_type(gate: &str) -> String {
     let name = crate::rust_name::component_type(gate);
     match name.strip_suffix('s') {
-        Some(singular) if singular.len() > 1 && !singular.ends_with('s') => singular.to_owned(),
+        Some(singular) if singular.len() > 1 && !singular.ends_with(['s', 'u', 'i']) => singular.to_owned(),
         _ => name,
     }
 }
@@ -61,9 +67,13 @@ mod tests {
 
     #[test]
     fn example_types_are_singular() {
-        for (gate, expected) in
-            [("measurements", "Measurement"), ("set-point", "SetPoint"), ("pass", "Pass"), ("s", "S")]
-        {
+        for (gate, expected) in [
+            ("measurements", "Measurement"),
+            ("set-point", "SetPoint"),
+            ("pass", "Pass"),
+            ("status", "Status"),
+            ("s", "S"),
+        ] {
             assert_eq!(example_type(gate), expected);
         }
     }

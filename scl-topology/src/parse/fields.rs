@@ -40,6 +40,13 @@ impl Reader<'_> {
         let mut fields = Fields::default();
         let mut seen: HashMap<&str, Span> = HashMap::new();
         for (key_node, value) in entries {
+            if value.span.start == value.span.end
+                && let Some(problem) = pitfall::missing_space::in_node(key_node, self.source)
+            {
+                self.report(problem);
+                fields.damaged = true;
+                continue;
+            }
             let Some(key) = self.key(key_node) else {
                 fields.damaged = true;
                 continue;

@@ -111,6 +111,7 @@ fn syntax_error(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> O
         .or_else(|| missing_space::before(error, place))
         .or_else(|| quote::find(error, &text.text, place))
         .or_else(|| bracket::find_open(error, &text.text, place))
+        .or_else(|| not_yaml::missing_dash_space(error, place))
         .or_else(|| indentation::find(error, &text.text, place))
         .or_else(|| Some(not_yaml::diagnose(error, place)))
 }

@@ -15,9 +15,14 @@ pub(super) fn parse_text(text: &str) -> (Model, Vec<Diagnostic>, Sources) {
     (model, problems.into_sorted(), sources)
 }
 
-/// The codes of a text's problems, sorted by position.
-pub(super) fn codes(text: &str) -> Vec<&'static str> {
-    parse_text(text).1.iter().map(|problem| problem.code).collect()
+/// Code, place and headline of a text's problems, one a line, sorted by position.
+pub(super) fn headlines(text: &str) -> String {
+    let (_, problems, sources) = parse_text(text);
+    let line = |problem: &Diagnostic| {
+        let place = problem.primary.as_ref().map_or(String::new(), |label| sources.place(label.span));
+        format!("{} {} {}\n", problem.code, place.trim_start_matches("topology.yaml:"), problem.message)
+    };
+    problems.iter().map(line).collect()
 }
 
 /// Checks that an example gives this code, no other error, and these words, with either line end and with a byte order

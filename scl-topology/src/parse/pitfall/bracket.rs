@@ -10,12 +10,24 @@ const CODE: &str = "SCL0102";
 /// A bracket problem that the parser noticed as such.
 pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
     match text.as_bytes().get(error.at) {
-        Some(b'[' | b'{') => Some(never_closed(error.at, text, place)),
+        Some(b'[' | b'{') => Some(match wrong_close(error.at, text, place) {
+            Some(close) => mismatched(error.at, close, text, place),
+            None => never_closed(error.at, text, place),
+        }),
         Some(b']' | b'}') if scan::scan(&text[..error.at]).open_brackets.is_empty() => {
             Some(never_opened(error.at, text, place))
         }
         _ => find_open(error, text, place),
     }
+}
+
+/// The bracket of the other kind that stands where the closing one belongs, in the same line.
+fn wrong_close(open: usize, text: &str, place: &Place<'_>) -> Option<usize> {
+    let inside = &text[open + 1..place.line_range(open).end];
+    let at = inside.find(['[', ']', '{', '}'])?;
+    let right = closing(&text[open..open + 1]);
+    let found = inside[at..].chars().next()?;
+    (matches!(found, ']' | '}') && found != right).then_some(open + 1 + at)
 }
 
 /// A bracket that is open where the parser stops.

@@ -21,6 +21,10 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     let words = levels_of(&text[line.clone()], line.start);
     let first = words.first()?;
     let above = levels_above(text, line.start);
+    if first.is_dash && above.iter().all(|level| level.indent < first.indent) {
+        let key = above.last().filter(|level| has_value(level, text, place))?;
+        return Some(list_without_key(first, key, place));
+    }
     let same = above.iter().find(|level| level.indent == first.indent);
     let is_misplaced_key = same.is_some_and(|level| level.is_dash) && !first.is_dash;
     if same.is_some() && !is_misplaced_key || error.at < first.word.start {
@@ -29,6 +33,20 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     let keys = above.iter().filter(|level| level.is_dash == first.is_dash);
     let meant = keys.min_by_key(|level| (level.indent.abs_diff(first.indent), std::cmp::Reverse(level.indent)))?;
     Some(diagnose(first, meant, is_misplaced_key, &above, text, place))
+}
+
+/// Whether a level's word is a key with a value in the same line.
+fn has_value(level: &Level, text: &str, place: &Place<'_>) -> bool {
+    let rest = &text[level.word.end..place.line_range(level.word.end).end];
+    rest.strip_prefix(':').is_some_and(|value| !value.trim().is_empty() && !value.trim().starts_with('#'))
+}
+
+/// A list below a line that has a value already.
+fn list_without_key(item: &Level, above: &Level, place: &Place<'_>) -> Diagnostic {
+    let span = place.span(item.word.clone());
+    Diagnostic::error(CODE, "this list belongs to no key", span, "indented deeper than the line above")
+        .label(place.span(above.word.clone()), "this key has a value already")
+        .help(format!("add a line with a key above it, for example `gates:`, indented by {}", spaces(above.indent)))
 }
 
 fn diagnose(

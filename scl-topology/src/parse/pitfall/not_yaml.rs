@@ -37,6 +37,19 @@ fn missing_colon(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
     )
 }
 
+/// `-sensor` where `- sensor` is meant, in the line of the error.
+pub(super) fn missing_dash_space(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
+    let line = place.line_range(error.at);
+    let content = &place.source.text()[line.clone()];
+    let word = content.trim_start_matches(' ');
+    let rest = word.strip_prefix('-').filter(|rest| rest.starts_with(|c: char| c.is_alphabetic() || c == '['))?;
+    let start = line.end - word.len();
+    Some(
+        Diagnostic::error(CODE, "missing space after `-`", place.span(start..start + 1), "starts no list item")
+            .help(format!("write `- {}`", rest.trim_end())),
+    )
+}
+
 fn is_lone_key(line: &str) -> bool {
     let word = line.trim_start_matches([' ', '-']).trim_end();
     sections::SECTIONS.contains(&word) || component::KEYS.contains(&word)

@@ -4,7 +4,8 @@ use crate::diagnostic::Diagnostic;
 use crate::model::ComponentModel;
 use crate::parse::component::{self, head};
 use crate::parse::fields::{Field, Fields};
-use crate::parse::{option, sections};
+use crate::parse::gate::is_kind;
+use crate::parse::{option, scalar, sections};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 
@@ -35,7 +36,9 @@ pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: 
 /// `- measurements: pub` with `queue: 4` below it.
 pub(in crate::parse) fn option_beside_gate(option: Field<'_>, gate: Field<'_>, source: &SourceFile) -> Diagnostic {
     let message = format!("`{}` belongs inside the braces of gate `{}`, not beside it", option.key, gate.key);
-    problem(message, option.key_span, source).help(format!("write `{}: {{pub: Type, {}: ...}}`", gate.key, option.key))
+    let kind = scalar(gate.value).filter(|kind| is_kind(&kind.value)).map_or("pub".to_owned(), |kind| kind.value);
+    problem(message, option.key_span, source)
+        .help(format!("write `{}: {{{kind}: Type, {}: ...}}`", gate.key, option.key))
 }
 
 /// `- gates:` after a component that has no gates: its `-` starts a new component.

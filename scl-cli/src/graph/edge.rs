@@ -1,0 +1,23 @@
+//! What both drawings say at a connection.
+
+use scl_topology::topology::{Connection, GateKind, Payload, Topology};
+
+/// A connection as it is drawn: from the end that sends (or asks) to the end that receives (or answers).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Edge {
+    /// What is carried, for example `rover.Measurement`; empty for bytes.
+    pub(crate) types: String,
+    /// Whether an answer comes back.
+    pub(crate) answered: bool,
+}
+
+/// The edge of a connection.
+pub(crate) fn edge_of(topology: &Topology, connection: &Connection) -> Edge {
+    let source = topology.gate(connection.source());
+    let types = match source.payload() {
+        Payload::Bytes => String::new(),
+        Payload::Message(message) => message.dotted().to_owned(),
+        Payload::Exchange { request, reply } => format!("{} -> {}", request.dotted(), reply.dotted()),
+    };
+    Edge { types, answered: source.kind() == GateKind::Req }
+}

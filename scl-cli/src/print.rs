@@ -1,0 +1,14 @@
+//! Text for the user. Unlike `println!`, it does not panic when the reader has gone (`scl check | head`).
+
+use std::io::{self, Write};
+
+/// Writes to standard output; the text brings its own line ends.
+pub(crate) fn print_out(text: &str) {
+    // Who closes our output does not want to know.
+    let _ = io::stdout().lock().write_all(text.as_bytes());
+}
+
+/// Writes to standard error; the text brings its own line ends.
+pub(crate) fn print_err(text: &str) {
+    let _ = io::stderr().lock().write_all(text.as_bytes());
+}

@@ -1,0 +1,135 @@
+//! No orphans, even when `scl run` itself is killed with -9.
+//!
+//! Two safe means together, because each leaves a gap:
+//!
+//! - Every component is started through `scl __start`, which asks the kernel to be killed when `scl run` ends, and
+//!   then becomes the program. This holds from the first moment, but only for the program itself.
+//! - One `scl __guard` holds the read end of a pipe whose write end only `scl run` holds. When the pipe ends, it kills
+//!   the whole process group of each component, and so what the programs have started in their turn.
+
+use crate::print::print_err;
+use clap::Args;
+use nix::sys::signal::{SigSet, Signal, killpg};
+use nix::unistd::Pid;
+use std::ffi::OsString;
+use std::io::{self, BufRead, Write};
+use std::os::unix::process::CommandExt;
+use std::process::{Child, ChildStdin, Command, ExitCode, Stdio};
+
+/// The hidden word of the command line that starts one component.
+pub(crate) const START_WORD: &str = "__start";
+/// The hidden word of the command line that keeps watch.
+pub(crate) const GUARD_WORD: &str = "__guard";
+
+/// What shells answer for a program that is there but cannot be executed.
+const CANNOT_EXECUTE: u8 = 126;
+
+/// Becomes a component's program, which ends when its parent ends.
+#[derive(Args)]
+pub(crate) struct StartArguments {
+    /// The process that must be alive.
+    parent: u32,
+    /// The program and its arguments.
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, required = true)]
+    command: Vec<OsString>,
+}
+
+/// The command that starts `command` so that it ends with this process.
+///
+/// # Errors
+///
+/// When the path of the running `scl` cannot be found.
+pub(crate) fn bound_command(command: &[OsString]) -> io::Result<Command> {
+    let mut bound = Command::new(std::env::current_exe()?);
+    bound.arg(START_WORD).arg(std::process::id().to_string()).arg("--").args(command);
+    Ok(bound)
+}
+
+/// The body of `scl __start`: returns only if the program cannot be executed.
+pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
+    // `scl run` blocks these signals to wait for them, and a program would inherit that.
+    let unblocked = stop_signals().thread_unblock();
+    if let Err(error) = unblocked.and_then(|()| die_with_parent()) {
+        print_err(&format!("scl: cannot prepare the start: {error}\n"));
+        return ExitCode::from(CANNOT_EXECUTE);
+    }
+    // The parent may have ended before the kernel knew of our wish; then nobody would ever stop this program.
+    if u32::try_from(Pid::parent().as_raw()) != Ok(arguments.parent) {
+        return ExitCode::from(CANNOT_EXECUTE);
+    }
+    let [program, rest @ ..] = arguments.command.as_slice() else { return ExitCode::from(CANNOT_EXECUTE) };
+    let error = Command::new(program).args(rest).exec();
+    print_err(&format!("scl: cannot execute `{}`: {error}\n", program.display()));
+    ExitCode::from(CANNOT_EXECUTE)
+}
+
+#[cfg(target_os = "linux")]
+fn die_with_parent() -> nix::Result<()> {
+    nix::sys::prctl::set_pdeathsig(Signal::SIGKILL)
+}
+
+/// Elsewhere the guard alone must do.
+#[cfg(not(target_os = "linux"))]
+fn die_with_parent() -> nix::Result<()> {
+    Ok(())
+}
+
+/// The signals by which `scl run` is asked to stop.
+pub(crate) fn stop_signals() -> SigSet {
+    [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP].into_iter().collect()
+}
+
+/// The process that keeps watch over this one. It kills the groups that it knows when this value is dropped.
+#[derive(Debug)]
+pub(crate) struct OrphanGuard {
+    process: Child,
+    pipe: Option<ChildStdin>,
+}
+
+impl OrphanGuard {
+    /// Starts the watch, in a process group of its own, so that a Ctrl-C does not reach it.
+    ///
+    /// # Errors
+    ///
+    /// When no process can be started.
+    pub(crate) fn start() -> io::Result<Self> {
+        let mut process = Command::new(std::env::current_exe()?)
+            .arg(GUARD_WORD)
+            .process_group(0)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()?;
+        let pipe = process.stdin.take();
+        Ok(Self { process, pipe })
+    }
+
+    /// Adds the process group of a component that has just been started.
+    ///
+    /// # Errors
+    ///
+    /// When the guard is gone.
+    pub(crate) fn watch(&mut self, group: Pid) -> io::Result<()> {
+        let pipe = self.pipe.as_mut().ok_or(io::ErrorKind::BrokenPipe)?;
+        pipe.write_all(format!("{group}\n").as_bytes())
+    }
+}
+
+impl Drop for OrphanGuard {
+    fn drop(&mut self) {
+        // The end of the pipe is what the guard waits for, so it must come before the wait for the guard.
+        drop(self.pipe.take());
+        let _ = self.process.wait();
+    }
+}
+
+/// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told.
+pub(crate) fn keep_watch() -> ExitCode {
+    let groups: Vec<i32> =
+        io::stdin().lock().lines().map_while(Result::ok).filter_map(|line| line.parse().ok()).collect();
+    for group in groups {
+        // A group that has ended already is the usual case.
+        let _ = killpg(Pid::from_raw(group), Signal::SIGKILL);
+    }
+    ExitCode::SUCCESS
+}

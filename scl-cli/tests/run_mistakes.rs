@@ -1,0 +1,180 @@
+//! What `scl run` says when nothing can be started: every mistake, each with its place and the way out.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod system;
+
+use expect_test::{Expect, expect};
+use system::System;
+
+/// Runs a launch file that cannot be used; the folder of the test is shown as `FOLDER`.
+#[track_caller]
+fn check(launch: &str, expected: &Expect) {
+    let system = System::of_files(&[("launch.yaml", launch)]);
+    let output = system.run(&["launch.yaml"]);
+    let folder = system.path("").canonicalize().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap().replace(&*folder.to_string_lossy(), "FOLDER");
+    expected.assert_eq(&err);
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), "");
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn unknown_keys_get_a_suggestion_and_the_list() {
+    check(
+        "transprt: ipc\ncomponents:\n  # sensor: {comand: ls}\n  sensor: {command: ls, comand: ls}\n  b: {command: ls, colour: red}\n",
+        &expect![[r#"
+            error: unknown key `transprt` in a launch file
+             --> launch.yaml:1:1
+              = help: did you mean `transport`?
+              = note: the keys are `components`, `environment`, `transport`
+
+            error: unknown key `comand` in component `sensor`
+             --> launch.yaml:4:25
+              = help: did you mean `command`?
+              = note: the keys are `command`, `environment`, `folder`
+
+            error: unknown key `colour` in component `b`
+             --> launch.yaml:5:20
+              = note: the keys are `command`, `environment`, `folder`
+
+        "#]],
+    );
+}
+
+#[test]
+fn a_missing_or_empty_command_is_shown_how_to_write() {
+    check(
+        "components:\n  a: {folder: .}\n  b:\n    command: []\n  c: ./run\n  d: {comand: ls}\n  e: {command: ['']}\n",
+        &expect![[r#"
+            error: component `a` has no usable `command`
+             --> launch.yaml:2:3
+              = help: write `command: ./a` or `command: [./a, --verbose]`
+
+            error: component `b` has no usable `command`
+             --> launch.yaml:4:5
+              = help: write `command: ./b` or `command: [./b, --verbose]`
+
+            error: the entry of component `c` is not a mapping
+             --> launch.yaml:5:3
+              = help: write `c: {command: ./run}`
+
+            error: unknown key `comand` in component `d`
+             --> launch.yaml:6:7
+              = help: did you mean `command`?
+              = note: the keys are `command`, `environment`, `folder`
+
+            error: component `e` has no usable `command`
+             --> launch.yaml:7:7
+              = help: write `command: ./e` or `command: [./e, --verbose]`
+
+        "#]],
+    );
+}
+
+#[test]
+fn values_of_the_wrong_kind_are_named() {
+    check(
+        "transport: udp\nenvironment: [A]\ncomponents:\n  a: {command: ls, folder: 3, environment: {A: [1], B: , 'C=': x}}\n  1: {command: ls}\n",
+        &expect![[r#"
+            error: the variable `A` is a text, not a list
+             --> launch.yaml:4:45
+              = help: write `A: "..."`
+
+            error: the variable `B` is a text, not nothing
+             --> launch.yaml:4:53
+              = help: write `B: "..."`
+
+            error: `C=` is not the name of an environment variable
+             --> launch.yaml:4:31
+
+            error: `folder` is a path, not `3`
+             --> launch.yaml:4:20
+
+            error: the name of a component is a word, not `1`
+             --> launch.yaml:3:1
+
+            error: `environment` is a mapping like `{RUST_LOG: info}`, not a list
+             --> launch.yaml:2:1
+
+            error: `transport` is `ipc` or `tcp`, not `udp`
+             --> launch.yaml:1:1
+
+        "#]],
+    );
+}
+
+#[test]
+fn a_file_without_components_is_shown_one() {
+    for launch in ["{}", "components:", "components: {}", "components: [a]"] {
+        let system = System::of_files(&[("launch.yaml", launch)]);
+        let output = system.run(&[]);
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert!(err.contains("  = help: write `components: {sensor: {command: ./sensor}}`\n"), "{launch}:\n{err}");
+        assert_eq!(output.status.code(), Some(2), "{launch}");
+    }
+}
+
+#[test]
+fn a_text_that_is_no_mapping_says_so() {
+    check(
+        "- a\n",
+        &expect![[r#"
+            error: a launch file is a mapping that starts with `components:`
+             --> launch.yaml
+
+        "#]],
+    );
+}
+
+#[test]
+fn a_text_that_is_no_yaml_has_its_place() {
+    check(
+        "components:\n  a: {command: [ls}\n",
+        &expect![[r#"
+            error: did not find expected ',' or ']', while parsing a flow sequence at line 2 column 16
+             --> launch.yaml:2:19
+
+        "#]],
+    );
+}
+
+#[test]
+fn a_key_given_twice_is_named() {
+    check(
+        "components:\n  a: {command: ls}\n  a: {command: ls}\n",
+        &expect![[r#"
+            error: components: duplicate entry with key "a"
+             --> launch.yaml:2:3
+
+        "#]],
+    );
+}
+
+#[test]
+fn programs_that_are_not_there_are_found_before_the_start() {
+    check(
+        "components:\n  a: {command: [no-such-program]}\n  b: {command: [./b]}\n  c: {command: [./launch.yaml]}\n  d: {command: ls, folder: d}\n",
+        &expect![[r#"
+            error: the program `no-such-program` of component `a` is not in the search path
+              = help: install it, or write its path: `./no-such-program` is looked up in the component's folder
+
+            error: the program of component `b` does not exist: `FOLDER/b`
+
+            error: the program of component `c` is not executable: `FOLDER/launch.yaml`
+              = help: make it so: `chmod +x FOLDER/launch.yaml`
+
+            error: the folder of component `d` does not exist: `FOLDER/d`
+
+        "#]],
+    );
+}
+
+#[test]
+fn a_folder_without_a_system_says_what_was_looked_for() {
+    let system = System::of_files(&[]);
+    let output = system.run(&[]);
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert!(err.starts_with("error: there is neither `launch.yaml` nor `topology.yaml` in `"), "{err}");
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(system.run(&["no-such-folder"]).status.code(), Some(2));
+}

@@ -1,0 +1,138 @@
+//! A system in a folder of its own, and the real `scl run` on it. Nothing here waits for a time, only for events.
+#![allow(dead_code, reason = "each test program uses a part of it")]
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdout, Command, ExitStatus, Output, Stdio};
+
+/// A program that never ends by itself. (`tail` would notice the end of a pipe to which it writes.)
+pub(crate) const FOREVER: &str = "exec tail -f /dev/null >/dev/null";
+
+/// A folder with a system in it.
+pub(crate) struct System {
+    folder: tempfile::TempDir,
+}
+
+impl System {
+    /// A system whose launch file gives each component a command for the shell.
+    pub(crate) fn of(components: &[(&str, &str)]) -> Self {
+        let entries = components.iter().map(|(name, command)| format!("  {name}:\n    command: {command:?}\n"));
+        let system = Self { folder: tempfile::tempdir().unwrap() };
+        system.write("launch.yaml", &format!("components:\n{}", entries.collect::<String>()));
+        system
+    }
+
+    /// A system of these files.
+    pub(crate) fn of_files(files: &[(&str, &str)]) -> Self {
+        let system = Self { folder: tempfile::tempdir().unwrap() };
+        files.iter().for_each(|(name, text)| system.write(name, text));
+        system
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// Adds a file.
+    pub(crate) fn write(&self, name: &str, text: &str) {
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+
+    /// Adds a named pipe: whoever reads it gets its end when every program that has opened it for writing has ended.
+    pub(crate) fn make_pipe(&self, name: &str) -> PathBuf {
+        let path = self.path(name);
+        assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
+        path
+    }
+
+    /// `scl` with the folder as its working folder and an environment without wishes for colours.
+    pub(crate) fn scl(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_scl"));
+        command.args(arguments).current_dir(self.folder.path()).stdin(Stdio::null());
+        for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+            command.env_remove(name);
+        }
+        command
+    }
+
+    /// Runs the system to its end.
+    pub(crate) fn run(&self, arguments: &[&str]) -> Output {
+        self.scl(&[&["run"], arguments].concat()).output().unwrap()
+    }
+
+    /// Starts the system.
+    pub(crate) fn start(&self, arguments: &[&str]) -> Started {
+        let mut command = self.scl(&[&["run"], arguments].concat());
+        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let lines = BufReader::new(process.stdout.take().unwrap());
+        Started { process, lines }
+    }
+}
+
+/// A running `scl run`.
+pub(crate) struct Started {
+    process: Child,
+    lines: BufReader<ChildStdout>,
+}
+
+impl Started {
+    /// Reads standard output up to this line.
+    pub(crate) fn wait_for_line(&mut self, expected: &str) {
+        let mut seen = String::new();
+        loop {
+            let mut line = String::new();
+            assert_ne!(self.lines.read_line(&mut line).unwrap(), 0, "no line `{expected}` in:\n{seen}");
+            if line.trim_end() == expected {
+                return;
+            }
+            seen.push_str(&line);
+        }
+    }
+
+    pub(crate) fn process_id(&self) -> u32 {
+        self.process.id()
+    }
+
+    /// Sends a signal, for example `-INT`, to the runner alone.
+    pub(crate) fn signal(&self, signal: &str) {
+        kill(signal, self.process_id());
+    }
+
+    /// Waits for the end without reading another byte.
+    pub(crate) fn wait_unread(mut self) -> ExitStatus {
+        self.process.wait().unwrap()
+    }
+
+    /// Waits for the end; gives the rest of both streams.
+    pub(crate) fn finish(mut self) -> (ExitStatus, String, String) {
+        let (mut out, mut err) = (String::new(), String::new());
+        self.lines.read_to_string(&mut out).unwrap();
+        self.process.stderr.take().unwrap().read_to_string(&mut err).unwrap();
+        (self.process.wait().unwrap(), out, err)
+    }
+}
+
+/// Sends a signal to a process.
+pub(crate) fn kill(signal: &str, process: u32) {
+    assert!(Command::new("kill").arg(signal).arg(process.to_string()).status().unwrap().success());
+}
+
+/// Waits until every program that writes to this pipe has ended.
+pub(crate) fn wait_for_writers_to_end(pipe: &Path) -> String {
+    let mut text = String::new();
+    File::open(pipe).unwrap().read_to_string(&mut text).unwrap();
+    text
+}
+
+/// What a program wrote, with the times in it made equal: `after 0.1 s` becomes `after N s`.
+pub(crate) fn without_times(text: impl AsRef<[u8]>) -> String {
+    let text = String::from_utf8(text.as_ref().to_vec()).unwrap();
+    let line = |line: &str| match line.rsplit_once(" after ") {
+        Some((before, _)) => format!("{before} after N s\n"),
+        None => format!("{line}\n"),
+    };
+    text.lines().map(line).collect()
+}
