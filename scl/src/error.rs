@@ -84,6 +84,14 @@ pub enum OpenError {
         /// Why.
         source: TransportError,
     },
+    /// The operating system gave no timer for a gate's `timeout`.
+    #[error("gate `{gate}` cannot be opened: no timer for its timeout: {source}")]
+    Timer {
+        /// The gate.
+        gate: GateName,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
     /// An asynchronous open outside of a tokio runtime.
     #[error(
         "component `{component}` is opened outside of a tokio runtime; \

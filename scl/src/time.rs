@@ -1,17 +1,19 @@
 //! Periods exact to the operating system's clock.
 
-use rustix::time::{
-    Itimerspec, TimerfdClockId, TimerfdFlags, TimerfdTimerFlags, Timespec, timerfd_create, timerfd_settime,
-};
+mod timer;
+mod watchdog;
+
+pub(crate) use watchdog::Watchdog;
+
+use std::future::poll_fn;
 use std::io;
-use std::os::fd::OwnedFd;
 use std::time::Duration;
-use tokio::io::unix::AsyncFd;
+use timer::Timer;
 
 /// A steady beat. The runtime's own timer rounds to milliseconds; this one is the operating system's (timerfd).
 #[derive(Debug)]
 pub struct Interval {
-    timer: AsyncFd<OwnedFd>,
+    timer: Timer,
     /// Beats that are due but not yet reported.
     due: u64,
 }
@@ -38,12 +40,8 @@ pub fn interval(period: Duration) -> io::Result<Interval> {
     if tokio::runtime::Handle::try_current().is_err() {
         return Err(io::Error::other("an interval needs a tokio runtime: write `#[scl::main]` on `async fn main`"));
     }
-    let timer = timerfd_create(TimerfdClockId::Monotonic, TimerfdFlags::NONBLOCK | TimerfdFlags::CLOEXEC)?;
-    let period =
-        Timespec { tv_sec: period.as_secs().try_into().unwrap_or(i64::MAX), tv_nsec: i64::from(period.subsec_nanos()) };
-    timerfd_settime(&timer, TimerfdTimerFlags::empty(), &Itimerspec { it_interval: period, it_value: period })?;
-    #[expect(deprecated, reason = "unsound only for types that change their descriptor; an `OwnedFd` keeps it")]
-    let timer = AsyncFd::new(timer)?;
+    let timer = Timer::new()?;
+    timer.set(period, period)?;
     Ok(Interval { timer, due: 0 })
 }
 
@@ -54,14 +52,10 @@ impl Interval {
     /// Cancel safe: a beat is reported once.
     pub async fn tick(&mut self) {
         while self.due == 0 {
-            // Both fail only if the timer's descriptor is closed by somebody else; then there are no more beats.
-            let Ok(mut ready) = self.timer.readable().await else { return std::future::pending().await };
-            let mut expirations = [0; 8];
-            let read = ready.try_io(|timer| Ok(rustix::io::read(timer.get_ref(), &mut expirations)?));
-            match read {
-                Ok(Ok(8)) => self.due = u64::from_ne_bytes(expirations),
-                Ok(Err(error)) if error.kind() != io::ErrorKind::Interrupted => return std::future::pending().await,
-                _ => {}
+            match poll_fn(|cx| self.timer.poll_expired(cx)).await {
+                Ok(beats) => self.due = beats,
+                // Only if the descriptor was closed by somebody else: then there are no more beats.
+                Err(_) => std::future::pending().await,
             }
         }
         self.due -= 1;
@@ -70,5 +64,28 @@ impl Interval {
     /// Forgets the beats that were missed; how many there were.
     pub fn skip_missed(&mut self) -> u64 {
         std::mem::take(&mut self.due)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Instant;
+
+    #[tokio::test]
+    async fn missed_beats_are_counted_and_can_be_forgotten() {
+        let started = Instant::now();
+        let mut tick = interval(Duration::from_millis(2)).unwrap();
+        tick.tick().await;
+        while started.elapsed() < Duration::from_millis(20) {}
+        tick.tick().await;
+        assert!(tick.skip_missed() >= 4);
+        assert_eq!(tick.skip_missed(), 0);
+    }
+
+    #[tokio::test]
+    async fn a_period_of_zero_is_refused() {
+        let error = interval(Duration::ZERO).unwrap_err();
+        assert_eq!(error.to_string(), "the period of an interval must not be zero");
     }
 }

@@ -65,7 +65,13 @@ impl System {
 
     /// Starts the system.
     pub(crate) fn start(&self, arguments: &[&str]) -> Started {
+        self.start_with(arguments, |_| {})
+    }
+
+    /// Starts the system in another environment.
+    pub(crate) fn start_with(&self, arguments: &[&str], prepare: impl Fn(&mut Command)) -> Started {
         let mut command = self.scl(&[&["run"], arguments].concat());
+        prepare(&mut command);
         let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let lines = BufReader::new(process.stdout.take().unwrap());
         Started { process, lines }
@@ -81,11 +87,20 @@ pub(crate) struct Started {
 impl Started {
     /// Reads standard output up to this line.
     pub(crate) fn wait_for_line(&mut self, expected: &str) {
+        self.wait_until(expected, |line| line == expected);
+    }
+
+    /// Reads standard output up to a line that starts like this.
+    pub(crate) fn wait_for(&mut self, start: &str) {
+        self.wait_until(start, |line| line.starts_with(start));
+    }
+
+    fn wait_until(&mut self, expected: &str, found: impl Fn(&str) -> bool) {
         let mut seen = String::new();
         loop {
             let mut line = String::new();
             assert_ne!(self.lines.read_line(&mut line).unwrap(), 0, "no line `{expected}` in:\n{seen}");
-            if line.trim_end() == expected {
+            if found(line.trim_end()) {
                 return;
             }
             seen.push_str(&line);

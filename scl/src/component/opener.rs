@@ -10,6 +10,7 @@ use crate::gate::sending::Sending;
 use crate::gate::{AnyGate, GateName, Outgoing, Pub, Pull, Push, Rep, Req, Sub};
 use crate::place::{AnnouncedEndpoint, Announcement, Claim, ComponentLock, PlaceError, RuntimeDir, SystemDir};
 use crate::spec::{ComponentSpec, GateKind, GateSpec, LinkSpec};
+use crate::time::Watchdog;
 use crate::transport::{Outlet, Transport, TransportError};
 use std::sync::{Arc, Mutex};
 
@@ -77,7 +78,8 @@ impl Opener {
         let spec = self.gate(index);
         let link = spec.links.first().map(|link| self.transport.request(link.endpoint)).transpose();
         let link = link.map_err(|source| self.refused(spec, source))?;
-        Ok(Req::new::<C>(Arc::clone(&self.core), spec, link))
+        let watchdog = Watchdog::new().map_err(|source| OpenError::Timer { gate: self.name(spec), source })?;
+        Ok(Req::new::<C>(Arc::clone(&self.core), spec, link, watchdog))
     }
 
     /// The `rep` gate at a place in the component's list.

@@ -24,6 +24,8 @@ pub(crate) struct Incoming<T> {
     /// The link to ask first, so that none is kept waiting by another.
     next: usize,
     inbox: VecDeque<Arrived>,
+    /// Whether the last receiving call found nothing.
+    waiting: bool,
     decode: fn(Bytes) -> Result<T, DecodeError>,
     counts: Counts,
     /// Let go after the links, whose endpoints are this component's only as long as it has its name.
@@ -39,7 +41,7 @@ impl<T> Incoming<T> {
     pub(crate) fn new<C: Codec<T>>(core: Arc<Core>, spec: &'static GateSpec, links: Vec<Box<dyn Inlet>>) -> Self {
         let name = GateName::new(core.spec().name, spec.name);
         let inbox = VecDeque::new();
-        Self { core, spec, name, links, next: 0, inbox, decode: C::decode, counts: Counts::default() }
+        Self { core, spec, name, links, next: 0, inbox, waiting: false, decode: C::decode, counts: Counts::default() }
     }
 
     pub(crate) async fn recv(&mut self) -> Result<T, RecvError> {
@@ -64,11 +66,19 @@ impl<T> Incoming<T> {
     }
 
     pub(crate) fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Result<T, RecvError>> {
-        self.take_in(cx);
-        match self.inbox.pop_front() {
-            Some(arrived) => Poll::Ready(self.decode(arrived)),
-            None => Poll::Pending,
+        // What ends a wait is the first to arrive since, so a queue of several has nothing to give way to.
+        let ended_wait = self.waiting && self.spec.queue > 1;
+        if ended_wait && let Poll::Ready(arrived) = self.poll_links(cx) {
+            self.waiting = false;
+            self.counts.moved(arrived.frame.len());
+            return Poll::Ready(self.decode(arrived));
         }
+        if !ended_wait {
+            self.take_in(cx);
+        }
+        let first = self.inbox.pop_front();
+        self.waiting = first.is_none();
+        first.map_or(Poll::Pending, |arrived| Poll::Ready(self.decode(arrived)))
     }
 
     pub(crate) fn try_recv(&mut self) -> Result<Option<T>, RecvError> {
@@ -91,6 +101,7 @@ impl<T> Incoming<T> {
             // Nothing is seen to arrive unless the runtime looks.
             core.block_on(tokio::task::yield_now()).map_err(blocking)?;
         }
+        self.waiting = false;
         self.take_in(&mut Context::from_waker(Waker::noop()));
         Ok(())
     }

@@ -6,10 +6,12 @@ use crate::codec::{Codec, DecodeError, EncodeError};
 use crate::component::Core;
 use crate::error::CallError;
 use crate::spec::{GateSpec, LinkSpec};
+use crate::time::Watchdog;
 use crate::transport::{Answer, Asker};
 use bytes::{Bytes, BytesMut};
 use std::future::poll_fn;
 use std::sync::Arc;
+use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 
 /// Asks the `rep` gate that this gate is connected to, one request at a time.
@@ -18,6 +20,7 @@ pub struct Req<A, B> {
     name: GateName,
     /// `None` for a gate that is meant to be unconnected.
     link: Option<Box<dyn Asker>>,
+    watchdog: Watchdog,
     encode: fn(&A, &mut BytesMut) -> Result<(), EncodeError>,
     decode: fn(Bytes) -> Result<B, DecodeError>,
     last_id: u64,
@@ -31,10 +34,11 @@ impl<A, B> Req<A, B> {
         core: Arc<Core>,
         spec: &'static GateSpec,
         link: Option<Box<dyn Asker>>,
+        watchdog: Watchdog,
     ) -> Self {
         let name = GateName::new(core.spec().name, spec.name);
         let (encode, decode) = (<C as Codec<A>>::encode, <C as Codec<B>>::decode);
-        Self { core, spec, name, link, encode, decode, last_id: 0, asked: 0, counts: Counts::default() }
+        Self { core, spec, name, link, watchdog, encode, decode, last_id: 0, asked: 0, counts: Counts::default() }
     }
 
     /// Asks, and waits for the answer, together no longer than the gate's `timeout`.
@@ -52,15 +56,11 @@ impl<A, B> Req<A, B> {
         let encoded = (self.encode)(request, &mut body);
         encoded.map_err(|source| CallError::Encode { gate: self.name, source })?;
         let started = Instant::now();
-        let timeout = self.spec.timeout;
-        match tokio::time::timeout(timeout, self.exchange(body.freeze())).await {
-            Ok(answer) => answer,
-            Err(_elapsed) => {
-                let connected = self.connected();
-                let waited = started.elapsed();
-                Err(CallError::Timeout { gate: self.name, peers: Peers(self.spec.links), waited, connected })
-            }
-        }
+        let answered = self.exchange(body.freeze(), started + self.spec.timeout).await;
+        answered.unwrap_or_else(|TimedOut| {
+            let (connected, waited) = (self.connected(), started.elapsed());
+            Err(CallError::Timeout { gate: self.name, peers: Peers(self.spec.links), waited, connected })
+        })
     }
 
     /// [`call`](Self::call) from a program without async.
@@ -90,35 +90,56 @@ impl<A, B> Req<A, B> {
         stats
     }
 
-    async fn exchange(&mut self, body: Bytes) -> Result<B, CallError> {
-        let (name, peers) = (self.name, Peers(self.spec.links));
-        let Some(link) = self.link.as_mut() else { return std::future::pending().await };
+    async fn exchange(&mut self, body: Bytes, deadline: Instant) -> Result<Result<B, CallError>, TimedOut> {
         self.last_id += 1;
-        let mut body = body;
         loop {
-            poll_fn(|cx| link.poll_connected(cx)).await;
-            match link.ask(self.last_id, body) {
-                Ok(()) => break,
-                Err(refused) => body = refused,
+            self.by(deadline, |link, cx| link.poll_connected(cx)).await?;
+            let asked = self.link.as_mut().map(|link| link.ask(self.last_id, body.clone()));
+            if !matches!(asked, Some(Err(_refused))) {
+                break;
             }
+            // The connection broke at this very moment; the next one is on its way.
             tokio::task::yield_now().await;
         }
         self.asked += 1;
         loop {
-            match poll_fn(|cx| link.poll_answer(cx)).await {
+            let answer = self.by(deadline, |link, cx| link.poll_answer(cx)).await?;
+            let (gate, peers) = (self.name, Peers(self.spec.links));
+            match answer {
                 Answer::Reply { id, body } if id == self.last_id => {
                     self.counts.moved(body.len());
-                    return (self.decode)(body).map_err(|source| {
+                    return Ok((self.decode)(body).map_err(|source| {
                         self.counts.rejected += 1;
-                        CallError::Decode { gate: name, peers, source }
-                    });
+                        CallError::Decode { gate, peers, source }
+                    }));
                 }
-                Answer::Reply { .. } => tracing::debug!(gate = %name, "the answer to an earlier call came too late"),
-                Answer::Lost => return Err(CallError::PeerLost { gate: name, peers }),
+                Answer::Reply { .. } => tracing::debug!(%gate, "the answer to an earlier call came too late"),
+                Answer::Lost => return Ok(Err(CallError::PeerLost { gate, peers })),
             }
         }
     }
+
+    /// Waits for something of the link until the deadline. A gate that is not connected to anything has no link.
+    async fn by<R>(
+        &mut self,
+        deadline: Instant,
+        mut poll: impl FnMut(&mut dyn Asker, &mut Context<'_>) -> Poll<R>,
+    ) -> Result<R, TimedOut> {
+        let (link, watchdog) = (&mut self.link, &mut self.watchdog);
+        poll_fn(|cx| {
+            if let Some(link) = link
+                && let Poll::Ready(ready) = poll(&mut **link, cx)
+            {
+                return Poll::Ready(Ok(ready));
+            }
+            // A timer that fails would leave the call waiting for ever.
+            watchdog.poll_past(cx, deadline).map(|_past| Err(TimedOut))
+        })
+        .await
+    }
 }
+
+struct TimedOut;
 
 impl<A, B> AnyGate for Req<A, B> {
     fn spec(&self) -> &'static GateSpec {

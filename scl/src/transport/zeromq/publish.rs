@@ -36,6 +36,17 @@ struct Desk {
     subscriber: bool,
 }
 
+impl Desk {
+    /// Takes a message for the subscriber, if there is one; the poll that follows only sends it.
+    fn put(&mut self, message: Bytes) -> Result<(), Bytes> {
+        if !self.subscriber {
+            return Err(message);
+        }
+        (self.outgoing, self.busy, self.listening) = (Some(message), true, false);
+        Ok(())
+    }
+}
+
 impl Publishing {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
         let Listening { socket, address, guard } = listen::<XPubSocket>(place, medium, endpoint)?;
@@ -71,15 +82,8 @@ impl Outlet for Publishing {
             // The pump left a send behind, during which it was deaf: the task has to listen again.
             cx.waker().wake_by_ref();
         }
-        {
-            let mut desk = lock(&self.desk);
-            if !desk.subscriber {
-                return Err(message);
-            }
-            desk.outgoing = Some(message);
-            desk.busy = true;
-        }
-        self.poll_pump(cx, false);
+        lock(&self.desk).put(message)?;
+        let _endless = self.pump.as_mut().poll(cx);
         Ok(())
     }
 

@@ -1,0 +1,106 @@
+//! The first thing that anybody sees: the quick start builds, talks and stops; its file alone, when damaged and mended,
+//! is noticed by cargo. All of it without protoc.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod system;
+
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use system::System;
+
+#[test]
+fn the_quick_start_builds_talks_stops_and_notices_its_file() {
+    let quickstart = Copied::new();
+    quickstart.talks_and_stops();
+
+    quickstart.edit("topology.yaml", "controller.sensor]", "controler.sensor]");
+    let broken = quickstart.build();
+    let errors = String::from_utf8_lossy(&broken.stderr);
+    assert!(!broken.status.success());
+    assert!(errors.contains("[SCL0501] unknown component `controler`"), "{errors}");
+    assert!(errors.contains("help: did you mean `controller`?"), "{errors}");
+
+    quickstart.edit("topology.yaml", "controler.sensor]", "controller.sensor]");
+    let mended = quickstart.build();
+    assert!(mended.status.success(), "{}", String::from_utf8_lossy(&mended.stderr));
+
+    quickstart.edit("rover.proto", "double speed = 1;", "double speed = 1");
+    let broken = quickstart.build();
+    let errors = String::from_utf8_lossy(&broken.stderr);
+    assert!(!broken.status.success() && errors.contains("SCL0406") && errors.contains("rover.proto:"), "{errors}");
+}
+
+/// The quick start as a package of its own, in a folder where `protoc` is a trap.
+struct Copied {
+    system: System,
+}
+
+impl Copied {
+    fn new() -> Self {
+        let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+        let system = System::of_files(&[("bin/protoc", "#!/bin/sh\nexit 1\n")]);
+        std::fs::set_permissions(system.path("bin/protoc"), PermissionsExt::from_mode(0o755)).unwrap();
+        let source = workspace.join("examples/quickstart");
+        for name in ["topology.yaml", "rover.proto"] {
+            system.write(name, &std::fs::read_to_string(source.join(name)).unwrap());
+        }
+        for program in std::fs::read_dir(source.join("src/bin")).unwrap() {
+            let program = program.unwrap();
+            let name = format!("src/bin/{}", program.file_name().display());
+            system.write(&name, &std::fs::read_to_string(program.path()).unwrap());
+        }
+        system.write("Cargo.lock", &std::fs::read_to_string(workspace.join("Cargo.lock")).unwrap());
+        system.write("Cargo.toml", &manifest(workspace));
+        Self { system }
+    }
+
+    fn edit(&self, name: &str, from: &str, to: &str) {
+        let text = std::fs::read_to_string(self.system.path(name)).unwrap();
+        assert!(text.contains(from), "{text}");
+        self.system.write(name, &text.replace(from, to));
+    }
+
+    fn talks_and_stops(&self) {
+        let mut run = self.system.start_with(&[], |command| self.without_protoc(command));
+        for line in
+            ["sensor         | speed ", "actuator       | throttle ", "user_interface | asked for 0.5 m/s: accepted"]
+        {
+            run.wait_for(line);
+        }
+        run.wait_for("user_interface | event: target is now 0.5 m/s");
+        run.signal("-INT");
+        let (status, _, err) = run.finish();
+        assert_eq!(status.code(), Some(0), "{err}");
+        for name in ["sensor", "actuator", "controller", "user_interface"] {
+            assert!(err.contains(&format!("{name:14}  ended with exit code 0 after ")), "{err}");
+        }
+    }
+
+    fn build(&self) -> Output {
+        let mut command = Command::new(env!("CARGO"));
+        command.args(["build", "--bin", "sensor"]).current_dir(self.system.path("")).stdin(Stdio::null());
+        self.without_protoc(&mut command);
+        command.output().unwrap()
+    }
+
+    fn without_protoc(&self, command: &mut Command) {
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let trapped = std::env::join_paths([self.system.path("bin")].into_iter().chain(std::env::split_paths(&path)));
+        command.env("PATH", trapped.unwrap()).env("PROTOC", "/nowhere/protoc").env("CARGO_TARGET_DIR", build_folder());
+        command.env("SCL_RUNTIME_DIR", self.system.path("run"));
+    }
+}
+
+fn manifest(workspace: &Path) -> String {
+    let scl = workspace.join("scl");
+    format!(
+        "[package]\nname = \"quickstart-copy\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[workspace]\n\n[dependencies]\n\
+         scl = {{ path = {scl:?} }}\ntokio = {{ version = \"1\", features = [\"macros\"] }}\n"
+    )
+}
+
+/// The folder that the tests themselves were built into, so that little has to be built again.
+fn build_folder() -> PathBuf {
+    Path::new(env!("CARGO_BIN_EXE_scl")).ancestors().nth(2).unwrap().to_owned()
+}
