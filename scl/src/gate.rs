@@ -6,9 +6,11 @@ mod outgoing;
 mod publisher;
 mod puller;
 mod pusher;
+mod receiving_gate;
 mod replier;
 mod requester;
 pub(crate) mod sending;
+mod sending_gate;
 mod stats;
 mod subscriber;
 

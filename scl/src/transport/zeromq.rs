@@ -4,11 +4,11 @@
 //!
 //! | role | socket | what the library lacks |
 //! |---|---|---|
-//! | publish | XPUB, one a connection | a publisher is not told that a subscriber left ([`accepted`]) |
-//! | subscribe | SUB, one a publisher | reconnecting backs off to 30 s ([`line`]) |
-//! | push | PUSH | 100,000 messages of its own queue, a lost peer unnoticed ([`push`]) |
+//! | publish | XPUB, one a connection | a publisher is not told that a subscriber left (`accepted.rs`) |
+//! | subscribe | SUB, one a publisher | reconnecting backs off to 30 s (`line.rs`) |
+//! | push | PUSH | 100,000 messages of its own queue, a lost peer unnoticed (`push.rs`) |
 //! | pull | PULL | |
-//! | request | DEALER with an id frame | REQ never recovers from a restarted peer ([`request`]) |
+//! | request | DEALER with an id frame | REQ never recovers from a restarted peer (`request.rs`) |
 //! | reply | ROUTER | |
 
 mod accepted;
