@@ -7,13 +7,14 @@
 //! | publish | XPUB, one a connection | a publisher is not told that a subscriber left ([`accepted`]) |
 //! | subscribe | SUB, one a publisher | reconnecting backs off to 30 s ([`line`]) |
 //! | push | PUSH | 100,000 messages of its own queue, a lost peer unnoticed ([`push`]) |
-//! | pull | PULL | |
+//! | pull | PULL | connections that outlive their socket ([`latecomers`]) |
 //! | request | DEALER with an id frame | REQ never recovers from a restarted peer ([`request`]) |
-//! | reply | ROUTER | |
+//! | reply | ROUTER | the same, and a socket that lives as long as any unanswered request ([`reply`]) |
 
 mod accepted;
 mod dial;
 mod frames;
+mod latecomers;
 mod line;
 mod listen;
 mod peers;
