@@ -110,7 +110,9 @@ pub enum OpenError {
         source: std::io::Error,
     },
     /// The `scl` crate was built without any transport.
-    #[error("component `{component}` has no transport: switch on the feature `zeromq` of the crate `scl`")]
+    #[error(
+        "component `{component}` has no transport: switch on the feature `zeromq` of the crate `scl`, or choose one with `OpenOptions::transport`"
+    )]
     NoTransport {
         /// The component.
         component: &'static str,

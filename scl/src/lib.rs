@@ -4,6 +4,8 @@
 
 pub mod codec;
 mod component;
+#[cfg(feature = "conformance")]
+pub mod conformance;
 mod error;
 mod gate;
 pub mod place;

@@ -7,6 +7,8 @@
 use bytes::Bytes;
 use std::task::{Context, Poll};
 
+#[cfg(feature = "memory")]
+pub mod memory;
 #[cfg(feature = "zeromq")]
 pub mod zeromq;
 
@@ -76,7 +78,7 @@ pub enum Answer {
 
 /// An end that asks.
 pub trait Asker: Send {
-    /// Ready when the replier is there.
+    /// Ready when the replier is there and can be asked. What came back before, to earlier requests, may be discarded.
     fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<()>;
 
     /// Sends a request under a number; its reply carries the number back.

@@ -1,9 +1,10 @@
 //! What all gates of a component share.
 
 use super::blocking::OwnedRuntime;
-use crate::error::{BlockingError, NotFlushed};
+use super::site::Site;
+use crate::error::{BlockingError, NotFlushed, OpenError};
 use crate::gate::Outgoing;
-use crate::place::{Claim, ComponentLock};
+use crate::place::Claim;
 use crate::spec::ComponentSpec;
 use crate::sync::{AbortOnDrop, lock};
 use std::future::poll_fn;
@@ -17,8 +18,8 @@ pub struct Core {
     connections: Mutex<Vec<Connection>>,
     announcement: Mutex<Option<Claim>>,
     runtime: Option<Arc<OwnedRuntime>>,
-    /// Let go last: as soon as it is free, another program may play this component.
-    _lock: ComponentLock,
+    /// Let go last: as soon as the name is free, another program may play this component.
+    site: Site,
 }
 
 /// A sending connection and the task that drives it.
@@ -28,16 +29,18 @@ struct Connection {
 }
 
 impl Core {
-    pub(super) fn new(spec: &'static ComponentSpec, lock: ComponentLock, runtime: Option<Arc<OwnedRuntime>>) -> Self {
-        Self { spec, connections: Mutex::default(), announcement: Mutex::default(), runtime, _lock: lock }
+    pub(super) fn new(spec: &'static ComponentSpec, site: Site, runtime: Option<Arc<OwnedRuntime>>) -> Self {
+        Self { spec, connections: Mutex::default(), announcement: Mutex::default(), runtime, site }
     }
 
     pub(crate) fn spec(&self) -> &'static ComponentSpec {
         self.spec
     }
 
-    pub(super) fn announced(&self, announcement: Claim) {
-        *lock(&self.announcement) = Some(announcement);
+    /// Tells others that the component is open, until it is closed.
+    pub(super) fn announce(&self) -> Result<(), OpenError> {
+        *lock(&self.announcement) = self.site.announce(self.spec)?;
+        Ok(())
     }
 
     /// Keeps a connection moving, whether its gate is used or not.

@@ -1,6 +1,7 @@
-//! Opening a component: its place in the runtime folder, then its gates one by one.
+//! Opening a component: its site, then its gates one by one.
 
 use super::blocking::OwnedRuntime;
+use super::site::Site;
 use super::{Component, Core, OpenOptions};
 use crate::codec::Codec;
 use crate::error::OpenError;
@@ -8,7 +9,6 @@ use crate::gate::holding::Holding;
 use crate::gate::incoming::Incoming;
 use crate::gate::sending::Sending;
 use crate::gate::{AnyGate, GateName, Outgoing, Pub, Pull, Push, Rep, Req, Sub};
-use crate::place::{AnnouncedEndpoint, Announcement, Claim, ComponentLock, PlaceError, RuntimeDir, SystemDir};
 use crate::spec::{ComponentSpec, GateKind, GateSpec, LinkSpec};
 use crate::time::Watchdog;
 use crate::transport::{Outlet, Transport, TransportError};
@@ -17,8 +17,7 @@ use std::sync::{Arc, Mutex};
 /// Makes the gates of one component; only generated code calls it.
 pub struct Opener {
     core: Arc<Core>,
-    place: SystemDir,
-    transport: Box<dyn Transport>,
+    transport: Arc<dyn Transport>,
 }
 
 impl Opener {
@@ -27,17 +26,13 @@ impl Opener {
         options: OpenOptions,
         runtime: Option<Arc<OwnedRuntime>>,
     ) -> Result<Self, OpenError> {
-        let tcp = options.uses_tcp()?;
-        let (place, lock) =
-            occupy(spec, &options).map_err(|source| OpenError::Place { component: spec.name, source })?;
-        let transport = transport(spec, &place, tcp)?;
-        Ok(Self { core: Arc::new(Core::new(spec, lock, runtime)), place, transport })
+        let (site, transport) = Site::choose(spec, &options)?;
+        Ok(Self { core: Arc::new(Core::new(spec, site, runtime)), transport })
     }
 
     pub(super) fn finish<C: Component>(mut self) -> Result<C, OpenError> {
         let component = C::assemble(&mut self)?;
-        let announced = announce(C::SPEC, &self.place);
-        self.core.announced(announced.map_err(|source| OpenError::Place { component: C::SPEC.name, source })?);
+        self.core.announce()?;
         Ok(component)
     }
 
@@ -127,52 +122,6 @@ impl Opener {
 
     fn refused(&self, spec: &'static GateSpec, source: TransportError) -> OpenError {
         OpenError::Gate { gate: self.name(spec), source }
-    }
-}
-
-#[cfg(feature = "zeromq")]
-fn transport(_spec: &ComponentSpec, place: &SystemDir, tcp: bool) -> Result<Box<dyn Transport>, OpenError> {
-    use crate::transport::zeromq::{Medium, ZeroMq};
-    Ok(Box::new(ZeroMq::new(place.clone(), if tcp { Medium::Tcp } else { Medium::Ipc })))
-}
-
-#[cfg(not(feature = "zeromq"))]
-fn transport(spec: &ComponentSpec, _place: &SystemDir, _tcp: bool) -> Result<Box<dyn Transport>, OpenError> {
-    Err(OpenError::NoTransport { component: spec.name })
-}
-
-/// Finds the system's folder and takes the component's name for this program.
-fn occupy(spec: &ComponentSpec, options: &OpenOptions) -> Result<(SystemDir, ComponentLock), PlaceError> {
-    let runtime_dir = RuntimeDir::locate(&|name| options.variable(name))?;
-    let place = runtime_dir.system(&options.system_name(spec.system))?;
-    let lock = ComponentLock::take(&place, spec.name)?;
-    lock.clear_leftovers()?;
-    Ok((place, lock))
-}
-
-/// Tells tools, and neighbours with another contract, who is here.
-fn announce(spec: &ComponentSpec, place: &SystemDir) -> Result<Claim, PlaceError> {
-    let mut announcement = Announcement::of_this_process(spec.name);
-    announcement.endpoints = spec.gates.iter().flat_map(announced_endpoints).collect();
-    announcement.publish(place)
-}
-
-fn announced_endpoints(gate: &GateSpec) -> Vec<AnnouncedEndpoint> {
-    let endpoint = |name: &str, contract: &str| AnnouncedEndpoint {
-        gate: gate.name.to_owned(),
-        endpoint: name.to_owned(),
-        contract: contract.to_owned(),
-        payload: gate.payload.to_owned(),
-        codec: gate.codec.to_owned(),
-    };
-    let links = || gate.links.iter().map(|link| endpoint(link.endpoint, link.contract));
-    match gate.kind {
-        GateKind::Pub => links().chain([endpoint(gate.endpoint, "")]).collect(),
-        GateKind::Rep | GateKind::Pull => {
-            let contract = gate.endpoint.rsplit_once('.').map_or("", |(_, contract)| contract);
-            vec![endpoint(gate.endpoint, contract)]
-        }
-        GateKind::Sub | GateKind::Req | GateKind::Push => links().collect(),
     }
 }
 

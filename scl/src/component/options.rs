@@ -1,8 +1,10 @@
 //! What a component takes from its environment when it is opened.
 
 use crate::error::OpenError;
+use crate::transport::Transport;
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Choices for opening a component; what is not chosen comes from the environment.
 ///
@@ -11,11 +13,13 @@ use std::path::PathBuf;
 /// | [`runtime_dir`](Self::runtime_dir) | `SCL_RUNTIME_DIR` | `$XDG_RUNTIME_DIR/scl`, or `scl-<uid>` among the temporary files |
 /// | [`system`](Self::system) | `SCL_SYSTEM` | the topology's name |
 /// | [`tcp`](Self::tcp) | `SCL_TRANSPORT=tcp` or `ipc` | `ipc` |
-#[derive(Debug, Clone, Default)]
+/// | [`transport`](Self::transport) | | ZeroMQ, in the runtime folder |
+#[derive(Clone, Default)]
 pub struct OpenOptions {
     runtime_dir: Option<PathBuf>,
     system: Option<String>,
     tcp: Option<bool>,
+    transport: Option<Arc<dyn Transport>>,
 }
 
 impl OpenOptions {
@@ -40,6 +44,19 @@ impl OpenOptions {
     pub fn tcp(mut self, tcp: bool) -> Self {
         self.tcp = Some(tcp);
         self
+    }
+
+    /// A transport of one's own, or `scl::transport::memory::Memory` for ends in this process.
+    ///
+    /// The component then takes no place in the runtime folder: it reads and writes no file there, the other choices
+    /// do not matter, and nothing but the transport keeps the component from being opened twice.
+    pub fn transport(mut self, transport: impl Transport) -> Self {
+        self.transport = Some(Arc::new(transport));
+        self
+    }
+
+    pub(super) fn chosen_transport(&self) -> Option<Arc<dyn Transport>> {
+        self.transport.clone()
     }
 
     /// The environment as this component sees it.
@@ -69,5 +86,16 @@ impl OpenOptions {
                 expected: "`ipc`, `tcp`",
             }),
         }
+    }
+}
+
+impl std::fmt::Debug for OpenOptions {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("OpenOptions")
+            .field("runtime_dir", &self.runtime_dir)
+            .field("system", &self.system)
+            .field("tcp", &self.tcp)
+            .field("transport", &self.transport.as_ref().map(|_| "chosen"))
+            .finish()
     }
 }

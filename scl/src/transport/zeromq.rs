@@ -7,13 +7,14 @@
 //! | publish | XPUB, one a connection | a publisher is not told that a subscriber left (`accepted.rs`) |
 //! | subscribe | SUB, one a publisher | reconnecting backs off to 30 s (`line.rs`) |
 //! | push | PUSH | 100,000 messages of its own queue, a lost peer unnoticed (`push.rs`) |
-//! | pull | PULL | |
+//! | pull | PULL | connections that outlive their socket (`latecomers.rs`) |
 //! | request | DEALER with an id frame | REQ never recovers from a restarted peer (`request.rs`) |
-//! | reply | ROUTER | |
+//! | reply | ROUTER | the same, and a socket that lives as long as any unanswered request (`reply.rs`) |
 
 mod accepted;
 mod dial;
 mod frames;
+mod latecomers;
 mod line;
 mod listen;
 mod peers;

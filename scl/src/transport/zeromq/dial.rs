@@ -1,11 +1,14 @@
 //! Finding the listening side of an endpoint and connecting to it, at a constant pace.
 //!
 //! The library's own retries back off (to 30 s), and a connection that it retries cannot be called off. So an endpoint
-//! is probed with a plain connection first; the library only ever connects to somebody who listens.
+//! is probed with a plain connection first; the library only ever connects to somebody who listens. If that one goes
+//! away in between, the library would knock at its old address for ever: then another one at the endpoint, or none, is
+//! the sign to call it off.
 
 use crate::place::{self, Address, SystemDir};
-use std::io;
+use std::os::unix::fs::MetadataExt;
 use std::time::Duration;
+use std::{fs, io};
 use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use tokio::net::{TcpStream, UnixStream};
 use zeromq::{Socket, SocketOptions};
@@ -70,15 +73,45 @@ pub(super) async fn dial<S: Dials>(place: &SystemDir, endpoint: &str) -> (S, Opt
 }
 
 async fn try_dial<S: Dials>(place: &SystemDir, endpoint: &str) -> io::Result<(S, Option<Probe>)> {
-    let address = place::find(place, endpoint).ok_or(io::ErrorKind::NotFound)?;
-    let probe = Some(Probe::connect(&address).await?).filter(|_| S::KEEPS_PROBE);
-    // Whoever accepted the probe accepts this too; only its handshake may take long, and must not be called off.
+    let listener = Listener::find(place, endpoint).ok_or(io::ErrorKind::NotFound)?;
+    let probe = Some(Probe::connect(&listener.address).await?).filter(|_| S::KEEPS_PROBE);
+    // Whoever accepted the probe accepts this too; its handshake may take long, for example while it is stopped.
     let mut options = SocketOptions::default();
     options.no_connect_timeout();
     let mut socket = S::with_options(options);
-    socket.connect(&url(&address)).await.map_err(io::Error::other)?;
+    let url = url(&listener.address);
+    tokio::select! {
+        connected = socket.connect(&url) => connected.map_err(io::Error::other)?,
+        () = listener.replaced(place, endpoint) => return Err(io::ErrorKind::ConnectionAborted.into()),
+    }
     socket.prepare().await;
     Ok((socket, probe))
+}
+
+/// Who listens at an endpoint.
+#[derive(PartialEq, Eq)]
+struct Listener {
+    address: Address,
+    /// Tells a Unix socket from the next one of the same name.
+    inode: Option<u64>,
+}
+
+impl Listener {
+    fn find(place: &SystemDir, endpoint: &str) -> Option<Self> {
+        let address = place::find(place, endpoint)?;
+        let inode = match &address {
+            Address::Ipc(path) => Some(fs::symlink_metadata(path).ok()?.ino()),
+            Address::Tcp(_) => None,
+        };
+        Some(Self { address, inode })
+    }
+
+    /// Returns when somebody else listens there, or nobody.
+    async fn replaced(&self, place: &SystemDir, endpoint: &str) {
+        while Self::find(place, endpoint).as_ref() == Some(self) {
+            tokio::time::sleep(RETRY).await;
+        }
+    }
 }
 
 fn url(address: &Address) -> String {

@@ -2,30 +2,26 @@
 
 use super::Medium;
 use super::frames::{poll_message, single_frame};
-use super::listen::listen;
+use super::latecomers::ClosesLatecomers;
+use super::listen::{Listening, listen};
 use crate::place::{Claim, SystemDir};
 use crate::transport::{Inlet, TransportError};
 use bytes::Bytes;
 use std::task::{Context, Poll};
-use zeromq::{PullSocket, Socket};
+use zeromq::PullSocket;
 
 pub(super) struct Pulling {
     socket: PullSocket,
     malformed: u64,
+    _connections: ClosesLatecomers,
     _guard: Claim,
 }
 
 impl Pulling {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let listening = listen(place, medium, endpoint)?;
-        Ok(Self { socket: listening.socket, malformed: 0, _guard: listening.guard })
-    }
-}
-
-/// The library lets go of a PULL socket's connections only when its process ends.
-impl Drop for Pulling {
-    fn drop(&mut self) {
-        self.socket.backend().shutdown();
+        let Listening { socket, guard, .. } = listen::<PullSocket>(place, medium, endpoint)?;
+        let connections = ClosesLatecomers::of(&socket);
+        Ok(Self { socket, malformed: 0, _connections: connections, _guard: guard })
     }
 }
 

@@ -1,26 +1,34 @@
 //! The replying end: a ROUTER, so that each request can be answered when its answer is ready, in any order.
+//!
+//! The library keeps the socket, listener and all, until both its halves are gone. A request holds only a weak
+//! reference to the sending half, so that one that is never answered does not keep requesters waiting at an end that
+//! nobody reads.
 
 use super::Medium;
 use super::frames::poll_message;
-use super::listen::listen;
+use super::latecomers::ClosesLatecomers;
+use super::listen::{Listening, listen};
 use crate::place::{Claim, SystemDir};
 use crate::transport::{Answerer, Asked, RequesterGone, Responder, TransportError};
 use bytes::Bytes;
+use std::sync::{Arc, Weak};
 use std::task::{Context, Poll, Waker};
 use zeromq::{RouterRecvHalf, RouterSendHalf, RouterSocket, SocketSend, ZmqMessage};
 
 pub(super) struct Replying {
     requests: RouterRecvHalf,
-    replies: RouterSendHalf,
+    replies: Arc<RouterSendHalf>,
     malformed: u64,
+    _connections: ClosesLatecomers,
     _guard: Claim,
 }
 
 impl Replying {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let listening = listen::<RouterSocket>(place, medium, endpoint)?;
-        let (replies, requests) = listening.socket.split();
-        Ok(Self { requests, replies, malformed: 0, _guard: listening.guard })
+        let Listening { socket, guard, .. } = listen::<RouterSocket>(place, medium, endpoint)?;
+        let connections = ClosesLatecomers::of(&socket);
+        let (replies, requests) = socket.split();
+        Ok(Self { requests, replies: Arc::new(replies), malformed: 0, _connections: connections, _guard: guard })
     }
 }
 
@@ -30,7 +38,7 @@ impl Answerer for Replying {
             match poll_message(&mut self.requests, cx) {
                 Poll::Ready(Ok(message)) => match split_envelope(message) {
                     Some((envelope, body)) => {
-                        let responder = Box::new(Envelope { frames: envelope, replies: self.replies.clone() });
+                        let responder = Box::new(Envelope { frames: envelope, replies: Arc::downgrade(&self.replies) });
                         return Poll::Ready(Asked { body, responder });
                     }
                     None => self.malformed += 1,
@@ -59,14 +67,15 @@ fn split_envelope(mut message: ZmqMessage) -> Option<(ZmqMessage, Bytes)> {
 /// The frames that lead back to one requester.
 struct Envelope {
     frames: ZmqMessage,
-    replies: RouterSendHalf,
+    replies: Weak<RouterSendHalf>,
 }
 
 impl Responder for Envelope {
     fn respond(mut self: Box<Self>, body: Bytes) -> Result<(), RequesterGone> {
+        let mut replies = RouterSendHalf::clone(&*self.replies.upgrade().ok_or(RequesterGone)?);
         self.frames.push_back(body);
         // The library only queues here; its writer runs as a task of its own.
-        match self.replies.send(self.frames).as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+        match replies.send(self.frames).as_mut().poll(&mut Context::from_waker(Waker::noop())) {
             Poll::Ready(Ok(())) => Ok(()),
             Poll::Ready(Err(_)) | Poll::Pending => Err(RequesterGone),
         }
