@@ -3,6 +3,7 @@
 mod assertions;
 mod call;
 mod component;
+mod counterpart;
 mod docs;
 mod excerpt;
 mod names;

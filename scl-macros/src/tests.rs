@@ -37,10 +37,18 @@ fn parsed(tokens: &TokenStream) -> syn::File {
     syn::parse2(tokens.clone()).unwrap_or_else(|error| panic!("{error}:\n{tokens}"))
 }
 
-/// The names of the structs, each with its fields.
+/// The names of the structs, each with its fields, but for those of unit tests.
 fn structs(file: &syn::File) -> Vec<String> {
+    structs_if(file, |item| !is_for_tests(item))
+}
+
+fn is_for_tests(item: &syn::ItemStruct) -> bool {
+    item.attrs.iter().any(|attribute| attribute.path().is_ident("cfg"))
+}
+
+fn structs_if(file: &syn::File, wanted: fn(&syn::ItemStruct) -> bool) -> Vec<String> {
     let structs = file.items.iter().filter_map(|item| match item {
-        syn::Item::Struct(item) => Some(item),
+        syn::Item::Struct(item) if wanted(item) => Some(item),
         _ => None,
     });
     let described = structs.map(|item| {
@@ -100,6 +108,8 @@ fn listing_1_becomes_four_structs() {
         "UserInterface events commands",
     ];
     assert_eq!(structs(&parsed(&tokens)), expected);
+    let for_tests = structs_if(&parsed(&tokens), is_for_tests);
+    assert_eq!(for_tests[2], "ControllerPeer sensor actuator events commands");
 }
 
 #[test]
@@ -182,14 +192,21 @@ connections:
         pub struct Sensor {
         # [doc = "`pub`: publishes `rover.Measurement` to `controller.sensor`.\n\nOne reading per period.\n\nDeclared at `t.yaml:5:9`."]
         pub measurements : scl :: private :: Pub < rover :: Measurement > }
+        # [cfg (test)] # [doc = "The other ends of all gates of `sensor`, for its unit tests."] # [allow (dead_code , non_camel_case_types , non_snake_case)]
+        pub struct SensorPeer {
+        # [doc = "The other end of `sensor.measurements`."]
+        pub measurements : scl :: private :: Sub < rover :: Measurement > }
         # [allow (dead_code , non_camel_case_types , non_snake_case , clippy :: all , clippy :: pedantic)]
         const _ : () = {
         # [diagnostic :: on_unimplemented (message = "[SCL0606] `{Self}` is used as a message, but the codec `protobuf` does not carry it" , label = "gate `sensor.measurements` sends `rover::Measurement`" , note = "derive `prost::Message` for it, or name a `.proto` file in `schemas:`" , note = "the gate is declared here\n --> t.yaml:5:9\n  |\n5 |       - measurements: {{pub: rover.Measurement, doc: One reading per period.}}\n  |         ^^^^^^^^^^^^")] trait RoverMeasurementCarriedByProtobuf_0 < > : :: core :: marker :: Sized {
         fn publisher (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Pub < Self > , scl :: private :: OpenError > ;
+        fn subscriber (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Sub < Self > , scl :: private :: OpenError > ;
         }
         # [diagnostic :: do_not_recommend] impl < Message : 'static , > RoverMeasurementCarriedByProtobuf_0 < > for Message where scl :: private :: codec :: Protobuf : scl :: private :: Codec < Message > , {
         fn publisher (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Pub < Self > , scl :: private :: OpenError > {
         __opener . publisher :: < Message , scl :: private :: codec :: Protobuf > (__index) }
+        fn subscriber (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Sub < Self > , scl :: private :: OpenError > {
+        __opener . subscriber :: < Message , scl :: private :: codec :: Protobuf > (__index) }
         }
         impl scl :: private :: Component for Sensor {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
@@ -204,6 +221,19 @@ connections:
         :: std :: vec :: Vec :: from ([& self . measurements as & dyn scl :: private :: AnyGate]) }
         }
         scl :: private :: component_methods ! (Sensor) ;
+        # [cfg (test)] impl scl :: private :: Component for SensorPeer {
+        const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
+        system : "t" , name : "sensor's peers" , place : "" , gates : & [scl :: private :: GateSpec {
+        name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , place : "t.yaml:5:9" , endpoint : "sensor.measurements.peer" , queue : :: core :: primitive :: u32 :: MAX , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: from_secs (10) , links : & [scl :: private :: LinkSpec {
+        peer_component : "sensor" , peer_gate : "measurements" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "" , required : true , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , }] , }] }
+        ;
+        fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
+        :: core :: result :: Result :: Ok (Self {
+        measurements : RoverMeasurementCarriedByProtobuf_0 :: subscriber (__opener , 0usize) ? }) }
+        fn gates (& self) -> :: std :: vec :: Vec < & dyn scl :: private :: AnyGate > {
+        :: std :: vec :: Vec :: from ([& self . measurements as & dyn scl :: private :: AnyGate]) }
+        }
+        # [cfg (test)] scl :: private :: component_test_methods ! (Sensor , SensorPeer) ;
         }
         ;
     "##]].assert_eq(text);

@@ -179,3 +179,44 @@ macro_rules! __component_methods {
         }
     };
 }
+
+/// Without the transport within a process there is nothing to test components on.
+#[cfg(not(feature = "memory"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __component_test_methods {
+    ($component:ident, $peer:ident) => {};
+}
+
+/// What a component gets for the unit tests of the crate that it is generated in.
+#[cfg(feature = "memory")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __component_test_methods {
+    ($component:ident, $peer:ident) => {
+        impl $component {
+            /// Opens the component for a unit test, together with the other ends of all its gates: no processes, no
+            /// sockets, no files, nothing to wait for.
+            ///
+            /// # Errors
+            /// None that a test could meet but the lack of a tokio runtime.
+            pub async fn test() -> ::core::result::Result<(Self, $peer), $crate::OpenError> {
+                let place = $crate::private::Memory::new();
+                let component = $crate::private::open($crate::OpenOptions::new().transport(place.clone())).await?;
+                let peer = $crate::private::open($crate::OpenOptions::new().transport(place)).await?;
+                ::core::result::Result::Ok((component, peer))
+            }
+
+            /// `test` for a component without async.
+            ///
+            /// # Errors
+            /// The operating system gives no runtime.
+            pub fn test_blocking() -> ::core::result::Result<(Self, $peer), $crate::OpenError> {
+                let place = $crate::private::Memory::new();
+                let component = $crate::private::open_blocking($crate::OpenOptions::new().transport(place.clone()))?;
+                let peer = $crate::private::open_blocking($crate::OpenOptions::new().transport(place))?;
+                ::core::result::Result::Ok((component, peer))
+            }
+        }
+    };
+}

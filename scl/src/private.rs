@@ -1,6 +1,7 @@
 //! What generated code names. No promise is made about it to anyone else.
 
 pub use crate::__component_methods as component_methods;
+pub use crate::__component_test_methods as component_test_methods;
 pub use crate::codec::{self, Codec};
 pub use crate::component::{
     Component, Core, Idle, Opener, Outcome, block_on, close, open, open_blocking, ready, run_async, run_blocking,
@@ -8,6 +9,8 @@ pub use crate::component::{
 pub use crate::error::OpenError;
 pub use crate::gate::{AnyGate, Pub, Pull, Push, Rep, Req, Sub};
 pub use crate::spec::{ComponentSpec, GateKind, GateSpec, LinkSpec, WhenFull};
+#[cfg(feature = "memory")]
+pub use crate::transport::memory::Memory;
 pub use bytes::Bytes;
 #[cfg(feature = "protobuf")]
 pub use prost;

@@ -32,16 +32,21 @@ pub(super) fn carriers<'a>(call: &Call<'_>, topology: &'a Topology) -> Vec<Carri
         let gate = topology.gate(id);
         match carriers.iter_mut().find(|carrier| carrier.fits(gate)) {
             Some(carrier) if carrier.kinds.contains(&gate.kind()) => {}
-            Some(carrier) => carrier.kinds.push(gate.kind()),
+            Some(carrier) => carrier.kinds.extend(both_ends(gate)),
             None if *gate.payload() == Payload::Bytes => {}
             None => {
                 let name = carrier_name(call, gate, carriers.len());
-                let kinds = vec![gate.kind()];
+                let kinds = both_ends(gate).to_vec();
                 carriers.push(Carrier { name, payload: gate.payload(), codec: gate.codec(), kinds, first: id });
             }
         }
     }
     carriers
+}
+
+/// The gate's kind, and that of its counterpart in tests.
+fn both_ends(gate: &Gate) -> [GateKind; 2] {
+    [gate.kind(), gate.kind().opposite()]
 }
 
 impl Carrier<'_> {

@@ -2,7 +2,7 @@
 
 use super::assertions::{self, Carrier};
 use super::call::Call;
-use super::{docs, names, spec};
+use super::{counterpart, docs, names, spec};
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use scl_topology::topology::{Component, GateId, GateKind, Payload, Topology};
@@ -36,17 +36,19 @@ fn expand_struct(call: &Call<'_>, topology: &Topology, component: &Component) ->
     let fields = component.gates().iter().map(|&id| {
         let field = field_name(topology, id);
         let doc = docs::of_gate(call, topology, id);
-        let gate = gate_type(call, topology, id);
+        let gate = gate_type(call, topology, id, topology.gate(id).kind());
         quote! { #[doc = #doc] pub #field: #gate }
     });
     let fields = match component.gates() {
         [] => quote! { _component: #private::Idle },
         _ => quote! { #(#fields),* },
     };
+    let counterpart = counterpart::expand_struct(call, topology, component);
     quote! {
         #[doc = #doc]
         #[allow(dead_code, non_camel_case_types, non_snake_case)]
         pub struct #name { #fields }
+        #counterpart
     }
 }
 
@@ -59,9 +61,10 @@ fn expand_implementation(
     let private = &call.private;
     let name = struct_name(component);
     let spec = spec::expand_spec(call, topology, component);
-    let opened = expand_opened(call, topology, component, carriers);
+    let opened = expand_opened(call, topology, component, carriers, GateKind::clone);
     let fields = component.gates().iter().map(|&id| field_name(topology, id));
     let gates = fields.map(|field| quote_spanned!(call.span => &self.#field as &dyn #private::AnyGate));
+    let counterpart = counterpart::expand_counterpart(call, topology, component, carriers);
     quote_spanned! { call.span =>
         impl #private::Component for #name {
             const SPEC: &'static #private::ComponentSpec = &#spec;
@@ -73,11 +76,20 @@ fn expand_implementation(
             }
         }
         #private::component_methods!(#name);
+        #counterpart
     }
 }
 
 /// The fields of `Self { .. }`, each opened by its position in the specification.
-fn expand_opened(call: &Call<'_>, topology: &Topology, component: &Component, carriers: &[Carrier<'_>]) -> TokenStream {
+///
+/// `side` says which end of its connections is opened: a gate's own kind, or the one at the other end.
+pub(super) fn expand_opened(
+    call: &Call<'_>,
+    topology: &Topology,
+    component: &Component,
+    carriers: &[Carrier<'_>],
+    side: fn(&GateKind) -> GateKind,
+) -> TokenStream {
     let private = &call.private;
     if component.gates().is_empty() {
         return quote_spanned! { call.span => _component: __opener.idle()? };
@@ -85,12 +97,13 @@ fn expand_opened(call: &Call<'_>, topology: &Topology, component: &Component, ca
     let fields = component.gates().iter().enumerate().map(|(index, &id)| {
         let gate = topology.gate(id);
         let field = field_name(topology, id);
-        let method = opener_method(call, gate.kind());
+        let kind = side(&gate.kind());
+        let method = opener_method(call, kind);
         match carriers.iter().find(|carrier| carrier.fits(gate)) {
             // The types are inferred from the struct, so that a wrong one is reported once, there.
             Some(Carrier { name, .. }) => quote_spanned! { call.span => #field: #name::#method(__opener, #index)? },
             None => {
-                let bytes = bytes(call, gate.kind());
+                let bytes = bytes(call, kind);
                 quote_spanned! { call.span => #field: __opener.#method::<#bytes, #private::codec::Opaque>(#index)? }
             }
         }
@@ -107,29 +120,29 @@ fn bytes(call: &Call<'_>, kind: GateKind) -> TokenStream {
     }
 }
 
-/// `Sub<rover::Measurement>`.
-fn gate_type(call: &Call<'_>, topology: &Topology, id: GateId) -> TokenStream {
+/// `Sub<rover::Measurement>`, or for the other end `Pub<rover::Measurement>`.
+pub(super) fn gate_type(call: &Call<'_>, topology: &Topology, id: GateId, kind: GateKind) -> TokenStream {
     let private = &call.private;
     let gate = topology.gate(id);
-    let kind = gate_struct(gate.kind());
     let message = |dotted: &str| message_type(call, dotted);
     match gate.payload() {
         Payload::Bytes => {
-            let bytes = bytes(call, gate.kind());
+            let bytes = bytes(call, kind);
+            let kind = gate_struct(kind);
             quote!(#private::#kind<#bytes>)
         }
         Payload::Message(name) => {
-            let message = message(name.dotted());
+            let (kind, message) = (gate_struct(kind), message(name.dotted()));
             quote!(#private::#kind<#message>)
         }
         Payload::Exchange { request, reply } => {
-            let (request, reply) = (message(request.dotted()), message(reply.dotted()));
+            let (kind, request, reply) = (gate_struct(kind), message(request.dotted()), message(reply.dotted()));
             quote!(#private::#kind<#request, #reply>)
         }
     }
 }
 
-fn struct_name(component: &Component) -> Ident {
+pub(super) fn struct_name(component: &Component) -> Ident {
     names::checked(component.rust_name(), Span::call_site())
 }
 
@@ -140,7 +153,7 @@ pub(super) fn message_type(call: &Call<'_>, dotted: &str) -> TokenStream {
     call.types.path(dotted, call.span).unwrap_or_else(refused)
 }
 
-fn field_name(topology: &Topology, id: GateId) -> Ident {
+pub(super) fn field_name(topology: &Topology, id: GateId) -> Ident {
     names::checked(topology.gate(id).rust_name(), Span::call_site())
 }
 

@@ -62,12 +62,12 @@ fn expand_link(call: &Call<'_>, topology: &Topology, gate: GateId, id: Connectio
     }
 }
 
-fn expand_kind(private: &TokenStream, kind: GateKind) -> TokenStream {
+pub(super) fn expand_kind(private: &TokenStream, kind: GateKind) -> TokenStream {
     let kind = super::component::gate_struct(kind);
     quote!(#private::GateKind::#kind)
 }
 
-fn expand_when_full(private: &TokenStream, when_full: WhenFull) -> TokenStream {
+pub(super) fn expand_when_full(private: &TokenStream, when_full: WhenFull) -> TokenStream {
     let name = match when_full {
         WhenFull::DropOldest => "DropOldest",
         WhenFull::DropNewest => "DropNewest",
