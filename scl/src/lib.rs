@@ -1,4 +1,78 @@
 //! Typed components and gates, wired by one checked YAML file, over ZeroMQ.
+//!
+//! A system is made of several programs. One YAML file, the topology, says which components exist, which gates they have
+//! and which gates are connected. [`topology!`] checks that file while a program compiles and makes one struct a
+//! component, with one field a gate; [`main`](macro@main) opens a component and runs a program with it.
+//!
+//! ```yaml
+//! system: rover
+//! schemas: [rover.proto]
+//!
+//! components:
+//!   - name: sensor
+//!     gates:
+//!       - measurements: {pub: rover.Measurement}
+//!       - log: {push: rover.Measurement}
+//!   - name: controller
+//!     gates:
+//!       - sensor: {sub: rover.Measurement, queue: 1}
+//!       - commands: {rep: rover.Command -> rover.Status}
+//!   - name: recorder
+//!     gates:
+//!       - log: {pull: rover.Measurement}
+//!   - name: user_interface
+//!     gates:
+//!       - commands: {req: rover.Command -> rover.Status, timeout: 500ms}
+//!
+//! connections:
+//!   - [sensor.measurements, controller.sensor]
+//!   - [sensor.log, recorder.log]
+//!   - [user_interface.commands, controller.commands]
+//! ```
+//!
+//! ```no_run
+//! scl::topology!("doc/rover.yaml");
+//!
+//! #[scl::main]
+//! async fn main(mut c: Controller) -> scl::Result<()> {
+//!     let mut target_speed = 0.0;
+//!     loop {
+//!         tokio::select! {
+//!             measured = c.sensor.recv() => println!("{} m/s too fast", measured?.speed - target_speed),
+//!             command = c.commands.recv() => {
+//!                 let command = command?;
+//!                 target_speed = command.target_speed;
+//!                 command.reply(&rover::Status { accepted: true }).await?;
+//!             }
+//!         }
+//!     }
+//! }
+//! ```
+//!
+//! | gate | async | from a plain thread | without waiting |
+//! |---|---|---|---|
+//! | [`Pub`], [`Push`] | `send` | `send_blocking` | `try_send` |
+//! | [`Sub`], [`Pull`] | `recv` | `recv_blocking`, `recv_timeout` | `try_recv`, `latest` |
+//! | [`Req`] | `call` | `call_blocking` | |
+//! | [`Rep`] | `recv`, then [`Request::reply`] | `recv_blocking`, `reply_now` | `try_recv` |
+//!
+//! Programs may start in any order, restart, and be killed: messages wait in the sending program, up to the receiving
+//! gate's `queue`, and connections come back by themselves.
+//!
+//! # Where programs meet
+//!
+//! In the runtime folder, see [`place`], under names that the topology fixes. What is said there is plain ZeroMQ, so a
+//! program in any language can take a component's place.
+//!
+//! # Features
+//!
+//! | feature | what it adds |
+//! |---|---|
+//! | `protobuf` (default) | the codec, and `schemas:` |
+//! | `json`, `raw` (default), `cbor`, `msgpack`, `postcard` | a codec each |
+//! | `zeromq` (default) | the transport between programs |
+//! | `memory` (default) | the transport within a program, for unit tests of components |
+//! | `conformance` | the tests that transports and codecs are put to, for those of your own |
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

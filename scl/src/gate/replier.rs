@@ -18,6 +18,19 @@ use std::task::{Context, Poll, Waker};
 /// Answers the requests of any number of `req` gates.
 ///
 /// Each [`Request`] carries its own way back, so requests may be answered later and in any order.
+///
+/// ```no_run
+/// scl::topology!("doc/rover.yaml");
+///
+/// #[scl::main]
+/// async fn main(mut controller: Controller) -> scl::Result<()> {
+///     loop {
+///         let command = controller.commands.recv().await?;
+///         println!("asked for {} m/s", command.target_speed);
+///         command.reply(&rover::Status { accepted: true }).await?;
+///     }
+/// }
+/// ```
 pub struct Rep<A, B> {
     spec: &'static GateSpec,
     name: GateName,

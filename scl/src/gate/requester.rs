@@ -15,6 +15,17 @@ use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 
 /// Asks the `rep` gate that this gate is connected to, one request at a time.
+///
+/// ```no_run
+/// scl::topology!("doc/rover.yaml");
+///
+/// #[scl::main]
+/// async fn main(mut ui: UserInterface) -> scl::Result<()> {
+///     let status = ui.commands.call(&rover::Command { target_speed: 0.5 }).await?;
+///     println!("{}", if status.accepted { "accepted" } else { "refused" });
+///     Ok(())
+/// }
+/// ```
 pub struct Req<A, B> {
     spec: &'static GateSpec,
     name: GateName,
