@@ -46,10 +46,14 @@ impl Core {
     /// Keeps a connection moving, whether its gate is used or not.
     pub(super) fn drive(&self, outgoing: Outgoing) -> Arc<Mutex<Outgoing>> {
         let outgoing = Arc::new(Mutex::new(outgoing));
-        let driven = Arc::clone(&outgoing);
-        let task = tokio::spawn(poll_fn(move |cx| {
-            lock(&driven).drive(cx);
-            Poll::<()>::Pending
+        // Weak, so that the end is gone with its gate, and not only when the runtime gets to the task's end.
+        let driven = Arc::downgrade(&outgoing);
+        let task = tokio::spawn(poll_fn(move |cx| match driven.upgrade() {
+            Some(outgoing) => {
+                lock(&outgoing).drive(cx);
+                Poll::Pending
+            }
+            None => Poll::Ready(()),
         }));
         let task = AbortOnDrop(task.abort_handle());
         lock(&self.connections).push(Connection { outgoing: Arc::clone(&outgoing), _task: task });

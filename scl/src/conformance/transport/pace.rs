@@ -11,12 +11,12 @@ use std::task::Poll;
 /// A receiver that stops reading makes `offer` give messages back before 64 MiB are under way; when it reads again, the
 /// sender is woken, and everything that was taken arrives.
 pub async fn stops_and_resumes(transport: &dyn Transport) {
-    const BYTES: usize = 64 << 10;
     const MESSAGES: usize = 1024;
+    let message = pattern(64 << 10);
     for flow in FLOWS {
         let (mut sender, mut receiver) = flow.pair(transport, ENDPOINT);
         sender_sees(&mut sender, &mut receiver).await;
-        sender.queue((0..MESSAGES).map(|_| pattern(BYTES)));
+        sender.queue(vec![message.clone(); MESSAGES]);
         let mut quiet = 0;
         poll_fn(|cx| {
             let before = sender.left();
@@ -29,8 +29,8 @@ pub async fn stops_and_resumes(transport: &dyn Transport) {
         .await;
         assert!(sender.left() < MESSAGES, "{flow:?}: nothing was sent");
         for place in 0..MESSAGES {
-            let message = receiver.next(&mut [&mut sender]).await;
-            assert!(message == pattern(BYTES), "{flow:?}: message {place} of {MESSAGES} is damaged");
+            let received = receiver.next(&mut [&mut sender]).await;
+            assert!(received == message, "{flow:?}: message {place} of {MESSAGES} is damaged");
         }
     }
 }

@@ -6,12 +6,15 @@
 //! the sign to call it off.
 
 use crate::place::{self, Address, SystemDir};
+use futures_core::Stream;
 use std::os::unix::fs::MetadataExt;
+use std::pin::Pin;
+use std::task::{Context, Poll};
 use std::time::Duration;
 use std::{fs, io};
 use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use tokio::net::{TcpStream, UnixStream};
-use zeromq::{Socket, SocketOptions};
+use zeromq::{Socket, SocketEvent, SocketOptions, ZmqResult};
 
 /// The pause between two attempts; the jitter keeps many components from knocking in step.
 const RETRY: Duration = Duration::from_millis(20);
@@ -24,17 +27,38 @@ pub(super) trait Dials: Socket + 'static {
     /// Whether the probe is kept to notice the end of the peer, because the library would not.
     const KEEPS_PROBE: bool = false;
 
-    /// What has to be done on each new connection before it is used.
-    fn prepare(&mut self) -> impl Future<Output = ()> + Send {
-        async {}
+    /// What has to be done on each new connection before it is used; an error if the peer has just gone.
+    fn prepare(&mut self) -> impl Future<Output = ZmqResult<()>> + Send {
+        async { Ok(()) }
+    }
+}
+
+/// A connected socket.
+pub(super) struct Dialled<S> {
+    pub(super) socket: S,
+    pub(super) probe: Option<Probe>,
+    events: Pin<Box<dyn Stream<Item = SocketEvent> + Send>>,
+}
+
+impl<S> Dialled<S> {
+    /// Ready when the library reports that the peer left. A receiving socket notices that only while it is polled, so
+    /// this is to be asked after a poll that found nothing.
+    pub(super) fn poll_lost(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        loop {
+            match self.events.as_mut().poll_next(cx) {
+                Poll::Ready(Some(SocketEvent::Disconnected(_)) | None) => return Poll::Ready(()),
+                Poll::Ready(Some(_)) => {}
+                Poll::Pending => return Poll::Pending,
+            }
+        }
     }
 }
 
 /// A plain connection to the same listener, which ends when the listener's process does.
-pub(super) struct Probe(Box<dyn Stream>);
+pub(super) struct Probe(Box<dyn Plain>);
 
-trait Stream: AsyncRead + AsyncWrite + Send + Unpin {}
-impl<S: AsyncRead + AsyncWrite + Send + Unpin> Stream for S {}
+trait Plain: AsyncRead + AsyncWrite + Send + Unpin {}
+impl<S: AsyncRead + AsyncWrite + Send + Unpin> Plain for S {}
 
 impl Probe {
     async fn connect(address: &Address) -> io::Result<Self> {
@@ -57,7 +81,7 @@ impl Probe {
 }
 
 /// Connects a fresh socket to an endpoint, however long it takes until somebody listens there.
-pub(super) async fn dial<S: Dials>(place: &SystemDir, endpoint: &str) -> (S, Option<Probe>) {
+pub(super) async fn dial<S: Dials>(place: &SystemDir, endpoint: &str) -> Dialled<S> {
     let mut attempt = 0_u32;
     loop {
         match try_dial(place, endpoint).await {
@@ -72,20 +96,22 @@ pub(super) async fn dial<S: Dials>(place: &SystemDir, endpoint: &str) -> (S, Opt
     }
 }
 
-async fn try_dial<S: Dials>(place: &SystemDir, endpoint: &str) -> io::Result<(S, Option<Probe>)> {
+async fn try_dial<S: Dials>(place: &SystemDir, endpoint: &str) -> io::Result<Dialled<S>> {
     let listener = Listener::find(place, endpoint).ok_or(io::ErrorKind::NotFound)?;
     let probe = Some(Probe::connect(&listener.address).await?).filter(|_| S::KEEPS_PROBE);
     // Whoever accepted the probe accepts this too; its handshake may take long, for example while it is stopped.
     let mut options = SocketOptions::default();
     options.no_connect_timeout();
     let mut socket = S::with_options(options);
+    // Asked for first, because a peer that leaves at once is reported only to those who asked before.
+    let events = Box::pin(socket.monitor());
     let url = url(&listener.address);
     tokio::select! {
         connected = socket.connect(&url) => connected.map_err(io::Error::other)?,
         () = listener.replaced(place, endpoint) => return Err(io::ErrorKind::ConnectionAborted.into()),
     }
-    socket.prepare().await;
-    Ok((socket, probe))
+    socket.prepare().await.map_err(io::Error::other)?;
+    Ok(Dialled { socket, probe, events })
 }
 
 /// Who listens at an endpoint.

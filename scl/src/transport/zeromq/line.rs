@@ -1,42 +1,18 @@
 //! A connection that is dialled again whenever it is lost: a task dials, the end that uses the socket says when it is
 //! lost.
 
-use super::dial::{Dials, Probe, dial};
+use super::dial::{Dialled, Dials, dial};
 use crate::place::SystemDir;
 use crate::sync::{AbortOnDrop, lock};
-use futures_core::Stream;
-use std::pin::Pin;
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Waker};
 use tokio::sync::Notify;
-use zeromq::SocketEvent;
 
 /// One end of a connection that comes back.
 pub(super) struct Line<S> {
     shared: Arc<Shared<S>>,
     current: Option<Dialled<S>>,
     _task: AbortOnDrop,
-}
-
-/// A connected socket.
-pub(super) struct Dialled<S> {
-    pub(super) socket: S,
-    pub(super) probe: Option<Probe>,
-    events: Pin<Box<dyn Stream<Item = SocketEvent> + Send>>,
-}
-
-impl<S> Dialled<S> {
-    /// Ready when the library reports that the peer left. A receiving socket notices that only while it is polled, so
-    /// this is to be asked after a poll that found nothing.
-    pub(super) fn poll_lost(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        loop {
-            match self.events.as_mut().poll_next(cx) {
-                Poll::Ready(Some(SocketEvent::Disconnected(_)) | None) => return Poll::Ready(()),
-                Poll::Ready(Some(_)) => {}
-                Poll::Pending => return Poll::Pending,
-            }
-        }
-    }
 }
 
 struct Shared<S> {
@@ -86,11 +62,10 @@ impl<S: Dials> Line<S> {
 
 async fn dial_for_ever<S: Dials>(shared: Arc<Shared<S>>, place: Arc<SystemDir>, endpoint: String) {
     loop {
-        let (mut socket, probe) = dial::<S>(&place, &endpoint).await;
-        let events = Box::pin(socket.monitor());
+        let dialled = dial::<S>(&place, &endpoint).await;
         {
             let mut slot = lock(&shared.slot);
-            slot.arrived = Some(Dialled { socket, probe, events });
+            slot.arrived = Some(dialled);
             slot.connected = true;
             if let Some(waker) = slot.waiting.take() {
                 waker.wake();

@@ -2,16 +2,29 @@
 //!
 //! The library keeps the connections of an XPUB socket open after the socket is dropped, until the process ends: a
 //! component that is closed and opened again in one process would leave its subscribers waiting at the old one. Telling
-//! the library that each peer left closes its connection.
+//! the library that each peer left closes its connection. A peer is taken in a moment before it is reported, so those
+//! that are reported after the socket was dropped are waited for.
 
+use crate::sync::lock;
 use futures_core::Stream;
 use std::pin::Pin;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Waker};
+use std::time::Duration;
+use tokio::runtime::Handle;
 use zeromq::util::PeerIdentity;
 use zeromq::{MultiPeerBackend, Socket, SocketEvent};
 
+/// The first pause; each is twice as long as the one before, up to [`LONGEST_PAUSE`], for peers that stay silent.
+const FIRST_PAUSE: Duration = Duration::from_millis(1);
+const LONGEST_PAUSE: Duration = Duration::from_secs(1);
+
 pub(super) struct Peers {
+    book: Arc<Mutex<Book>>,
+    runtime: Option<Handle>,
+}
+
+struct Book {
     backend: Arc<dyn MultiPeerBackend>,
     events: Pin<Box<dyn Stream<Item = SocketEvent> + Send>>,
     accepted: Vec<PeerIdentity>,
@@ -19,11 +32,23 @@ pub(super) struct Peers {
 
 impl Peers {
     pub(super) fn of(socket: &mut impl Socket) -> Self {
-        Self { backend: socket.backend(), events: Box::pin(socket.monitor()), accepted: Vec::new() }
+        let book = Book { backend: socket.backend(), events: Box::pin(socket.monitor()), accepted: Vec::new() };
+        Self { book: Arc::new(Mutex::new(book)), runtime: Handle::try_current().ok() }
     }
 
     /// Takes note of who has connected since.
     pub(super) fn note(&mut self, cx: &mut Context<'_>) {
+        lock(&self.book).note(cx);
+    }
+
+    /// Closes all connections.
+    pub(super) fn close(&mut self) {
+        lock(&self.book).close();
+    }
+}
+
+impl Book {
+    fn note(&mut self, cx: &mut Context<'_>) {
         while let Poll::Ready(Some(event)) = self.events.as_mut().poll_next(cx) {
             if let SocketEvent::Accepted(_, peer) = event {
                 self.accepted.push(peer);
@@ -31,17 +56,45 @@ impl Peers {
         }
     }
 
-    /// Closes all connections.
-    pub(super) fn close(&mut self) {
+    fn close(&mut self) {
         for peer in self.accepted.drain(..) {
             self.backend.peer_disconnected(&peer);
         }
+    }
+
+    fn close_all(&mut self) {
+        self.note(&mut Context::from_waker(Waker::noop()));
+        self.close();
+    }
+
+    /// Whether a handshake is under way; it holds the backend until its peer was reported.
+    fn expects_more(&self) -> bool {
+        Arc::strong_count(&self.backend) > 1
     }
 }
 
 impl Drop for Peers {
     fn drop(&mut self) {
-        self.note(&mut Context::from_waker(Waker::noop()));
-        self.close();
+        lock(&self.book).close_all();
+        if let Some(runtime) = &self.runtime {
+            runtime.spawn(close_latecomers(Arc::clone(&self.book)));
+        }
     }
+}
+
+async fn close_latecomers(book: Arc<Mutex<Book>>) {
+    let mut pause = FIRST_PAUSE;
+    while close_and_look(&book) {
+        tokio::time::sleep(pause).await;
+        pause = LONGEST_PAUSE.min(pause * 2);
+    }
+}
+
+/// Whether more may come.
+fn close_and_look(book: &Mutex<Book>) -> bool {
+    let mut book = lock(book);
+    // Asked first, because who comes in between is in the book by then.
+    let more = book.expects_more();
+    book.close_all();
+    more
 }

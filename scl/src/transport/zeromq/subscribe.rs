@@ -8,7 +8,7 @@ use crate::transport::Inlet;
 use bytes::Bytes;
 use std::sync::Arc;
 use std::task::{Context, Poll};
-use zeromq::SubSocket;
+use zeromq::{SubSocket, ZmqResult};
 
 pub(super) struct Subscribing {
     line: Line<SubSocket>,
@@ -22,11 +22,8 @@ impl Subscribing {
 }
 
 impl Dials for SubSocket {
-    async fn prepare(&mut self) {
-        if let Err(error) = self.subscribe("").await {
-            // The peer has just gone; the first poll of the socket will find that too.
-            tracing::debug!(%error, "could not subscribe");
-        }
+    async fn prepare(&mut self) -> ZmqResult<()> {
+        self.subscribe("").await
     }
 }
 
