@@ -23,13 +23,23 @@ pub const PATIENCE: Duration = Duration::from_secs(60);
 /// # Panics
 /// When the test does, or is not done after [`PATIENCE`].
 pub fn run<F: Future<Output = ()>>(guarantee: &str, test: impl Fn() -> F) {
-    let runtimes = [("one thread", Builder::new_current_thread()), ("two threads", Builder::new_multi_thread())];
-    for (kind, mut builder) in runtimes {
-        let built = builder.worker_threads(2).enable_all().build();
-        let runtime = built.unwrap_or_else(|error| panic!("no runtime to test with: {error}"));
-        let done = runtime.block_on(async { tokio::time::timeout(PATIENCE, test()).await });
-        assert!(done.is_ok(), "`{guarantee}` waits in vain on a runtime with {kind}");
-    }
+    run_on_one_thread(guarantee, &test);
+    run_on(Builder::new_multi_thread().worker_threads(2), guarantee, &test);
+}
+
+/// Runs a test on a current-thread runtime alone.
+///
+/// # Panics
+/// When the test does, or is not done after [`PATIENCE`].
+pub fn run_on_one_thread<F: Future<Output = ()>>(guarantee: &str, test: impl Fn() -> F) {
+    run_on(&mut Builder::new_current_thread(), guarantee, &test);
+}
+
+fn run_on<F: Future<Output = ()>>(builder: &mut Builder, guarantee: &str, test: &impl Fn() -> F) {
+    let built = builder.enable_all().build();
+    let runtime = built.unwrap_or_else(|error| panic!("no runtime to test with: {error}"));
+    let done = runtime.block_on(async { tokio::time::timeout(PATIENCE, test()).await });
+    assert!(done.is_ok(), "`{guarantee}` waits in vain on {runtime:?}");
 }
 
 /// Makes a `#[test]` of each guarantee in [`conformance::transport`](crate::conformance::transport).
@@ -42,10 +52,18 @@ pub fn run<F: Future<Output = ()>>(guarantee: &str, test: impl Fn() -> F) {
 ///     scl::transport_conformance!((scl::transport::memory::Memory::new(), ()));
 /// }
 /// ```
+///
+/// A transport that is not made for runtimes of several threads says `one_thread` before the expression.
 #[macro_export]
 macro_rules! transport_conformance {
     ($fresh:expr) => {
-        $crate::transport_conformance! { @tests $fresh;
+        $crate::transport_conformance! { @all run $fresh }
+    };
+    (one_thread $fresh:expr) => {
+        $crate::transport_conformance! { @all run_on_one_thread $fresh }
+    };
+    (@all $run:ident $fresh:expr) => {
+        $crate::transport_conformance! { @tests $run $fresh;
             keeps_order carries_every_size gives_back_what_nobody_takes reports_a_late_peer serves_the_next_receiver
             serves_the_next_sender stops_and_resumes serves_every_pusher keeps_what_is_flushed frees_its_endpoint
             finds_the_peer_that_stays stays_quiet_when_idle
@@ -53,10 +71,10 @@ macro_rules! transport_conformance {
             gives_back_what_nobody_answers tells_of_a_lost_replier finds_the_replier_that_stays survives_a_lost_requester
         }
     };
-    (@tests $fresh:expr; $($guarantee:ident)*) => {$(
+    (@tests $run:ident $fresh:expr; $($guarantee:ident)*) => {$(
         #[test]
         fn $guarantee() {
-            $crate::conformance::run(stringify!($guarantee), || async {
+            $crate::conformance::$run(stringify!($guarantee), || async {
                 let (transport, _kept) = $fresh;
                 $crate::conformance::transport::$guarantee(&transport).await;
             });
