@@ -53,7 +53,8 @@ pub struct GateModel {
     /// The kind as written, for example `pub`, perhaps misspelt. Empty where it could not be read and a problem says
     /// so: such a gate exists, and nothing more is known about it.
     pub kind: Spanned<String>,
-    /// The type or types as written, for example `rover.Command -> rover.Status`.
+    /// The type or types as written, for example `rover.Command -> rover.Status`. None for `events: pub`, and for
+    /// `events: {pub: , queue: 1}`, which is how an untyped gate has options.
     pub payload: Option<Spanned<String>>,
     /// The options as written.
     pub options: Vec<OptionModel>,

@@ -2,7 +2,7 @@
 //! repliers. SCL0513: a pusher with several pullers that does not say that they share the work.
 
 use super::draft::Draft;
-use super::wording::{example_type, listed};
+use super::wording::listed;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::GateKind;
 
@@ -76,8 +76,7 @@ fn several_pullers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> 
     let path = draft.path(gate);
     let headline = format!("gate `{path}` pushes to {count}, so each of them gets only a part of the messages");
     let name = &draft.gates[gate].model.name.value;
-    let payload = draft.gates[gate].model.payload.as_ref();
-    let message = payload.map_or_else(|| example_type(name), |payload| payload.value.clone());
+    let message = super::unconnected::type_text(draft, gate);
     peers("SCL0513", headline, draft, gate, links, |which, _| format!("{which} receiver"))
         .help("if both need every message, make the gates `pub` and `sub`")
         .help(format!("if the work is to be shared, say so: `{name}: {{push: {message}, share: true}}`"))
@@ -202,18 +201,18 @@ connections:
             "SCL0513",
             yaml.trim_start(),
             expect![[r#"
-            error: [SCL0513] gate `camera.frames` pushes to two components, so each of them gets only a part of the messages
-              --> topology.yaml:13:6
-               |
-            12 |   - [camera.frames, detector.frames]
-               |      ------------- first receiver
-            13 |   - [camera.frames, recorder.frames]
-               |      ^^^^^^^^^^^^^ second receiver
-               |
-               = help: if both need every message, make the gates `pub` and `sub`
-               = help: if the work is to be shared, say so: `frames: {push: Frame, share: true}`
-               = note: many pushers into one `pull` gate are allowed
-        "#]],
+                error: [SCL0513] gate `camera.frames` pushes to two components, so each of them gets only a part of the messages
+                  --> topology.yaml:13:6
+                   |
+                12 |   - [camera.frames, detector.frames]
+                   |      ------------- first receiver
+                13 |   - [camera.frames, recorder.frames]
+                   |      ^^^^^^^^^^^^^ second receiver
+                   |
+                   = help: if both need every message, make the gates `pub` and `sub`
+                   = help: if the work is to be shared, say so: `frames: {push: , share: true}`
+                   = note: many pushers into one `pull` gate are allowed
+            "#]],
         );
     }
 }

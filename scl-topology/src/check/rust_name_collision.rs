@@ -15,6 +15,7 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
         let help = "rename one of them; use `_` in all names";
         problems.push(report("SCL0308", headline, [first, second], &rust).help(help));
     }
+    check_peers(model, problems);
     for component in &model.components {
         let names = component.gates.iter().map(|gate| &gate.name);
         for (first, second, rust) in collisions(names, gate_field) {
@@ -22,6 +23,25 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
             let headline = format!("gates `{a}` and `{b}` of `{owner}` would both become the Rust field `{rust}`");
             problems.push(report("SCL0309", headline, [first, second], &rust).help("rename one of them"));
         }
+    }
+}
+
+/// Beside each component, the macro generates its counterpart for tests: `ControllerPeer` for `Controller`.
+fn check_peers(model: &Model, problems: &mut Diagnostics) {
+    let names = model.components.iter().map(|component| &component.name).filter(|name| is_well_formed(&name.value));
+    let by_type: HashMap<String, &Name> = names.rev().map(|name| (component_type(&name.value), name)).collect();
+    for component in &model.components {
+        let name = &component.name;
+        let rust = component_type(&name.value);
+        let Some(owner) = rust.strip_suffix("Peer").and_then(|owner| by_type.get(owner)) else { continue };
+        let headline = format!(
+            "component `{}` would become the Rust type `{rust}`, which is generated for tests of `{}`",
+            name.value, owner.value
+        );
+        let found = Diagnostic::error("SCL0308", headline, name.span, format!("becomes `{rust}`"))
+            .label(owner.span, format!("gets `{rust}` beside it"))
+            .help("choose a name that does not end with `peer`");
+        problems.push(found);
     }
 }
 
@@ -81,6 +101,33 @@ components:
               |
               = help: rename one of them; use `_` in all names
         "#]],
+        );
+    }
+
+    #[test]
+    fn a_component_is_called_like_the_counterpart_of_another() {
+        let yaml = r#"
+components:
+  - name: controller_peer
+    gates: []
+  - name: controller
+    gates: []
+"#;
+        example(
+            "SCL0308",
+            yaml.trim_start(),
+            expect![[r#"
+                error: [SCL0308] component `controller_peer` would become the Rust type `ControllerPeer`, which is generated for tests of `controller`
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: controller_peer
+                  |           ^^^^^^^^^^^^^^^ becomes `ControllerPeer`
+                3 |     gates: []
+                4 |   - name: controller
+                  |           ---------- gets `ControllerPeer` beside it
+                  |
+                  = help: choose a name that does not end with `peer`
+            "#]],
         );
     }
 

@@ -4,7 +4,7 @@
 
 use super::draft::Draft;
 use super::fitting_sender::FittingSenders;
-use super::wording::{example_type, listed};
+use super::wording::listed;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::GateKind;
 
@@ -84,12 +84,12 @@ fn ways_out(draft: &Draft<'_>, gate: usize) -> String {
     format!("connect it, remove it, or write `{name}: {{{kind}: {types}, unconnected: ok}}`")
 }
 
-/// The type of a gate as one would write it; of a gate without a type, one that would suit its name.
+/// The type of a gate as one would write it; nothing for a gate without one.
 pub(super) fn type_text(draft: &Draft<'_>, gate: usize) -> String {
     let from = draft.gates[gate].payload_from.unwrap_or(gate);
     match &draft.gates[from].model.payload {
         Some(payload) => payload.value.trim().to_owned(),
-        None => example_type(&draft.gates[gate].model.name.value),
+        None => String::new(),
     }
 }
 
@@ -110,14 +110,14 @@ components:
             "SCL0701",
             yaml.trim_start(),
             expect![[r#"
-            warning: [SCL0701] nobody subscribes to `controller.events`
-             --> topology.yaml:4:9
-              |
-            4 |       - events: pub
-              |         ^^^^^^ its messages are dropped
-              |
-              = help: connect it, remove it, or write `events: {pub: Event, unconnected: ok}`
-        "#]],
+                warning: [SCL0701] nobody subscribes to `controller.events`
+                 --> topology.yaml:4:9
+                  |
+                4 |       - events: pub
+                  |         ^^^^^^ its messages are dropped
+                  |
+                  = help: connect it, remove it, or write `events: {pub: , unconnected: ok}`
+            "#]],
         );
     }
 
@@ -133,14 +133,14 @@ components:
             "SCL0702",
             yaml.trim_start(),
             expect![[r#"
-            warning: [SCL0702] gate `controller.sensor` is not connected; it will never receive a message
-             --> topology.yaml:4:9
-              |
-            4 |       - sensor: sub
-              |         ^^^^^^
-              |
-              = help: connect it, remove it, or write `sensor: {sub: Sensor, unconnected: ok}`
-        "#]],
+                warning: [SCL0702] gate `controller.sensor` is not connected; it will never receive a message
+                 --> topology.yaml:4:9
+                  |
+                4 |       - sensor: sub
+                  |         ^^^^^^
+                  |
+                  = help: connect it, remove it, or write `sensor: {sub: , unconnected: ok}`
+            "#]],
         );
     }
 

@@ -37,8 +37,7 @@ pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: 
 pub(in crate::parse) fn option_beside_gate(option: Field<'_>, gate: Field<'_>, source: &SourceFile) -> Diagnostic {
     let message = format!("`{}` belongs inside the braces of gate `{}`, not beside it", option.key, gate.key);
     let kind = scalar(gate.value).filter(|kind| is_kind(&kind.value)).map_or("pub".to_owned(), |kind| kind.value);
-    problem(message, option.key_span, source)
-        .help(format!("write `{}: {{{kind}: Type, {}: ...}}`", gate.key, option.key))
+    problem(message, option.key_span, source).help(format!("write `{}: {{{kind}: , {}: ...}}`", gate.key, option.key))
 }
 
 /// `- gates:` after a component that has no gates: its `-` starts a new component.
