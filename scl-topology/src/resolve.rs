@@ -47,8 +47,13 @@ pub fn endpoint(topology: &Topology, connection: ConnectionId) -> String {
         return own;
     }
     let pair = format!("{}--{}", topology.gate_path(link.source()), topology.gate_path(link.sink()));
-    let room = LONGEST_PATH.saturating_sub(folder_length(topology.system()) + 1 + CONTRACT_LENGTH);
+    let room = connection_room(topology.system());
     format!("{}.{}", shortened(&pair, room), contract(topology, connection))
+}
+
+/// How many bytes of a path are left for the two gates of a connection.
+pub(crate) fn connection_room(system: &str) -> usize {
+    LONGEST_PATH.saturating_sub(folder_length(system) + 1 + CONTRACT_LENGTH)
 }
 
 /// The name of the socket that belongs to a gate as a whole.
@@ -78,7 +83,7 @@ pub(crate) fn folder_length(system: &str) -> usize {
 }
 
 /// Names are ASCII once they are checked, so that any byte is the end of a character.
-fn shortened(pair: &str, room: usize) -> String {
+pub(crate) fn shortened(pair: &str, room: usize) -> String {
     if pair.len() <= room {
         return pair.to_owned();
     }

@@ -3,9 +3,33 @@
 
 use super::draft::Draft;
 use super::named::is_well_formed;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::resolve::{CONTRACT_LENGTH, LONGEST_PATH, TAP, folder_length, longest_folder};
 use crate::topology::GateKind;
+
+/// SCL0801.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0801",
+    severity: Severity::Error,
+    title: "socket path too long",
+    explanation: "Names become paths of sockets, and the kernel allows 107 bytes for one. The check takes the longest \
+                  usual runtime folder, so that the file works for every user. Shorten the names; long names of whole \
+                  connections are cut by themselves.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: navigation_and_guidance_supervisor
+    gates:
+      - commanded_trajectory_and_velocity_profile_of_the_vehicle: pub
+",
+        good: "components:
+  - name: navigation_and_guidance_supervisor
+    gates:
+      - commanded_trajectory: pub
+",
+    },
+};
 
 /// Names longer than this have an error of their own.
 const LONGEST_NAME: usize = 64;
@@ -34,7 +58,7 @@ fn report(draft: &Draft<'_>, gate: usize, path: String) -> Diagnostic {
     let component = &draft.components[draft.gates[gate].component].model.name;
     let name = &draft.gates[gate].model.name;
     let headline = format!("the socket path of this gate has {length} bytes; the kernel allows {LONGEST_PATH}");
-    Diagnostic::error("SCL0801", headline, name.span, format!("{} bytes", name.value.len()))
+    RULE.at(headline, name.span, format!("{} bytes", name.value.len()))
         .label(component.span, format!("{} bytes", component.value.len()))
         .help(format!("shorten the names by {} bytes", length - LONGEST_PATH))
         .note(format!("path: {path}"))
@@ -43,20 +67,14 @@ fn report(draft: &Draft<'_>, gate: usize, path: String) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn socket_path_too_long() {
-        let yaml = r#"
-components:
-  - name: navigation_and_guidance_supervisor
-    gates:
-      - commanded_trajectory_and_velocity_profile_of_the_vehicle: pub
-"#;
-        example(
-            "SCL0801",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
                 error: [SCL0801] the socket path of this gate has 129 bytes; the kernel allows 107
                  --> topology.yaml:4:9
