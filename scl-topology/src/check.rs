@@ -34,6 +34,7 @@ mod pair_kinds;
 mod path_length;
 mod payload_type;
 mod prelude_type;
+mod repeated;
 mod reserved_name;
 mod rust_keyword;
 mod rust_name_collision;
@@ -178,6 +179,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     shared_socket::check(&draft, &system, problems);
 
     misread::tell_once(problems);
+    repeated::tell_once(problems);
     control::apply(model, sources, problems);
     if problems.has_errors() { None } else { finish::finish(&draft, system, &codec) }
 }
