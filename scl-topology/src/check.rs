@@ -170,7 +170,9 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     exchange_type::check(&draft, facts.messages.is_some(), problems);
     codec_agreement::check(&draft, problems);
 
-    unconnected::check(&draft, problems);
+    if !model.connections_unread {
+        unconnected::check(&draft, problems);
+    }
     needless_mark::check(&draft, problems);
     circle::check(&draft, problems);
     island::check(&draft, problems);

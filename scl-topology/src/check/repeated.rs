@@ -51,7 +51,10 @@ connections:
   - [sensor.a, controller.a]
   - [sensor.b, controller.b]
 ";
-        example("SCL0501", yaml.trim_start(), expect![[r#"
+        example(
+            "SCL0501",
+            yaml.trim_start(),
+            expect![[r#"
             error: [SCL0501] unknown component `controller`
               --> topology.yaml:11:16
                |
@@ -66,6 +69,7 @@ connections:
                = help: did you mean `contoller`?
                = note: declared components: `contoller`, `sensor`
                = note: 2 connections name it
-        "#]]);
+        "#]],
+        );
     }
 }

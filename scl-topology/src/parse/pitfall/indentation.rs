@@ -51,13 +51,17 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
         return Some(problem);
     }
     if first.is_dash
-        && let Some(item) = above.last().filter(|level| level.is_dash && level.indent < first.indent)
+        && let Some(problem) = first_of_list(first, &line, text, place)
     {
-        return Some(deeper_item(first, item, place));
+        return Some(problem);
     }
     if first.is_dash && above.iter().all(|level| level.indent < first.indent) {
         let key = above.last().filter(|level| has_value(level, text, place))?;
         return Some(list_without_key(first, key, place));
+    }
+    let item = above.iter().rev().find(|level| level.is_dash && first.is_dash);
+    if let Some(item) = item.filter(|item| item.indent < first.indent) {
+        return Some(uneven_items(first, item, "deeper", place));
     }
     let same = above.iter().find(|level| level.indent == first.indent);
     let is_misplaced_key = same.is_some_and(|level| level.is_dash) && !first.is_dash;
@@ -112,9 +116,26 @@ fn fallen_out(line: &Range<usize>, indent: usize, text: &str, place: &Place<'_>)
     None
 }
 
-/// A list item that is indented deeper than the one above it.
-fn deeper_item(item: &Level, above: &Level, place: &Place<'_>) -> Diagnostic {
-    let message = format!("this list item is indented by {}, deeper than the one above it", spaces(item.indent));
+/// The line above a list item, if it starts the list and is another kind of line: without its `-`, or indented deeper.
+fn first_of_list(item: &Level, line: &Range<usize>, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let above = place.line_range(line.start.checked_sub(1)?);
+    let key = place.line_range(above.start.checked_sub(1)?);
+    let levels = levels_of(&text[above.clone()], above.start);
+    let start = levels.first().filter(|_| text[key].trim_end().ends_with(':'))?;
+    if start.is_dash {
+        return (start.indent > item.indent).then(|| uneven_items(item, start, "less deep", place));
+    }
+    let content = text[start.word.start..above.end].trim_end();
+    (start.indent >= item.indent && !content.ends_with(':')).then(|| {
+        RULE.at("missing `-` before the first item of this list", place.span(start.word.clone()), "no list item")
+            .label(place.span(item.word.clone()), "a list item")
+            .help(format!("write `- {content}`"))
+    })
+}
+
+/// Two items of a list in different columns.
+fn uneven_items(item: &Level, above: &Level, how: &str, place: &Place<'_>) -> Diagnostic {
+    let message = format!("this list item is indented by {}, {how} than the one above it", spaces(item.indent));
     RULE.at(message, place.span(item.word.clone()), spaces(item.indent))
         .label(place.span(above.word.clone()), spaces(above.indent))
         .help("indent both alike")
