@@ -12,7 +12,7 @@
 //! where the case is not about them.
 
 mod file;
-mod flow;
+pub(crate) mod flow;
 
 use crate::check::testing::{USUAL, problems};
 use crate::diagnostic::{Diagnostic, Severity};

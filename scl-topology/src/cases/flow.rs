@@ -3,7 +3,7 @@
 use crate::source::Sources;
 use crate::yaml::{self, Node, NodeKind, Style, Tree};
 
-pub(super) fn of(text: &str) -> Option<String> {
+pub(crate) fn of(text: &str) -> Option<String> {
     let mut sources = Sources::new();
     let file = sources.add("t.yaml", text);
     let Tree { root, error, anchors, tags, second_document, too_deep } = yaml::read(sources.file(file).text(), file);
