@@ -144,7 +144,7 @@ fn lines(problem: &Diagnostic, sources: &Sources) -> Vec<u32> {
     let is_circle = matches!(problem.code, "SCL0707" | "SCL0708" | "SCL0709");
     let others = problem.secondary.iter().filter(|_| is_circle);
     let labels = problem.primary.iter().chain(others);
-    labels.map(|label| sources.file(label.span.file).line_column(label.span.start).line).collect()
+    labels.map(|label| sources.file(label.span.file).line(label.span.start)).collect()
 }
 
 fn is_on(control: &ControlModel, rule: &Rule) -> Diagnostic {

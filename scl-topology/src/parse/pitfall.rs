@@ -67,7 +67,7 @@ impl Place<'_> {
 
     /// The line of a byte, from 1.
     fn line(&self, at: usize) -> u32 {
-        self.source.line_column(at as u32).line
+        self.source.line(at as u32)
     }
 
     /// The bytes of the line of a byte, without the line break.
