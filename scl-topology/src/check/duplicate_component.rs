@@ -33,12 +33,13 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     let mut first = HashMap::new();
     for component in &model.components {
         let name = &component.name;
-        let first = *first.entry(name.value.as_str()).or_insert(name.span);
-        if first != name.span {
+        let earlier = *first.entry(name.value.as_str()).or_insert(name);
+        // Compared by place in the model: a name is its own first declaration.
+        if !std::ptr::eq(earlier, name) {
             let headline = format!("component `{}` is declared twice", name.value);
             let found = RULE
                 .at(headline, name.span, "second declaration")
-                .label(first, "first declaration")
+                .label(earlier.span, "first declaration")
                 .help("rename one of them, or merge their gates");
             problems.push(found);
         }

@@ -39,12 +39,13 @@ fn check_component(component: &ComponentModel, problems: &mut Diagnostics) {
     let mut first = HashMap::new();
     for gate in &component.gates {
         let name = &gate.name;
-        let first = *first.entry(name.value.as_str()).or_insert(name.span);
-        if first != name.span {
+        let earlier = *first.entry(name.value.as_str()).or_insert(name);
+        // Compared by place in the model: a name is its own first declaration.
+        if !std::ptr::eq(earlier, name) {
             let headline = format!("component `{}` declares gate `{}` twice", component.name.value, name.value);
             let found = RULE
                 .at(headline, name.span, "second declaration")
-                .label(first, "first declaration")
+                .label(earlier.span, "first declaration")
                 .help("gate names are unique within a component, whatever their kind");
             problems.push(found);
         }
