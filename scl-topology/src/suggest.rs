@@ -23,9 +23,17 @@ pub fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         })
         .collect();
     near.sort_by_key(|(distance, _)| *distance);
+    // Beside one that is much nearer, the others are noise.
+    let nearest = near.first().map_or(0, |(distance, _)| *distance);
+    near.retain(|(distance, _)| *distance <= 2 * nearest);
     near.dedup();
     near.truncate(MOST);
     near.into_iter().map(|(_, candidate)| candidate).collect()
+}
+
+/// The candidates that one typing error makes of a word, at most three.
+pub(crate) fn one_edit_away<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    candidates.into_iter().filter(|candidate| distance(word, candidate, 1) == Some(1)).take(MOST).collect()
 }
 
 /// What people call the kinds of gates elsewhere.

@@ -1,11 +1,37 @@
 //! SCL0105: a line whose indentation fits no line above it.
 
 use super::Place;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
+use crate::parse::component;
 use crate::yaml::{MAX_DEPTH, SyntaxError};
 use std::ops::Range;
 
-const CODE: &str = "SCL0105";
+/// SCL0105.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0105",
+    severity: Severity::Error,
+    title: "inconsistent indentation",
+    explanation: "YAML reads structure from indentation: the keys of one component stand in one column, the items of \
+                  one list too. This line stands in a column that no line above it uses. Move it to the column that \
+                  the message names.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+   gates:
+      - measurements: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+",
+    },
+};
+
+/// How far above an error its cause is looked for, in lines.
+const MOST_ABOVE: usize = 64;
 
 /// A column at which keys or list items stand, and the word that stood there first.
 #[derive(Debug, Clone)]
@@ -21,9 +47,21 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     let words = levels_of(&text[line.clone()], line.start);
     let first = words.first()?;
     let above = levels_above(text, line.start);
+    if let Some(problem) = deeper_below(&line, text, place).or_else(|| fallen_out(&line, first.indent, text, place)) {
+        return Some(problem);
+    }
+    if first.is_dash
+        && let Some(problem) = first_of_list(first, &line, text, place)
+    {
+        return Some(problem);
+    }
     if first.is_dash && above.iter().all(|level| level.indent < first.indent) {
         let key = above.last().filter(|level| has_value(level, text, place))?;
         return Some(list_without_key(first, key, place));
+    }
+    let item = above.iter().rev().find(|level| level.is_dash && first.is_dash);
+    if let Some(item) = item.filter(|item| item.indent < first.indent) {
+        return Some(uneven_items(first, item, "deeper", place));
     }
     let same = above.iter().find(|level| level.indent == first.indent);
     let is_misplaced_key = same.is_some_and(|level| level.is_dash) && !first.is_dash;
@@ -35,6 +73,74 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     Some(diagnose(first, meant, is_misplaced_key, &above, text, place))
 }
 
+/// A key that is indented deeper than the one above it, which has a value in its line: YAML takes both lines for one
+/// text, and stumbles over the colon.
+fn deeper_below(line: &Range<usize>, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let below = place.line_range((line.end + 1).min(text.len()));
+    let key = levels_of(&text[below.clone()], below.start).pop().filter(|key| !key.is_dash)?;
+    let own = levels_of(&text[line.clone()], line.start).pop().filter(|own| has_value(own, text, place))?;
+    let is_key = text[key.word.end..].starts_with(':') && below.start > line.start;
+    (is_key && key.indent > own.indent).then(|| {
+        let word = &text[key.word.clone()];
+        RULE.at(
+            format!("this line is indented by {}, deeper than the key above it", spaces(key.indent)),
+            place.span(key.word.clone()),
+            spaces(key.indent),
+        )
+        .label(place.span(own.word.clone()), format!("{}, with a value already", spaces(own.indent)))
+        .help(format!("indent `{word}` by {}", spaces(own.indent)))
+    })
+}
+
+/// A key of a component at the start of a line ends all that was open, so that the lines after it seem to be wrong.
+fn fallen_out(line: &Range<usize>, indent: usize, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let mut at = line.start;
+    for _ in 0..MOST_ABOVE {
+        let above = place.line_range(at.checked_sub(1)?);
+        let content = &text[above.clone()];
+        let key = content.split(':').next().unwrap_or("");
+        if indent > 0 && !content.is_empty() && !content.starts_with([' ', '#']) {
+            let is_fallen = component::KEYS.contains(&key) && above.start > 0;
+            return is_fallen.then(|| {
+                RULE.at(
+                    format!("`{key}` stands at the start of the line, outside of any component"),
+                    place.span(above.start..above.start + key.len()),
+                    "0 spaces",
+                )
+                .label(place.span(line.start + indent..line.end), "so this line belongs to nothing")
+                .help(format!("indent `{key}` like the other keys of its component"))
+            });
+        }
+        at = above.start;
+    }
+    None
+}
+
+/// The line above a list item, if it starts the list and is another kind of line: without its `-`, or indented deeper.
+fn first_of_list(item: &Level, line: &Range<usize>, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let above = place.line_range(line.start.checked_sub(1)?);
+    let key = place.line_range(above.start.checked_sub(1)?);
+    let levels = levels_of(&text[above.clone()], above.start);
+    let start = levels.first().filter(|_| text[key].trim_end().ends_with(':'))?;
+    if start.is_dash {
+        return (start.indent > item.indent).then(|| uneven_items(item, start, "less deep", place));
+    }
+    let content = text[start.word.start..above.end].trim_end();
+    (start.indent >= item.indent && !content.ends_with(':')).then(|| {
+        RULE.at("missing `-` before the first item of this list", place.span(start.word.clone()), "no list item")
+            .label(place.span(item.word.clone()), "a list item")
+            .help(format!("write `- {content}`"))
+    })
+}
+
+/// Two items of a list in different columns.
+fn uneven_items(item: &Level, above: &Level, how: &str, place: &Place<'_>) -> Diagnostic {
+    let message = format!("this list item is indented by {}, {how} than the one above it", spaces(item.indent));
+    RULE.at(message, place.span(item.word.clone()), spaces(item.indent))
+        .label(place.span(above.word.clone()), spaces(above.indent))
+        .help("indent both alike")
+}
+
 /// Whether a level's word is a key with a value in the same line.
 fn has_value(level: &Level, text: &str, place: &Place<'_>) -> bool {
     let rest = &text[level.word.end..place.line_range(level.word.end).end];
@@ -44,7 +150,7 @@ fn has_value(level: &Level, text: &str, place: &Place<'_>) -> bool {
 /// A list below a line that has a value already.
 fn list_without_key(item: &Level, above: &Level, place: &Place<'_>) -> Diagnostic {
     let span = place.span(item.word.clone());
-    Diagnostic::error(CODE, "this list belongs to no key", span, "indented deeper than the line above")
+    RULE.at("this list belongs to no key", span, "indented deeper than the line above")
         .label(place.span(above.word.clone()), "this key has a value already")
         .help(format!("add a line with a key above it, for example `gates:`, indented by {}", spaces(above.indent)))
 }
@@ -63,7 +169,7 @@ fn diagnose(
     };
     let word = &text[line.word.clone()];
     let label = format!("{} are indented by {}", owner(meant, above, text), spaces(meant.indent));
-    Diagnostic::error(CODE, message, place.span(line.word.clone()), spaces(line.indent))
+    RULE.at(message, place.span(line.word.clone()), spaces(line.indent))
         .label(place.span(meant.word.clone()), label)
         .help(format!("indent `{word}` by {}", spaces(meant.indent)))
 }
@@ -121,20 +227,14 @@ fn levels_of(line: &str, start: usize) -> Vec<Level> {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: sensor
-   gates:
-      - measurements: pub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0105",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0105] this line is indented by 3 spaces, which matches no line above it
              --> topology.yaml:3:4

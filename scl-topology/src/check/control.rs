@@ -1,0 +1,307 @@
+//! What comments say to the checker. `# scl: allow(SCL0701) reason` takes back a warning about its line or the line
+//! below, `# scl: warn(SCL0511)` turns a lint on for the whole file. SCL0901: nobody knows the check. SCL0902: nothing is
+//! there to allow. SCL0903: the check cannot be allowed. SCL0904: no reason is given.
+
+mod command;
+
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
+use crate::model::{ControlModel, Model};
+use crate::source::Sources;
+use command::{Command, command_span, read};
+use std::collections::{HashMap, HashSet};
+
+pub(crate) use command::{FIXED, UNKNOWN_CODE};
+
+/// SCL0902.
+pub(crate) const NO_EFFECT: Rule = Rule {
+    code: "SCL0902",
+    severity: Severity::Warning,
+    title: "comment for the checker without effect",
+    explanation: "An `allow` has nothing to allow: the problem has gone, the comment stands on another line, or it \
+                  names another check. It would hide the problem when it comes back. Remove or move it.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - events: pub # scl: allow(SCL0702) wired in phase 2
+",
+        good: "components:
+  - name: controller
+    gates:
+      - events: pub # scl: allow(SCL0701) wired in phase 2
+",
+    },
+};
+
+/// SCL0904.
+pub(crate) const NO_REASON: Rule = Rule {
+    code: "SCL0904",
+    severity: Severity::Warning,
+    title: "`allow` without a reason",
+    explanation: "Whoever reads an `allow` next year wants to know why. Write the reason after the bracket.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: ui
+    gates:
+      - commands: req # scl: allow(SCL0703)
+",
+        good: "components:
+  - name: ui
+    gates:
+      - commands: req # scl: allow(SCL0703) the server is a program of another team
+",
+    },
+};
+
+/// Applies the comments to all that was found so far, and says what is wrong with them.
+pub(super) fn apply(model: &Model, sources: &Sources, problems: &mut Diagnostics) {
+    if model.controls.is_empty() {
+        return;
+    }
+    let mut own = Vec::new();
+    let mut wishes = Wishes::of(model, &mut own);
+    let mut left: HashMap<u32, &'static str> = HashMap::new();
+    problems.retain(|problem| {
+        if problem.severity == Severity::Lint && wishes.lints.contains(problem.code) {
+            problem.severity = Severity::Warning;
+        }
+        let lines = lines(problem, sources);
+        let is_allowed = lines.iter().any(|line| wishes.allow(problem.code, *line));
+        let line = lines.first().filter(|_| !is_allowed && problem.severity != Severity::Lint);
+        line.into_iter().for_each(|line| _ = left.entry(*line).or_insert(problem.code));
+        !is_allowed
+    });
+    wishes.report(&left, problems.has_errors(), &mut own);
+    problems.extend(own);
+}
+
+/// The threshold that the file sets for a lint.
+pub(super) fn threshold(model: &Model, code: &str) -> Option<u32> {
+    let mut told_later = Vec::new();
+    model.controls.iter().find_map(|control| match read(control, &mut told_later)? {
+        Command::Warn { rule, threshold } if rule.code == code => threshold,
+        _ => None,
+    })
+}
+
+/// What all comments together ask for.
+struct Wishes<'m> {
+    /// By code and line.
+    allowed: HashMap<(&'static str, u32), Allow<'m>>,
+    /// The lints that are turned on.
+    lints: HashSet<&'static str>,
+}
+
+/// One code of an `allow`.
+struct Allow<'m> {
+    control: &'m ControlModel,
+    reason: &'m str,
+    used: bool,
+}
+
+impl<'m> Wishes<'m> {
+    fn of(model: &'m Model, own: &mut Vec<Diagnostic>) -> Self {
+        let mut wishes = Self { allowed: HashMap::new(), lints: HashSet::new() };
+        for control in &model.controls {
+            match read(control, own) {
+                Some(Command::Allow { rules, reason }) => {
+                    for rule in rules {
+                        let place = (rule.code, control.line);
+                        wishes.allowed.entry(place).or_insert(Allow { control, reason, used: false });
+                    }
+                }
+                Some(Command::Warn { rule, .. }) if rule.severity == Severity::Lint => {
+                    wishes.lints.insert(rule.code);
+                }
+                Some(Command::Warn { rule, .. }) => own.push(is_on(control, rule)),
+                None => {}
+            }
+        }
+        wishes
+    }
+
+    /// Whether a problem is allowed; notes that it occurred.
+    fn allow(&mut self, code: &'static str, line: u32) -> bool {
+        self.allowed.get_mut(&(code, line)).map(|allow| allow.used = true).is_some()
+    }
+
+    /// What is wrong with comments that could be read. In a file with errors a warning may be missing because of them,
+    /// so nothing is said of its `allow`.
+    fn report(&self, left: &HashMap<u32, &'static str>, has_errors: bool, own: &mut Vec<Diagnostic>) {
+        for (&(code, line), allow) in &self.allowed {
+            if allow.used && allow.reason.is_empty() {
+                own.push(without_reason(allow.control, code));
+            } else if !allow.used && !has_errors {
+                own.push(without_effect(allow.control, code, left.get(&line).copied()));
+            }
+        }
+    }
+}
+
+/// The lines of a problem: that of its place; of a circle, those of all its connections.
+fn lines(problem: &Diagnostic, sources: &Sources) -> Vec<u32> {
+    let is_circle = matches!(problem.code, "SCL0707" | "SCL0708" | "SCL0709");
+    let others = problem.secondary.iter().filter(|_| is_circle);
+    let labels = problem.primary.iter().chain(others);
+    labels.map(|label| sources.file(label.span.file).line(label.span.start)).collect()
+}
+
+fn is_on(control: &ControlModel, rule: &Rule) -> Diagnostic {
+    NO_EFFECT
+        .at(
+            format!("this `warn({})` has no effect", rule.code),
+            command_span(control),
+            "this check is on in every file",
+        )
+        .help("remove the comment")
+}
+
+fn without_reason(control: &ControlModel, code: &str) -> Diagnostic {
+    NO_REASON
+        .at("this `allow` gives no reason", command_span(control), "")
+        .help(format!("write why after it: `# scl: allow({code}) server is a third-party process`"))
+}
+
+fn without_effect(control: &ControlModel, code: &str, other: Option<&'static str>) -> Diagnostic {
+    let headline = format!("this `allow({code})` has no effect");
+    let title = crate::catalogue::find(code).map_or("", |rule| rule.title);
+    let label = format!("{code} is \"{title}\", which is not found here");
+    let found = NO_EFFECT.at(headline, command_span(control), label);
+    match other {
+        Some(other) => found.help(format!("did you mean {other}?")),
+        None => found.help("remove the comment, or move it to the line that it is about, or above that"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FIXED, NO_EFFECT, NO_REASON, UNKNOWN_CODE};
+    use crate::check::testing::{problems, rule_example};
+    use expect_test::expect;
+
+    const GATE: &str = "components:\n  - name: ui\n    gates:\n      - events: pub # scl: ";
+
+    #[test]
+    fn unknown_code_in_allow() {
+        rule_example(
+            &UNKNOWN_CODE,
+            expect![[r#"
+            warning: [SCL0901] unknown check `SCL0799`
+             --> topology.yaml:1:14
+              |
+            1 | # scl: allow(SCL0799)
+              |              ^^^^^^^
+              |
+              = help: a check with a similar code exists: `SCL0709`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn allow_that_allows_nothing() {
+        rule_example(
+            &NO_EFFECT,
+            expect![[r#"
+            warning: [SCL0902] this `allow(SCL0702)` has no effect
+             --> topology.yaml:4:23
+              |
+            4 |       - events: pub # scl: allow(SCL0702) wired in phase 2
+              |                       ^^^^^^^^^^^^^^^^^^^ SCL0702 is "subscriber without a publisher", which is not found here
+              |
+              = help: did you mean SCL0701?
+        "#]],
+        );
+    }
+
+    #[test]
+    fn check_that_cannot_be_allowed() {
+        rule_example(
+            &FIXED,
+            expect![[r#"
+            error: [SCL0903] SCL0601 cannot be allowed
+             --> topology.yaml:1:14
+              |
+            1 | # scl: allow(SCL0601)
+              |              ^^^^^^^ published and subscribed types differ
+              |
+              = help: errors that can be allowed: SCL0703, SCL0707
+              = note: any other error means that the system could never work
+        "#]],
+        );
+    }
+
+    #[test]
+    fn allow_without_a_reason() {
+        rule_example(
+            &NO_REASON,
+            expect![[r#"
+            warning: [SCL0904] this `allow` gives no reason
+             --> topology.yaml:4:25
+              |
+            4 |       - commands: req # scl: allow(SCL0703)
+              |                         ^^^^^^^^^^^^^^^^^^^
+              |
+              = help: write why after it: `# scl: allow(SCL0703) server is a third-party process`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn comments_in_many_shapes() {
+        let comments = [
+            "allow(SCL0701) later",
+            "allow( SCL0702 ,SCL0701 ) later",
+            "allow(SCL0701)",
+            "alow(SCL0701) later",
+            "allow SCL0701",
+            "allow()",
+            "warn(SCL0314)",
+            "warn(SCL0701)",
+            "warn(SCL0710, many)",
+            "warn(SCL9999)",
+            "warn(SCL0710, 3, 4)",
+        ];
+        let found = |comment: &str| {
+            let (found, _) = problems(&format!("{GATE}{comment}\nconnections: []\n"), None);
+            found.iter().map(|found| format!("{} {}", found.code, found.message)).collect::<Vec<_>>().join("; ")
+        };
+        let told: String = comments.iter().map(|comment| format!("{comment}: {}\n", found(comment))).collect();
+        expect![[r#"
+            allow(SCL0701) later: 
+            allow( SCL0702 ,SCL0701 ) later: SCL0902 this `allow(SCL0702)` has no effect
+            allow(SCL0701): SCL0904 this `allow` gives no reason
+            alow(SCL0701) later: SCL0701 nobody subscribes to `ui.events`; SCL0901 cannot read this comment for the checker
+            allow SCL0701: SCL0701 nobody subscribes to `ui.events`; SCL0901 cannot read this comment for the checker
+            allow(): SCL0701 nobody subscribes to `ui.events`; SCL0901 unknown check ``
+            warn(SCL0314): SCL0701 nobody subscribes to `ui.events`
+            warn(SCL0701): SCL0701 nobody subscribes to `ui.events`; SCL0902 this `warn(SCL0701)` has no effect
+            warn(SCL0710, many): SCL0701 nobody subscribes to `ui.events`; SCL0901 cannot read this comment for the checker
+            warn(SCL9999): SCL0701 nobody subscribes to `ui.events`; SCL0901 unknown check `SCL9999`
+            warn(SCL0710, 3, 4): SCL0701 nobody subscribes to `ui.events`; SCL0901 cannot read this comment for the checker
+        "#]].assert_eq(&told);
+    }
+
+    #[test]
+    fn the_place_of_a_comment_decides() {
+        let files = [
+            "# scl: allow(SCL0701) x\ncomponents:\n  - name: ui\n    gates:\n      - events: pub\nconnections: []\n",
+            "components:\n  - name: ui\n    gates:\n      # scl: allow(SCL0701) x\n\n      # more\n      - events: pub\nconnections: []\n",
+            "components:\n  - name: ui\n    gates: # scl: allow(SCL0701) x\n      - events: pub\nconnections: []\n",
+            "components:\n  - name: ui\n    doc: '# scl: allow(SCL0701) x'\n    gates:\n      - events: pub\nconnections: []\n",
+        ];
+        let codes =
+            files.map(|file| problems(file, None).0.iter().map(|found| found.code).collect::<Vec<_>>().join(" "));
+        assert_eq!(codes, ["SCL0902 SCL0701", "", "SCL0902 SCL0701", "SCL0701"]);
+    }
+
+    #[test]
+    fn any_connection_of_a_circle_may_allow_it() {
+        let yaml = "components:\n  - name: a\n    gates:\n      - o: req\n      - i: rep\n  - name: b\n    gates:\n      - o: req\n      \
+                    - i: rep\nconnections:\n  - [a.o, b.i]\n  - [b.o, a.i]";
+        let codes =
+            |end: &str| problems(&format!("{yaml}{end}\n"), None).0.iter().map(|found| found.code).collect::<Vec<_>>();
+        assert!(codes("").contains(&"SCL0707"));
+        assert!(!codes(" # scl: allow(SCL0707) b asks only at start").contains(&"SCL0707"));
+    }
+}
