@@ -4,6 +4,7 @@
 mod check;
 mod duration;
 mod graph;
+mod load;
 mod print;
 mod run;
 
