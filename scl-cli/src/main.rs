@@ -2,6 +2,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod check;
+mod diff;
 mod duration;
 mod graph;
 mod load;
@@ -23,6 +24,7 @@ struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     Check(check::CheckArguments),
+    Diff(diff::DiffArguments),
     Graph(graph::GraphArguments),
     Run(run::RunArguments),
     #[command(name = run::START_WORD, hide = true)]
@@ -34,6 +36,7 @@ enum Command {
 fn main() -> ExitCode {
     match CommandLine::parse().command {
         Command::Check(arguments) => check::check(&arguments),
+        Command::Diff(arguments) => diff::diff(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Start(arguments) => run::start_component(&arguments),
