@@ -8,6 +8,7 @@ mod graph;
 mod load;
 mod print;
 mod run;
+mod schema;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -27,6 +28,7 @@ enum Command {
     Diff(diff::DiffArguments),
     Graph(graph::GraphArguments),
     Run(run::RunArguments),
+    Schema(schema::SchemaArguments),
     #[command(name = run::START_WORD, hide = true)]
     Start(run::StartArguments),
     #[command(name = run::GUARD_WORD, hide = true)]
@@ -39,6 +41,7 @@ fn main() -> ExitCode {
         Command::Diff(arguments) => diff::diff(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
         Command::Run(arguments) => run::run(&arguments),
+        Command::Schema(arguments) => schema::schema(&arguments),
         Command::Start(arguments) => run::start_component(&arguments),
         Command::Guard => run::keep_watch(),
     }
