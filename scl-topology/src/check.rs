@@ -2,9 +2,13 @@
 
 mod backpressure;
 mod cardinality;
+mod circle;
 mod codec_agreement;
 mod codec_name;
+mod component_graph;
 mod connection_end;
+mod control;
+mod crowd;
 mod draft;
 mod duplicate_component;
 mod duplicate_connection;
@@ -14,9 +18,11 @@ mod finish;
 mod fitting_sender;
 mod gate_kind;
 mod inference;
+mod island;
 mod letter_case;
 mod look_alike;
 mod message_type;
+mod misread;
 mod name_characters;
 mod name_length;
 mod name_start;
@@ -33,6 +39,7 @@ mod rust_keyword;
 mod rust_name_collision;
 mod schema_type;
 mod self_connection;
+mod shared_socket;
 mod snake_case;
 mod system_name;
 #[cfg(test)]
@@ -44,11 +51,75 @@ mod unknown_component;
 mod unknown_gate;
 mod wording;
 
+use crate::catalogue::Rule;
 use crate::diagnostic::Diagnostics;
 use crate::model::Model;
 use crate::source::Sources;
 use crate::topology::Topology;
 use draft::Draft;
+
+/// The rules of this stage, by their codes.
+pub(crate) const RULES: [&Rule; 59] = [
+    &duplicate_component::RULE,
+    &duplicate_gate::RULE,
+    &name_characters::RULE,
+    &look_alike::RULE,
+    &name_start::RULE,
+    &rust_keyword::KEYWORD,
+    &rust_keyword::HARD_KEYWORD,
+    &rust_name_collision::SAME_TYPE,
+    &rust_name_collision::SAME_FIELD,
+    &letter_case::RULE,
+    &reserved_name::RULE,
+    &name_length::RULE,
+    &prelude_type::RULE,
+    &snake_case::RULE,
+    &gate_kind::RULE,
+    &inference::UNTYPED,
+    &payload_type::NO_TYPE_NAME,
+    &payload_type::WRONG_NUMBER_OF_TYPES,
+    &schema_type::RULE,
+    &codec_name::RULE,
+    &option_fit::RULE,
+    &option_value::RULE,
+    &backpressure::RULE,
+    &unknown_component::UNKNOWN,
+    &unknown_gate::RULE,
+    &connection_end::RULE,
+    &unknown_component::SWAPPED,
+    &pair_kinds::SAME_DIRECTION,
+    &pair_kinds::OTHER_PATTERN,
+    &self_connection::ITSELF,
+    &self_connection::ASKS_ITSELF,
+    &self_connection::HEARS_ITSELF,
+    &duplicate_connection::RULE,
+    &cardinality::SEVERAL_PUBLISHERS,
+    &cardinality::SEVERAL_REPLIERS,
+    &cardinality::SEVERAL_PULLERS,
+    &message_type::RULE,
+    &exchange_type::REQUESTS_DIFFER,
+    &exchange_type::REPLIES_DIFFER,
+    &exchange_type::SWAPPED_TYPES,
+    &inference::TAKEN_OVER,
+    &codec_agreement::RULE,
+    &unconnected::NO_RECEIVER,
+    &unconnected::NO_SENDER,
+    &unconnected::NO_REPLIER,
+    &unconnected::NO_REQUESTER,
+    &unconnected::LONELY_COMPONENT,
+    &island::RULE,
+    &circle::REQUESTS,
+    &circle::PUSHES,
+    &circle::PUBLISHERS,
+    &crowd::RULE,
+    &needless_mark::RULE,
+    &path_length::RULE,
+    &shared_socket::RULE,
+    &control::UNKNOWN_CODE,
+    &control::NO_EFFECT,
+    &control::FIXED,
+    &control::NO_REASON,
+];
 
 /// What the checks need to know besides the file's text.
 #[derive(Debug, Clone, Default)]
@@ -100,8 +171,14 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
 
     unconnected::check(&draft, problems);
     needless_mark::check(&draft, problems);
+    circle::check(&draft, problems);
+    island::check(&draft, problems);
+    crowd::check(&draft, problems);
     path_length::check(&draft, &system, problems);
+    shared_socket::check(&draft, &system, problems);
 
+    misread::tell_once(problems);
+    control::apply(model, sources, problems);
     if problems.has_errors() { None } else { finish::finish(&draft, system, &codec) }
 }
 

@@ -10,6 +10,7 @@ use crate::source::Span;
 
 pub use cargo::{CargoUnit, cargo_end, cargo_start, to_cargo};
 pub use json::to_json;
+pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};
 pub use sarif::{CheckedFile, to_sarif};
@@ -128,6 +129,11 @@ impl Diagnostics {
     /// Takes all problems of another collector over.
     pub fn append(&mut self, mut other: Diagnostics) {
         self.items.append(&mut other.items);
+    }
+
+    /// Lets every problem be looked at and changed; those for which `keep` is false are taken out.
+    pub(crate) fn retain(&mut self, keep: impl FnMut(&mut Diagnostic) -> bool) {
+        self.items.retain_mut(keep);
     }
 
     /// Says that nobody needs these.

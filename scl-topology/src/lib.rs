@@ -56,6 +56,7 @@
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod catalogue;
 pub mod check;
 pub mod diagnostic;
 pub mod model;

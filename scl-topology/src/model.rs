@@ -23,6 +23,8 @@ pub struct Model {
     /// Some components or sections could not be read, and a problem says so. A component that seems to be unknown may
     /// be one of them, so that is no further problem.
     pub components_unread: bool,
+    /// The comments that speak to the checker: `# scl: allow(SCL0701) reason`.
+    pub controls: Vec<ControlModel>,
     /// The ends that stand in a connection without shape; a problem says so. Their gates count as connected.
     pub broken_ends: Vec<Spanned<String>>,
     /// Part of the file could not be read at all, for example because the text stops to be YAML, so that anything may be
@@ -53,7 +55,8 @@ pub struct GateModel {
     /// The kind as written, for example `pub`, perhaps misspelt. Empty where it could not be read and a problem says
     /// so: such a gate exists, and nothing more is known about it.
     pub kind: Spanned<String>,
-    /// The type or types as written, for example `rover.Command -> rover.Status`.
+    /// The type or types as written, for example `rover.Command -> rover.Status`. None for `events: pub`, and for
+    /// `events: {pub: , queue: 1}`, which is how an untyped gate has options.
     pub payload: Option<Spanned<String>>,
     /// The options as written.
     pub options: Vec<OptionModel>,
@@ -79,4 +82,13 @@ pub struct ConnectionModel {
     pub ends: [Spanned<String>; 2],
     /// The whole pair.
     pub span: Span,
+}
+
+/// A comment that speaks to the checker.
+#[derive(Debug, Clone)]
+pub struct ControlModel {
+    /// The whole text from `scl:` to the end of the comment: `scl: allow(SCL0701) wired in phase 2`.
+    pub text: Spanned<String>,
+    /// The line that it is about, from 1: its own, or, if nothing else stands there, the next that is not a comment.
+    pub line: u32,
 }

@@ -5,6 +5,7 @@
 
 mod component;
 mod connection;
+mod control;
 mod fields;
 mod gate;
 mod name;
@@ -14,6 +15,9 @@ mod sections;
 mod shape;
 #[cfg(test)]
 mod testing;
+
+pub(crate) use pitfall::RULES as PITFALLS;
+pub(crate) use shape::RULES as SHAPES;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
@@ -44,6 +48,7 @@ pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Mod
     pitfall::check_tree(&tree, &text, source, file, problems);
     let mut reader = Reader { source, file, problems: Diagnostics::new(), model: Model::default() };
     reader.read_root(&tree);
+    reader.read_controls(tree.root.as_ref());
     let Reader { model, problems: found, .. } = reader;
     // What is wrong with the shape may be a consequence, so it waits until the text can be read to its end.
     match tree.error.is_some() || tree.too_deep.is_some() {

@@ -12,6 +12,9 @@ pub const LONGEST_PATH: usize = 107;
 /// The characters of a contract.
 pub const CONTRACT_LENGTH: usize = 8;
 
+/// The end of the name of a tap.
+pub(crate) const TAP: &str = ".tap";
+
 /// The folder of all systems where it is longest: the largest user id there is.
 const LONGEST_ROOT: &str = "/run/user/4294967295/scl";
 
@@ -44,17 +47,23 @@ pub fn endpoint(topology: &Topology, connection: ConnectionId) -> String {
         return own;
     }
     let pair = format!("{}--{}", topology.gate_path(link.source()), topology.gate_path(link.sink()));
-    let room = LONGEST_PATH.saturating_sub(folder_length(topology.system()) + 1 + CONTRACT_LENGTH);
+    let room = connection_room(topology.system());
     format!("{}.{}", shortened(&pair, room), contract(topology, connection))
+}
+
+/// How many bytes of a path are left for the two gates of a connection.
+pub(crate) fn connection_room(system: &str) -> usize {
+    LONGEST_PATH.saturating_sub(folder_length(system) + 1 + CONTRACT_LENGTH)
 }
 
 /// The name of the socket that belongs to a gate as a whole.
 ///
 /// `rep` and `pull` gates listen at `<component>.<gate>.<contract>`, a `pub` gate lets tools listen at its tap
-/// `<component>.<gate>`; the other gates have none.
+/// `<component>.<gate>.tap`; the other gates have none. No contract is `tap`, and no file of a component ends so, which
+/// leaves gates free to be called `lock` or `json`.
 pub fn gate_endpoint(topology: &Topology, gate: GateId) -> Option<String> {
     match topology.gate(gate).kind() {
-        GateKind::Pub => Some(topology.gate_path(gate)),
+        GateKind::Pub => Some(format!("{}{TAP}", topology.gate_path(gate))),
         _ => shared_endpoint(topology, gate),
     }
 }
@@ -74,7 +83,7 @@ pub(crate) fn folder_length(system: &str) -> usize {
 }
 
 /// Names are ASCII once they are checked, so that any byte is the end of a character.
-fn shortened(pair: &str, room: usize) -> String {
+pub(crate) fn shortened(pair: &str, room: usize) -> String {
     if pair.len() <= room {
         return pair.to_owned();
     }
@@ -171,7 +180,7 @@ connections:
         let topology = topology(FILE);
         let gates = topology.components().flat_map(|(_, component)| component.gates());
         let own: Vec<_> = gates.filter_map(|&gate| gate_endpoint(&topology, gate)).collect();
-        assert_eq!(own, ["sensor.fix", "pilot.jobs.26t2nsae", "pilot.orders.yrvcf33f"]);
+        assert_eq!(own, ["sensor.fix.tap", "pilot.jobs.26t2nsae", "pilot.orders.yrvcf33f"]);
     }
 
     #[test]

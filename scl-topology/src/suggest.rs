@@ -28,6 +28,11 @@ pub fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     near.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
+/// The candidates that one typing error makes of a word, at most three.
+pub(crate) fn one_edit_away<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    candidates.into_iter().filter(|candidate| distance(word, candidate, 1) == Some(1)).take(MOST).collect()
+}
+
 /// What people call the kinds of gates elsewhere.
 const KIND_WORDS: [(&str, &[&str]); 6] = [
     ("pub", &["publish", "publisher", "publishes", "out", "output", "source", "sender", "topic"]),

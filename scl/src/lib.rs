@@ -14,6 +14,7 @@ mod sync;
 pub mod time;
 pub mod transport;
 
+pub use bytes;
 pub use component::{Component, OpenOptions};
 pub use error::{
     BlockingError, CallError, Error, NotFlushed, NotReady, OpenError, RecvError, RecvTimeoutError, ReplyError, Result,

@@ -1,8 +1,42 @@
 //! SCL0410: a receiver that would make its sender wait, and a sender that never waits.
 
 use super::draft::Draft;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::{GateKind, WhenFull};
+
+/// SCL0410.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0410",
+    severity: Severity::Error,
+    title: "delivery options of the two ends do not fit",
+    explanation: "A receiver with `when_full: wait` makes its sender wait while its queue is full. That must not \
+                  happen to a sender by surprise, so the sender allows it with `backpressure: true`. Allow it, or let \
+                  the receiver lose messages.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement}
+  - name: recorder
+    gates:
+      - measurements: {sub: Measurement, when_full: wait}
+connections:
+  - [sensor.measurements, recorder.measurements]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, backpressure: true}
+  - name: recorder
+    gates:
+      - measurements: {sub: Measurement, when_full: wait}
+connections:
+  - [sensor.measurements, recorder.measurements]
+",
+    },
+};
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for (link, source, sink) in draft.flows() {
@@ -20,7 +54,8 @@ fn report(draft: &Draft<'_>, link: usize, source: usize, sink: usize) -> Diagnos
     };
     let headline = format!("`{}` would make `{}` wait, which it does not allow", draft.path(sink), draft.path(source));
     let gate = draft.gates[source].model;
-    let mut found = Diagnostic::error("SCL0410", headline, draft.links[link].model.span, "")
+    let mut found = RULE
+        .at(headline, draft.links[link].model.span, "")
         .label(draft.gates[source].declaration(), format!("never waits for a {receiver}"));
     if let Some(option) = draft.gates[sink].option("when_full") {
         found = found.label(option.key.span.to(option.value.span), format!("makes the {sender} wait"));
@@ -35,25 +70,14 @@ fn report(draft: &Draft<'_>, link: usize, source: usize, sink: usize) -> Diagnos
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn delivery_options_of_the_two_ends_do_not_fit() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement}
-  - name: recorder
-    gates:
-      - measurements: {sub: Measurement, when_full: wait}
-connections:
-  - [sensor.measurements, recorder.measurements]
-"#;
-        example(
-            "SCL0410",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0410] `recorder.measurements` would make `sensor.measurements` wait, which it does not allow
              --> topology.yaml:9:5

@@ -2,9 +2,131 @@
 //! repliers. SCL0513: a pusher with several pullers that does not say that they share the work.
 
 use super::draft::Draft;
-use super::wording::{example_type, listed};
+use super::wording::listed;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::GateKind;
+
+/// SCL0511.
+pub(crate) const SEVERAL_PUBLISHERS: Rule = Rule {
+    code: "SCL0511",
+    severity: Severity::Lint,
+    title: "subscriber with several publishers",
+    explanation: "Several publishers send to one subscribing gate, and their messages arrive mixed, in the order of \
+                  arrival. That is allowed; the lint is for systems in which each gate has one source. If the \
+                  publishers are implementations of one thing, declare one component that several programs can play.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: gps
+    gates:
+      - fix: pub
+  - name: replay
+    gates:
+      - fix: pub
+  - name: autopilot
+    gates:
+      - fix: sub
+connections:
+  - [gps.fix, autopilot.fix]
+  - [replay.fix, autopilot.fix]
+",
+        good: "components:
+  - name: gps
+    gates:
+      - fix: pub
+  - name: replay
+    gates:
+      - fix: pub
+  - name: autopilot
+    gates:
+      - fix: sub
+      - replay_fix: sub
+connections:
+  - [gps.fix, autopilot.fix]
+  - [replay.fix, autopilot.replay_fix]
+",
+    },
+};
+
+/// SCL0512.
+pub(crate) const SEVERAL_REPLIERS: Rule = Rule {
+    code: "SCL0512",
+    severity: Severity::Error,
+    title: "requester with two repliers",
+    explanation: "A requester has two repliers, and nothing says who answers; plain ZeroMQ would ask them in turn. \
+                  Declare one `req` gate for each. The other way round, many requesters of one replier, is fine.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: ui
+    gates:
+      - commands: req
+  - name: autopilot
+    gates:
+      - commands: rep
+  - name: camera
+    gates:
+      - commands: rep
+connections:
+  - [ui.commands, autopilot.commands]
+  - [ui.commands, camera.commands]
+",
+        good: "components:
+  - name: ui
+    gates:
+      - commands: req
+      - camera_commands: req
+  - name: autopilot
+    gates:
+      - commands: rep
+  - name: camera
+    gates:
+      - commands: rep
+connections:
+  - [ui.commands, autopilot.commands]
+  - [ui.camera_commands, camera.commands]
+",
+    },
+};
+
+/// SCL0513.
+pub(crate) const SEVERAL_PULLERS: Rule = Rule {
+    code: "SCL0513",
+    severity: Severity::Error,
+    title: "pusher with several pullers",
+    explanation: "A `push` gate hands each message to one of its pullers, so with two of them each gets only a part. \
+                  If both need everything, use `pub` and `sub`; if the work is to be shared, say `share: true`.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: camera
+    gates:
+      - frames: push
+  - name: detector
+    gates:
+      - frames: pull
+  - name: recorder
+    gates:
+      - frames: pull
+connections:
+  - [camera.frames, detector.frames]
+  - [camera.frames, recorder.frames]
+",
+        good: "components:
+  - name: camera
+    gates:
+      - frames: {push: , share: true}
+  - name: detector
+    gates:
+      - frames: pull
+  - name: recorder
+    gates:
+      - frames: pull
+connections:
+  - [camera.frames, detector.frames]
+  - [camera.frames, recorder.frames]
+",
+    },
+};
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for (gate, links) in links_by_gate(draft).into_iter().enumerate() {
@@ -40,7 +162,7 @@ fn several_publishers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) 
     let extra = format!("{second_owner}_{}", draft.gates[gate].model.name.value);
     let place = draft.end_span(links[1].0, gate);
     let label = format!("second publisher: `{}`", draft.path(second));
-    let mut found = Diagnostic::lint("SCL0511", headline, place, label);
+    let mut found = SEVERAL_PUBLISHERS.at(headline, place, label);
     found = found.label(draft.end_span(links[0].0, gate), format!("first publisher: `{}`", draft.path(links[0].1)));
     for &(link, publisher) in &links[2..] {
         found = found.label(draft.end_span(link, gate), format!("another publisher: `{}`", draft.path(publisher)));
@@ -62,7 +184,7 @@ fn several_repliers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) ->
     let headline = format!("gate `{}` asks {count} repliers", draft.path(gate));
     let name = &draft.gates[gate].model.name.value;
     let names = links.iter().map(|&(_, replier)| format!("{}_{name}", draft.component_name(replier)));
-    peers("SCL0512", headline, draft, gate, links, |which, path| format!("{which} replier: `{path}`"))
+    peers(&SEVERAL_REPLIERS, headline, draft, gate, links, |which, path| format!("{which} replier: `{path}`"))
         .help(format!("declare one `req` gate for each replier: {}", listed(names)))
         .note(format!("with {count} repliers it is not defined who answers (ZeroMQ would alternate between them)"))
         .note("many requesters of one replier are allowed")
@@ -76,9 +198,8 @@ fn several_pullers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> 
     let path = draft.path(gate);
     let headline = format!("gate `{path}` pushes to {count}, so each of them gets only a part of the messages");
     let name = &draft.gates[gate].model.name.value;
-    let payload = draft.gates[gate].model.payload.as_ref();
-    let message = payload.map_or_else(|| example_type(name), |payload| payload.value.clone());
-    peers("SCL0513", headline, draft, gate, links, |which, _| format!("{which} receiver"))
+    let message = super::unconnected::type_text(draft, gate);
+    peers(&SEVERAL_PULLERS, headline, draft, gate, links, |which, _| format!("{which} receiver"))
         .help("if both need every message, make the gates `pub` and `sub`")
         .help(format!("if the work is to be shared, say so: `{name}: {{push: {message}, share: true}}`"))
         .note("many pushers into one `pull` gate are allowed")
@@ -86,7 +207,7 @@ fn several_pullers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> 
 
 /// An error at the second peer, with a label on each of the others.
 fn peers(
-    code: &'static str,
+    rule: &Rule,
     headline: String,
     draft: &Draft<'_>,
     gate: usize,
@@ -97,7 +218,7 @@ fn peers(
     let word = |at: usize| words.get(at).copied().unwrap_or("another");
     let text = |at: usize| label(word(at), &draft.path(links[at].1));
     let place = |at: usize| draft.end_span(links[at].0, gate);
-    let mut found = Diagnostic::error(code, headline, place(1), text(1));
+    let mut found = rule.at(headline, place(1), text(1));
     for at in (0..links.len()).filter(|&at| at != 1) {
         found = found.label(place(at), text(at));
     }
@@ -106,29 +227,14 @@ fn peers(
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::{SEVERAL_PUBLISHERS, SEVERAL_PULLERS, SEVERAL_REPLIERS};
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn subscriber_with_several_publishers() {
-        let yaml = r#"
-components:
-  - name: gps
-    gates:
-      - fix: pub
-  - name: replay
-    gates:
-      - fix: pub
-  - name: autopilot
-    gates:
-      - fix: sub
-connections:
-  - [gps.fix, autopilot.fix]
-  - [replay.fix, autopilot.fix]
-"#;
-        example(
-            "SCL0511",
-            yaml.trim_start(),
+        rule_example(
+            &SEVERAL_PUBLISHERS,
             expect![[r#"
             warning: [SCL0511] gate `autopilot.fix` subscribes to several publishers
               --> topology.yaml:13:18
@@ -147,24 +253,8 @@ connections:
 
     #[test]
     fn requester_with_two_repliers() {
-        let yaml = r#"
-components:
-  - name: ui
-    gates:
-      - commands: req
-  - name: autopilot
-    gates:
-      - commands: rep
-  - name: camera
-    gates:
-      - commands: rep
-connections:
-  - [ui.commands, autopilot.commands]
-  - [ui.commands, camera.commands]
-"#;
-        example(
-            "SCL0512",
-            yaml.trim_start(),
+        rule_example(
+            &SEVERAL_REPLIERS,
             expect![[r#"
             error: [SCL0512] gate `ui.commands` asks two repliers
               --> topology.yaml:13:6
@@ -183,37 +273,21 @@ connections:
 
     #[test]
     fn push_pull_cardinality() {
-        let yaml = r#"
-components:
-  - name: camera
-    gates:
-      - frames: push
-  - name: detector
-    gates:
-      - frames: pull
-  - name: recorder
-    gates:
-      - frames: pull
-connections:
-  - [camera.frames, detector.frames]
-  - [camera.frames, recorder.frames]
-"#;
-        example(
-            "SCL0513",
-            yaml.trim_start(),
+        rule_example(
+            &SEVERAL_PULLERS,
             expect![[r#"
-            error: [SCL0513] gate `camera.frames` pushes to two components, so each of them gets only a part of the messages
-              --> topology.yaml:13:6
-               |
-            12 |   - [camera.frames, detector.frames]
-               |      ------------- first receiver
-            13 |   - [camera.frames, recorder.frames]
-               |      ^^^^^^^^^^^^^ second receiver
-               |
-               = help: if both need every message, make the gates `pub` and `sub`
-               = help: if the work is to be shared, say so: `frames: {push: Frame, share: true}`
-               = note: many pushers into one `pull` gate are allowed
-        "#]],
+                error: [SCL0513] gate `camera.frames` pushes to two components, so each of them gets only a part of the messages
+                  --> topology.yaml:13:6
+                   |
+                12 |   - [camera.frames, detector.frames]
+                   |      ------------- first receiver
+                13 |   - [camera.frames, recorder.frames]
+                   |      ^^^^^^^^^^^^^ second receiver
+                   |
+                   = help: if both need every message, make the gates `pub` and `sub`
+                   = help: if the work is to be shared, say so: `frames: {push: , share: true}`
+                   = note: many pushers into one `pull` gate are allowed
+            "#]],
         );
     }
 }

@@ -2,8 +2,41 @@
 
 use super::codec_name::word;
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Severity;
 use crate::topology::GateKind;
+
+/// SCL0608.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0608",
+    severity: Severity::Error,
+    title: "codecs differ",
+    explanation: "The two ends turn messages into bytes in different ways, so neither could read the other. Give both \
+                  the same `codec`; an end without one takes that of the other.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: autopilot
+    gates:
+      - attitude: {pub: Attitude, codec: json}
+  - name: blackbox
+    gates:
+      - attitude: {sub: Attitude, codec: cbor}
+connections:
+  - [autopilot.attitude, blackbox.attitude]
+",
+        good: "components:
+  - name: autopilot
+    gates:
+      - attitude: {pub: Attitude, codec: json}
+  - name: blackbox
+    gates:
+      - attitude: {sub: Attitude, codec: json}
+connections:
+  - [autopilot.attitude, blackbox.attitude]
+",
+    },
+};
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for (link, source, sink) in draft.flows() {
@@ -17,7 +50,8 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             _ => format!("`{a_word}` is sent, `{b_word}` is expected"),
         };
         let headline = "the two ends of this connection use different codecs";
-        let found = Diagnostic::error("SCL0608", headline, draft.links[link].model.span, label)
+        let found = RULE
+            .at(headline, draft.links[link].model.span, label)
             .label(a.span, "")
             .label(b.span, "")
             .help("give both ends the same `codec`; an end without one takes the codec of the other");
@@ -27,25 +61,14 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn codecs_differ() {
-        let yaml = r#"
-components:
-  - name: autopilot
-    gates:
-      - attitude: {pub: Attitude, codec: json}
-  - name: blackbox
-    gates:
-      - attitude: {sub: Attitude, codec: cbor}
-connections:
-  - [autopilot.attitude, blackbox.attitude]
-"#;
-        example(
-            "SCL0608",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0608] the two ends of this connection use different codecs
              --> topology.yaml:9:5

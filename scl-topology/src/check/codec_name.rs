@@ -2,10 +2,34 @@
 
 use super::draft::Draft;
 use super::wording::either;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::topology::Codec;
+
+/// SCL0407.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0407",
+    severity: Severity::Error,
+    title: "unknown codec",
+    explanation: "A codec turns messages into bytes; this one is unknown. The built-in ones are `protobuf`, `json`, \
+                  `cbor`, `msgpack`, `postcard` and `raw`; one of your own is named by its Rust path, such as \
+                  `my_crate::Flat`.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, codec: protobuff}
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, codec: protobuf}
+",
+    },
+};
 
 const NAMES: [&str; 6] = ["protobuf", "json", "cbor", "msgpack", "postcard", "raw"];
 
@@ -74,7 +98,7 @@ fn is_rust_path(text: &str) -> bool {
 
 fn report(written: &Spanned<String>) -> Diagnostic {
     let headline = format!("unknown codec `{}`", written.value);
-    let found = Diagnostic::error("SCL0407", headline, written.span, "");
+    let found = RULE.at(headline, written.span, "");
     let lower = written.value.to_lowercase();
     let synonym = SYNONYMS.iter().find(|(other, _)| *other == lower).map(|(_, name)| vec![*name]);
     let meant = synonym.unwrap_or_else(|| similar(&written.value, NAMES));
@@ -89,20 +113,14 @@ fn report(written: &Spanned<String>) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::{advice, example};
+    use super::RULE;
+    use crate::check::testing::{advice, rule_example};
     use expect_test::expect;
 
     #[test]
     fn unknown_codec() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, codec: protobuff}
-"#;
-        example(
-            "SCL0407",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0407] unknown codec `protobuff`
              --> topology.yaml:4:49

@@ -3,8 +3,41 @@
 use super::draft::Draft;
 use super::wording::{either, listed};
 use super::{unknown_component, unknown_gate};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Spanned;
+
+/// SCL0503.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0503",
+    severity: Severity::Error,
+    title: "end is not `component.gate`",
+    explanation: "An end is written `component.gate`: two names with one dot and nothing else between them. Other \
+                  separators, spaces and wildcards are not understood.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [measurements, controller.sensor]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+",
+    },
+};
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     for link in 0..draft.links.len() {
@@ -67,7 +100,7 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
         if let Some(gate) = known {
             draft.gates[gate].named = true;
         }
-        return Diagnostic::error("SCL0503", headline, text.span, label).help(format!("write `{mended}`"));
+        return RULE.at(headline, text.span, label).help(format!("write `{mended}`"));
     }
     let owners = if draft.may_search() { owners(draft, &text.value) } else { Vec::new() };
     if let Some(&gate) = owners.first() {
@@ -75,14 +108,14 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
     }
     if draft.component(&text.value).is_some() {
         let gates: Vec<String> = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
-        return Diagnostic::error("SCL0503", headline, text.span, "which gate?").note(format!(
+        return RULE.at(headline, text.span, "which gate?").note(format!(
             "gates of `{}`: {}",
             text.value,
             super::wording::shortened(&gates)
         ));
     }
     let (label, help) = oddity(&text.value);
-    Diagnostic::error("SCL0503", headline, text.span, label).help(help)
+    RULE.at(headline, text.span, label).help(help)
 }
 
 /// The gates of this name, of any component.
@@ -98,7 +131,7 @@ fn without_component(
     gate: usize,
     owners: &[usize],
 ) -> Diagnostic {
-    let found = Diagnostic::error("SCL0503", headline, text.span, "which component?");
+    let found = RULE.at(headline, text.span, "which component?");
     let paths: Vec<String> = owners.iter().map(|&gate| draft.path(gate)).collect();
     match paths.as_slice() {
         [only] => {
@@ -138,25 +171,14 @@ fn oddity(text: &str) -> (&'static str, &'static str) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::{advice, example};
+    use super::RULE;
+    use crate::check::testing::{advice, rule_example};
     use expect_test::expect;
 
     #[test]
     fn end_is_not_component_gate() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [measurements, controller.sensor]
-"#;
-        example(
-            "SCL0503",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0503] a connection end is written `component.gate`
              --> topology.yaml:9:6

@@ -1,8 +1,33 @@
 //! SCL0301: two components of one name. Every place that names it would mean both.
 
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Severity;
 use crate::model::Model;
 use std::collections::HashMap;
+
+/// SCL0301.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0301",
+    severity: Severity::Error,
+    title: "duplicate component",
+    explanation: "Two components have one name, so no connection could say which it means, and two programs would \
+                  fight for one place. Rename one, or merge their gates.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates: []
+  - name: sensor
+    gates: []
+",
+        good: "components:
+  - name: sensor
+    gates: []
+  - name: sensor_2
+    gates: []
+",
+    },
+};
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     let mut first = HashMap::new();
@@ -11,7 +36,8 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
         let first = *first.entry(name.value.as_str()).or_insert(name.span);
         if first != name.span {
             let headline = format!("component `{}` is declared twice", name.value);
-            let found = Diagnostic::error("SCL0301", headline, name.span, "second declaration")
+            let found = RULE
+                .at(headline, name.span, "second declaration")
                 .label(first, "first declaration")
                 .help("rename one of them, or merge their gates");
             problems.push(found);
@@ -21,21 +47,14 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn duplicate_component() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates: []
-  - name: sensor
-    gates: []
-"#;
-        example(
-            "SCL0301",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0301] component `sensor` is declared twice
              --> topology.yaml:4:11

@@ -1,8 +1,42 @@
 //! SCL0510: the same two gates connected twice. Takes the second out, so that it is not counted as another peer.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Severity;
 use std::collections::HashMap;
+
+/// SCL0510.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0510",
+    severity: Severity::Error,
+    title: "duplicate connection",
+    explanation: "The same two gates are connected twice; the order of the ends makes no difference. Each message \
+                  would arrive twice. Remove one.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+  - [controller.sensor, sensor.measurements]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+",
+    },
+};
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     let mut first: HashMap<(usize, usize), usize> = HashMap::new();
@@ -15,7 +49,8 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         let same_order = draft.links[earlier].ends == draft.links[at].ends;
         let label = if same_order { "same two gates" } else { "same two gates, in the other order" };
         let span = draft.links[at].model.span;
-        let found = Diagnostic::error("SCL0510", "this connection is already declared", span, label)
+        let found = RULE
+            .at("this connection is already declared", span, label)
             .label(draft.links[earlier].model.span, "first declared here")
             .help("remove one of the two");
         problems.push(found);
@@ -26,26 +61,14 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn duplicate_connection() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-  - [controller.sensor, sensor.measurements]
-"#;
-        example(
-            "SCL0510",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0510] this connection is already declared
               --> topology.yaml:10:5

@@ -1,8 +1,33 @@
 //! SCL0302: two gates of one name in a component. A connection could not say which it means.
 
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Severity;
 use crate::model::{ComponentModel, Model};
 use std::collections::HashMap;
+
+/// SCL0302.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0302",
+    severity: Severity::Error,
+    title: "duplicate gate",
+    explanation: "Two gates of a component have one name, be their kinds equal or not. A connection could not say \
+                  which it means, nor could a program. Rename one.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - sensor: sub
+      - sensor: pub
+",
+        good: "components:
+  - name: controller
+    gates:
+      - sensor: sub
+      - sensor_2: pub
+",
+    },
+};
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     for component in &model.components {
@@ -17,7 +42,8 @@ fn check_component(component: &ComponentModel, problems: &mut Diagnostics) {
         let first = *first.entry(name.value.as_str()).or_insert(name.span);
         if first != name.span {
             let headline = format!("component `{}` declares gate `{}` twice", component.name.value, name.value);
-            let found = Diagnostic::error("SCL0302", headline, name.span, "second declaration")
+            let found = RULE
+                .at(headline, name.span, "second declaration")
                 .label(first, "first declaration")
                 .help("gate names are unique within a component, whatever their kind");
             problems.push(found);
@@ -27,21 +53,14 @@ fn check_component(component: &ComponentModel, problems: &mut Diagnostics) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn duplicate_gate() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - sensor: sub
-      - sensor: pub
-"#;
-        example(
-            "SCL0302",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0302] component `controller` declares gate `sensor` twice
              --> topology.yaml:5:9

@@ -3,9 +3,103 @@
 
 use super::draft::Draft;
 use super::message_type::differ;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Span;
 use crate::topology::{Payload, TypeName};
+
+/// SCL0602.
+pub(crate) const REQUESTS_DIFFER: Rule = Rule {
+    code: "SCL0602",
+    severity: Severity::Error,
+    title: "request types differ",
+    explanation: "The requester asks with another type than the replier understands. Use one request type at both \
+                  ends; the message says whether the replies agree.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Cmd -> Status}
+connections:
+  - [controller.commands, ui.commands]
+",
+        good: "components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Command -> Status}
+connections:
+  - [controller.commands, ui.commands]
+",
+    },
+};
+
+/// SCL0603.
+pub(crate) const REPLIES_DIFFER: Rule = Rule {
+    code: "SCL0603",
+    severity: Severity::Error,
+    title: "reply types differ",
+    explanation: "The replier answers with another type than the requester expects. Use one reply type at both ends.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Command -> Ack}
+connections:
+  - [controller.commands, ui.commands]
+",
+        good: "components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Command -> Status}
+connections:
+  - [controller.commands, ui.commands]
+",
+    },
+};
+
+/// SCL0604.
+pub(crate) const SWAPPED_TYPES: Rule = Rule {
+    code: "SCL0604",
+    severity: Severity::Error,
+    title: "request and reply swapped",
+    explanation: "Both ends name the same two types in opposite order. On both ends the left type is what the `req` \
+                  gate sends and the right one what comes back. Swap them on one end.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Status -> Command}
+connections:
+  - [controller.commands, ui.commands]
+",
+        good: "components:
+  - name: controller
+    gates:
+      - commands: {rep: Command -> Status}
+  - name: ui
+    gates:
+      - commands: {req: Command -> Status}
+connections:
+  - [controller.commands, ui.commands]
+",
+    },
+};
 
 type Exchange<'a> = (&'a TypeName, &'a TypeName);
 
@@ -34,7 +128,8 @@ fn exchange<'a>(draft: &'a Draft<'_>, gate: usize) -> Option<Exchange<'a>> {
 
 fn request(span: Span, asked: Exchange<'_>, answered: Exchange<'_>, replies_agree: bool) -> Diagnostic {
     let label = format!("`{}` is asked, `{}` is understood", asked.0.dotted(), answered.0.dotted());
-    let found = Diagnostic::error("SCL0602", "the request types of this connection differ", span, label)
+    let found = REQUESTS_DIFFER
+        .at("the request types of this connection differ", span, label)
         .label(answered.0.span(), "the replier understands this")
         .label(asked.0.span(), "the requester sends this");
     match replies_agree {
@@ -49,7 +144,8 @@ fn request(span: Span, asked: Exchange<'_>, answered: Exchange<'_>, replies_agre
 
 fn reply(span: Span, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic {
     let label = format!("`{}` is answered, `{}` is expected", answered.1.dotted(), asked.1.dotted());
-    Diagnostic::error("SCL0603", "the reply types of this connection differ", span, label)
+    REPLIES_DIFFER
+        .at("the reply types of this connection differ", span, label)
         .label(answered.1.span(), "the replier answers this")
         .label(asked.1.span(), "the requester expects this")
         .help(format!("the request types agree (`{}`)", asked.0.dotted()))
@@ -57,7 +153,8 @@ fn reply(span: Span, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic 
 
 fn swap(span: Span, asker: &str, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic {
     let (request, reply) = (answered.0.dotted(), answered.1.dotted());
-    Diagnostic::error("SCL0604", "request and reply types are swapped on one end", span, "")
+    SWAPPED_TYPES
+        .at("request and reply types are swapped on one end", span, "")
         .label(answered.0.span().to(answered.1.span()), format!("the replier takes `{request}` and answers `{reply}`"))
         .label(asked.0.span().to(asked.1.span()), "the requester has them the other way round")
         .help(format!("on both ends the left type is what the `req` gate sends; swap them on `{asker}`"))
@@ -65,25 +162,14 @@ fn swap(span: Span, asker: &str, asked: Exchange<'_>, answered: Exchange<'_>) ->
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::{REPLIES_DIFFER, REQUESTS_DIFFER, SWAPPED_TYPES};
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn request_types_differ() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-  - name: ui
-    gates:
-      - commands: {req: Cmd -> Status}
-connections:
-  - [controller.commands, ui.commands]
-"#;
-        example(
-            "SCL0602",
-            yaml.trim_start(),
+        rule_example(
+            &REQUESTS_DIFFER,
             expect![[r#"
             error: [SCL0602] the request types of this connection differ
              --> topology.yaml:9:5
@@ -104,20 +190,8 @@ connections:
 
     #[test]
     fn reply_types_differ() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-  - name: ui
-    gates:
-      - commands: {req: Command -> Ack}
-connections:
-  - [controller.commands, ui.commands]
-"#;
-        example(
-            "SCL0603",
-            yaml.trim_start(),
+        rule_example(
+            &REPLIES_DIFFER,
             expect![[r#"
             error: [SCL0603] the reply types of this connection differ
              --> topology.yaml:9:5
@@ -138,20 +212,8 @@ connections:
 
     #[test]
     fn request_and_reply_swapped() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-  - name: ui
-    gates:
-      - commands: {req: Status -> Command}
-connections:
-  - [controller.commands, ui.commands]
-"#;
-        example(
-            "SCL0604",
-            yaml.trim_start(),
+        rule_example(
+            &SWAPPED_TYPES,
             expect![[r#"
             error: [SCL0604] request and reply types are swapped on one end
              --> topology.yaml:9:5

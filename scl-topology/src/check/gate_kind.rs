@@ -1,10 +1,33 @@
 //! SCL0401: a word that is no kind of gate. Sets the kind of every other gate.
 
 use super::draft::Draft;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Spanned;
 use crate::suggest;
 use crate::topology::GateKind;
+
+/// SCL0401.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0401",
+    severity: Severity::Error,
+    title: "unknown gate kind",
+    explanation: "The word is no kind of gate. The kinds come in pairs: `pub` and `sub`, `req` and `rep`, `push` and \
+                  `pull`. The message translates words that other frameworks use.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - sensor: subscribe
+",
+        good: "components:
+  - name: controller
+    gates:
+      - sensor: sub
+",
+    },
+};
 
 const KINDS: &str = "kinds: `pub` and `sub` (one to many, no answer), `req` and `rep` (question and answer), `push` and \
                      `pull` (many to one, no answer)";
@@ -42,7 +65,7 @@ fn kind_of(word: &str) -> Option<GateKind> {
 }
 
 fn report(word: &Spanned<String>) -> Diagnostic {
-    let found = Diagnostic::error("SCL0401", format!("unknown gate kind `{}`", word.value), word.span, "");
+    let found = RULE.at(format!("unknown gate kind `{}`", word.value), word.span, "");
     let found = match suggest::kind(&word.value).as_slice() {
         [] => found,
         [one] => found.help(format!("the kind is called `{one}`")),
@@ -53,20 +76,14 @@ fn report(word: &Spanned<String>) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn unknown_gate_kind() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - sensor: subscribe
-"#;
-        example(
-            "SCL0401",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0401] unknown gate kind `subscribe`
              --> topology.yaml:4:17

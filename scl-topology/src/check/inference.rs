@@ -3,9 +3,74 @@
 
 use super::draft::Draft;
 use super::wording::example_type;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::{GateKind, Payload};
 use std::collections::VecDeque;
+
+/// SCL0402.
+pub(crate) const UNTYPED: Rule = Rule {
+    code: "SCL0402",
+    severity: Severity::Lint,
+    title: "connection without a message type",
+    explanation: "Neither end of the connection names a message type, so it carries bytes and no compiler checks what \
+                  is in them. That is allowed, and the paper's first listing is written so. One typed end is enough; \
+                  the other takes it over.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement}
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+",
+    },
+};
+
+/// SCL0607.
+pub(crate) const TAKEN_OVER: Rule = Rule {
+    code: "SCL0607",
+    severity: Severity::Lint,
+    title: "type taken over from the other end",
+    explanation: "One end has no type and takes that of the other. That is meant to be convenient; the lint is for \
+                  teams that want the contract written at both ends.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement}
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement}
+  - name: controller
+    gates:
+      - sensor: {sub: Measurement}
+connections:
+  - [sensor.measurements, controller.sensor]
+",
+    },
+};
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     let peers = peers(draft);
@@ -67,15 +132,15 @@ fn taken_over(draft: &Draft<'_>, gate: usize, origin: usize) -> Option<Diagnosti
     let model = draft.gates[gate].model;
     let (text, from) = (written.value.trim(), draft.path(origin));
     let headline = format!("gate `{}` has no type of its own; it takes `{text}` from `{from}`", draft.path(gate));
-    let found = Diagnostic::lint("SCL0607", headline, model.span, format!("inferred: `{text}`"))
+    let found = TAKEN_OVER
+        .at(headline, model.span, format!("inferred: `{text}`"))
         .label(written.span, "from here")
         .help(format!("write `{}: {{{}: {text}}}` to pin the contract", model.name.value, model.kind.value));
     Some(found)
 }
 
 fn without_type(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
-    let mut found = Diagnostic::lint(
-        "SCL0402",
+    let mut found = UNTYPED.at(
         "this connection carries bytes of no declared type",
         draft.links[link].model.span,
         "neither end names a type",
@@ -94,25 +159,14 @@ fn without_type(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::{TAKEN_OVER, UNTYPED};
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn connection_without_a_message_type() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-"#;
-        example(
-            "SCL0402",
-            yaml.trim_start(),
+        rule_example(
+            &UNTYPED,
             expect![[r#"
             warning: [SCL0402] this connection carries bytes of no declared type
              --> topology.yaml:9:5
@@ -133,20 +187,8 @@ connections:
 
     #[test]
     fn type_taken_over_from_the_other_end() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement}
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-"#;
-        example(
-            "SCL0607",
-            yaml.trim_start(),
+        rule_example(
+            &TAKEN_OVER,
             expect![[r#"
             warning: [SCL0607] gate `controller.sensor` has no type of its own; it takes `Measurement` from `sensor.measurements`
              --> topology.yaml:7:9

@@ -1,11 +1,36 @@
 //! SCL0310: names that only letter case and `_` tell apart. People mix them up, and so do some file systems.
 
 use super::named::is_well_formed;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Spanned;
 use std::collections::HashMap;
+
+/// SCL0310.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0310",
+    severity: Severity::Warning,
+    title: "names that differ only in letter case",
+    explanation: "Two names differ only in capitals or `_`. People mix them up, and on file systems that ignore case \
+                  their socket files would be one. Rename one.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: gps
+    gates: []
+  - name: GPS_
+    gates: []
+",
+        good: "components:
+  - name: gps
+    gates: []
+  - name: receiver
+    gates: []
+",
+    },
+};
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     let components = model.components.iter().map(|component| &component.name);
@@ -37,7 +62,7 @@ fn folded(name: &str) -> String {
 
 fn report(plural: &str, first: &Spanned<String>, second: &Spanned<String>) -> Diagnostic {
     let headline = format!("{plural} `{}` and `{}` differ only in letter case and `_`", first.value, second.value);
-    Diagnostic::warning("SCL0310", headline, second.span, "")
+    RULE.at(headline, second.span, "")
         .label(first.span, "")
         .help("rename one of them")
         .note("their socket files would be the same on a file system that ignores case (macOS, Windows)")
@@ -45,21 +70,14 @@ fn report(plural: &str, first: &Spanned<String>, second: &Spanned<String>) -> Di
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn names_that_differ_only_in_letter_case() {
-        let yaml = r#"
-components:
-  - name: gps
-    gates: []
-  - name: GPS_
-    gates: []
-"#;
-        example(
-            "SCL0310",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             warning: [SCL0310] components `gps` and `GPS_` differ only in letter case and `_`
              --> topology.yaml:4:11

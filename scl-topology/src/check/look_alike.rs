@@ -2,9 +2,29 @@
 //! be equal, and the file still wrong.
 
 use super::named::{Noun, names};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
 use crate::source::Spanned;
+
+/// SCL0304.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0304",
+    severity: Severity::Error,
+    title: "look-alike character in a name",
+    explanation: "The name has a letter outside of ASCII, perhaps one that looks exactly like an ASCII letter: two \
+                  names on the screen would look alike and differ. Retype it.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sеnsor
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
 
 /// Letters and the ASCII letters that they are taken for.
 const CYRILLIC: (&str, &str) = ("аеорсухіјѕһԁАВЕКМНОРСТУХЅІЈ", "aeopcyxijshdABEKMHOPCTYXSIJ");
@@ -58,11 +78,11 @@ fn report(noun: Noun, name: &Spanned<String>, letter: char) -> Diagnostic {
     let found = match twin(letter) {
         Some((script, twin)) => {
             let headline = format!("{start} {script} letter `{letter}` {code}, which looks like `{twin}`");
-            Diagnostic::error("SCL0304", headline, name.span, format!("not the Latin `{twin}`"))
+            RULE.at(headline, name.span, format!("not the Latin `{twin}`"))
         }
         None => {
             let headline = format!("{start} letter `{letter}` {code}, which is not ASCII");
-            Diagnostic::error("SCL0304", headline, name.span, "allowed: a-z A-Z 0-9 _ -")
+            RULE.at(headline, name.span, "allowed: a-z A-Z 0-9 _ -")
         }
     };
     let found = match retyped(&name.value) {
@@ -96,18 +116,14 @@ fn retyped(name: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::{advice, example};
+    use super::RULE;
+    use crate::check::testing::{advice, rule_example};
     use expect_test::expect;
 
     #[test]
     fn look_alike_character_in_a_name() {
-        let yaml = r#"
-components:
-  - name: sеnsor
-"#;
-        example(
-            "SCL0304",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0304] component name `sеnsor` contains the Cyrillic letter `е` (U+0435), which looks like `e`
              --> topology.yaml:2:11

@@ -3,9 +3,43 @@
 
 use super::draft::Draft;
 use super::wording::listed;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::{GateKind, Payload, TypeName};
 use std::collections::BTreeMap;
+
+/// SCL0601.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0601",
+    severity: Severity::Error,
+    title: "published and subscribed types differ",
+    explanation: "The sender's message type is not the one that the receiver expects, so it would read nonsense. \
+                  Connections of one gate are reported together. Use one type at both ends, or put a component between \
+                  them that converts.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: autopilot
+    gates:
+      - attitude: {pub: Attitude}
+  - name: blackbox
+    gates:
+      - attitude: {sub: Telemetry}
+connections:
+  - [autopilot.attitude, blackbox.attitude]
+",
+        good: "components:
+  - name: autopilot
+    gates:
+      - attitude: {pub: Attitude}
+  - name: blackbox
+    gates:
+      - attitude: {sub: Attitude}
+connections:
+  - [autopilot.attitude, blackbox.attitude]
+",
+    },
+};
 
 /// A connection whose ends differ: its index, and the gate at the other end of the gate it is grouped by.
 type Peer = (usize, usize);
@@ -66,7 +100,7 @@ fn connection_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnost
         more => format!("{more} connections of `{}` use different message types at their two ends", draft.path(hub)),
     };
     let label = format!("`{sent}` is sent, `{expected}` is expected");
-    let mut found = Diagnostic::error("SCL0601", headline, draft.links[link].model.span, label);
+    let mut found = RULE.at(headline, draft.links[link].model.span, label);
     for gate in std::iter::once(hub).chain(peers.iter().map(|&(_, peer)| peer)) {
         found = with_type(draft, found, gate);
     }
@@ -83,7 +117,7 @@ fn hub_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnostic {
         false => (format!("`{path}` expects `{own}`, but all its senders send `{theirs}`"), "expected"),
     };
     let place = message(draft, hub).map_or(draft.gates[hub].model.span, TypeName::span);
-    let mut found = Diagnostic::error("SCL0601", headline, place, verb);
+    let mut found = RULE.at(headline, place, verb);
     for &(_, peer) in peers {
         found = with_type(draft, found, peer);
     }
@@ -116,25 +150,14 @@ fn type_of<'a>(draft: &'a Draft<'_>, gate: usize) -> &'a str {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::{example, rule_example};
     use expect_test::expect;
 
     #[test]
     fn published_and_subscribed_types_differ() {
-        let yaml = r#"
-components:
-  - name: autopilot
-    gates:
-      - attitude: {pub: Attitude}
-  - name: blackbox
-    gates:
-      - attitude: {sub: Telemetry}
-connections:
-  - [autopilot.attitude, blackbox.attitude]
-"#;
-        example(
-            "SCL0601",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0601] the two ends of this connection use different message types
              --> topology.yaml:9:5

@@ -2,9 +2,29 @@
 
 use super::look_alike::has_foreign_letter;
 use super::named::{Noun, is_allowed, names};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
 use crate::source::Spanned;
+
+/// SCL0303.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0303",
+    severity: Severity::Error,
+    title: "invalid character in a name",
+    explanation: "Names become socket paths, Rust fields and names in other languages, so they consist of letters, \
+                  digits, `_` and `-`. A dot cannot be part of one, as it separates component and gate.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: gps sensor
+",
+        good: "components:
+  - name: gps_sensor
+    gates: []
+",
+    },
+};
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     for (noun, name) in names(model) {
@@ -39,7 +59,7 @@ fn described(letter: char) -> String {
 
 fn report(noun: Noun, name: &Spanned<String>, what: &str) -> Diagnostic {
     let headline = format!("a {} name cannot contain {what}", noun.word());
-    let found = Diagnostic::error("SCL0303", headline, name.span, "allowed: a-z A-Z 0-9 _ -");
+    let found = RULE.at(headline, name.span, "allowed: a-z A-Z 0-9 _ -");
     let mended = mended(&name.value);
     let found = if mended.is_empty() { found } else { found.help(format!("write `{mended}`")) };
     match noun {
@@ -59,18 +79,14 @@ fn mended(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::{advice, example};
+    use super::RULE;
+    use crate::check::testing::{advice, rule_example};
     use expect_test::expect;
 
     #[test]
     fn invalid_character_in_a_name() {
-        let yaml = r#"
-components:
-  - name: gps sensor
-"#;
-        example(
-            "SCL0303",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0303] a component name cannot contain a space
              --> topology.yaml:2:11

@@ -1,8 +1,28 @@
 //! SCL0312: a name that leaves no room for the others in a socket path.
 
 use super::named::{Noun, names};
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Severity;
 use crate::model::Model;
+
+/// SCL0312.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0312",
+    severity: Severity::Error,
+    title: "name too long",
+    explanation: "Names become parts of socket paths, which the kernel limits to 107 bytes, so a name has at most 64 \
+                  characters and a system's at most 40. Shorten it.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: a_component_name_that_goes_on_and_on_and_on_and_on_and_on_and_on_and_on
+",
+        good: "components:
+  - name: a_short_name
+    gates: []
+",
+    },
+};
 
 /// The longest name of a component or gate, in characters.
 const LONGEST_NAME: usize = 64;
@@ -16,7 +36,8 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
         let length = name.value.chars().count();
         if length > limit {
             let headline = format!("this name has {length} characters; the limit is {limit}");
-            let found = Diagnostic::error("SCL0312", headline, name.span, "")
+            let found = RULE
+                .at(headline, name.span, "")
                 .note("names become parts of socket paths, which the kernel limits to 107 bytes (see SCL0801)");
             problems.push(found);
         }
@@ -25,18 +46,14 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn name_too_long() {
-        let yaml = r#"
-components:
-  - name: a_component_name_that_goes_on_and_on_and_on_and_on_and_on_and_on_and_on
-"#;
-        example(
-            "SCL0312",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0312] this name has 71 characters; the limit is 64
              --> topology.yaml:2:11

@@ -1,9 +1,29 @@
 //! SCL0305: a name that starts with a digit or a hyphen. No programming language can spell it.
 
 use super::named::{Noun, is_allowed, may_start, names};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
 use crate::source::Spanned;
+
+/// SCL0305.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0305",
+    severity: Severity::Error,
+    title: "name starts with the wrong character",
+    explanation: "A name starts with a letter or `_`, as in every programming language that will use it. Put a word \
+                  first.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: 2nd_sensor
+",
+        good: "components:
+  - name: second_sensor
+    gates: []
+",
+    },
+};
 
 const ORDINALS: [(&str, &str); 9] = [
     ("1st", "first"),
@@ -30,7 +50,7 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
 fn report(noun: Noun, name: &Spanned<String>, first: char) -> Diagnostic {
     let headline = format!("a {} name must start with a letter", noun.word());
     let start = if first == '-' { "starts with a hyphen" } else { "starts with a digit" };
-    let found = Diagnostic::error("SCL0305", headline, name.span, start);
+    let found = RULE.at(headline, name.span, start);
     match alternatives(&name.value) {
         Some(ways) => found.help(format!("for example {ways}")),
         None => found.help("put a word before it"),
@@ -56,18 +76,14 @@ fn alternatives(name: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::{advice, example};
+    use super::RULE;
+    use crate::check::testing::{advice, rule_example};
     use expect_test::expect;
 
     #[test]
     fn name_starts_with_the_wrong_character() {
-        let yaml = r#"
-components:
-  - name: 2nd_sensor
-"#;
-        example(
-            "SCL0305",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0305] a component name must start with a letter
              --> topology.yaml:2:11

@@ -1,7 +1,40 @@
 //! SCL0711: `unconnected: ok` on a gate that is connected. The mark would hide the loss of the connection one day.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Severity;
+
+/// SCL0711.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0711",
+    severity: Severity::Warning,
+    title: "`unconnected: ok` on a connected gate",
+    explanation: "The gate says that it is meant to have no peer, and has one. The mark would hide the loss of the \
+                  connection one day. Remove it.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - events: {pub: Event, unconnected: ok}
+  - name: ui
+    gates:
+      - events: {sub: Event}
+connections:
+  - [controller.events, ui.events]
+",
+        good: "components:
+  - name: controller
+    gates:
+      - events: {pub: Event}
+  - name: ui
+    gates:
+      - events: {sub: Event}
+connections:
+  - [controller.events, ui.events]
+",
+    },
+};
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     let mut connected_at = vec![None; draft.gates.len()];
@@ -15,7 +48,8 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
         if gate.options.unconnected_ok {
             let headline = format!("gate `{}` is marked `unconnected: ok`, but it is connected", draft.path(at));
             let place = option.key.span.to(option.value.span);
-            let found = Diagnostic::warning("SCL0711", headline, place, "no longer needed")
+            let found = RULE
+                .at(headline, place, "no longer needed")
                 .label(connected_at, "connected here")
                 .help("remove the mark");
             problems.push(found);
@@ -25,25 +59,14 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn unconnected_ok_on_a_connected_gate() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - events: {pub: Event, unconnected: ok}
-  - name: ui
-    gates:
-      - events: {sub: Event}
-connections:
-  - [controller.events, ui.events]
-"#;
-        example(
-            "SCL0711",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             warning: [SCL0711] gate `controller.events` is marked `unconnected: ok`, but it is connected
              --> topology.yaml:4:30

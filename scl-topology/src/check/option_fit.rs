@@ -1,11 +1,34 @@
 //! SCL0408: an option on a kind of gate that has no use for it.
 
 use super::wording::listed;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Severity;
 use crate::model::OptionModel;
 use crate::topology::GateKind;
 
 use GateKind::{Pub, Pull, Push, Rep, Req, Sub};
+
+/// SCL0408.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0408",
+    severity: Severity::Error,
+    title: "option does not fit the kind",
+    explanation: "The option exists, but not for this kind of gate: a queue belongs to the receiving end, a timeout to \
+                  the asking one. Move it to the other end, or remove it.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: ui
+    gates:
+      - commands: {req: Command -> Status, queue: 8}
+",
+        good: "components:
+  - name: ui
+    gates:
+      - commands: {req: Command -> Status, timeout: 1s, unconnected: ok}
+",
+    },
+};
 
 /// Options that only some kinds have. The others are for all.
 const KINDS: [(&str, &[GateKind]); 5] = [
@@ -20,7 +43,7 @@ pub(super) fn check(kind: Option<GateKind>, option: &OptionModel, problems: &mut
     let key = option.key.value.as_str();
     let (Some(kind), Some(rule)) = (kind, misfit(kind, key)) else { return };
     let headline = format!("option `{key}` is not available on a `{}` gate", kind.word());
-    let found = Diagnostic::error("SCL0408", headline, option.key.span, "").help("remove it");
+    let found = RULE.at(headline, option.key.span, "").help("remove it");
     let other = kind.opposite();
     let found = match fits(other, key) {
         true => found.help(format!("or write it at the `{}` end of the connection", other.word())),
@@ -63,20 +86,14 @@ fn reason(kind: GateKind, key: &str) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::{advice, example};
+    use super::RULE;
+    use crate::check::testing::{advice, rule_example};
     use expect_test::expect;
 
     #[test]
     fn option_does_not_fit_the_kind() {
-        let yaml = r#"
-components:
-  - name: ui
-    gates:
-      - commands: {req: Command -> Status, queue: 8}
-"#;
-        example(
-            "SCL0408",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0408] option `queue` is not available on a `req` gate
              --> topology.yaml:4:44

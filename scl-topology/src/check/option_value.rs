@@ -2,10 +2,33 @@
 
 use super::draft::Draft;
 use super::option_fit;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::OptionModel;
 use crate::topology::{GateKind, GateOptions, WhenFull};
 use std::time::Duration;
+
+/// SCL0409.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0409",
+    severity: Severity::Error,
+    title: "option value out of range",
+    explanation: "The value is outside of what can work: a queue has 1 to 1,000,000 messages, a timeout is more than \
+                  nothing and at most a day. Correct it, or leave it out to get the default.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, queue: 0}
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {sub: Measurement, queue: 1}
+",
+    },
+};
 
 /// The longest queue, in messages. Memory is reserved for what a queue may hold, so a slip of the finger is refused.
 const LONGEST_QUEUE: u32 = 1_000_000;
@@ -84,7 +107,7 @@ fn timeout(text: &str) -> Result<Duration, Range> {
 
 fn report(kind: Option<GateKind>, option: &OptionModel, range: Range) -> Diagnostic {
     let headline = format!("`{}` must be {}", option.key.value, range.rule);
-    let found = Diagnostic::error("SCL0409", headline, option.value.span, "").help(range.help);
+    let found = RULE.at(headline, option.value.span, "").help(range.help);
     // Who mends the value should not have to come back for the place.
     match option_fit::misfit(kind, &option.key.value) {
         Some(rule) => found.note(rule),
@@ -94,20 +117,14 @@ fn report(kind: Option<GateKind>, option: &OptionModel, range: Range) -> Diagnos
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::{advice, example};
+    use super::RULE;
+    use crate::check::testing::{advice, rule_example};
     use expect_test::expect;
 
     #[test]
     fn option_value_out_of_range() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, queue: 0}
-"#;
-        example(
-            "SCL0409",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0409] `queue` must be at least 1
              --> topology.yaml:4:49

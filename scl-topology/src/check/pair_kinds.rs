@@ -2,8 +2,78 @@
 //! every other connection.
 
 use super::draft::Draft;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::GateKind;
+
+/// SCL0505.
+pub(crate) const SAME_DIRECTION: Rule = Rule {
+    code: "SCL0505",
+    severity: Severity::Error,
+    title: "both ends send, or both receive",
+    explanation: "A connection has one end that sends and one that receives. Here both send, or both receive, so \
+                  nothing would ever arrive. Mostly one of the kinds is wrong, or another gate was meant.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: gps
+    gates:
+      - fix: pub
+  - name: imu
+    gates:
+      - rate: pub
+connections:
+  - [gps.fix, imu.rate]
+",
+        good: "components:
+  - name: gps
+    gates:
+      - fix: pub
+  - name: imu
+    gates:
+      - rate: sub
+connections:
+  - [gps.fix, imu.rate]
+",
+    },
+};
+
+/// SCL0506.
+pub(crate) const OTHER_PATTERN: Rule = Rule {
+    code: "SCL0506",
+    severity: Severity::Error,
+    title: "ends of different patterns",
+    explanation: "The two gates belong to different patterns: one publishes, the other wants an answer. `pub` meets \
+                  `sub`, `req` meets `rep`, `push` meets `pull`. The message shows which gates of the two components \
+                  would fit.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - commands: rep
+      - events: pub
+  - name: ui
+    gates:
+      - commands: req
+      - events: sub
+connections:
+  - [controller.events, ui.commands]
+",
+        good: "components:
+  - name: controller
+    gates:
+      - commands: rep
+      - events: pub
+  - name: ui
+    gates:
+      - commands: req
+      - events: sub
+connections:
+  - [controller.events, ui.events]
+  - [controller.commands, ui.commands]
+",
+    },
+};
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     for link in 0..draft.links.len() {
@@ -34,7 +104,8 @@ fn same_direction(draft: &Draft<'_>, link: usize, [a, b]: [usize; 2], kind: Gate
     let wanted = kind.opposite();
     let (word, other) = (kind.word(), wanted.word());
     let headline = format!("both ends of this connection {both}");
-    let mut found = Diagnostic::error("SCL0505", headline, draft.links[link].model.span, nobody)
+    let mut found = SAME_DIRECTION
+        .at(headline, draft.links[link].model.span, nobody)
         .label(draft.gates[a].model.kind.span, one)
         .label(draft.gates[b].model.kind.span, format!("{one} too"))
         .help(format!("a `{word}` gate connects to a `{other}` gate; should one of the two be `{other}`?"));
@@ -59,7 +130,8 @@ fn nobody_is(draft: &Draft<'_>, [a, b]: [usize; 2], kind: &str) -> String {
 fn different_patterns(draft: &Draft<'_>, link: usize, [a, b]: [usize; 2], kinds: [GateKind; 2]) -> Diagnostic {
     let [a_word, b_word] = kinds.map(GateKind::word);
     let headline = format!("a `{a_word}` gate cannot be connected to a `{b_word}` gate");
-    let mut found = Diagnostic::error("SCL0506", headline, draft.links[link].model.span, "")
+    let mut found = OTHER_PATTERN
+        .at(headline, draft.links[link].model.span, "")
         .label(draft.gates[a].model.span, doing(kinds[0]))
         .label(draft.gates[b].model.span, doing(kinds[1]));
     // The end with an obvious partner comes first.
@@ -95,25 +167,14 @@ fn fitting(draft: &Draft<'_>, gate: usize, other: usize) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::{OTHER_PATTERN, SAME_DIRECTION};
+    use crate::check::testing::{example, rule_example};
     use expect_test::expect;
 
     #[test]
     fn both_ends_send_or_both_receive() {
-        let yaml = r#"
-components:
-  - name: gps
-    gates:
-      - fix: pub
-  - name: imu
-    gates:
-      - rate: pub
-connections:
-  - [gps.fix, imu.rate]
-"#;
-        example(
-            "SCL0505",
-            yaml.trim_start(),
+        rule_example(
+            &SAME_DIRECTION,
             expect![[r#"
             error: [SCL0505] both ends of this connection publish
              --> topology.yaml:9:5
@@ -135,22 +196,8 @@ connections:
 
     #[test]
     fn ends_of_different_patterns() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - commands: rep
-      - events: pub
-  - name: ui
-    gates:
-      - commands: req
-      - events: sub
-connections:
-  - [controller.events, ui.commands]
-"#;
-        example(
-            "SCL0506",
-            yaml.trim_start(),
+        rule_example(
+            &OTHER_PATTERN,
             expect![[r#"
             error: [SCL0506] a `pub` gate cannot be connected to a `req` gate
               --> topology.yaml:11:5

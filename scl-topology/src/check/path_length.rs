@@ -3,72 +3,92 @@
 
 use super::draft::Draft;
 use super::named::is_well_formed;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::resolve::{CONTRACT_LENGTH, LONGEST_PATH, folder_length};
+use crate::resolve::{CONTRACT_LENGTH, LONGEST_PATH, TAP, folder_length, longest_folder};
 use crate::topology::GateKind;
+
+/// SCL0801.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0801",
+    severity: Severity::Error,
+    title: "socket path too long",
+    explanation: "Names become paths of sockets, and the kernel allows 107 bytes for one. The check takes the longest \
+                  usual runtime folder, so that the file works for every user. Shorten the names; long names of whole \
+                  connections are cut by themselves.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: navigation_and_guidance_supervisor
+    gates:
+      - commanded_trajectory_and_velocity_profile_of_the_vehicle: pub
+",
+        good: "components:
+  - name: navigation_and_guidance_supervisor
+    gates:
+      - commanded_trajectory: pub
+",
+    },
+};
 
 /// Names longer than this have an error of their own.
 const LONGEST_NAME: usize = 64;
 
 pub(super) fn check(draft: &Draft<'_>, system: &str, problems: &mut Diagnostics) {
     for (at, gate) in draft.gates.iter().enumerate() {
-        let contract = match gate.kind {
-            Some(GateKind::Pub) => 0,
-            Some(GateKind::Rep | GateKind::Pull) => CONTRACT_LENGTH + 1,
+        let ending = match gate.kind {
+            Some(GateKind::Pub) => TAP.to_owned(),
+            // Which contract it is does not matter for the length.
+            Some(GateKind::Rep | GateKind::Pull) => format!(".{}", "*".repeat(CONTRACT_LENGTH)),
             _ => continue,
         };
         let names = [draft.component_name(at), &gate.model.name.value];
         if gate.duplicate || names.iter().any(|name| name.len() > LONGEST_NAME || !is_well_formed(name)) {
             continue;
         }
-        let length = folder_length(system) + names[0].len() + 1 + names[1].len() + contract;
+        let length = folder_length(system) + names[0].len() + 1 + names[1].len() + ending.len();
         if length > LONGEST_PATH {
-            problems.push(report(draft, at, system, length));
+            problems.push(report(draft, at, format!("{}{}{ending}", longest_folder(system), draft.path(at))));
         }
     }
 }
 
-fn report(draft: &Draft<'_>, gate: usize, system: &str, length: usize) -> Diagnostic {
+fn report(draft: &Draft<'_>, gate: usize, path: String) -> Diagnostic {
+    let length = path.len();
     let component = &draft.components[draft.gates[gate].component].model.name;
     let name = &draft.gates[gate].model.name;
     let headline = format!("the socket path of this gate has {length} bytes; the kernel allows {LONGEST_PATH}");
-    Diagnostic::error("SCL0801", headline, name.span, format!("{} bytes", name.value.len()))
+    RULE.at(headline, name.span, format!("{} bytes", name.value.len()))
         .label(component.span, format!("{} bytes", component.value.len()))
         .help(format!("shorten the names by {} bytes", length - LONGEST_PATH))
-        .note(format!("path: {}{}", crate::resolve::longest_folder(system), draft.path(gate)))
+        .note(format!("path: {path}"))
         .note("the folder is the longest usual one, so that the file works for every user of the machine")
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn socket_path_too_long() {
-        let yaml = r#"
-components:
-  - name: navigation_and_guidance_supervisor
-    gates:
-      - commanded_trajectory_and_velocity_profile_of_the_vehicle: pub
-"#;
-        example(
-            "SCL0801",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
-            error: [SCL0801] the socket path of this gate has 125 bytes; the kernel allows 107
-             --> topology.yaml:4:9
-              |
-            2 |   - name: navigation_and_guidance_supervisor
-              |           ---------------------------------- 34 bytes
-            3 |     gates:
-            4 |       - commanded_trajectory_and_velocity_profile_of_the_vehicle: pub
-              |         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ 56 bytes
-              |
-              = help: shorten the names by 18 bytes
-              = note: path: /run/user/4294967295/scl/topology/navigation_and_guidance_supervisor.commanded_trajectory_and_velocity_profile_of_the_vehicle
-              = note: the folder is the longest usual one, so that the file works for every user of the machine
-        "#]],
+                error: [SCL0801] the socket path of this gate has 129 bytes; the kernel allows 107
+                 --> topology.yaml:4:9
+                  |
+                2 |   - name: navigation_and_guidance_supervisor
+                  |           ---------------------------------- 34 bytes
+                3 |     gates:
+                4 |       - commanded_trajectory_and_velocity_profile_of_the_vehicle: pub
+                  |         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ 56 bytes
+                  |
+                  = help: shorten the names by 22 bytes
+                  = note: path: /run/user/4294967295/scl/topology/navigation_and_guidance_supervisor.commanded_trajectory_and_velocity_profile_of_the_vehicle.tap
+                  = note: the folder is the longest usual one, so that the file works for every user of the machine
+            "#]],
         );
     }
 }

@@ -2,9 +2,54 @@
 //! of every other gate.
 
 use super::draft::{Draft, DraftGate};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Spanned;
 use crate::topology::{GateKind, Payload, TypeName};
+
+/// SCL0403.
+pub(crate) const NO_TYPE_NAME: Rule = Rule {
+    code: "SCL0403",
+    severity: Severity::Error,
+    title: "not a type name",
+    explanation: "A message type is a dotted name such as `uav.Measurement`. References, generics, paths with `::` and \
+                  types without a name cannot be one, because the file is read by tools in several languages. Give the \
+                  type a name.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: \"&str\"}
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Text}
+",
+    },
+};
+
+/// SCL0404.
+pub(crate) const WRONG_NUMBER_OF_TYPES: Rule = Rule {
+    code: "SCL0404",
+    severity: Severity::Error,
+    title: "types do not fit the kind",
+    explanation: "`req` and `rep` carry a question and its answer, `A -> B`; the other kinds carry one type. This gate \
+                  has too many types or too few. Write what the message says, or another kind.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: ui
+    gates:
+      - commands: {req: Command}
+",
+        good: "components:
+  - name: ui
+    gates:
+      - commands: {req: Command -> Status, unconnected: ok}
+",
+    },
+};
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     for at in 0..draft.gates.len() {
@@ -66,13 +111,17 @@ fn misfit(gate: &DraftGate<'_>, kind: GateKind, written: &Spanned<String>, parts
                 _ => "what it is asked and what it answers",
             };
             let headline = format!("a `{word}` gate needs two types, {takes}");
-            Diagnostic::error("SCL0404", headline, written.span, "only one type is given")
+            WRONG_NUMBER_OF_TYPES
+                .at(headline, written.span, "only one type is given")
                 .help(format!("write `{name}: {{{word}: {only} -> Status}}`"))
         }
         (GateKind::Req | GateKind::Rep, _) => {
             let headline = format!("a `{word}` gate has two types, a request and its reply");
-            Diagnostic::error("SCL0404", headline, written.span, format!("{} types are given", parts.len()))
-                .help(format!("write `{name}: {{{word}: {} -> {}}}`", parts[0], parts[parts.len() - 1]))
+            WRONG_NUMBER_OF_TYPES.at(headline, written.span, format!("{} types are given", parts.len())).help(format!(
+                "write `{name}: {{{word}: {} -> {}}}`",
+                parts[0],
+                parts[parts.len() - 1]
+            ))
         }
         _ => {
             let (does, meant) = match kind {
@@ -80,7 +129,8 @@ fn misfit(gate: &DraftGate<'_>, kind: GateKind, written: &Spanned<String>, parts
                 _ => ("receives one type and gives no answer", "rep"),
             };
             let headline = format!("a `{word}` gate {does}; did you mean `{meant}`?");
-            Diagnostic::error("SCL0404", headline, written.span, format!("{} types are given", parts.len()))
+            WRONG_NUMBER_OF_TYPES
+                .at(headline, written.span, format!("{} types are given", parts.len()))
                 .help(format!("write `{name}: {{{word}: {}}}`", parts[0]))
                 .help(format!("or `{name}: {{{meant}: {}}}`", written.value.trim()))
         }
@@ -127,27 +177,21 @@ fn no_type(text: &str, span: crate::source::Span, fault: &Fault) -> Diagnostic {
         "" => "a message type is missing".to_owned(),
         _ => format!("`{text}` cannot be a message type"),
     };
-    Diagnostic::error("SCL0403", headline, span, fault.label).help(&*fault.help).note(
+    NO_TYPE_NAME.at(headline, span, fault.label).help(&*fault.help).note(
         "a message type is a dotted name, such as `uav.Measurement`: words of letters, digits and `_`, joined by `.`",
     )
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::{advice, example};
+    use super::{NO_TYPE_NAME, WRONG_NUMBER_OF_TYPES};
+    use crate::check::testing::{advice, rule_example};
     use expect_test::expect;
 
     #[test]
     fn not_a_type_name() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: "&str"}
-"#;
-        example(
-            "SCL0403",
-            yaml.trim_start(),
+        rule_example(
+            &NO_TYPE_NAME,
             expect![[r#"
             error: [SCL0403] `&str` cannot be a message type
              --> topology.yaml:4:29
@@ -163,15 +207,8 @@ components:
 
     #[test]
     fn types_do_not_fit_the_kind() {
-        let yaml = r#"
-components:
-  - name: ui
-    gates:
-      - commands: {req: Command}
-"#;
-        example(
-            "SCL0404",
-            yaml.trim_start(),
+        rule_example(
+            &WRONG_NUMBER_OF_TYPES,
             expect![[r#"
             error: [SCL0404] a `req` gate needs two types, what it asks and what it gets back
              --> topology.yaml:4:25

@@ -1,9 +1,30 @@
 //! SCL0313, a lint: a component whose type hides a name that every Rust file has in scope.
 
 use super::named::is_well_formed;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Severity;
 use crate::model::Model;
 use crate::rust_name::component_type;
+
+/// SCL0313.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0313",
+    severity: Severity::Lint,
+    title: "type name hides a prelude type",
+    explanation: "The component's Rust type has the name of a type that every Rust file knows, such as `Result`. A \
+                  program that imports it by name hides the other. Choose a name that says more, or import it under \
+                  another.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: result
+",
+        good: "components:
+  - name: match_result
+    gates: []
+",
+    },
+};
 
 /// Types and where they come from.
 const PRELUDE: [(&str, &str); 15] = [
@@ -31,7 +52,8 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
         let Some((_, hidden)) = PRELUDE.iter().find(|(short, _)| *short == rust) else { continue };
         let start = format!("component `{}` becomes the Rust type `{rust}`", name.value);
         let headline = format!("{start}, which hides `{hidden}` where you import it");
-        let found = Diagnostic::lint("SCL0313", headline, name.span, "")
+        let found = RULE
+            .at(headline, name.span, "")
             .help(format!("choose a name that says whose {} it is", name.value))
             .note("also: option, box, vec, string, some, ok, err, send, sync, drop, clone, default, iterator");
         problems.push(found);
@@ -40,18 +62,14 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn type_name_hides_a_prelude_type() {
-        let yaml = r#"
-components:
-  - name: result
-"#;
-        example(
-            "SCL0313",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             warning: [SCL0313] component `result` becomes the Rust type `Result`, which hides `core::result::Result` where you import it
              --> topology.yaml:2:11

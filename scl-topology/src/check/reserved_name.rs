@@ -1,14 +1,35 @@
 //! SCL0311: names that the framework keeps for itself, so that it can grow without breaking a file.
 
 use super::named::{Noun, names};
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Severity;
 use crate::model::Model;
+
+/// SCL0311.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0311",
+    severity: Severity::Error,
+    title: "reserved name",
+    explanation: "The framework keeps a few names for itself, so that it can grow without breaking files: `scl`, \
+                  `topology`, and names that start with `scl_` or `__`. Choose another.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: scl
+",
+        good: "components:
+  - name: framework
+    gates: []
+",
+    },
+};
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     for (noun, name) in names(model) {
         if is_reserved(noun, &name.value) {
             let headline = format!("`{}` is reserved for the framework", name.value);
-            let found = Diagnostic::error("SCL0311", headline, name.span, "")
+            let found = RULE
+                .at(headline, name.span, "")
                 .help("choose another name")
                 .note("reserved: `scl`, `topology`, and names that start with `scl_` or `__`");
             problems.push(found);
@@ -27,18 +48,14 @@ fn is_reserved(noun: Noun, name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn reserved_name() {
-        let yaml = r#"
-components:
-  - name: scl
-"#;
-        example(
-            "SCL0311",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0311] `scl` is reserved for the framework
              --> topology.yaml:2:11

@@ -1,10 +1,51 @@
 //! SCL0306: a gate whose field needs `r#`. SCL0307: a name that not even `r#` makes usable.
 
 use super::named::{Noun, is_well_formed, names};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
 use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
 use crate::source::Spanned;
+
+/// SCL0306.
+pub(crate) const KEYWORD: Rule = Rule {
+    code: "SCL0306",
+    severity: Severity::Warning,
+    title: "gate name is a Rust keyword",
+    explanation: "The name is a keyword of Rust, so programs have to write `r#` before it. That works, but hurts \
+                  whoever reads it. Choose a name that says more.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - type: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - model: pub
+",
+    },
+};
+
+/// SCL0307.
+pub(crate) const HARD_KEYWORD: Rule = Rule {
+    code: "SCL0307",
+    severity: Severity::Error,
+    title: "keyword that cannot be escaped",
+    explanation: "The name is one of the few keywords that not even `r#` makes usable, so no Rust program could name \
+                  the gate or component. Choose another.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: crate
+",
+        good: "components:
+  - name: box_of_parts
+    gates: []
+",
+    },
+};
 
 /// Other words for the keywords that name a thing in a real system.
 const ALTERNATIVES: [(&str, &str); 12] = [
@@ -49,7 +90,8 @@ fn unusable(name: &Spanned<String>) -> Diagnostic {
     let word = &name.value;
     let headline = format!("`{word}` is a Rust keyword that cannot be used as a name, not even as `r#{word}`");
     let others: Vec<&str> = ["crate", "self", "Self", "super", "_"].into_iter().filter(|other| other != word).collect();
-    Diagnostic::error("SCL0307", headline, name.span, "")
+    HARD_KEYWORD
+        .at(headline, name.span, "")
         .help("choose another name")
         .note(format!("the others: {}", super::wording::listed(others)))
 }
@@ -61,29 +103,21 @@ fn escaped(component: &str, name: &Spanned<String>) -> Diagnostic {
         Some((_, other)) => format!("choose another name, for example `{other}`"),
         None => format!("choose another name, for example `{field}_`"),
     };
-    Diagnostic::warning("SCL0306", format!("gate name `{}` is a Rust keyword", name.value), name.span, label)
-        .help(help)
-        .note(
-            "checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)",
-        )
+    KEYWORD.at(format!("gate name `{}` is a Rust keyword", name.value), name.span, label).help(help).note(
+        "checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)",
+    )
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::{HARD_KEYWORD, KEYWORD};
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn gate_name_is_a_rust_keyword() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - type: pub
-"#;
-        example(
-            "SCL0306",
-            yaml.trim_start(),
+        rule_example(
+            &KEYWORD,
             expect![[r#"
             warning: [SCL0306] gate name `type` is a Rust keyword
              --> topology.yaml:4:9
@@ -99,13 +133,8 @@ components:
 
     #[test]
     fn keyword_that_cannot_be_escaped() {
-        let yaml = r#"
-components:
-  - name: crate
-"#;
-        example(
-            "SCL0307",
-            yaml.trim_start(),
+        rule_example(
+            &HARD_KEYWORD,
             expect![[r#"
             error: [SCL0307] `crate` is a Rust keyword that cannot be used as a name, not even as `r#crate`
              --> topology.yaml:2:11

@@ -1,11 +1,60 @@
 //! SCL0308 and SCL0309: names that differ in the file and would be one in Rust.
 
 use super::named::is_well_formed;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Spanned;
 use std::collections::HashMap;
+
+/// SCL0308.
+pub(crate) const SAME_TYPE: Rule = Rule {
+    code: "SCL0308",
+    severity: Severity::Error,
+    title: "two components become the same Rust type",
+    explanation: "Different names in the file become one Rust type: `user-interface` and `user_interface` both become \
+                  `UserInterface`. A component may not be named like the counterpart that is generated for tests of \
+                  another either, which is its name with `Peer`. Rename one.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: user-interface
+    gates: []
+  - name: user_interface
+    gates: []
+",
+        good: "components:
+  - name: operator
+    gates: []
+  - name: user_interface
+    gates: []
+",
+    },
+};
+
+/// SCL0309.
+pub(crate) const SAME_FIELD: Rule = Rule {
+    code: "SCL0309",
+    severity: Severity::Error,
+    title: "two gates become the same Rust field",
+    explanation: "Different names of gates become one Rust field: `set-point` and `setPoint` both become `set_point`. \
+                  Rename one.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: actuator
+    gates:
+      - set-point: sub
+      - setPoint: sub
+",
+        good: "components:
+  - name: actuator
+    gates:
+      - set-point: sub
+      - limit: sub
+",
+    },
+};
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     let names = model.components.iter().map(|component| &component.name);
@@ -13,15 +62,36 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
         let (a, b) = (&first.value, &second.value);
         let headline = format!("components `{a}` and `{b}` would both become the Rust type `{rust}`");
         let help = "rename one of them; use `_` in all names";
-        problems.push(report("SCL0308", headline, [first, second], &rust).help(help));
+        problems.push(report(&SAME_TYPE, headline, [first, second], &rust).help(help));
     }
+    check_peers(model, problems);
     for component in &model.components {
         let names = component.gates.iter().map(|gate| &gate.name);
         for (first, second, rust) in collisions(names, gate_field) {
             let (a, b, owner) = (&first.value, &second.value, &component.name.value);
             let headline = format!("gates `{a}` and `{b}` of `{owner}` would both become the Rust field `{rust}`");
-            problems.push(report("SCL0309", headline, [first, second], &rust).help("rename one of them"));
+            problems.push(report(&SAME_FIELD, headline, [first, second], &rust).help("rename one of them"));
         }
+    }
+}
+
+/// Beside each component, the macro generates its counterpart for tests: `ControllerPeer` for `Controller`.
+fn check_peers(model: &Model, problems: &mut Diagnostics) {
+    let names = model.components.iter().map(|component| &component.name).filter(|name| is_well_formed(&name.value));
+    let by_type: HashMap<String, &Name> = names.rev().map(|name| (component_type(&name.value), name)).collect();
+    for component in &model.components {
+        let name = &component.name;
+        let rust = component_type(&name.value);
+        let Some(owner) = rust.strip_suffix("Peer").and_then(|owner| by_type.get(owner)) else { continue };
+        let headline = format!(
+            "component `{}` would become the Rust type `{rust}`, which is generated for tests of `{}`",
+            name.value, owner.value
+        );
+        let found = SAME_TYPE
+            .at(headline, name.span, format!("becomes `{rust}`"))
+            .label(owner.span, format!("gets `{rust}` beside it"))
+            .help("choose a name that does not end with `peer`");
+        problems.push(found);
     }
 }
 
@@ -47,28 +117,20 @@ fn collisions<'m>(
     found
 }
 
-fn report(code: &'static str, headline: String, [first, second]: [&Name; 2], rust: &str) -> Diagnostic {
-    Diagnostic::error(code, headline, second.span, format!("also becomes `{rust}`"))
-        .label(first.span, format!("becomes `{rust}`"))
+fn report(rule: &Rule, headline: String, [first, second]: [&Name; 2], rust: &str) -> Diagnostic {
+    rule.at(headline, second.span, format!("also becomes `{rust}`")).label(first.span, format!("becomes `{rust}`"))
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::SAME_TYPE;
+    use crate::check::testing::{example, rule_example};
     use expect_test::expect;
 
     #[test]
     fn two_components_become_the_same_rust_type() {
-        let yaml = r#"
-components:
-  - name: user-interface
-    gates: []
-  - name: user_interface
-    gates: []
-"#;
-        example(
-            "SCL0308",
-            yaml.trim_start(),
+        rule_example(
+            &SAME_TYPE,
             expect![[r#"
             error: [SCL0308] components `user-interface` and `user_interface` would both become the Rust type `UserInterface`
              --> topology.yaml:4:11
@@ -81,6 +143,33 @@ components:
               |
               = help: rename one of them; use `_` in all names
         "#]],
+        );
+    }
+
+    #[test]
+    fn a_component_is_called_like_the_counterpart_of_another() {
+        let yaml = r#"
+components:
+  - name: controller_peer
+    gates: []
+  - name: controller
+    gates: []
+"#;
+        example(
+            "SCL0308",
+            yaml.trim_start(),
+            expect![[r#"
+                error: [SCL0308] component `controller_peer` would become the Rust type `ControllerPeer`, which is generated for tests of `controller`
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: controller_peer
+                  |           ^^^^^^^^^^^^^^^ becomes `ControllerPeer`
+                3 |     gates: []
+                4 |   - name: controller
+                  |           ---------- gets `ControllerPeer` beside it
+                  |
+                  = help: choose a name that does not end with `peer`
+            "#]],
         );
     }
 

@@ -3,10 +3,35 @@
 use super::draft::Draft;
 use super::wording::{either, listed};
 use super::{Facts, SchemaMessages};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::suggest::{same_parts, similar};
 use crate::topology::{Payload, TypeName};
 use std::collections::HashSet;
+
+/// SCL0405.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0405",
+    severity: Severity::Error,
+    title: "unknown message type",
+    explanation: "The file names `schemas`, and none of them declares this message. It is mostly misspelt, or its \
+                  package is missing before the dot. Without `schemas` the name is looked up by rustc instead.",
+    examples: Examples::Topology {
+        bad: "schemas: [uav.proto]
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: uav.Mesurement}
+",
+        good: "schemas: [uav.proto]
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: uav.Measurement}
+",
+    },
+};
 
 pub(super) fn check(draft: &mut Draft<'_>, facts: &Facts, problems: &mut Diagnostics) {
     let Some(schemas) = &facts.messages else { return };
@@ -40,7 +65,7 @@ fn report(draft: &Draft<'_>, schemas: &[SchemaMessages], known: &HashSet<&str>, 
         meant = similar(name.dotted(), all.iter().copied());
     }
     let headline = format!("unknown message type `{}`", name.dotted());
-    let mut found = Diagnostic::error("SCL0405", headline, name.span(), "not in the schemas");
+    let mut found = RULE.at(headline, name.span(), "not in the schemas");
     if let [only] = meant.as_slice() {
         let declares = |schema: &SchemaMessages| schema.names.iter().any(|other| other == only);
         let place = schemas.iter().position(declares).and_then(|at| draft.model.schemas.get(at));
@@ -59,21 +84,14 @@ fn report(draft: &Draft<'_>, schemas: &[SchemaMessages], known: &HashSet<&str>, 
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example_with;
+    use super::RULE;
+    use crate::check::testing::{example_with, rule_example_with};
     use expect_test::expect;
 
     #[test]
     fn unknown_message_type() {
-        let yaml = r#"
-schemas: [uav.proto]
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: uav.Mesurement}
-"#;
-        example_with(
-            "SCL0405",
-            yaml.trim_start(),
+        rule_example_with(
+            &RULE,
             Some(&["uav.Command", "uav.Measurement", "uav.Status"]),
             expect![[r#"
             error: [SCL0405] unknown message type `uav.Mesurement`

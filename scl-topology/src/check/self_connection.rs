@@ -1,8 +1,96 @@
 //! SCL0507: a gate connected to itself. SCL0508: a component that asks itself. SCL0509: one that subscribes to itself.
 
 use super::draft::Draft;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::GateKind;
+
+/// SCL0507.
+pub(crate) const ITSELF: Rule = Rule {
+    code: "SCL0507",
+    severity: Severity::Error,
+    title: "gate connected to itself",
+    explanation: "Both ends of the connection are one gate. A gate either sends or receives, so it cannot talk to \
+                  itself; another gate was meant.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - commands: rep
+connections:
+  - [controller.commands, controller.commands]
+",
+        good: "components:
+  - name: controller
+    gates:
+      - commands: rep
+  - name: ui
+    gates:
+      - commands: req
+connections:
+  - [controller.commands, ui.commands]
+",
+    },
+};
+
+/// SCL0508.
+pub(crate) const ASKS_ITSELF: Rule = Rule {
+    code: "SCL0508",
+    severity: Severity::Error,
+    title: "component asks itself",
+    explanation: "A component that asks itself waits for an answer that only it can give, and with one thread it waits \
+                  for ever. Call a function inside the component instead.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: planner
+    gates:
+      - ask: req
+      - answer: rep
+connections:
+  - [planner.ask, planner.answer]
+",
+        good: "components:
+  - name: planner
+    gates:
+      - ask: req
+  - name: map
+    gates:
+      - answer: rep
+connections:
+  - [planner.ask, map.answer]
+",
+    },
+};
+
+/// SCL0509.
+pub(crate) const HEARS_ITSELF: Rule = Rule {
+    code: "SCL0509",
+    severity: Severity::Warning,
+    title: "component subscribes to itself",
+    explanation: "A component receives what it sends itself: the message leaves the process and comes back. Keeping \
+                  the value in the component is faster and simpler. Some designs want it; then allow it with a reason.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: planner
+    gates:
+      - plan: pub
+      - old_plan: sub
+connections:
+  - [planner.plan, planner.old_plan]
+",
+        good: "components:
+  - name: planner
+    gates:
+      - plan: pub
+  - name: pilot
+    gates:
+      - plan: sub
+connections:
+  - [planner.plan, pilot.plan]
+",
+    },
+};
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for link in &draft.links {
@@ -10,7 +98,8 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             && a == b
         {
             let headline = format!("gate `{}` is connected to itself", draft.path(a));
-            let found = Diagnostic::error("SCL0507", headline, link.model.span, "both ends are the same gate")
+            let found = ITSELF
+                .at(headline, link.model.span, "both ends are the same gate")
                 .help("the two ends must be different gates");
             problems.push(found);
         }
@@ -29,7 +118,8 @@ fn to_itself(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
         Some(GateKind::Req) => {
             let headline = format!("component `{name}` sends requests to itself");
             let label = format!("`{name}` would wait for an answer that only `{name}` can give");
-            Diagnostic::error("SCL0508", headline, span, label)
+            ASKS_ITSELF
+                .at(headline, span, label)
                 .help("call a function inside the component instead")
                 .note("a component with one thread stops here for ever")
         }
@@ -37,30 +127,21 @@ fn to_itself(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
             let does =
                 if kind == Some(GateKind::Push) { "pulls its own work" } else { "subscribes to its own messages" };
             let headline = format!("component `{name}` {does}");
-            Diagnostic::warning("SCL0509", headline, span, "leaves the process and comes back")
-                .help("keep the value in the component")
+            HEARS_ITSELF.at(headline, span, "leaves the process and comes back").help("keep the value in the component")
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::{ASKS_ITSELF, HEARS_ITSELF, ITSELF};
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn gate_connected_to_itself() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - commands: rep
-connections:
-  - [controller.commands, controller.commands]
-"#;
-        example(
-            "SCL0507",
-            yaml.trim_start(),
+        rule_example(
+            &ITSELF,
             expect![[r#"
             error: [SCL0507] gate `controller.commands` is connected to itself
              --> topology.yaml:6:5
@@ -75,18 +156,8 @@ connections:
 
     #[test]
     fn component_asks_itself() {
-        let yaml = r#"
-components:
-  - name: planner
-    gates:
-      - ask: req
-      - answer: rep
-connections:
-  - [planner.ask, planner.answer]
-"#;
-        example(
-            "SCL0508",
-            yaml.trim_start(),
+        rule_example(
+            &ASKS_ITSELF,
             expect![[r#"
             error: [SCL0508] component `planner` sends requests to itself
              --> topology.yaml:7:5
@@ -102,18 +173,8 @@ connections:
 
     #[test]
     fn component_subscribes_to_itself() {
-        let yaml = r#"
-components:
-  - name: planner
-    gates:
-      - plan: pub
-      - old_plan: sub
-connections:
-  - [planner.plan, planner.old_plan]
-"#;
-        example(
-            "SCL0509",
-            yaml.trim_start(),
+        rule_example(
+            &HEARS_ITSELF,
             expect![[r#"
             warning: [SCL0509] component `planner` subscribes to its own messages
              --> topology.yaml:7:5

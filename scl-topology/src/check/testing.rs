@@ -1,6 +1,7 @@
 //! What the tests of the rules share: a text goes in, the words that users read come out.
 
 use super::{Facts, SchemaMessages, check};
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::render;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
 use crate::parse::parse;
@@ -9,12 +10,32 @@ use crate::topology::Topology;
 use expect_test::Expect;
 
 /// The warnings that small examples cannot but have: no connections, and gates without a peer.
-const USUAL: [&str; 7] = ["SCL0206", "SCL0209", "SCL0701", "SCL0702", "SCL0703", "SCL0704", "SCL0705"];
+pub(crate) const USUAL: [&str; 7] = ["SCL0206", "SCL0209", "SCL0701", "SCL0702", "SCL0703", "SCL0704", "SCL0705"];
 
 /// The one problem of an example, as text; the same with the line ends of Windows.
 #[track_caller]
 pub(super) fn example(code: &str, yaml: &str, expected: Expect) {
     example_with(code, yaml, None, expected);
+}
+
+/// The bad example of a rule, which is its problem.
+#[track_caller]
+pub(super) fn rule_example(rule: &Rule, expected: Expect) {
+    example(rule.code, bad(rule), expected);
+}
+
+/// The same for an example whose schemas declare these messages.
+#[track_caller]
+pub(super) fn rule_example_with(rule: &Rule, messages: Option<&[&str]>, expected: Expect) {
+    example_with(rule.code, bad(rule), messages, expected);
+}
+
+#[track_caller]
+fn bad(rule: &Rule) -> &'static str {
+    match rule.examples {
+        Examples::Topology { bad, .. } => bad,
+        _ => panic!("{} has no topology as its example", rule.code),
+    }
 }
 
 /// The same for a file whose schemas declare these messages.
@@ -48,7 +69,7 @@ pub(super) fn advice(yaml: &str) -> String {
 }
 
 /// Every problem.
-pub(super) fn problems(yaml: &str, messages: Option<&[&str]>) -> (Vec<Diagnostic>, Sources) {
+pub(crate) fn problems(yaml: &str, messages: Option<&[&str]>) -> (Vec<Diagnostic>, Sources) {
     let (_, found, sources) = run(yaml, messages);
     (found, sources)
 }

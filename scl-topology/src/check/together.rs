@@ -76,6 +76,14 @@ fn sound_files_are_silent() {
         ("shared work", file("x: {push: T, share: true}", "x: pull; w: pull", "[a.x, b.x]; [a.x, b.w]")),
         ("waiting", file("x: {pub: T, backpressure: true}", "x: {sub: T, when_full: wait}", "[a.x, b.x]")),
         ("meant to be alone", file("x: pub; w: {pub: T, unconnected: ok}", "x: {sub: T, queue: 1}", "[a.x, b.x]")),
+        (
+            "untyped gates with options",
+            file(
+                "x: {pub: , backpressure: true}; w: {pub: null, unconnected: ok}",
+                "x: {sub: ~, queue: 1}",
+                "[a.x, b.x]",
+            ),
+        ),
         ("a timeout", file("x: {req: A -> B, timeout: 500ms}", "x: rep", "[a.x, b.x]")),
     ];
     for (what, yaml) in cases {

@@ -4,9 +4,123 @@
 
 use super::draft::Draft;
 use super::fitting_sender::FittingSenders;
-use super::wording::{example_type, listed};
+use super::wording::listed;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::GateKind;
+
+/// SCL0701.
+pub(crate) const NO_RECEIVER: Rule = Rule {
+    code: "SCL0701",
+    severity: Severity::Warning,
+    title: "publisher without subscribers",
+    explanation: "A gate sends, and nobody receives: its messages are dropped. Connect it, or remove it. If that is \
+                  meant, write `unconnected: ok`, which works for a gate without a type too: `events: {pub: , \
+                  unconnected: ok}`.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - events: pub
+",
+        good: "components:
+  - name: controller
+    gates:
+      - events: {pub: , unconnected: ok}
+",
+    },
+};
+
+/// SCL0702.
+pub(crate) const NO_SENDER: Rule = Rule {
+    code: "SCL0702",
+    severity: Severity::Warning,
+    title: "subscriber without a publisher",
+    explanation: "A receiving gate is in no connection, so a program that waits at it waits for ever. Connect it; the \
+                  message offers senders that fit. If that is meant, write `unconnected: ok`.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - sensor: sub
+",
+        good: "components:
+  - name: controller
+    gates:
+      - sensor: {sub: , unconnected: ok}
+",
+    },
+};
+
+/// SCL0703.
+pub(crate) const NO_REPLIER: Rule = Rule {
+    code: "SCL0703",
+    severity: Severity::Error,
+    title: "requester without a replier",
+    explanation: "A requester has nobody to ask: every call would end with a timeout. Connect it, or write \
+                  `unconnected: ok`. Where the replier is a program outside of SCL, the error can be allowed with a \
+                  reason.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: ui
+    gates:
+      - commands: req
+",
+        good: "components:
+  - name: ui
+    gates:
+      - commands: {req: , unconnected: ok}
+",
+    },
+};
+
+/// SCL0704.
+pub(crate) const NO_REQUESTER: Rule = Rule {
+    code: "SCL0704",
+    severity: Severity::Warning,
+    title: "replier without requesters",
+    explanation: "A replier is never asked. Connect it, or write `unconnected: ok` if requesters come from outside.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - commands: rep
+",
+        good: "components:
+  - name: controller
+    gates:
+      - commands: {rep: , unconnected: ok}
+",
+    },
+};
+
+/// SCL0705.
+pub(crate) const LONELY_COMPONENT: Rule = Rule {
+    code: "SCL0705",
+    severity: Severity::Warning,
+    title: "component without any connection",
+    explanation: "None of the component's gates is connected. One warning says so for all of them. Connect it, or \
+                  remove it.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: logger
+    gates:
+      - a: sub
+      - b: sub
+",
+        good: "components:
+  - name: logger
+    gates:
+      - a: sub
+  - name: sensor
+    gates:
+      - a: pub
+connections:
+  - [sensor.a, logger.a]
+",
+    },
+};
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     let senders = FittingSenders::of(draft);
@@ -37,7 +151,8 @@ fn is_open(draft: &Draft<'_>, gate: usize) -> bool {
 fn lonely_component(component: &crate::model::ComponentModel, warned: usize) -> Diagnostic {
     let name = &component.name;
     let headline = format!("component `{}` is not connected to anything", name.value);
-    Diagnostic::warning("SCL0705", headline, name.span, format!("{} gates, 0 connections", component.gates.len()))
+    LONELY_COMPONENT
+        .at(headline, name.span, format!("{} gates, 0 connections", component.gates.len()))
         .help("connect it or remove it")
         .note(format!("the {warned} warnings for its gates are not shown"))
 }
@@ -46,15 +161,14 @@ fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, senders: &FittingSend
     let place = draft.gates[gate].model.name.span;
     let path = draft.path(gate);
     match kind {
-        GateKind::Pub => {
-            Diagnostic::warning("SCL0701", format!("nobody subscribes to `{path}`"), place, "its messages are dropped")
-                .help(ways_out(draft, gate))
-        }
-        GateKind::Push => {
-            Diagnostic::warning("SCL0701", format!("nobody pulls from `{path}`"), place, "its messages go nowhere")
-                .help(ways_out(draft, gate))
-        }
-        GateKind::Rep => Diagnostic::warning("SCL0704", format!("nobody sends requests to `{path}`"), place, "")
+        GateKind::Pub => NO_RECEIVER
+            .at(format!("nobody subscribes to `{path}`"), place, "its messages are dropped")
+            .help(ways_out(draft, gate)),
+        GateKind::Push => NO_RECEIVER
+            .at(format!("nobody pulls from `{path}`"), place, "its messages go nowhere")
+            .help(ways_out(draft, gate)),
+        GateKind::Rep => NO_REQUESTER
+            .at(format!("nobody sends requests to `{path}`"), place, "")
             .help("connect it, or write `unconnected: ok`"),
         _ => never_receives(draft, gate, kind, senders),
     }
@@ -62,7 +176,7 @@ fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, senders: &FittingSend
 
 fn never_receives(draft: &Draft<'_>, gate: usize, kind: GateKind, senders: &FittingSenders<'_>) -> Diagnostic {
     let headline = format!("gate `{}` is not connected; it will never receive a message", draft.path(gate));
-    let found = Diagnostic::warning("SCL0702", headline, draft.gates[gate].model.name.span, "");
+    let found = NO_SENDER.at(headline, draft.gates[gate].model.name.span, "");
     let fitting = senders.for_gate(draft, gate);
     if fitting.is_empty() {
         return found.help(ways_out(draft, gate));
@@ -73,7 +187,8 @@ fn never_receives(draft: &Draft<'_>, gate: usize, kind: GateKind, senders: &Fitt
 
 fn no_replier(draft: &Draft<'_>, gate: usize) -> Diagnostic {
     let headline = format!("gate `{}` is not connected; every request would wait until its timeout", draft.path(gate));
-    Diagnostic::error("SCL0703", headline, draft.gates[gate].model.name.span, "nobody answers")
+    NO_REPLIER
+        .at(headline, draft.gates[gate].model.name.span, "nobody answers")
         .help("connect it to a `rep` gate")
         .help("or write `unconnected: ok`")
 }
@@ -84,77 +199,57 @@ fn ways_out(draft: &Draft<'_>, gate: usize) -> String {
     format!("connect it, remove it, or write `{name}: {{{kind}: {types}, unconnected: ok}}`")
 }
 
-/// The type of a gate as one would write it; of a gate without a type, one that would suit its name.
+/// The type of a gate as one would write it; nothing for a gate without one.
 pub(super) fn type_text(draft: &Draft<'_>, gate: usize) -> String {
     let from = draft.gates[gate].payload_from.unwrap_or(gate);
     match &draft.gates[from].model.payload {
         Some(payload) => payload.value.trim().to_owned(),
-        None => example_type(&draft.gates[gate].model.name.value),
+        None => String::new(),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::{LONELY_COMPONENT, NO_RECEIVER, NO_REPLIER, NO_REQUESTER, NO_SENDER};
+    use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn publisher_without_subscribers() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - events: pub
-"#;
-        example(
-            "SCL0701",
-            yaml.trim_start(),
+        rule_example(
+            &NO_RECEIVER,
             expect![[r#"
-            warning: [SCL0701] nobody subscribes to `controller.events`
-             --> topology.yaml:4:9
-              |
-            4 |       - events: pub
-              |         ^^^^^^ its messages are dropped
-              |
-              = help: connect it, remove it, or write `events: {pub: Event, unconnected: ok}`
-        "#]],
+                warning: [SCL0701] nobody subscribes to `controller.events`
+                 --> topology.yaml:4:9
+                  |
+                4 |       - events: pub
+                  |         ^^^^^^ its messages are dropped
+                  |
+                  = help: connect it, remove it, or write `events: {pub: , unconnected: ok}`
+            "#]],
         );
     }
 
     #[test]
     fn subscriber_without_a_publisher() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - sensor: sub
-"#;
-        example(
-            "SCL0702",
-            yaml.trim_start(),
+        rule_example(
+            &NO_SENDER,
             expect![[r#"
-            warning: [SCL0702] gate `controller.sensor` is not connected; it will never receive a message
-             --> topology.yaml:4:9
-              |
-            4 |       - sensor: sub
-              |         ^^^^^^
-              |
-              = help: connect it, remove it, or write `sensor: {sub: Sensor, unconnected: ok}`
-        "#]],
+                warning: [SCL0702] gate `controller.sensor` is not connected; it will never receive a message
+                 --> topology.yaml:4:9
+                  |
+                4 |       - sensor: sub
+                  |         ^^^^^^
+                  |
+                  = help: connect it, remove it, or write `sensor: {sub: , unconnected: ok}`
+            "#]],
         );
     }
 
     #[test]
     fn requester_without_a_replier() {
-        let yaml = r#"
-components:
-  - name: ui
-    gates:
-      - commands: req
-"#;
-        example(
-            "SCL0703",
-            yaml.trim_start(),
+        rule_example(
+            &NO_REPLIER,
             expect![[r#"
             error: [SCL0703] gate `ui.commands` is not connected; every request would wait until its timeout
              --> topology.yaml:4:9
@@ -170,15 +265,8 @@ components:
 
     #[test]
     fn replier_without_requesters() {
-        let yaml = r#"
-components:
-  - name: controller
-    gates:
-      - commands: rep
-"#;
-        example(
-            "SCL0704",
-            yaml.trim_start(),
+        rule_example(
+            &NO_REQUESTER,
             expect![[r#"
             warning: [SCL0704] nobody sends requests to `controller.commands`
              --> topology.yaml:4:9
@@ -193,16 +281,8 @@ components:
 
     #[test]
     fn component_without_any_connection() {
-        let yaml = r#"
-components:
-  - name: logger
-    gates:
-      - a: sub
-      - b: sub
-"#;
-        example(
-            "SCL0705",
-            yaml.trim_start(),
+        rule_example(
+            &LONELY_COMPONENT,
             expect![[r#"
             warning: [SCL0705] component `logger` is not connected to anything
              --> topology.yaml:2:11

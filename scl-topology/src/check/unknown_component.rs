@@ -3,8 +3,72 @@
 use super::connection_end::parts;
 use super::draft::Draft;
 use super::wording::{either, listed};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::suggest::similar;
+
+/// SCL0501.
+pub(crate) const UNKNOWN: Rule = Rule {
+    code: "SCL0501",
+    severity: Severity::Error,
+    title: "unknown component",
+    explanation: "An end of a connection names a component that is not declared, mostly because it is misspelt. The \
+                  message offers the declared ones that resemble it and have such a gate.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controler.sensor]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+",
+    },
+};
+
+/// SCL0504.
+pub(crate) const SWAPPED: Rule = Rule {
+    code: "SCL0504",
+    severity: Severity::Error,
+    title: "component and gate swapped",
+    explanation: "Component and gate stand in the wrong order. Written the other way round, they name a gate that \
+                  exists.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [measurements.sensor, controller.sensor]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+",
+    },
+};
 
 pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnostics) {
     let text = &draft.links[link].model.ends[end];
@@ -18,7 +82,7 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
         return;
     }
     let place = draft.part(text.span, component, false);
-    let mut found = Diagnostic::error("SCL0501", headline, place, "no component has this name");
+    let mut found = UNKNOWN.at(headline, place, "no component has this name");
     let meant = if draft.may_search() { meant(draft, component, gate) } else { Vec::new() };
     if let [only] = meant.as_slice()
         && let Some(at) = draft.component(only)
@@ -38,8 +102,7 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
 
 /// The report of an end whose two names are in the wrong order.
 pub(super) fn swap(headline: String, span: crate::source::Span, component: &str, gate: &str) -> Diagnostic {
-    Diagnostic::error("SCL0504", headline, span, "component and gate are swapped")
-        .help(format!("write `{component}.{gate}`"))
+    SWAPPED.at(headline, span, "component and gate are swapped").help(format!("write `{component}.{gate}`"))
 }
 
 /// Similar components that have the gate; without such, those that have a similar gate.
@@ -66,25 +129,14 @@ fn declared(draft: &Draft<'_>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::{SWAPPED, UNKNOWN};
+    use crate::check::testing::{example, rule_example};
     use expect_test::expect;
 
     #[test]
     fn unknown_component() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controler.sensor]
-"#;
-        example(
-            "SCL0501",
-            yaml.trim_start(),
+        rule_example(
+            &UNKNOWN,
             expect![[r#"
             error: [SCL0501] unknown component `controler`
              --> topology.yaml:9:27
@@ -103,20 +155,8 @@ connections:
 
     #[test]
     fn component_and_gate_swapped() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [measurements.sensor, controller.sensor]
-"#;
-        example(
-            "SCL0504",
-            yaml.trim_start(),
+        rule_example(
+            &SWAPPED,
             expect![[r#"
             error: [SCL0504] unknown component `measurements`
              --> topology.yaml:9:6

@@ -4,9 +4,42 @@ use super::connection_end::parts;
 use super::draft::Draft;
 use super::unknown_component::swap;
 use super::wording::{either, shortened};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Spanned;
 use crate::suggest::similar;
+
+/// SCL0502.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0502",
+    severity: Severity::Error,
+    title: "unknown gate",
+    explanation: "The component exists, but has no gate of this name. The message lists its gates, and offers those \
+                  that resemble it and would fit the other end.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurement, controller.sensor]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+",
+    },
+};
 
 pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnostics) {
     let text = &draft.links[link].model.ends[end];
@@ -46,7 +79,7 @@ fn report(
     meant: &[usize],
 ) -> Diagnostic {
     let place = draft.part(text.span, gate, true);
-    let mut found = Diagnostic::error("SCL0502", headline, place, "unknown gate");
+    let mut found = RULE.at(headline, place, "unknown gate");
     if let [only] = meant {
         found = found.label(draft.gates[*only].model.name.span, "a similar gate is declared here");
     }
@@ -71,25 +104,14 @@ fn described(draft: &Draft<'_>, gate: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::example;
+    use super::RULE;
+    use crate::check::testing::{example, rule_example};
     use expect_test::expect;
 
     #[test]
     fn unknown_gate() {
-        let yaml = r#"
-components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurement, controller.sensor]
-"#;
-        example(
-            "SCL0502",
-            yaml.trim_start(),
+        rule_example(
+            &RULE,
             expect![[r#"
             error: [SCL0502] component `sensor` has no gate `measurement`
              --> topology.yaml:9:13

@@ -1,6 +1,17 @@
 //! SCL0008: no more problems than somebody reads.
 
 use super::{Diagnostic, Severity};
+use crate::catalogue::{Examples, Rule};
+
+/// SCL0008.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0008",
+    severity: Severity::Error,
+    title: "too many problems",
+    explanation: "More problems were found than anybody reads at once; the macro shows the first 20, errors first. \
+                  `scl check` shows all of them. Mending the first often makes many others go.",
+    examples: Examples::None,
+};
 
 /// How many problems the macro shows.
 pub const MOST_SHOWN: usize = 20;
@@ -32,8 +43,7 @@ fn missing(count: usize, has_errors: bool, path: &str) -> Diagnostic {
         1 => format!("1 more problem in {path} is not shown"),
         _ => format!("{count} more problems in {path} are not shown"),
     };
-    let mut problem =
-        Diagnostic::fileless("SCL0008", message).help(format!("run `scl check {path}` to see all of them"));
+    let mut problem = RULE.fileless(message).help(format!("run `scl check {path}` to see all of them"));
     if !has_errors {
         problem.severity = Severity::Warning;
     }

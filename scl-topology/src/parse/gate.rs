@@ -158,7 +158,11 @@ impl Reader<'_> {
         kind
     }
 
+    /// The type; none where the kind stands without a value, as in `{pub: , queue: 1}`: an untyped gate with options.
     fn payload(&mut self, kind: Field<'_>) -> Option<Spanned<String>> {
+        if kind.value.is_null() {
+            return None;
+        }
         let payload = self.name_in(kind, &format!("type of the `{}` gate", kind.key))?;
         // A type in quotes is the same type; the place is that of the whole value.
         (is_plain(kind.value) || !payload.value.trim().is_empty()).then_some(payload)

@@ -23,9 +23,35 @@ mod tab;
 mod tag;
 pub(super) mod text_block_name;
 
+use crate::catalogue::Rule;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::{FileId, SourceFile, Span};
 use crate::yaml::{SyntaxError, SyntaxErrorKind, Tree};
+
+/// All of them, by their codes.
+pub(crate) const RULES: [&Rule; 21] = [
+    &tab::RULE,
+    &bracket::RULE,
+    &missing_space::RULE,
+    &quote::RULE,
+    &indentation::RULE,
+    &reserved_character::RULE,
+    &duplicate_key::RULE,
+    &boolean_word::RULE,
+    &number_name::RULE,
+    &no_value::RULE,
+    &anchor::RULE,
+    &merge_key::RULE,
+    &tag::RULE,
+    &second_document::RULE,
+    &empty_file::RULE,
+    &depth::RULE,
+    &invisible::RULE,
+    &directive::RULE,
+    &text_block_name::RULE,
+    &odd_key::RULE,
+    &not_yaml::RULE,
+];
 
 /// Where a rule looks: the file, and the text with every reported character replaced by spaces.
 pub(super) struct Place<'s> {

@@ -16,8 +16,28 @@ pub(super) mod top_level;
 pub(super) mod unknown_section;
 pub(super) mod version;
 
+use crate::catalogue::Rule;
 use crate::diagnostic::Diagnostic;
 use crate::suggest::similar;
+
+/// All of them, by their codes.
+pub(crate) const RULES: [&Rule; 15] = [
+    &top_level::RULE,
+    &unknown_section::RULE,
+    &missing_section::RULE,
+    &section_kind::RULE,
+    &no_components::RULE,
+    &no_connections::RULE,
+    &component_key::RULE,
+    &nameless::RULE,
+    &gateless::RULE,
+    &gate::RULE,
+    &ends::RULE,
+    &gate_key::RULE,
+    &version::RULE,
+    &level::RULE,
+    &option_value::RULE,
+];
 
 /// Words in backticks, joined by commas.
 fn ticked<'a>(words: impl IntoIterator<Item = &'a str>) -> String {

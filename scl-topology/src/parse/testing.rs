@@ -1,6 +1,7 @@
 //! What the tests of the rules share.
 
 use super::parse;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, render};
 use crate::model::Model;
 use crate::source::Sources;
@@ -25,9 +26,12 @@ pub(super) fn headlines(text: &str) -> String {
     problems.iter().map(line).collect()
 }
 
-/// Checks that an example gives this code, no other error, and these words, with either line end and with a byte order
-/// mark.
-pub(super) fn check(code: &str, text: &str, expected: Expect) {
+/// Checks that the bad example of a rule gives its code, no other error, and these words, with either line end and with
+/// a byte order mark.
+#[track_caller]
+pub(super) fn check(rule: &Rule, expected: Expect) {
+    let Examples::Topology { bad: text, .. } = rule.examples else { panic!("{} has no example", rule.code) };
+    let code = rule.code;
     let spellings = [text.to_owned(), text.replace('\n', "\r\n"), format!("\u{feff}{text}")];
     let [plain, others @ ..] = spellings.map(|spelling| {
         let (_, problems, sources) = parse_text(&spelling);

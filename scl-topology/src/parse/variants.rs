@@ -163,7 +163,6 @@ fn names() {
 
             components: [{name: y, gates: []}, {name: Off, gates: []}, {name: oFF, gates: []}, {name: "no", gates: []}, {name: '1', gates: []}]
 
-            SCL0108 1:21 `y` is a boolean in YAML 1.1
             SCL0108 1:43 `Off` is a boolean in YAML 1.1
 
             components: [{name: ~, gates: []}, {name: '', gates: []}, {name: [a], gates: []}]

@@ -59,14 +59,19 @@ impl OwnedRuntime {
         self.handle.enter()
     }
 
-    /// Drives the runtime until a future is ready.
+    /// Drives the runtime until a future is ready, or the program is told to stop.
     pub(super) fn block_on<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
+        self.drive_until(super::main::until_stopped(future))?
+    }
+
+    /// Drives the runtime until a future is ready.
+    pub(super) fn drive_until<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
         refuse_inside_async()?;
         self.shared.callers.fetch_add(1, Ordering::SeqCst);
         self.shared.wanted.notify_one();
         let runtime = lock(&self.shared.runtime);
         let ready = match &*runtime {
-            Some(runtime) => runtime.block_on(super::main::until_stopped(future)),
+            Some(runtime) => Ok(runtime.block_on(future)),
             None => Err(BlockingError::Stopped),
         };
         drop(runtime);

@@ -66,6 +66,14 @@ impl Core {
         }
     }
 
+    /// The end of a program without async: hands over what connected peers still take, also when it was told to stop.
+    pub(super) fn flush_blocking(&self, timeout: Duration) -> Result<(), NotFlushed> {
+        match &self.runtime {
+            Some(runtime) => runtime.drive_until(self.flush(timeout)).unwrap_or(Ok(())),
+            None => Ok(()),
+        }
+    }
+
     /// Waits until connected peers have taken everything, at most for a given time.
     pub(super) async fn flush(&self, timeout: Duration) -> Result<(), NotFlushed> {
         let started = Instant::now();

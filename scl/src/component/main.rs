@@ -74,7 +74,7 @@ pub fn run_blocking<C: Component, R: Outcome>(main: fn(C) -> R) -> ExitCode {
         let core = component.gates().first().map(|gate| std::sync::Arc::clone(gate.core()));
         let result = main(component).into_result();
         if let Some(core) = core
-            && let Ok(Err(error)) = core.block_on(core.flush(LINGER))
+            && let Err(error) = core.flush_blocking(LINGER)
         {
             tracing::warn!("{error}");
         }

@@ -18,7 +18,6 @@ use std::time::Duration;
 const TAKE_IN: usize = 1024;
 
 pub(crate) struct Incoming<T> {
-    pub(crate) core: Arc<Core>,
     pub(crate) spec: &'static GateSpec,
     name: GateName,
     links: Vec<Box<dyn Inlet>>,
@@ -27,6 +26,8 @@ pub(crate) struct Incoming<T> {
     inbox: VecDeque<Arrived>,
     decode: fn(Bytes) -> Result<T, DecodeError>,
     counts: Counts,
+    /// Let go after the links, whose endpoints are this component's only as long as it has its name.
+    pub(crate) core: Arc<Core>,
 }
 
 struct Arrived {

@@ -19,13 +19,14 @@ use std::task::{Context, Poll, Waker};
 ///
 /// Each [`Request`] carries its own way back, so requests may be answered later and in any order.
 pub struct Rep<A, B> {
-    core: Arc<Core>,
     spec: &'static GateSpec,
     name: GateName,
     link: Box<dyn Answerer>,
     encode: fn(&B, &mut BytesMut) -> Result<(), EncodeError>,
     decode: fn(Bytes) -> Result<A, DecodeError>,
     counts: Counts,
+    /// Let go after the link, whose endpoint is this component's only as long as it has its name.
+    core: Arc<Core>,
 }
 
 impl<A, B> Rep<A, B> {

@@ -14,7 +14,6 @@ use std::time::{Duration, Instant};
 
 /// Asks the `rep` gate that this gate is connected to, one request at a time.
 pub struct Req<A, B> {
-    core: Arc<Core>,
     spec: &'static GateSpec,
     name: GateName,
     /// `None` for a gate that is meant to be unconnected.
@@ -24,6 +23,7 @@ pub struct Req<A, B> {
     last_id: u64,
     asked: u64,
     counts: Counts,
+    core: Arc<Core>,
 }
 
 impl<A, B> Req<A, B> {

@@ -16,7 +16,6 @@ use std::task::{Context, Poll};
 const BUFFER: usize = 16 * 1024;
 
 pub(crate) struct Sending<T> {
-    pub(crate) core: Arc<Core>,
     pub(crate) spec: &'static GateSpec,
     name: GateName,
     /// One a connection, in the order of `spec.links`; of a `pub` gate the tap comes last.
@@ -28,6 +27,7 @@ pub(crate) struct Sending<T> {
     shares: bool,
     /// Of a gate that shares, whose turn it is.
     turn: usize,
+    pub(crate) core: Arc<Core>,
 }
 
 impl<T> Sending<T> {

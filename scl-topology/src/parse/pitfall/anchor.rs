@@ -1,11 +1,38 @@
 //! SCL0111: anchors and aliases.
 
 use super::Place;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Span;
 use crate::yaml::{Anchor, Node, NodeKind, Tree};
 
-const CODE: &str = "SCL0111";
+/// SCL0111.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0111",
+    severity: Severity::Error,
+    title: "anchors and aliases are not supported",
+    explanation: "YAML can name a value with `&` and repeat it with `*`. A topology is a contract that people read \
+                  line by line, and repeated values would make places in messages ambiguous and tiny files enormous. \
+                  Write the value out.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: a
+    gates: &g
+      - x: pub
+  - name: b
+    gates: *g
+",
+        good: "components:
+  - name: a
+    gates: 
+      - x: pub
+  - name: b
+    gates:
+      - x: pub
+",
+    },
+};
 
 /// Only the first anchors get a help made for their place, as finding it takes a walk over the whole tree.
 const EXPLAINED: usize = 20;
@@ -22,9 +49,9 @@ fn diagnose(anchor: &Anchor, root: Option<&Node>, place: &Place<'_>) -> Diagnost
     const MESSAGE: &str = "YAML anchors and aliases are not supported in a topology";
     let first_use = anchor.aliases.first().copied();
     let mut problem = match (anchor.definition, first_use) {
-        (Some(definition), _) => Diagnostic::error(CODE, MESSAGE, definition, "anchor defined here"),
-        (None, Some(alias)) => Diagnostic::error(CODE, MESSAGE, alias, "no anchor of this name stands above"),
-        (None, None) => Diagnostic::fileless(CODE, MESSAGE),
+        (Some(definition), _) => RULE.at(MESSAGE, definition, "anchor defined here"),
+        (None, Some(alias)) => RULE.at(MESSAGE, alias, "no anchor of this name stands above"),
+        (None, None) => RULE.fileless(MESSAGE),
     };
     if anchor.definition.is_some() {
         for alias in &anchor.aliases {
@@ -77,22 +104,14 @@ fn text(node: &Node) -> Option<&str> {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: a
-    gates: &g
-      - x: pub
-  - name: b
-    gates: *g
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0111",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0111] YAML anchors and aliases are not supported in a topology
              --> topology.yaml:3:12

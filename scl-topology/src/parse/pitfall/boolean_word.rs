@@ -1,10 +1,35 @@
 //! SCL0108: a word that YAML 1.1 reads as a boolean.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::source::Span;
 
-const TRUE: [&str; 4] = ["yes", "on", "true", "y"];
-const FALSE: [&str; 4] = ["no", "off", "false", "n"];
+/// SCL0108.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0108",
+    severity: Severity::Error,
+    title: "word that YAML 1.1 reads as a boolean",
+    explanation: "Older YAML tools read words such as `on` and `no` as true or false, so a gate of this name \
+                  would have another name in Python than in Rust. Put the word in quotes, or better choose a name that \
+                  says more.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: heater
+    gates:
+      - on: sub
+",
+        good: "components:
+  - name: heater
+    gates:
+      - switch_on: sub
+",
+    },
+};
+
+/// YAML 1.1 lists `y` and `n` too, but no usual tool follows it there, and `x`, `y`, `z` are good names of gates.
+const TRUE: [&str; 3] = ["yes", "on", "true"];
+const FALSE: [&str; 3] = ["no", "off", "false"];
 
 /// Looks at a name that stands without quotes.
 pub(in crate::parse) fn find(word: &str, at: Span) -> Option<Diagnostic> {
@@ -18,16 +43,15 @@ pub(in crate::parse) fn find(word: &str, at: Span) -> Option<Diagnostic> {
         word if FALSE.contains(&word) => "false",
         _ => return None,
     };
-    let reader = if lower.len() == 1 { "the YAML 1.1 standard reads" } else { "YAML 1.1 tools such as PyYAML read" };
     let message = format!("`{word}` is a boolean in YAML 1.1");
     Some(
-        Diagnostic::error("SCL0108", message, at, format!("{reader} this as `{value}`"))
+        RULE.at(message, at, format!("YAML 1.1 tools such as PyYAML read this as `{value}`"))
             .help(format!("quote it: \"{word}\""))
             .help(format!("or choose a name that says more: `{}`", better(&lower)))
             .note("a topology file is read by bindings in several languages, so it must mean the same in YAML 1.1 and 1.2")
             .note(
-                "PyYAML: yes, no, on, off, true, false in lower, Title and UPPER case; YAML 1.1 also lists y and n \
-                 (\"the Norway problem\")",
+                "PyYAML: yes, no, on, off, true, false in lower, Title and UPPER case (\"the Norway problem\"); y and n, \
+                 which YAML 1.1 lists too, are allowed",
             ),
     )
 }
@@ -35,8 +59,6 @@ pub(in crate::parse) fn find(word: &str, at: Span) -> Option<Diagnostic> {
 fn better(word: &str) -> &'static str {
     match word {
         "on" | "off" => "switch_on",
-        "y" => "position_y",
-        "n" => "count",
         "yes" | "true" => "confirmed",
         _ => "rejected",
     }
@@ -44,31 +66,25 @@ fn better(word: &str) -> &'static str {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: heater
-    gates:
-      - on: sub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0108",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
-            error: [SCL0108] `on` is a boolean in YAML 1.1
-             --> topology.yaml:4:9
-              |
-            4 |       - on: sub
-              |         ^^ YAML 1.1 tools such as PyYAML read this as `true`
-              |
-              = help: quote it: "on"
-              = help: or choose a name that says more: `switch_on`
-              = note: a topology file is read by bindings in several languages, so it must mean the same in YAML 1.1 and 1.2
-              = note: PyYAML: yes, no, on, off, true, false in lower, Title and UPPER case; YAML 1.1 also lists y and n ("the Norway problem")"#]],
+                error: [SCL0108] `on` is a boolean in YAML 1.1
+                 --> topology.yaml:4:9
+                  |
+                4 |       - on: sub
+                  |         ^^ YAML 1.1 tools such as PyYAML read this as `true`
+                  |
+                  = help: quote it: "on"
+                  = help: or choose a name that says more: `switch_on`
+                  = note: a topology file is read by bindings in several languages, so it must mean the same in YAML 1.1 and 1.2
+                  = note: PyYAML: yes, no, on, off, true, false in lower, Title and UPPER case ("the Norway problem"); y and n, which YAML 1.1 lists too, are allowed"#]],
         );
     }
 }

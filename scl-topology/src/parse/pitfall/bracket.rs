@@ -1,11 +1,29 @@
 //! SCL0102: brackets that do not match.
 
 use super::{Place, scan};
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::yaml::SyntaxError;
 use std::ops::Range;
 
-const CODE: &str = "SCL0102";
+/// SCL0102.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0102",
+    severity: Severity::Error,
+    title: "bracket never closed",
+    explanation: "A bracket or brace has no partner, or one of the other kind. The place shown is the bracket itself, \
+                  not the far end of the file where a parser notices it. Add or correct the missing one.",
+    examples: Examples::Topology {
+        bad: "connections:
+  - [sensor.measurements, controller.sensor
+  - [controller.actuator, actuator.setpoint]
+",
+        good: "components: []
+connections: []
+",
+    },
+};
 
 /// A bracket problem that the parser noticed as such.
 pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
@@ -43,8 +61,7 @@ fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let bracket = &text[open..open + 1];
     let next = next_item(open, text, place);
     let inside = &text[open + 1..next.as_ref().map_or(text.len(), |item| item.start)];
-    let mut problem =
-        Diagnostic::error(CODE, format!("this `{bracket}` is never closed"), place.span(open..open + 1), "opened here");
+    let mut problem = RULE.at(format!("this `{bracket}` is never closed"), place.span(open..open + 1), "opened here");
     if let Some(item) = next {
         let thing = if text[item.clone()].starts_with('-') { "list item" } else { "key" };
         problem = problem.label(place.span(item), format!("a new {thing} starts here, still inside the bracket"));
@@ -58,19 +75,14 @@ fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
 
 fn never_opened(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let bracket = &text[at..at + 1];
-    Diagnostic::error(
-        CODE,
-        format!("this `{bracket}` closes nothing"),
-        place.span(at..at + 1),
-        "no bracket is open here",
-    )
-    .help("remove it, or add the opening bracket")
+    RULE.at(format!("this `{bracket}` closes nothing"), place.span(at..at + 1), "no bracket is open here")
+        .help("remove it, or add the opening bracket")
 }
 
 fn mismatched(open: usize, at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let (bracket, found) = (&text[open..open + 1], &text[at..at + 1]);
     let close = closing(bracket);
-    Diagnostic::error(CODE, format!("this `{found}` does not close `{bracket}`"), place.span(at..at + 1), "")
+    RULE.at(format!("this `{found}` does not close `{bracket}`"), place.span(at..at + 1), "")
         .label(place.span(open..open + 1), "opened here")
         .help(format!("write `{close}` instead"))
 }
@@ -108,19 +120,14 @@ fn last_word(inside: &str) -> Option<&str> {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "connections:
-  - [sensor.measurements, controller.sensor
-  - [controller.actuator, actuator.setpoint]
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0102",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0102] this `[` is never closed
              --> topology.yaml:2:5

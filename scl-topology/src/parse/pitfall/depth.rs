@@ -1,28 +1,42 @@
 //! SCL0116: nested too deeply.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::source::Span;
 use crate::yaml::MAX_DEPTH;
 
+/// SCL0116.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0116",
+    severity: Severity::Error,
+    title: "nested too deeply",
+    explanation: "Brackets or indentation go deeper than any topology needs, which is 6 levels. The limit of 16 keeps \
+                  whoever reads the file, the compiler above all, from running out of stack.",
+    examples: Examples::Topology {
+        bad: "components: [[[[[[[[[[[[[[[[[x]]]]]]]]]]]]]]]]]
+",
+        good: "components: []
+",
+    },
+};
+
 pub(super) fn diagnose(at: Span) -> Diagnostic {
     let message = format!("the file is nested more than {MAX_DEPTH} levels deep here");
-    Diagnostic::error("SCL0116", message, at, format!("level {}", MAX_DEPTH + 1))
+    RULE.at(message, at, format!("level {}", MAX_DEPTH + 1))
         .note("a topology needs 6 levels; the limit keeps the compiler from overflowing its stack")
 }
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components: [[[[[[[[[[[[[[[[[x]]]]]]]]]]]]]]]]]
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0116",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0116] the file is nested more than 16 levels deep here
              --> topology.yaml:1:28

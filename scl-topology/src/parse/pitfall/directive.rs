@@ -1,10 +1,27 @@
 //! SCL0118: a YAML directive, such as `%YAML 1.1`.
 
 use super::Place;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use std::ops::Range;
 
-const CODE: &str = "SCL0118";
+/// SCL0118.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0118",
+    severity: Severity::Error,
+    title: "YAML directive",
+    explanation: "Lines that start with `%` are orders to the YAML parser. A topology is always read as YAML 1.2, so \
+                  it has none. Remove the line and the `---` below it.",
+    examples: Examples::Topology {
+        bad: "%YAML 1.1
+---
+components: []
+",
+        good: "components: []
+",
+    },
+};
 
 /// Reports the directives before the document, and puts spaces in their place.
 pub(super) fn check(place: &Place<'_>, text: &mut String, problems: &mut Diagnostics) {
@@ -20,7 +37,7 @@ pub(super) fn diagnose(place: &Place<'_>, at: usize) -> Diagnostic {
     let line = place.line(at);
     let marker = place.source.text()[range.end..].trim_start().starts_with("---");
     let help = if marker { format!("remove lines {line} and {}", line + 1) } else { format!("remove line {line}") };
-    Diagnostic::error(CODE, "YAML directives are not supported", place.span(range), "directive")
+    RULE.at("YAML directives are not supported", place.span(range), "directive")
         .help(help)
         .note("a topology is read as YAML 1.2; see SCL0108 for the words that differ")
 }
@@ -43,19 +60,14 @@ fn leading_directives(text: &str) -> Vec<Range<usize>> {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "%YAML 1.1
----
-components: []
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0118",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0118] YAML directives are not supported
              --> topology.yaml:1:1

@@ -1,9 +1,35 @@
 //! SCL0107: a key is written twice.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::source::Span;
 use crate::yaml::NodeKind;
+
+/// SCL0107.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0107",
+    severity: Severity::Error,
+    title: "duplicate key",
+    explanation: "A key is written twice in one place. YAML tools disagree which of the two counts, some of them \
+                  silently. Merge the two values, or remove one.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+    gates:
+      - status: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+      - status: pub
+",
+    },
+};
 
 /// `owner` says whose key it is, for example `this component`.
 pub(in crate::parse) fn diagnose(second: &Field<'_>, first: Span, owner: &str) -> Diagnostic {
@@ -12,7 +38,7 @@ pub(in crate::parse) fn diagnose(second: &Field<'_>, first: Span, owner: &str) -
         NodeKind::Sequence { .. } => "merge the two lists",
         _ => "remove one of them",
     };
-    Diagnostic::error("SCL0107", message, second.key_span, "second time")
+    RULE.at(message, second.key_span, "second time")
         .label(first, "first time")
         .help(help)
         .note("YAML tools disagree which one wins: PyYAML silently keeps the second")
@@ -20,22 +46,14 @@ pub(in crate::parse) fn diagnose(second: &Field<'_>, first: Span, owner: &str) -
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-    gates:
-      - status: pub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0107",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0107] the key `gates` is written twice in this component
              --> topology.yaml:5:5

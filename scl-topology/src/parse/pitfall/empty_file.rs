@@ -1,8 +1,28 @@
 //! SCL0115: nothing in the file.
 
 use super::Place;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::yaml::Tree;
+
+/// SCL0115.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0115",
+    severity: Severity::Error,
+    title: "empty file",
+    explanation: "The file holds nothing, or only comments. Write at least the section `components`.",
+    examples: Examples::Topology {
+        bad: "# TODO
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+connections: []
+",
+    },
+};
 
 pub(super) fn find(tree: &Tree, place: &Place<'_>) -> Option<Diagnostic> {
     if tree.root.as_ref().is_some_and(|root| !root.is_null()) {
@@ -18,22 +38,19 @@ pub(super) fn find(tree: &Tree, place: &Place<'_>) -> Option<Diagnostic> {
     };
     let span = if first == text.len() { place.span(0..0) } else { place.span(first..line.end.max(first)) };
     let example = "a minimal topology:\ncomponents:\n  - name: sensor\n    gates:\n      - measurements: pub";
-    Some(Diagnostic::error("SCL0115", "the topology file is empty", span, label).help(example))
+    Some(RULE.at("the topology file is empty", span, label).help(example))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "# TODO
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0115",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0115] the topology file is empty
              --> topology.yaml:1:1

@@ -1,11 +1,33 @@
 //! SCL0105: a line whose indentation fits no line above it.
 
 use super::Place;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::yaml::{MAX_DEPTH, SyntaxError};
 use std::ops::Range;
 
-const CODE: &str = "SCL0105";
+/// SCL0105.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0105",
+    severity: Severity::Error,
+    title: "inconsistent indentation",
+    explanation: "YAML reads structure from indentation: the keys of one component stand in one column, the items of \
+                  one list too. This line stands in a column that no line above it uses. Move it to the column that \
+                  the message names.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+   gates:
+      - measurements: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+",
+    },
+};
 
 /// A column at which keys or list items stand, and the word that stood there first.
 #[derive(Debug, Clone)]
@@ -44,7 +66,7 @@ fn has_value(level: &Level, text: &str, place: &Place<'_>) -> bool {
 /// A list below a line that has a value already.
 fn list_without_key(item: &Level, above: &Level, place: &Place<'_>) -> Diagnostic {
     let span = place.span(item.word.clone());
-    Diagnostic::error(CODE, "this list belongs to no key", span, "indented deeper than the line above")
+    RULE.at("this list belongs to no key", span, "indented deeper than the line above")
         .label(place.span(above.word.clone()), "this key has a value already")
         .help(format!("add a line with a key above it, for example `gates:`, indented by {}", spaces(above.indent)))
 }
@@ -63,7 +85,7 @@ fn diagnose(
     };
     let word = &text[line.word.clone()];
     let label = format!("{} are indented by {}", owner(meant, above, text), spaces(meant.indent));
-    Diagnostic::error(CODE, message, place.span(line.word.clone()), spaces(line.indent))
+    RULE.at(message, place.span(line.word.clone()), spaces(line.indent))
         .label(place.span(meant.word.clone()), label)
         .help(format!("indent `{word}` by {}", spaces(meant.indent)))
 }
@@ -121,20 +143,14 @@ fn levels_of(line: &str, start: usize) -> Vec<Level> {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: sensor
-   gates:
-      - measurements: pub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0105",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0105] this line is indented by 3 spaces, which matches no line above it
              --> topology.yaml:3:4

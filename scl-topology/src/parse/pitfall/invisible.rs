@@ -1,10 +1,29 @@
 //! SCL0117: a character that nobody sees, or that only looks like a space.
 
 use super::{Place, scan::Scan};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use std::collections::BTreeMap;
 
-const CODE: &str = "SCL0117";
+/// SCL0117.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0117",
+    severity: Severity::Error,
+    title: "invisible or control character",
+    explanation: "The file holds a character that nobody sees, or that looks like a space and is none. Such characters \
+                  come from web pages and word processors, and make two names differ that look the same. Remove it, or \
+                  replace it by an ordinary space.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name:\u{a0}sensor
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
 
 /// Reports each such character once, at its first place; puts spaces in the place of all of them.
 pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) {
@@ -55,7 +74,8 @@ fn diagnose(character: char, places: &[usize], place: &Place<'_>) -> Diagnostic 
     let (name, label, help) = describe(character);
     let kind = if character.is_control() { "control character" } else { "invisible character" };
     let name = if name.is_empty() { String::new() } else { format!(" ({name})") };
-    let mut problem = Diagnostic::error(CODE, format!("{kind} U+{:04X}{name}", u32::from(character)), span, label)
+    let mut problem = RULE
+        .at(format!("{kind} U+{:04X}{name}", u32::from(character)), span, label)
         .help(help)
         .note("such characters usually come from a web page or a word processor")
         .note(
@@ -96,18 +116,14 @@ fn describe(character: char) -> (&'static str, &'static str, &'static str) {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name:\u{a0}sensor
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0117",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0117] invisible character U+00A0 (no-break space)
              --> topology.yaml:2:10

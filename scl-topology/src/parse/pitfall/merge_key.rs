@@ -1,29 +1,44 @@
 //! SCL0112: the merge key `<<`.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::yaml::Node;
+
+/// SCL0112.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0112",
+    severity: Severity::Error,
+    title: "merge key",
+    explanation: "`<<` merges keys of another mapping in some YAML tools; it is no part of YAML 1.2, so tools disagree \
+                  about it. Write the keys out.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: b
+    <<: {gates: []}
+",
+        good: "components:
+  - name: b
+    gates: []
+",
+    },
+};
 
 pub(in crate::parse) fn diagnose(key: &Node) -> Diagnostic {
     let message = "the merge key `<<` is not supported";
-    Diagnostic::error("SCL0112", message, key.span, "YAML 1.1 extension, not part of YAML 1.2")
-        .help("write the keys out")
+    RULE.at(message, key.span, "YAML 1.1 extension, not part of YAML 1.2").help("write the keys out")
 }
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: b
-    <<: {gates: []}
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0112",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0112] the merge key `<<` is not supported
              --> topology.yaml:3:5

@@ -1,12 +1,31 @@
 //! SCL0103: no space after `:`.
 
 use super::Place;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::is_plain;
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, SyntaxError};
 
-const CODE: &str = "SCL0103";
+/// SCL0103.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0103",
+    severity: Severity::Error,
+    title: "missing space after `:`",
+    explanation: "Between a key and its value stand a colon and a space. Without the space YAML reads both as one \
+                  word. Add the space.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name:sensor
+    gates: []
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
 
 /// How many lines the parser may go on before it stumbles.
 const LINES: usize = 3;
@@ -50,7 +69,7 @@ fn with_words(problem: Diagnostic, error: &SyntaxError, start: usize, place: &Pl
 fn diagnose(key: &str, value: &str, at: Span) -> Diagnostic {
     let colon = at.start + key.len() as u32;
     let span = Span { start: colon, end: colon + 1, ..at };
-    Diagnostic::error(CODE, "missing space after `:`", span, format!("YAML reads `{key}:{value}` as one word"))
+    RULE.at("missing space after `:`", span, format!("YAML reads `{key}:{value}` as one word"))
         .help(format!("write `{key}: {value}`"))
 }
 
@@ -65,19 +84,14 @@ fn split(word: &str) -> Option<(&str, &str)> {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name:sensor
-    gates: []
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0103",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0103] missing space after `:`
              --> topology.yaml:2:9

@@ -1,12 +1,32 @@
 //! SCL0110: nothing where a name or value is expected.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::{component, with_dash};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 
-const CODE: &str = "SCL0110";
+/// SCL0110.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0110",
+    severity: Severity::Error,
+    title: "nothing where a name or value is expected",
+    explanation: "A key has no value where one is needed; YAML reads this as null. Write the value after the colon. \
+                  One place may stay empty: the kind of a gate, as in `events: {pub: , queue: 1}`, which is a gate \
+                  without a type that has options.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name:
+    gates: []
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
 
 /// `key:` without a value; `what` is what the value would be, for example `component name`.
 pub(in crate::parse) fn in_field(field: Field<'_>, what: &str, source: &SourceFile) -> Diagnostic {
@@ -38,7 +58,7 @@ pub(in crate::parse) fn in_list(item: &Node, what: &str, source: &SourceFile) ->
 }
 
 fn diagnose(what: &str, span: Span, label: &str) -> Diagnostic {
-    Diagnostic::error(CODE, format!("the {what} is empty"), span, label)
+    RULE.at(format!("the {what} is empty"), span, label)
 }
 
 fn value_label(value: &Node) -> &'static str {
@@ -47,19 +67,14 @@ fn value_label(value: &Node) -> &'static str {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name:
-    gates: []
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0110",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0110] the component name is empty
              --> topology.yaml:2:5

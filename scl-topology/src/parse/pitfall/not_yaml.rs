@@ -1,11 +1,30 @@
 //! SCL0121: a syntax error that no other rule explains.
 
 use super::Place;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::{component, sections};
 use crate::yaml::SyntaxError;
 
-const CODE: &str = "SCL0121";
+/// SCL0121.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0121",
+    severity: Severity::Error,
+    title: "text that is not YAML",
+    explanation: "The text is no YAML, and none of the more exact rules knows why. The place is where the parser gave \
+                  up; the mistake stands there or shortly before. Compare the lines with those of a sound file.",
+    examples: Examples::Topology {
+        bad: "components
+  - name: sensor
+    gates: []
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
 
 pub(super) fn diagnose(error: &SyntaxError, place: &Place<'_>) -> Diagnostic {
     if let Some(problem) = missing_colon(error, place) {
@@ -18,7 +37,7 @@ pub(super) fn diagnose(error: &SyntaxError, place: &Place<'_>) -> Diagnostic {
     }
     let end = at + text[at..].chars().next().filter(|c| !c.is_control()).map_or(0, char::len_utf8);
     let words = error.words.rsplit(", ").next().unwrap_or(&error.words);
-    Diagnostic::error(CODE, format!("this is not valid YAML: {words}"), place.span(at..end), "the parser stops here")
+    RULE.at(format!("this is not valid YAML: {words}"), place.span(at..end), "the parser stops here")
         .help("the mistake is here or shortly before")
 }
 
@@ -32,7 +51,7 @@ fn missing_colon(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
     let start = line.end - word.len();
     let word = word.trim_end();
     Some(
-        Diagnostic::error(CODE, format!("missing `:` after `{word}`"), place.span(start..start + word.len()), "a key")
+        RULE.at(format!("missing `:` after `{word}`"), place.span(start..start + word.len()), "a key")
             .help(format!("write `{word}:`")),
     )
 }
@@ -45,7 +64,7 @@ pub(super) fn missing_dash_space(error: &SyntaxError, place: &Place<'_>) -> Opti
     let rest = word.strip_prefix('-').filter(|rest| rest.starts_with(|c: char| c.is_alphabetic() || c == '['))?;
     let start = line.end - word.len();
     Some(
-        Diagnostic::error(CODE, "missing space after `-`", place.span(start..start + 1), "starts no list item")
+        RULE.at("missing space after `-`", place.span(start..start + 1), "starts no list item")
             .help(format!("write `- {}`", rest.trim_end())),
     )
 }

@@ -1,19 +1,38 @@
 //! SCL0109: a number where a name belongs.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::source::Span;
+
+/// SCL0109.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0109",
+    severity: Severity::Error,
+    title: "number used as a name",
+    explanation: "Where a name belongs stands a number or a date, as some YAML tools read it: `1.10` would become 1.1. \
+                  Start the name with a letter.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: 1.10
+    gates: []
+",
+        good: "components:
+  - name: v1_10
+    gates: []
+",
+    },
+};
 
 /// Looks at a name that stands without quotes.
 pub(in crate::parse) fn find(word: &str, at: Span) -> Option<Diagnostic> {
     let reading = reading(word)?;
     let message = format!("a name is expected here, and `{word}` is a {}", reading.noun());
     Some(
-        Diagnostic::error("SCL0109", message, at, reading.label(word))
-            .help(format!("names start with a letter: `{}`", as_name(word)))
-            .note(
-                "also read as numbers by YAML 1.1 or 1.2: 017, 0o17, 0x1F, 1_000, 12:30:45 (base 60), 1e3, .inf; and \
+        RULE.at(message, at, reading.label(word)).help(format!("names start with a letter: `{}`", as_name(word))).note(
+            "also read as numbers by YAML 1.1 or 1.2: 017, 0o17, 0x1F, 1_000, 12:30:45 (base 60), 1e3, .inf; and \
                  dates such as 2024-01-01",
-            ),
+        ),
     )
 }
 
@@ -94,19 +113,14 @@ fn as_name(word: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: 1.10
-    gates: []
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0109",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0109] a name is expected here, and `1.10` is a number
              --> topology.yaml:2:11

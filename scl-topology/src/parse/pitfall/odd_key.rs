@@ -1,28 +1,45 @@
 //! SCL0120: a key that is no plain word.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::yaml::Node;
+
+/// SCL0120.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0120",
+    severity: Severity::Error,
+    title: "key is not a plain word",
+    explanation: "YAML allows lists and mappings as keys, and null. In a topology each key is a plain word. Write one.",
+    examples: Examples::Topology {
+        bad: "components:
+  - ? [a, b]
+    : pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+connections: []
+",
+    },
+};
 
 pub(in crate::parse) fn diagnose(key: &Node) -> Diagnostic {
     let label = format!("this key is {}", crate::parse::shape_word(key));
-    Diagnostic::error("SCL0120", "a key must be a plain word", key.span, label)
+    RULE.at("a key must be a plain word", key.span, label)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - ? [a, b]
-    : pub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0120",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0120] a key must be a plain word
              --> topology.yaml:2:7

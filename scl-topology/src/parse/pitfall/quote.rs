@@ -1,8 +1,29 @@
 //! SCL0104: a quote is never closed.
 
 use super::{Place, scan};
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::yaml::{SyntaxError, SyntaxErrorKind};
+
+/// SCL0104.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0104",
+    severity: Severity::Error,
+    title: "quote never closed",
+    explanation: "A text starts with a quote that nothing closes, so everything that follows belongs to it. Add the \
+                  closing quote, or remove the opening one: names need no quotes.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: \"sensor
+    gates: []
+",
+        good: "components:
+  - name: \"sensor\"
+    gates: []
+",
+    },
+};
 
 /// A quoted text that runs over the end of its line and covers, or ends just before, the place of the error.
 pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
@@ -17,24 +38,19 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     let quote = &text[range.start..range.start + 1];
     let help = format!("add the closing `{quote}` at the end of line {}", place.line(range.start));
     let span = place.span(range.start..range.start + 1);
-    Some(Diagnostic::error("SCL0104", "this quoted string is never closed", span, "opened here").help(help))
+    Some(RULE.at("this quoted string is never closed", span, "opened here").help(help))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: \"sensor
-    gates: []
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0104",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0104] this quoted string is never closed
              --> topology.yaml:2:11

@@ -1,7 +1,27 @@
 //! SCL0106: a character that cannot start a value.
 
 use super::Place;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
+
+/// SCL0106.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0106",
+    severity: Severity::Error,
+    title: "character that cannot start a value",
+    explanation: "Some characters have a meaning of their own at the start of a value, such as `@`, `%`, `&` and `*`. \
+                  Remove the character, or put the value in quotes.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: @sensor
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
 
 /// The character at the place of the error, if a reserved one stands there.
 pub(super) fn find(at: usize, place: &Place<'_>) -> Option<Diagnostic> {
@@ -17,14 +37,9 @@ pub(super) fn diagnose(at: usize, character: char, place: &Place<'_>) -> Diagnos
     let before = text.get(place.line_range(at).start..at).unwrap_or("");
     let is_name = !before.contains("doc:");
     let then = if is_name { " (it would then fail SCL0303)" } else { "" };
-    Diagnostic::error(
-        "SCL0106",
-        format!("a value cannot start with {} in YAML", ticked(character)),
-        span,
-        "reserved character",
-    )
-    .help(format!("remove it, or quote the value: \"{word}\"{then}"))
-    .note("also reserved at the start: `` ` `` `%` `&` `*` `!` `|` `>` `'` `\"` `#`")
+    RULE.at(format!("a value cannot start with {} in YAML", ticked(character)), span, "reserved character")
+        .help(format!("remove it, or quote the value: \"{word}\"{then}"))
+        .note("also reserved at the start: `` ` `` `%` `&` `*` `!` `|` `>` `'` `\"` `#`")
 }
 
 fn ticked(character: char) -> String {
@@ -33,18 +48,14 @@ fn ticked(character: char) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: @sensor
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0106",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0106] a value cannot start with `@` in YAML
              --> topology.yaml:2:11

@@ -1,8 +1,28 @@
 //! SCL0114: more than one document.
 
 use super::Place;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::source::Span;
+
+/// SCL0114.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0114",
+    severity: Severity::Error,
+    title: "more than one document",
+    explanation: "`---` starts another YAML document in the same file. A topology is one document; most tools would \
+                  silently ignore the rest. Remove the line.",
+    examples: Examples::Topology {
+        bad: "components: []
+---
+connections: []
+",
+        good: "components: []
+connections: []
+",
+    },
+};
 
 /// The parser may place the start of a document without `---` at its content.
 pub(super) fn diagnose(place: &Place<'_>, at: Span) -> Diagnostic {
@@ -10,25 +30,19 @@ pub(super) fn diagnose(place: &Place<'_>, at: Span) -> Diagnostic {
     let marker = rest.starts_with("---");
     let help = if marker { "remove the `---` line" } else { "remove the `...` line above" };
     let span = if marker { Span { end: at.start + 3, ..at } } else { at };
-    Diagnostic::error("SCL0114", "a topology is one YAML document; a second one starts here", span, "second document")
-        .help(help)
+    RULE.at("a topology is one YAML document; a second one starts here", span, "second document").help(help)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components: []
----
-connections: []
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0114",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0114] a topology is one YAML document; a second one starts here
              --> topology.yaml:2:1

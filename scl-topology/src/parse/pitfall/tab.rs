@@ -1,9 +1,27 @@
 //! SCL0101: a tab is used for indentation.
 
 use super::{Place, scan::Scan};
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 
-const CODE: &str = "SCL0101";
+/// SCL0101.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0101",
+    severity: Severity::Error,
+    title: "tab used for indentation",
+    explanation: "A line is indented with a tab. YAML forbids that, because nobody knows how wide a tab is. Replace \
+                  tabs by spaces; editors have a command for it.",
+    examples: Examples::Topology {
+        bad: "components:
+\t- name: sensor
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
 
 /// Reports the first line that is indented with a tab, and how many follow; puts spaces in their place.
 pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
@@ -33,7 +51,7 @@ pub(super) fn elsewhere(at: usize, place: &Place<'_>) -> Diagnostic {
 }
 
 fn diagnose(tab: usize, message: &str, place: &Place<'_>) -> Diagnostic {
-    Diagnostic::error(CODE, message, place.span(tab..tab + 1), "this is a tab (shown as 4 spaces)")
+    RULE.at(message, place.span(tab..tab + 1), "this is a tab (shown as 4 spaces)")
         .help("replace it with spaces; most editors: \"Convert Indentation to Spaces\"")
 }
 
@@ -69,18 +87,14 @@ fn opens_block(line: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-\t- name: sensor
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0101",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0101] a tab character is used for indentation
              --> topology.yaml:2:1

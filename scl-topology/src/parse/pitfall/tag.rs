@@ -1,26 +1,42 @@
 //! SCL0113: a YAML tag.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::source::Span;
 
+/// SCL0113.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0113",
+    severity: Severity::Error,
+    title: "tag",
+    explanation: "A tag such as `!!str` changes the type of a value, and in some languages even runs code. A topology \
+                  needs none. Remove it.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: !!python/name:os.system sensor
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
+
 pub(super) fn diagnose(tag: Span) -> Diagnostic {
-    Diagnostic::error("SCL0113", "YAML tags are not supported in a topology", tag, "tag").help("remove the tag")
+    RULE.at("YAML tags are not supported in a topology", tag, "tag").help("remove the tag")
 }
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: !!python/name:os.system sensor
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0113",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0113] YAML tags are not supported in a topology
              --> topology.yaml:2:11

@@ -1,13 +1,34 @@
 //! SCL0119: a text block where a name belongs.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
+
+/// SCL0119.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0119",
+    severity: Severity::Error,
+    title: "text block used as a name",
+    explanation: "`|` and `>` start a text of several lines, whose value ends with a line break. A name stands on one \
+                  line. Write it behind its key.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: |
+      sensor
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
 
 pub(in crate::parse) fn diagnose(node: &Node, text: &str, source: &SourceFile) -> Diagnostic {
     let end = if text.ends_with('\n') { " with a line break" } else { "" };
     let label = format!("this starts a text block; its value is {text:?}{end}");
-    let problem = Diagnostic::error("SCL0119", "a name must be written on one line", header(node, source), label);
+    let problem = RULE.at("a name must be written on one line", header(node, source), label);
     let name = text.trim();
     if name.contains('\n') { problem } else { problem.help(format!("write `{}`", written(node, name, source))) }
 }
@@ -33,19 +54,14 @@ fn written(node: &Node, name: &str, source: &SourceFile) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: |
-      sensor
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0119",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0119] a name must be written on one line
              --> topology.yaml:2:11

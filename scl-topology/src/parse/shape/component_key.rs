@@ -1,32 +1,49 @@
 //! SCL0207: an unknown key in a component.
 
 use super::{suggest, ticked};
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::component::KEYS;
 use crate::parse::fields::Field;
 
+/// SCL0207.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0207",
+    severity: Severity::Error,
+    title: "unknown key in a component",
+    explanation: "A component has the keys `name`, `gates`, `doc` and `optional`. Another one is mostly misspelt, and \
+                  would be ignored silently otherwise. Correct or remove it.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gate:
+      - measurements: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+",
+    },
+};
+
 pub(in crate::parse) fn diagnose(field: Field<'_>, component: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in component `{component}`", field.key);
-    let problem = Diagnostic::error("SCL0207", message, field.key_span, "not a key of a component");
+    let problem = RULE.at(message, field.key_span, "not a key of a component");
     suggest(problem, "key", field.key, KEYS).note(format!("keys of a component: {}", ticked(KEYS)))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: sensor
-    gate:
-      - measurements: pub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0207",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0207] unknown key `gate` in component `sensor`
              --> topology.yaml:3:5

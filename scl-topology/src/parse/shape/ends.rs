@@ -1,12 +1,31 @@
 //! SCL0211: a connection that is not a pair of ends.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::{scalar, shape_word};
 use crate::source::Span;
 use crate::yaml::{Node, NodeKind};
 
-const CODE: &str = "SCL0211";
-const RULE: &str = "a connection joins exactly two gates";
+/// SCL0211.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0211",
+    severity: Severity::Error,
+    title: "connection does not have two ends",
+    explanation: "A connection is a pair: `[component.gate, component.gate]`, in either order. This entry has fewer or \
+                  more ends, or is no list. For one sender and several receivers write one connection each.",
+    examples: Examples::Topology {
+        bad: "components: []
+connections:
+  - [controller.events, user_interface.events, logger.events]
+",
+        good: "components: []
+connections: []
+",
+    },
+};
+
+const PAIR: &str = "a connection joins exactly two gates";
 
 /// A help shows no more pairs than this.
 const SHOWN: usize = 10;
@@ -18,7 +37,7 @@ pub(in crate::parse) fn count(span: Span, items: &[Node]) -> Diagnostic {
         1 => ("lists 1".to_owned(), "1 gate".to_owned()),
         count => (format!("lists {count}"), format!("{count} gates")),
     };
-    let problem = Diagnostic::error(CODE, format!("{RULE}; this one {lists}"), span, label);
+    let problem = RULE.at(format!("{PAIR}; this one {lists}"), span, label);
     let names: Option<Vec<String>> = items.iter().map(|item| scalar(item).map(|name| name.value)).collect();
     match names.as_deref() {
         Some([one]) => problem.help(one_end(one)),
@@ -35,7 +54,7 @@ pub(in crate::parse) fn text(item: &Node, text: &str) -> Diagnostic {
         (Some(arrow), 0 | 1) => format!("one end of `{arrow}` is missing"),
         _ => "this is text".to_owned(),
     };
-    let problem = Diagnostic::error(CODE, format!("{RULE}; this one is text"), item.span, label);
+    let problem = RULE.at(format!("{PAIR}; this one is text"), item.span, label);
     match ends.as_slice() {
         [one] => problem.help(one_end(one)),
         [first, second] => problem.help(format!("write `[{first}, {second}]`")),
@@ -45,7 +64,7 @@ pub(in crate::parse) fn text(item: &Node, text: &str) -> Diagnostic {
 
 /// `- sensor.measurements: controller.sensor`.
 pub(in crate::parse) fn mapping(item: &Node) -> Diagnostic {
-    let problem = Diagnostic::error(CODE, format!("{RULE}; this one is a mapping"), item.span, "a key and its value");
+    let problem = RULE.at(format!("{PAIR}; this one is a mapping"), item.span, "a key and its value");
     let NodeKind::Mapping { entries } = &item.kind else { return problem };
     match entries.as_slice() {
         [(first, second)] => match (scalar(first), scalar(second)) {
@@ -60,7 +79,7 @@ pub(in crate::parse) fn mapping(item: &Node) -> Diagnostic {
 /// A list or mapping as one of two ends.
 pub(in crate::parse) fn end_is_not_text(node: &Node) -> Diagnostic {
     let message = format!("an end of a connection is `component.gate`; this is {}", shape_word(node));
-    let problem = Diagnostic::error(CODE, message, node.span, format!("this is {}", shape_word(node)));
+    let problem = RULE.at(message, node.span, format!("this is {}", shape_word(node)));
     let NodeKind::Mapping { entries } = &node.kind else { return problem };
     match entries.as_slice() {
         [(component, gate)] => match (scalar(component), scalar(gate)) {
@@ -91,19 +110,14 @@ fn is_arrow(word: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components: []
-connections:
-  - [controller.events, user_interface.events, logger.events]
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0211",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0211] a connection joins exactly two gates; this one lists 3
              --> topology.yaml:3:5

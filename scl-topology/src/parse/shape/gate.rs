@@ -1,7 +1,9 @@
 //! SCL0210: a gate that is not written as `name: kind` or `name: {kind: type, option: value}`.
 
 use super::ticked;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::fields::{Field, Fields};
 use crate::parse::gate::is_kind;
 use crate::parse::scalar;
@@ -9,11 +11,35 @@ use crate::source::{Span, Spanned};
 use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};
 
-const CODE: &str = "SCL0210";
+/// SCL0210.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0210",
+    severity: Severity::Error,
+    title: "gate entry has the wrong shape",
+    explanation: "An entry of `gates` is `name: kind`, or `name: {kind: type, option: value}`. This one has another \
+                  shape: no kind, two kinds, two names, or the kind as a value. The message says which, and what to \
+                  write.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements
+      - status: pub
+        health: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+      - status: pub
+      - health: pub
+",
+    },
+};
 
 /// `- measurements`.
 pub(in crate::parse) fn without_kind(name: &str, at: Span) -> Diagnostic {
-    Diagnostic::error(CODE, format!("gate `{name}` has no kind"), at, format!("expected `{name}: pub`"))
+    RULE.at(format!("gate `{name}` has no kind"), at, format!("expected `{name}: pub`"))
         .help(format!("write the kind after the name: `- {name}: pub`"))
         .note(kinds())
 }
@@ -22,7 +48,7 @@ pub(in crate::parse) fn without_kind(name: &str, at: Span) -> Diagnostic {
 pub(in crate::parse) fn without_kind_key(gate: Field<'_>, fields: &Fields<'_>) -> Diagnostic {
     let name = gate.key;
     let label = if fields.list.is_empty() { "empty" } else { "only options here" };
-    Diagnostic::error(CODE, format!("gate `{name}` has no kind"), gate.value.span, label)
+    RULE.at(format!("gate `{name}` has no kind"), gate.value.span, label)
         .help(format!("start with kind and type: `{name}: {{pub: Type}}`"))
         .note(kinds())
 }
@@ -30,7 +56,7 @@ pub(in crate::parse) fn without_kind_key(gate: Field<'_>, fields: &Fields<'_>) -
 /// `- measurements: {pub: A, sub: B}`.
 pub(in crate::parse) fn two_kinds(name: &str, first: &Field<'_>, second: &Field<'_>) -> Diagnostic {
     let message = format!("gate `{name}` has two kinds, `{}` and `{}`", first.key, second.key);
-    Diagnostic::error(CODE, message, second.key_span, "second kind")
+    RULE.at(message, second.key_span, "second kind")
         .label(first.key_span, "first kind")
         .help("a gate has one kind; make two gates of it")
 }
@@ -38,7 +64,7 @@ pub(in crate::parse) fn two_kinds(name: &str, first: &Field<'_>, second: &Field<
 /// `- measurements: [pub]`.
 pub(in crate::parse) fn kind_is_list(gate: Field<'_>) -> Diagnostic {
     let message = format!("the kind of gate `{}` must be one word; this is a list", gate.key);
-    Diagnostic::error(CODE, message, gate.value.span, format!("expected `{}: pub`", gate.key))
+    RULE.at(message, gate.value.span, format!("expected `{}: pub`", gate.key))
         .help(format!("write `- {}: pub`, or `- {}: {{pub: Type}}`", gate.key, gate.key))
         .note(kinds())
 }
@@ -47,7 +73,7 @@ pub(in crate::parse) fn kind_is_list(gate: Field<'_>) -> Diagnostic {
 pub(in crate::parse) fn kind_and_type(gate: Field<'_>, value: &str) -> Option<Diagnostic> {
     let (kind, payload) = value.split_once(char::is_whitespace).filter(|(kind, _)| is_kind(kind))?;
     let message = format!("gate `{}` has its type outside of braces", gate.key);
-    let problem = Diagnostic::error(CODE, message, gate.value.span, "kind and type in one word");
+    let problem = RULE.at(message, gate.value.span, "kind and type in one word");
     Some(problem.help(format!("write `{}: {{{kind}: {}}}`", gate.key, payload.trim())))
 }
 
@@ -61,7 +87,7 @@ pub(in crate::parse) fn kind_as_key(gate: Field<'_>, fields: &Fields<'_>) -> Opt
         Some(payload) => format!("write `{}: {{{kind}: {}}}`", gate.key, payload.value),
         None => format!("write `{}: {kind}`", gate.key),
     };
-    Some(Diagnostic::error(CODE, message, field.key_span, "the kind itself is the key").help(help))
+    Some(RULE.at(message, field.key_span, "the kind itself is the key").help(help))
 }
 
 /// Name and kind of `{name: measurements, kind: pub}`; none if the item is written otherwise.
@@ -78,7 +104,7 @@ pub(in crate::parse) fn written_long(item: &Node, fields: &Fields<'_>) -> Diagno
     let name = value("name").unwrap_or_else(|| "measurements".to_owned());
     let kind = value("kind").or_else(|| value("type")).unwrap_or_else(|| "pub".to_owned());
     let at = fields.list.first().map_or(item.span, |field| field.key_span);
-    Diagnostic::error(CODE, "a gate is written as `name: kind`", at, "the name itself is the key")
+    RULE.at("a gate is written as `name: kind`", at, "the name itself is the key")
         .help(format!("write `- {name}: {kind}`"))
         .note(kinds())
 }
@@ -89,7 +115,7 @@ pub(in crate::parse) fn several_in_one_item(first: Field<'_>, others: &[&Field<'
     let count = if others.is_empty() { 1 } else { others.len() + 1 };
     let count = if count == 2 { "two".to_owned() } else { count.to_string() };
     let at = others.first().map_or(first.key_span, |other| other.key_span);
-    Diagnostic::error(CODE, format!("{count} gates in one list item ({names})"), at, "the second gate")
+    RULE.at(format!("{count} gates in one list item ({names})"), at, "the second gate")
         .label(first.key_span, "the first gate")
         .help(match others.first() {
             Some(second) => format!("start the second with `-`: `- {}: ...`", second.key),
@@ -99,12 +125,12 @@ pub(in crate::parse) fn several_in_one_item(first: Field<'_>, others: &[&Field<'
 
 /// `- {}`.
 pub(in crate::parse) fn empty_mapping(item: &Node) -> Diagnostic {
-    Diagnostic::error(CODE, "this gate has no name", item.span, "expected `measurements: pub`").note(kinds())
+    RULE.at("this gate has no name", item.span, "expected `measurements: pub`").note(kinds())
 }
 
 /// `- [measurements, pub]`.
 pub(in crate::parse) fn is_list(item: &Node) -> Diagnostic {
-    let problem = Diagnostic::error(CODE, "a gate is written as `name: kind`; this is a list", item.span, "a list");
+    let problem = RULE.at("a gate is written as `name: kind`; this is a list", item.span, "a list");
     match &item.kind {
         NodeKind::Sequence { items } => match items.as_slice() {
             [name, kind] => match (scalar(name), scalar(kind)) {
@@ -123,22 +149,14 @@ fn kinds() -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: sensor
-    gates:
-      - measurements
-      - status: pub
-        health: pub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0210",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
                 error: [SCL0210] gate `measurements` has no kind
                  --> topology.yaml:4:9

@@ -1,16 +1,39 @@
 //! SCL0212: an unknown key in a gate.
 
 use super::ticked;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::option::{OPTIONS, rule};
 use crate::suggest::similar;
 use crate::topology::GateKind;
 
+/// SCL0212.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0212",
+    severity: Severity::Error,
+    title: "unknown key in a gate",
+    explanation: "A gate has its kind and options as keys. This key is neither, mostly because it is misspelt. The \
+                  message lists the options that this kind of gate has.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, que: 4}
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {sub: Measurement, queue: 4}
+",
+    },
+};
+
 /// `kind` is the kind as written, `path` the gate with its component.
 pub(in crate::parse) fn diagnose(field: Field<'_>, kind: &str, path: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in gate `{path}`", field.key);
-    let mut problem = Diagnostic::error("SCL0212", message, field.key_span, "");
+    let mut problem = RULE.at(message, field.key_span, "");
     for name in similar(field.key, OPTIONS.iter().map(|option| option.key)) {
         problem = problem.help(format!("a key with a similar name exists: `{name}`{}", only_of(name, kind)));
     }
@@ -33,20 +56,14 @@ fn only_of(option: &str, kind: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, que: 4}
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0212",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0212] unknown key `que` in gate `sensor.measurements`
              --> topology.yaml:4:42

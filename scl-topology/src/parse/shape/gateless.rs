@@ -1,8 +1,29 @@
 //! SCL0209: a component without gates.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::source::Spanned;
+
+/// SCL0209.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0209",
+    severity: Severity::Warning,
+    title: "component without gates",
+    explanation: "A component without gates can talk to nobody, so it is probably not finished. Add a gate, or remove \
+                  the component; `gates: []` says that it is meant.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: logger
+    gates:
+",
+        good: "components:
+  - name: logger
+    gates: []
+",
+    },
+};
 
 /// A warning where `gates` is missing or has no value; `gates: []` is meant.
 pub(in crate::parse) fn find(component: &Spanned<String>, gates: Option<Field<'_>>) -> Option<Diagnostic> {
@@ -10,7 +31,7 @@ pub(in crate::parse) fn find(component: &Spanned<String>, gates: Option<Field<'_
         return None;
     }
     let message = format!("component `{}` has no gates", component.value);
-    let mut problem = Diagnostic::warning("SCL0209", message, component.span, "it cannot be part of any connection");
+    let mut problem = RULE.at(message, component.span, "it cannot be part of any connection");
     if let Some(gates) = gates {
         let span = crate::source::Span { end: gates.key_span.end + 1, ..gates.key_span };
         problem = problem.label(span, "empty");
@@ -20,19 +41,14 @@ pub(in crate::parse) fn find(component: &Spanned<String>, gates: Option<Field<'_
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: logger
-    gates:
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0209",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             warning: [SCL0209] component `logger` has no gates
              --> topology.yaml:2:11

@@ -1,6 +1,8 @@
 //! SCL0214: a key that belongs elsewhere.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::model::ComponentModel;
 use crate::parse::component::{self, head};
 use crate::parse::fields::{Field, Fields};
@@ -9,7 +11,29 @@ use crate::parse::{option, scalar, sections};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 
-const CODE: &str = "SCL0214";
+/// SCL0214.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0214",
+    severity: Severity::Error,
+    title: "key at the wrong level",
+    explanation: "The key is known, but at another level: a section inside a component, an option beside a gate, gates \
+                  at the top. It is mostly a slip of the indentation. Move it to where the message says.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+    connections:
+      - [sensor.measurements, controller.sensor]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+connections: []
+",
+    },
+};
 
 /// A key of a component, or of a gate, at the top level.
 pub(in crate::parse) fn at_top(field: Field<'_>, source: &SourceFile) -> Option<Diagnostic> {
@@ -37,8 +61,7 @@ pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: 
 pub(in crate::parse) fn option_beside_gate(option: Field<'_>, gate: Field<'_>, source: &SourceFile) -> Diagnostic {
     let message = format!("`{}` belongs inside the braces of gate `{}`, not beside it", option.key, gate.key);
     let kind = scalar(gate.value).filter(|kind| is_kind(&kind.value)).map_or("pub".to_owned(), |kind| kind.value);
-    problem(message, option.key_span, source)
-        .help(format!("write `{}: {{{kind}: Type, {}: ...}}`", gate.key, option.key))
+    problem(message, option.key_span, source).help(format!("write `{}: {{{kind}: , {}: ...}}`", gate.key, option.key))
 }
 
 /// `- gates:` after a component that has no gates: its `-` starts a new component.
@@ -56,7 +79,7 @@ pub(in crate::parse) fn gates_after_dash(
     let name = &above.name.value;
     let message = format!("these `gates` belong to component `{name}`, but their `-` starts a new component");
     Some(
-        Diagnostic::error(CODE, message, head(item, fields, source), "a component of its own")
+        RULE.at(message, head(item, fields, source), "a component of its own")
             .label(above.name.span, "the component above")
             .help("replace the `-` by a space"),
     )
@@ -71,7 +94,7 @@ fn problem(message: String, key: Span, source: &SourceFile) -> Diagnostic {
         true => format!("indented by {} spaces", before.len()),
         false => "not here".to_owned(),
     };
-    Diagnostic::error(CODE, message, key, label)
+    RULE.at(message, key, label)
 }
 
 fn in_gate(field: Field<'_>) -> String {
@@ -80,22 +103,14 @@ fn in_gate(field: Field<'_>) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-    connections:
-      - [sensor.measurements, controller.sensor]
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0214",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0214] `connections` belongs at the top level, not inside component `sensor`
              --> topology.yaml:5:5

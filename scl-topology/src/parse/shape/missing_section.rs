@@ -1,9 +1,28 @@
 //! SCL0203: the section `components` is missing.
 
 use super::ticked;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::fields::Fields;
 use crate::source::{FileId, Span};
+
+/// SCL0203.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0203",
+    severity: Severity::Error,
+    title: "required section missing",
+    explanation: "The section `components` declares who may talk at all; without it nothing else has a meaning. Add \
+                  it.",
+    examples: Examples::Topology {
+        bad: "connections:
+  - [sensor.measurements, controller.sensor]
+",
+        good: "components: []
+connections: []
+",
+    },
+};
 
 pub(in crate::parse) fn diagnose(fields: &Fields<'_>, file: FileId) -> Diagnostic {
     const MESSAGE: &str = "the section `components` is missing";
@@ -17,24 +36,19 @@ pub(in crate::parse) fn diagnose(fields: &Fields<'_>, file: FileId) -> Diagnosti
         }
         _ => format!("this file has only {}", ticked(keys)),
     };
-    Diagnostic::error("SCL0203", MESSAGE, first, label)
-        .help("add the section; it declares each component and its gates")
+    RULE.at(MESSAGE, first, label).help("add the section; it declares each component and its gates")
 }
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "connections:
-  - [sensor.measurements, controller.sensor]
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0203",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0203] the section `components` is missing
              --> topology.yaml:1:1

@@ -1,23 +1,43 @@
 //! SCL0208: a component without a name.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::component::head;
 use crate::parse::fields::Fields;
 use crate::parse::shape_word;
 use crate::source::SourceFile;
 use crate::yaml::{Node, NodeKind};
 
-const CODE: &str = "SCL0208";
+/// SCL0208.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0208",
+    severity: Severity::Error,
+    title: "component without a name",
+    explanation: "Each component has a name, by which connections and programs know it. Add `name:`.",
+    examples: Examples::Topology {
+        bad: "components:
+  - gates:
+      - measurements: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+",
+    },
+};
+
 const MESSAGE: &str = "this component has no name";
 
 pub(in crate::parse) fn diagnose(item: &Node, fields: &Fields<'_>, source: &SourceFile) -> Diagnostic {
-    Diagnostic::error(CODE, MESSAGE, head(item, fields, source), "`name` is missing").help("add `name: ...`")
+    RULE.at(MESSAGE, head(item, fields, source), "`name` is missing").help("add `name: ...`")
 }
 
 /// `- sensor` or a list in the place of a component.
 pub(in crate::parse) fn not_a_mapping(item: &Node) -> Diagnostic {
     let label = format!("{}, where the keys of a component are expected", shape_word(item));
-    let problem = Diagnostic::error(CODE, MESSAGE, item.span, label);
+    let problem = RULE.at(MESSAGE, item.span, label);
     match &item.kind {
         NodeKind::Scalar { text, .. } => problem.help(format!("write `- name: {}`", text.trim())),
         _ => problem.help("write `- name: sensor` and below it `gates:`"),
@@ -26,19 +46,14 @@ pub(in crate::parse) fn not_a_mapping(item: &Node) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - gates:
-      - measurements: pub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0208",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
                 error: [SCL0208] this component has no name
                  --> topology.yaml:2:3

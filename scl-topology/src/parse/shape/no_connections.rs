@@ -1,7 +1,31 @@
 //! SCL0206: no connections.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
+
+/// SCL0206.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0206",
+    severity: Severity::Warning,
+    title: "no connections",
+    explanation: "Gates are declared, and none of them is connected. Add the section `connections`. If the wiring \
+                  follows later, write `connections: []`, which says so.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+connections: []
+",
+    },
+};
 
 /// A warning where gates exist, and `connections` is missing or has no value; `connections: []` is meant.
 pub(in crate::parse) fn find(
@@ -14,7 +38,7 @@ pub(in crate::parse) fn find(
     }
     let label =
         if gates == 1 { "1 gate is declared here".to_owned() } else { format!("{gates} gates are declared here") };
-    let problem = Diagnostic::warning("SCL0206", "the topology has no connections", components.key_span, label);
+    let problem = RULE.at("the topology has no connections", components.key_span, label);
     let problem = match connections {
         Some(section) => problem.label(section.key_span, "empty").help("write the connections below it"),
         None => problem.help("add a `connections:` section"),
@@ -24,20 +48,14 @@ pub(in crate::parse) fn find(
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0206",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             warning: [SCL0206] the topology has no connections
              --> topology.yaml:1:1

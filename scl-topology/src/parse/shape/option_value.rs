@@ -1,14 +1,35 @@
 //! SCL0215: a value of the wrong kind.
 
 use super::ticked;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::option::Value;
 use crate::parse::{is_plain, shape_word};
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
 
-const CODE: &str = "SCL0215";
+/// SCL0215.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0215",
+    severity: Severity::Error,
+    title: "option value has the wrong kind",
+    explanation: "The value has the wrong type: text where a number belongs, a number without a unit where a duration \
+                  belongs, or a word that the option does not know. The message gives an example.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, queue: many}
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {sub: Measurement, queue: 16}
+",
+    },
+};
 
 pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Value) -> Diagnostic {
     let key = field.key;
@@ -20,7 +41,7 @@ pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Value) -> Diagnosti
         Value::Word(words) => (one_of(words), words.first().copied().unwrap_or("")),
         Value::Text | Value::Name => ("text".to_owned(), "text"),
     };
-    let problem = Diagnostic::error(CODE, format!("`{key}` must be {rule}"), field.value.span, label(field.value));
+    let problem = RULE.at(format!("`{key}` must be {rule}"), field.value.span, label(field.value));
     problem.help(match meant(field.value, expected) {
         Some(word) => format!("write `{key}: {word}`"),
         None => format!("for example `{key}: {example}`"),
@@ -30,7 +51,7 @@ pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Value) -> Diagnosti
 /// A list or mapping where text belongs; `place` is where, for example `` `name` ``.
 pub(in crate::parse) fn not_text(place: &str, node: &Node) -> Diagnostic {
     let message = format!("{place} must be text; this is {}", shape_word(node));
-    Diagnostic::error(CODE, message, node.span, format!("this is {}", shape_word(node)))
+    RULE.at(message, node.span, format!("this is {}", shape_word(node)))
 }
 
 fn one_of(words: &[&str]) -> String {
@@ -70,20 +91,14 @@ fn meant(value: &Node, expected: Value) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, queue: many}
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0215",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0215] `queue` must be a whole number
              --> topology.yaml:4:49

@@ -1,6 +1,8 @@
 //! SCL0204: a section, or the list of gates, has the wrong kind.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::model::ComponentModel;
 use crate::parse::component::end_with_colon;
 use crate::parse::fields::Field;
@@ -8,7 +10,26 @@ use crate::parse::shape_word;
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 
-const CODE: &str = "SCL0204";
+/// SCL0204.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0204",
+    severity: Severity::Error,
+    title: "section has the wrong kind",
+    explanation: "A section that is a list is written as something else, often as a mapping with names as keys. Lists \
+                  keep the order of the file and find doubled names. Start each entry with `-`.",
+    examples: Examples::Topology {
+        bad: "components:
+  sensor:
+    gates:
+      - measurements: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+",
+    },
+};
 
 /// `components: {sensor: ...}`; `first` is the first component that could be read from it.
 pub(in crate::parse) fn components(section: Field<'_>, first: Option<&ComponentModel>) -> Diagnostic {
@@ -56,7 +77,7 @@ pub(in crate::parse) fn text(section: Field<'_>) -> Diagnostic {
 fn wrong_kind(section: Field<'_>, at: Span, label: String) -> Diagnostic {
     let message = format!("`{}` must be a list; this is {}", section.key, shape_word(section.value));
     let label = if label.is_empty() { format!("this is {}", shape_word(section.value)) } else { label };
-    Diagnostic::error(CODE, message, at, label)
+    RULE.at(message, at, label)
 }
 
 fn first_key(value: &Node) -> Span {
@@ -68,20 +89,14 @@ fn first_key(value: &Node) -> Span {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components:
-  sensor:
-    gates:
-      - measurements: pub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0204",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0204] `components` must be a list; this is a mapping
              --> topology.yaml:2:3

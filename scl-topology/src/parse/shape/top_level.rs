@@ -1,9 +1,32 @@
 //! SCL0201: the top level is not a mapping.
 
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::{pitfall, sections, with_dash};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
+
+/// SCL0201.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0201",
+    severity: Severity::Error,
+    title: "top level is not a mapping",
+    explanation: "A topology is a mapping: section names with their values. This file starts with something else, \
+                  often with the list that belongs below `components:`. Add the key and indent the list.",
+    examples: Examples::Topology {
+        bad: "- name: sensor
+  gates:
+    - measurements: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+connections: []
+",
+    },
+};
 
 pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile) -> Diagnostic {
     if let Some(problem) = pitfall::missing_space::in_node(root, source) {
@@ -15,7 +38,7 @@ pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile) -> Diagnostic
     let is_list = matches!(root.kind, NodeKind::Sequence { .. });
     let (thing, label) = if is_list { ("a list", "list item") } else { ("text", "text without a key") };
     let message = format!("a topology starts with `components:`, and this file starts with {thing}");
-    let problem = Diagnostic::error("SCL0201", message, span, label);
+    let problem = RULE.at(message, span, label);
     match &root.kind {
         NodeKind::Sequence { .. } => problem.help("put this list under a `components:` key and indent it"),
         NodeKind::Scalar { text, .. } if sections::SECTIONS.contains(&text.as_str()) => {
@@ -27,19 +50,14 @@ pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile) -> Diagnostic
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "- name: sensor
-  gates:
-    - measurements: pub
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0201",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0201] a topology starts with `components:`, and this file starts with a list
              --> topology.yaml:1:1

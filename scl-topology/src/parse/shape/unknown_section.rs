@@ -1,13 +1,32 @@
 //! SCL0202: an unknown key at the top level.
 
 use super::{suggest, ticked};
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::sections::SECTIONS;
 
+/// SCL0202.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0202",
+    severity: Severity::Error,
+    title: "unknown top-level key",
+    explanation: "The key is none of the sections of a topology. An unknown section is mostly a misspelt one, and \
+                  would be ignored silently otherwise. Correct it; keys that start with `x-` are yours to use.",
+    examples: Examples::Topology {
+        bad: "components: []
+conections: []
+",
+        good: "components: []
+connections: []
+",
+    },
+};
+
 pub(in crate::parse) fn diagnose(field: Field<'_>) -> Diagnostic {
     let message = format!("unknown section `{}`", field.key);
-    let problem = Diagnostic::error("SCL0202", message, field.key_span, "not a section of a topology");
+    let problem = RULE.at(message, field.key_span, "not a section of a topology");
     suggest(problem, "section", field.key, SECTIONS)
         .note(format!("sections: {}", ticked(SECTIONS)))
         .note("keys that start with `x-` are ignored, for your own use")
@@ -15,18 +34,14 @@ pub(in crate::parse) fn diagnose(field: Field<'_>) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "components: []
-conections: []
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0202",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0202] unknown section `conections`
              --> topology.yaml:2:1

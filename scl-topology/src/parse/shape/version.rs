@@ -1,11 +1,30 @@
 //! SCL0213: a format version that this version of scl does not read.
 
 use super::option_value;
+use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::is_plain;
 use crate::parse::option::{Value, is_whole_number};
 use crate::yaml::NodeKind;
+
+/// SCL0213.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0213",
+    severity: Severity::Error,
+    title: "unsupported format version",
+    explanation: "`scl:` says which version of the file's format is needed, and this version of scl does not read it. \
+                  Update scl, or write the file for the format it knows.",
+    examples: Examples::Topology {
+        bad: "scl: 3
+components: []
+",
+        good: "scl: 1
+components: []
+",
+    },
+};
 
 /// The only format so far.
 const FORMAT: &str = "1";
@@ -24,24 +43,20 @@ pub(in crate::parse) fn find(field: Field<'_>) -> Option<Diagnostic> {
 fn unsupported(field: Field<'_>, version: &str) -> Diagnostic {
     let message = format!("this file needs topology format {version}; this version of scl reads format {FORMAT}");
     let own = env!("CARGO_PKG_VERSION");
-    Diagnostic::error("SCL0213", message, field.value.span, "")
+    RULE.at(message, field.value.span, "")
         .help(format!("update the `scl` crate (this is scl {own}), or use format {FORMAT}"))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::RULE;
     use crate::parse::testing::check;
     use expect_test::expect;
-
-    const EXAMPLE: &str = "scl: 3
-components: []
-";
 
     #[test]
     fn example() {
         check(
-            "SCL0213",
-            EXAMPLE,
+            &RULE,
             expect![[r#"
             error: [SCL0213] this file needs topology format 3; this version of scl reads format 1
              --> topology.yaml:1:6

@@ -1,0 +1,79 @@
+//! How long reading and checking takes, by the size of the file. Expected: linear, and under a second for 10,000
+//! components with 5 gates and 5 connections each.
+//!
+//! `cargo bench -p scl-topology` prints, for sound files and for files in which every connection is misspelt:
+//!
+//! ```text
+//! components   KiB   parse ms   check ms   us/component
+//! ```
+
+use scl_topology::check::{Facts, check};
+use scl_topology::diagnostic::Diagnostics;
+use scl_topology::parse::parse;
+use scl_topology::source::Sources;
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+const SIZES: [usize; 4] = [10, 100, 1_000, 10_000];
+const RUNS: usize = 5;
+
+fn main() {
+    for (title, misspelt) in [("sound files", false), ("every connection misspelt", true)] {
+        println!(
+            "{title}\n{:>10} {:>8} {:>10} {:>10} {:>13}",
+            "components", "KiB", "parse ms", "check ms", "us/component"
+        );
+        for size in SIZES {
+            let text = topology(size, misspelt);
+            let best = (0..RUNS).map(|_| measure(&text, misspelt)).min_by_key(|(parse, check)| *parse + *check);
+            let Some((parse, check)) = best else { continue };
+            let each = (parse + check).as_secs_f64() * 1e6 / size as f64;
+            let [parse, check] = [parse, check].map(|time| time.as_secs_f64() * 1e3);
+            println!("{size:>10} {:>8} {parse:>10.2} {check:>10.2} {each:>13.1}", text.len() / 1024);
+        }
+    }
+}
+
+/// The time that parsing and checking take.
+fn measure(text: &str, misspelt: bool) -> (Duration, Duration) {
+    let mut sources = Sources::new();
+    let file = sources.add("topology.yaml", text);
+    let mut problems = Diagnostics::new();
+    let start = Instant::now();
+    let model = parse(&sources, file, &mut problems);
+    let parsed = start.elapsed();
+    let topology =
+        check(&model, &Facts { default_system: "bench".to_owned(), messages: None }, &sources, &mut problems);
+    let checked = start.elapsed() - parsed;
+    assert_eq!(topology.is_none(), misspelt, "the file is not what it should be");
+    let found = problems.into_sorted();
+    assert_eq!(found.iter().any(|problem| problem.code == "SCL0501"), misspelt);
+    (parsed, checked)
+}
+
+/// A ring: each component sends to and asks the next one.
+fn topology(size: usize, misspelt: bool) -> String {
+    let mut text = "system: bench\ncomponents:\n".to_owned();
+    for at in 0..size {
+        let _ = write!(
+            text,
+            "  - name: component_{at}\n    doc: Number {at}.\n    gates:\n      - position: {{pub: nav.Position}}\n      - \
+             velocity: {{pub: nav.Velocity, backpressure: true}}\n      - position_in: {{sub: nav.Position, queue: 1}}\n      \
+             - velocity_in: {{sub: nav.Velocity, when_full: wait}}\n      - log: {{push: log.Entry, codec: json, share: true}}\n      \
+             - log_in: {{pull: log.Entry, queue: 10}}\n"
+        );
+    }
+    text.push_str("connections:\n");
+    for at in 0..size {
+        let next = (at + 1) % size;
+        let far = (at + 2) % size;
+        let to = if misspelt { "komponent" } else { "component" };
+        let _ = write!(
+            text,
+            "  - [component_{at}.position, {to}_{next}.position_in]\n  - [component_{at}.velocity, \
+             {to}_{next}.velocity_in]\n  - [component_{at}.log, {to}_{next}.log_in]\n  - [component_{at}.position, \
+             {to}_{far}.position_in]\n  - [component_{at}.velocity, {to}_{far}.velocity_in]\n"
+        );
+    }
+    text
+}

@@ -1,0 +1,190 @@
+//! Checks that others make: what reads the files, the macro, and rustc. Their words are kept here, so that each code is
+//! explained in one place.
+
+use super::{Examples, Rule};
+use crate::diagnostic::Severity;
+
+/// All of them, by their codes.
+pub(crate) const RULES: [&Rule; 14] = [
+    &SCL0001, &SCL0002, &SCL0003, &SCL0004, &SCL0005, &SCL0006, &SCL0007, &SCL0406, &SCL0605, &SCL0606, &SCL0803,
+    &SCL1001, &SCL1002, &SCL1003,
+];
+
+/// SCL0001.
+pub(crate) const SCL0001: Rule = Rule {
+    code: "SCL0001",
+    severity: Severity::Error,
+    title: "topology file not found",
+    explanation: "The path in the macro call names no file. It is looked for beside the source file that calls the \
+                  macro, then in the package's folder, then in the workspace's. Correct the path; the message lists \
+                  each place that was tried and files of similar names.",
+    examples: Examples::Rust { bad: "scl::topology!(\"topolgy.yaml\");", good: "scl::topology!(\"topology.yaml\");" },
+};
+
+/// SCL0002.
+pub(crate) const SCL0002: Rule = Rule {
+    code: "SCL0002",
+    severity: Severity::Error,
+    title: "path is a directory or cannot be read",
+    explanation: "The path exists, but it is a folder, a broken link, or a file that this user may not read. Name a \
+                  readable file; the text of the operating system stands at the end of the message.",
+    examples: Examples::Rust { bad: "scl::topology!(\"config/\");", good: "scl::topology!(\"config/topology.yaml\");" },
+};
+
+/// SCL0003.
+pub(crate) const SCL0003: Rule = Rule {
+    code: "SCL0003",
+    severity: Severity::Error,
+    title: "file is not UTF-8",
+    explanation: "A topology file is UTF-8, so that every tool in every language reads the same names. Save it as \
+                  UTF-8. A file that starts with 0xFF 0xFE is UTF-16, which some editors on Windows write.",
+    examples: Examples::None,
+};
+
+/// SCL0004.
+pub(crate) const SCL0004: Rule = Rule {
+    code: "SCL0004",
+    severity: Severity::Error,
+    title: "file too large",
+    explanation: "The file is larger than any topology has reason to be, so it is probably the wrong file. The limit \
+                  protects the compiler, inside of which the macro runs. A topology of 1000 components has some 200 \
+                  KiB; generated ones may raise the limit with `max_size`.",
+    examples: Examples::None,
+};
+
+/// SCL0005.
+pub(crate) const SCL0005: Rule = Rule {
+    code: "SCL0005",
+    severity: Severity::Error,
+    title: "macro argument is not one string literal",
+    explanation: "The macro reads its file before the program exists, so the path has to be one plain string in the \
+                  call. `concat!` and `env!` are not expanded before a macro sees them. Write \
+                  `scl::topology!(\"topology.yaml\")`.",
+    examples: Examples::Rust { bad: "scl::topology!(topology.yaml);", good: "scl::topology!(\"topology.yaml\");" },
+};
+
+/// SCL0006.
+pub(crate) const SCL0006: Rule = Rule {
+    code: "SCL0006",
+    severity: Severity::Warning,
+    title: "path works on this machine only",
+    explanation: "An absolute path, or one that leaves the package, exists on this machine only: the crate will not \
+                  build elsewhere, and `cargo package` does not carry the file. Write the path relative to the source \
+                  file or to Cargo.toml.",
+    examples: Examples::Rust {
+        bad: "scl::topology!(\"/home/u/uav/topology.yaml\");",
+        good: "scl::topology!(\"topology.yaml\");",
+    },
+};
+
+/// SCL0007.
+pub(crate) const SCL0007: Rule = Rule {
+    code: "SCL0007",
+    severity: Severity::Error,
+    title: "the same names are generated twice",
+    explanation: "Two calls of the macro in one module generate the same names. A macro cannot see its neighbours, so \
+                  rustc reports it as E0428. Put one of the calls into a module of its own.",
+    examples: Examples::Rust {
+        bad: "scl::topology!(\"a.yaml\");
+scl::topology!(\"b.yaml\");",
+        good: "scl::topology!(\"a.yaml\");
+mod ground_station {
+    scl::topology!(\"b.yaml\");
+}",
+    },
+};
+
+/// SCL0406.
+pub(crate) const SCL0406: Rule = Rule {
+    code: "SCL0406",
+    severity: Severity::Error,
+    title: "schema file cannot be read or compiled",
+    explanation: "A schema that the file names does not exist, cannot be read, or has a mistake in it. Schemas are \
+                  looked for beside the topology file. A mistake inside is shown in its own file.",
+    examples: Examples::Topology {
+        bad: "schemas: [uav.prot]
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: uav.Measurement}
+",
+        good: "schemas: [uav.proto]
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: uav.Measurement}
+",
+    },
+};
+
+/// SCL0605.
+pub(crate) const SCL0605: Rule = Rule {
+    code: "SCL0605",
+    severity: Severity::Error,
+    title: "same name, different Rust types",
+    explanation: "Two type names that the file cannot tell apart, such as `nav.Attitude` and `log.Attitude`, turn out \
+                  to be different Rust types. Only rustc knows that: the macro generates an assertion for each such \
+                  connection, and the error shows the connection.",
+    examples: Examples::None,
+};
+
+/// SCL0606.
+pub(crate) const SCL0606: Rule = Rule {
+    code: "SCL0606",
+    severity: Severity::Error,
+    title: "type is not a message",
+    explanation: "A type that the file names exists in Rust, but the gate's codec cannot carry it: for `protobuf` it \
+                  has to be a prost message, for the others a serde type. rustc reports it at an assertion that names \
+                  the gate.",
+    examples: Examples::None,
+};
+
+/// SCL0803.
+pub(crate) const SCL0803: Rule = Rule {
+    code: "SCL0803",
+    severity: Severity::Error,
+    title: "message larger than a slot",
+    explanation: "A message type is larger than the slots of a shared-memory transport. Shared memory is not part of \
+                  this version, so nothing reports this yet; the code is kept for it.",
+    examples: Examples::None,
+};
+
+/// SCL1001.
+pub(crate) const SCL1001: Rule = Rule {
+    code: "SCL1001",
+    severity: Severity::Error,
+    title: "wrong direction",
+    explanation: "A gate can only do what its kind does: a `sub` gate has no `send`. Direction is part of the gate's \
+                  Rust type, so rustc reports this. The documentation of the field names the kind and the place in the \
+                  file.",
+    examples: Examples::Rust {
+        bad: "controller.sensor.send(&measurement).await?;",
+        good: "let measurement = controller.sensor.recv().await?;",
+    },
+};
+
+/// SCL1002.
+pub(crate) const SCL1002: Rule = Rule {
+    code: "SCL1002",
+    severity: Severity::Error,
+    title: "wrong message type in code",
+    explanation: "A program sends or expects another type than the file declares for the gate. rustc reports it as \
+                  E0308; the documentation of the field says where the type is declared.",
+    examples: Examples::Rust {
+        bad: "sensor.measurements.send(&status).await?;",
+        good: "sensor.measurements.send(&measurement).await?;",
+    },
+};
+
+/// SCL1003.
+pub(crate) const SCL1003: Rule = Rule {
+    code: "SCL1003",
+    severity: Severity::Error,
+    title: "gate or component does not exist in code",
+    explanation: "A program names a gate or component that the file does not declare. Gates are fields of a struct, so \
+                  rustc reports E0609 and suggests similar names. Correct the program, or declare the gate.",
+    examples: Examples::Rust {
+        bad: "sensor.measurement.send(&measurement).await?;",
+        good: "sensor.measurements.send(&measurement).await?;",
+    },
+};

@@ -1,0 +1,92 @@
+//! The catalogue as text for people: one entry for the terminal, all of them for the documentation.
+
+use super::{ALL, Examples, Rule, find};
+use crate::check::{Facts, SchemaMessages, check};
+use crate::diagnostic::{Diagnostics, Severity, render};
+use crate::parse::parse;
+use crate::source::Sources;
+
+/// What the schema of the examples declares.
+const MESSAGES: [&str; 3] = ["uav.Command", "uav.Measurement", "uav.Status"];
+
+/// The entry of one code, as Markdown; none if there is no such code. Upper and lower case are the same.
+///
+/// ```
+/// use scl_topology::catalogue::explain;
+///
+/// assert!(explain("scl0502").is_some_and(|text| text.starts_with("# SCL0502 unknown gate (error)")));
+/// assert_eq!(explain("SCL9999"), None);
+/// ```
+pub fn explain(code: &str) -> Option<String> {
+    find(code).map(|rule| format!("# {}", entry(rule)))
+}
+
+/// All entries as one page of Markdown: `docs/diagnostics.md`.
+pub fn page() -> String {
+    let mut page = INTRODUCTION.to_owned();
+    page.push_str("\n| code | level | check |\n|---|---|---|\n");
+    for rule in ALL.iter() {
+        page.push_str(&format!("| {} | {} | {} |\n", rule.code, level(rule), rule.title));
+    }
+    for rule in ALL.iter() {
+        page.push_str(&format!("\n## {}", entry(rule)));
+    }
+    page
+}
+
+const INTRODUCTION: &str = "# Diagnostics
+
+What the checker of topology files finds. The macro `scl::topology!` and `scl check` print the same words.
+`scl explain SCL0502` prints an entry. This page is made from the checker itself; `UPDATE_EXPECT=1 cargo test -p
+scl-topology` rewrites it.
+
+A warning is allowed by a comment on its line or above it: `# scl: allow(SCL0701) reason`. So are the errors SCL0703 and
+SCL0707. A check that is off is turned on for a file by `# scl: warn(SCL0511)`.
+";
+
+fn level(rule: &Rule) -> &'static str {
+    match rule.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Lint => "off",
+    }
+}
+
+fn entry(rule: &Rule) -> String {
+    let level = if rule.severity == Severity::Lint { "lint, off unless asked for" } else { level(rule) };
+    let mut text = format!("{} {} ({level})\n\n{}\n", rule.code, rule.title, rule.explanation);
+    match rule.examples {
+        Examples::None => {}
+        Examples::Rust { bad, good } => {
+            text.push_str(&format!("\nWrong:\n\n```rust\n{bad}\n```\n\nRight:\n\n```rust\n{good}\n```\n"));
+        }
+        Examples::Topology { bad, good } => {
+            text.push_str(&format!("\nWrong:\n\n```yaml\n{}```\n", visible(bad)));
+            let told = told(rule.code, bad);
+            if !told.is_empty() {
+                text.push_str(&format!("\n```text\n{told}\n```\n"));
+            }
+            text.push_str(&format!("\nRight:\n\n```yaml\n{good}```\n"));
+        }
+    }
+    text
+}
+
+/// Tabs and spaces that are none would be lost in a page.
+fn visible(text: &str) -> String {
+    text.replace('\t', "<TAB>").replace('\u{a0}', "<U+00A0>")
+}
+
+/// What the checker says about an example.
+fn told(code: &str, text: &str) -> String {
+    let mut sources = Sources::new();
+    let file = sources.add("topology.yaml", text);
+    let mut problems = Diagnostics::new();
+    let model = parse(&sources, file, &mut problems);
+    let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec() };
+    let messages = (!model.schemas.is_empty()).then(|| vec![messages]);
+    check(&model, &Facts { default_system: "topology".to_owned(), messages }, &sources, &mut problems);
+    let found = problems.into_sorted();
+    let texts = found.iter().filter(|problem| problem.code == code).map(|problem| render(problem, &sources));
+    texts.collect::<Vec<_>>().join("\n\n")
+}

@@ -1,0 +1,67 @@
+//! SCL0802: two connections with one socket. Names of gates and connections cannot meet, as the dots and hyphens in them
+//! tell them apart; only long names that are cut could, if their fingerprints were equal by chance. So this holds down
+//! what [`resolve`](crate::resolve) promises, and no file is known that it rejects.
+
+use super::draft::Draft;
+use crate::catalogue::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Severity;
+use crate::resolve::{connection_room, shortened};
+use crate::topology::GateKind;
+use std::collections::HashMap;
+
+/// SCL0802.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0802",
+    severity: Severity::Error,
+    title: "two gates share one socket path",
+    explanation: "Two connections would have one socket. The names of gates and connections are built so that they \
+                  cannot meet, as long as they need not be cut; those that are cut carry a fingerprint. This check \
+                  holds that down as an assertion, and no file is known that it rejects.",
+    examples: Examples::None,
+};
+
+pub(super) fn check(draft: &Draft<'_>, system: &str, problems: &mut Diagnostics) {
+    let room = connection_room(system);
+    let mut cut = Vec::new();
+    for (link, source, sink) in draft.flows().filter(|&(_, source, _)| draft.gates[source].kind == Some(GateKind::Pub))
+    {
+        let length =
+            [source, sink].map(|gate| draft.component_name(gate).len() + draft.gates[gate].model.name.value.len() + 2);
+        if length[0] + length[1] > room {
+            cut.push((shortened(&format!("{}--{}", draft.path(source), draft.path(sink)), room), link));
+        }
+    }
+    for (name, first, second) in twins(cut) {
+        let spans = [first, second].map(|link| draft.links[link].model.span);
+        problems.push(
+            RULE.at(format!("two connections would use the same socket `{name}`"), spans[1], "")
+                .label(spans[0], "the other connection")
+                .help("shorten the names of their gates"),
+        );
+    }
+}
+
+/// The numbers that share a name with an earlier one.
+fn twins(names: Vec<(String, usize)>) -> Vec<(String, usize, usize)> {
+    let mut first: HashMap<String, usize> = HashMap::new();
+    let mut found = Vec::new();
+    for (name, number) in names {
+        match first.get(&name) {
+            Some(&other) => found.push((name, other, number)),
+            None => drop(first.insert(name, number)),
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::twins;
+
+    #[test]
+    fn equal_names_are_found() {
+        let name = str::to_owned;
+        assert_eq!(twins(vec![(name("a"), 1), (name("b"), 2), (name("a"), 3)]), [(name("a"), 1, 3)]);
+    }
+}
