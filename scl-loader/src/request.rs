@@ -20,6 +20,8 @@ pub struct Request {
 pub struct LookedIn {
     /// The path that would have been read.
     pub path: PathBuf,
+    /// How messages name it.
+    pub shown_as: String,
     /// Which place that is: `next to this source file`; may be empty.
     pub what: String,
 }

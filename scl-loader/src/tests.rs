@@ -77,8 +77,11 @@ fn an_empty_file_is_an_error() {
 #[test]
 fn a_missing_file_names_its_neighbour_and_the_places() {
     let folder = folder(&[("topology.yml", GOOD)]);
-    let looked_in = ["topology.yaml", "uav/topology.yaml"]
-        .map(|name| LookedIn { path: folder.path().join(name), what: "place".into() });
+    let looked_in = ["topology.yaml", "uav/topology.yaml"].map(|name| LookedIn {
+        path: folder.path().join(name),
+        shown_as: name.into(),
+        what: "place".into(),
+    });
     let shown_as = "topology.yaml".to_owned();
     let request =
         Request { shown_as, looked_in: looked_in.into(), ..Request::new(folder.path().join("topology.yaml")) };
@@ -88,8 +91,8 @@ fn a_missing_file_names_its_neighbour_and_the_places() {
          |
          = help: a file with a similar name exists: `topology.yml`
          = note: looked in:
-                 `<folder>/topology.yaml` (place)
-                 `<folder>/uav/topology.yaml` (place)
+                 `topology.yaml` (place)
+                 `uav/topology.yaml` (place)
     "#]]
     .assert_eq(&text);
 }

@@ -45,7 +45,7 @@ fn missing(request: &Request) -> Diagnostic {
     let mut note = String::from("looked in:");
     for at in &request.looked_in {
         let what = if at.what.is_empty() { String::new() } else { format!(" ({})", at.what) };
-        note.push_str(&format!("\n`{}`{what}", at.path.display()));
+        note.push_str(&format!("\n`{}`{what}", at.shown_as));
     }
     problem.note(note)
 }

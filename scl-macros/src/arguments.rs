@@ -20,14 +20,14 @@ pub(crate) struct Arguments {
 
 /// Arguments that make no sense: what to say, and where.
 pub(crate) struct BadArguments {
-    pub(crate) problem: Diagnostic,
+    pub(crate) problem: Box<Diagnostic>,
     pub(crate) span: Span,
 }
 
 impl Arguments {
     /// Reads the tokens that the wrapper in `scl` hands on: `$crate`, a comma, then the user's.
     pub(crate) fn parse(input: TokenStream) -> Result<Self, BadArguments> {
-        syn::parse2(input).map_err(|error| BadArguments { problem: in_our_words(&error), span: error.span() })
+        syn::parse2(input).map_err(|error| BadArguments { problem: Box::new(in_our_words(&error)), span: error.span() })
     }
 }
 

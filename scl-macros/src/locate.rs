@@ -41,7 +41,7 @@ impl Surroundings {
             let Some(folder) = folder else { continue };
             let path = folder.join(path);
             if places.iter().all(|place| place.path != path) {
-                places.push(LookedIn { path, what: what.to_owned() });
+                places.push(LookedIn { shown_as: shown(&path, &self.working), path, what: what.to_owned() });
             }
         }
         places

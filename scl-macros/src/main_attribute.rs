@@ -28,12 +28,11 @@ fn expand_function(function: &ItemFn, component: &Type) -> TokenStream {
         Some(_) => quote!(__scl_main_async),
         None => quote!(__scl_main_blocking),
     };
-    let mut inner = function.clone();
-    inner.vis = syn::Visibility::Inherited;
-    let visibility = &function.vis;
+    let ItemFn { attrs, vis, sig, block, .. } = function;
     quote! {
-        #visibility fn main() -> ::std::process::ExitCode {
-            #inner
+        #vis fn main() -> ::std::process::ExitCode {
+            #(#attrs)*
+            #sig #block
             <#component>::#runner(#name)
         }
     }
@@ -67,7 +66,8 @@ fn check(arguments: &TokenStream, function: &ItemFn) -> Vec<TokenStream> {
         Safety::Unsafe(word) => Some(word.span()),
         Safety::Default => None,
     };
-    let qualifiers = [signature.constness.map(|word| word.span()), safety, signature.abi.as_ref().map(Spanned::span)];
+    let qualifiers =
+        [signature.constness.as_ref().map(Spanned::span), safety, signature.abi.as_ref().map(Spanned::span)];
     if let Some(qualifier) = qualifiers.into_iter().flatten().next() {
         report(qualifier, "`main` is `async fn` or `fn`, nothing else");
     }

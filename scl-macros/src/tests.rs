@@ -2,6 +2,7 @@
 
 use crate::expand::expand_topology;
 use crate::locate::Surroundings;
+use expect_test::expect;
 use proc_macro2::TokenStream;
 use std::fs;
 use tempfile::TempDir;
@@ -54,6 +55,14 @@ fn errors(tokens: &TokenStream) -> usize {
     tokens.to_string().matches("compile_error").count()
 }
 
+/// One item or field a line, so that the text can be read and compared.
+fn in_lines(tokens: &TokenStream) -> String {
+    let text = tokens.to_string();
+    [("{ ", "{\n"), ("; ", ";\n"), ("} ", "}\n"), (", pub ", ",\npub "), ("] pub", "]\npub"), ("] const", "]\nconst")]
+        .iter()
+        .fold(text, |text, (from, to)| text.replace(from, to))
+}
+
 const LISTING_1: &str = "\
 components:
   - name: sensor
@@ -83,6 +92,7 @@ connections:
 fn listing_1_becomes_four_structs() {
     let tokens = expand(LISTING_1);
     assert_eq!(errors(&tokens), 0, "{tokens}");
+    assert!(!tokens.to_string().contains("deprecated"), "lints are not shown: {tokens}");
     let expected = [
         "Sensor measurements",
         "Actuator setpoint",
@@ -147,4 +157,135 @@ fn twenty_errors_are_shown_and_the_rest_is_counted() {
     parsed(&tokens);
     assert_eq!(errors(&tokens), 21);
     assert!(tokens.to_string().contains("more problems"), "{tokens}");
+}
+
+#[test]
+fn one_small_component_in_full() {
+    let yaml = "\
+components:
+  - name: sensor
+    doc: Reads the unit.
+    gates:
+      - measurements: {pub: rover.Measurement, doc: One reading per period.}
+  - name: controller
+    gates:
+      - sensor: {sub: rover.Measurement, queue: 1}
+connections:
+  - [sensor.measurements, controller.sensor]
+";
+    let tokens = expand_with(&[("t.yaml", yaml)], ", only = [sensor]");
+    let text = in_lines(&tokens);
+    let (text, tracking) = text.split_once("const _ : & [u8]").unwrap();
+    assert!(tracking.contains("include_bytes"), "{tracking}");
+    expect![[r##"
+        # [doc = "Reads the unit.\n\n| gate | kind | type | peers |\n|---|---|---|---|\n| `measurements` | `pub` | `rover.Measurement` | `controller.sensor` |\n\nThe component `sensor` of `t`, declared at `t.yaml:2:11`."] # [allow (dead_code , non_camel_case_types , non_snake_case)]
+        pub struct Sensor {
+        # [doc = "`pub`: publishes `rover.Measurement` to `controller.sensor`.\n\nOne reading per period.\n\nDeclared at `t.yaml:5:9`."]
+        pub measurements : scl :: private :: Pub < rover :: Measurement > }
+        # [allow (dead_code , non_camel_case_types , non_snake_case , clippy :: all , clippy :: pedantic)]
+        const _ : () = {
+        # [diagnostic :: on_unimplemented (message = "[SCL0606] `{Self}` is used as a message, but the codec `protobuf` does not carry it" , label = "gate `sensor.measurements` sends `rover::Measurement`" , note = "derive `prost::Message` for it, or name a `.proto` file in `schemas:`" , note = "the gate is declared here\n --> t.yaml:5:9\n  |\n5 |       - measurements: {{pub: rover.Measurement, doc: One reading per period.}}\n  |         ^^^^^^^^^^^^")] trait RoverMeasurementCarriedByProtobuf_0 < > : :: core :: marker :: Sized {
+        fn publisher (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Pub < Self > , scl :: private :: OpenError > ;
+        }
+        # [diagnostic :: do_not_recommend] impl < Message : 'static , > RoverMeasurementCarriedByProtobuf_0 < > for Message where scl :: private :: codec :: Protobuf : scl :: private :: Codec < Message > , {
+        fn publisher (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Pub < Self > , scl :: private :: OpenError > {
+        __opener . publisher :: < Message , scl :: private :: codec :: Protobuf > (__index) }
+        }
+        impl scl :: private :: Component for Sensor {
+        const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
+        system : "t" , name : "sensor" , place : "t.yaml:2:11" , gates : & [scl :: private :: GateSpec {
+        name : "measurements" , kind : scl :: private :: GateKind :: Pub , payload : "rover.Measurement" , codec : "protobuf" , place : "t.yaml:5:9" , endpoint : "sensor.measurements" , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , backpressure : false , timeout : scl :: private :: Duration :: new (1u64 , 0u32) , links : & [scl :: private :: LinkSpec {
+        peer_component : "controller" , peer_gate : "sensor" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 1u32 , when_full : scl :: private :: WhenFull :: DropOldest , }] , }] }
+        ;
+        fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
+        :: core :: result :: Result :: Ok (Self {
+        measurements : RoverMeasurementCarriedByProtobuf_0 :: publisher (__opener , 0usize) ? }) }
+        fn gates (& self) -> :: std :: vec :: Vec < & dyn scl :: private :: AnyGate > {
+        :: std :: vec :: Vec :: from ([& self . measurements as & dyn scl :: private :: AnyGate]) }
+        }
+        scl :: private :: component_methods ! (Sensor) ;
+        }
+        ;
+    "##]].assert_eq(text);
+}
+
+#[test]
+fn types_that_may_be_aliases_are_compared_by_rustc() {
+    let yaml = LISTING_1
+        .replace("measurements: pub", "measurements: {pub: nav.Pose}")
+        .replace("sensor: sub", "sensor: {sub: log.Pose}");
+    let tokens = expand(&yaml);
+    parsed(&tokens);
+    let text = tokens.to_string();
+    assert!(text.contains("connection :: < nav :: Pose , log :: Pose > ()"), "{text}");
+    let alone = expand_with(&[("t.yaml", &yaml)], ", only = [sensor]").to_string();
+    assert!(!alone.contains("SameTypeAs"), "{alone}");
+}
+
+#[cfg(feature = "protobuf")]
+mod schemas {
+    use super::*;
+
+    const YAML: &str = "\
+schemas: [a.proto]
+components:
+  - name: sensor
+    gates:
+      - pose: {pub: a.b.IMUPose.Axis, unconnected: ok}
+";
+    const PROTO: &str = "\
+syntax = \"proto3\";
+package a.b;
+message IMUPose { message Axis { double x = 1; } Axis axis = 1; }
+";
+
+    #[test]
+    fn packages_become_modules_that_import_prost_by_its_crate() {
+        let tokens = expand_with(&[("t.yaml", YAML), ("a.proto", PROTO)], "");
+        assert_eq!(errors(&tokens), 0, "{tokens}");
+        let text = tokens.to_string();
+        parsed(&tokens);
+        assert!(text.contains("pub pose : scl :: private :: Pub < a :: b :: imu_pose :: Axis >"), "{text}");
+        assert!(text.contains("pub mod a { use scl :: private :: prost as scl_private_prost"), "{text}");
+        assert!(!text.contains(":: prost ::"), "{text}");
+        assert_eq!(text.matches("include_bytes").count(), 2, "{text}");
+    }
+
+    #[test]
+    fn a_wrong_schema_leaves_the_gates() {
+        let tokens = expand_with(&[("t.yaml", YAML), ("a.proto", "message")], "");
+        assert_eq!(errors(&tokens), 1, "{tokens}");
+        assert_eq!(structs(&parsed(&tokens)), ["Sensor pose"]);
+        assert!(tokens.to_string().contains("Pub < __scl_unknown_t_yaml >"), "{tokens}");
+    }
+
+    #[test]
+    fn messages_without_a_package_stand_beside_the_components() {
+        let yaml = YAML.replace("a.b.IMUPose.Axis", "IMUPose");
+        let tokens = expand_with(&[("t.yaml", &yaml), ("a.proto", &PROTO.replace("package a.b;", ""))], "");
+        assert_eq!(errors(&tokens), 0, "{tokens}");
+        parsed(&tokens);
+        assert!(tokens.to_string().contains("pub use __scl_messages_t_yaml :: *"), "{tokens}");
+    }
+}
+
+/// The time is printed, not judged: `cargo test -p scl-macros forty -- --nocapture`.
+#[test]
+fn forty_components_expand() {
+    let component = |at: usize| {
+        let next = (at + 1) % 40;
+        let gates = format!(
+            "      - out{at}: {{pub: rover.M{at}}}\n      - in{at}: {{sub: rover.M{next}}}\n      - spare{at}: {{pub: rover.S{at}, unconnected: ok}}\n"
+        );
+        format!("  - name: c{at}\n    gates:\n{gates}")
+    };
+    let connection = |at: usize| format!("  - [c{0}.out{0}, c{1}.in{1}]\n", (at + 1) % 40, at);
+    let components: String = (0..40).map(component).collect();
+    let connections: String = (0..40).map(connection).collect();
+    let yaml = format!("components:\n{components}connections:\n{connections}");
+    let start = std::time::Instant::now();
+    let tokens = expand(&yaml);
+    println!("40 components, 120 gates: {:?}", start.elapsed());
+    assert_eq!(errors(&tokens), 0);
+    assert_eq!(structs(&parsed(&tokens)).len(), 40);
 }

@@ -21,3 +21,22 @@ pub use error::{
     SendError, TrySendError,
 };
 pub use gate::{AnyGate, GateName, GateStats, Peers, Pub, Pull, Push, Rep, Req, Request, Sub};
+pub use scl_macros::main;
+
+/// Turns a topology file into one struct for each of its components, with a field for each gate.
+///
+/// ```text
+/// scl::topology!("topology.yaml");
+/// scl::topology!("topology.yaml", only = [sensor, controller]);
+/// scl::topology!("topology.yaml", max_size = "8MiB");
+/// ```
+///
+/// The file is looked for beside the calling source file, then in the package root, then in the workspace root. What is
+/// wrong with it becomes compile errors, all at once. With `schemas:` in the file, each protobuf package becomes a module
+/// with its messages.
+#[macro_export]
+macro_rules! topology {
+    ($($input:tt)*) => {
+        $crate::private::__topology! { $crate, $($input)* }
+    };
+}

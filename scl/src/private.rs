@@ -11,4 +11,7 @@ pub use crate::spec::{ComponentSpec, GateKind, GateSpec, LinkSpec, WhenFull};
 pub use bytes::Bytes;
 #[cfg(feature = "protobuf")]
 pub use prost;
+#[cfg(feature = "protobuf")]
+pub use prost_types;
+pub use scl_macros::__topology;
 pub use std::time::Duration;

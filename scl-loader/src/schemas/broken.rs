@@ -52,5 +52,5 @@ fn shown_beside(topology: &str, name: &str) -> String {
 
 /// The compiler quotes names with apostrophes, SCL with backticks.
 fn in_backticks(text: &str) -> String {
-    if text.matches('\'').count() % 2 == 0 { text.replace('\'', "`") } else { text.to_owned() }
+    if text.matches('\'').count().is_multiple_of(2) { text.replace('\'', "`") } else { text.to_owned() }
 }

@@ -26,15 +26,12 @@ pub(crate) fn compile(request: &Request, model: &Model, sources: &mut Sources, p
     compiler.include_imports(true).include_source_info(true);
     let mut all_well = true;
     for schema in &model.schemas {
-        let found = find(schema, &folder, request.max_size);
-        let compiled = found.and_then(|()| {
-            let outcome = compiler.open_file(&schema.value);
-            outcome.map(|_| ()).map_err(|error| broken::diagnose(&error, schema, &snapshot(&files), request, sources))
+        let problem = refuse(schema, &folder, request.max_size).or_else(|| {
+            let error = compiler.open_file(&schema.value).err()?;
+            Some(broken::diagnose(&error, schema, &snapshot(&files), request, sources))
         });
-        if let Err(problem) = compiled {
-            all_well = false;
-            problems.push(problem);
-        }
+        all_well &= problem.is_none();
+        problems.extend(problem);
     }
     let files_read = snapshot(&files).into_iter().map(|file| file.path).collect();
     if !all_well {
@@ -56,26 +53,20 @@ fn include_folders(folder: &Path, model: &Model) -> Vec<PathBuf> {
     folders
 }
 
-/// Whether an entry names a readable file, in SCL's own words, as the compiler would call it "not included".
-fn find(schema: &Spanned<String>, folder: &Path, max_size: u64) -> Result<(), Diagnostic> {
+/// What is wrong with an entry that names no readable file, in SCL's own words: the compiler calls it "not included".
+fn refuse(schema: &Spanned<String>, folder: &Path, max_size: u64) -> Option<Diagnostic> {
     let path = folder.join(&schema.value);
     let name = &schema.value;
-    match read_text(&path, max_size) {
-        Ok(_) => Ok(()),
-        Err(Unreadable::Missing) => {
-            let problem =
-                Diagnostic::error("SCL0406", format!("cannot find the schema file `{name}`"), schema.span, "");
-            let problem = match similar_file(&path, &[]) {
-                Some(near) => problem.help(format!("a file with a similar name exists: `{near}`")),
-                None => problem,
-            };
-            Err(problem.note("schemas are looked for beside the topology file"))
-        }
-        Err(cause) => {
-            let why = super::disk::why(Path::new(name), cause);
-            Err(Diagnostic::error("SCL0406", format!("the schema file {why}"), schema.span, ""))
-        }
+    let cause = read_text(&path, max_size).err()?;
+    if !matches!(cause, Unreadable::Missing) {
+        let why = super::disk::why(Path::new(name), cause);
+        return Some(Diagnostic::error("SCL0406", format!("the schema file {why}"), schema.span, ""));
     }
+    let mut problem = Diagnostic::error("SCL0406", format!("cannot find the schema file `{name}`"), schema.span, "");
+    if let Some(near) = similar_file(&path, &[]) {
+        problem = problem.help(format!("a file with a similar name exists: `{near}`"));
+    }
+    Some(problem.note("schemas are looked for beside the topology file"))
 }
 
 /// The messages that each entry declares; those that are only imported count for the first.

@@ -1,0 +1,38 @@
+//! A Python with pyzmq, a second and independent implementation of ZeroMQ (over libzmq).
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// A Python interpreter that can `import zmq`, installed into the build folder once.
+///
+/// # Panics
+/// When there is no Python 3 or no package index; the text says what to install.
+pub fn python_with_pyzmq() -> &'static Path {
+    static PYTHON: OnceLock<PathBuf> = OnceLock::new();
+    PYTHON.get_or_init(|| {
+        let folder = build_folder().join("scl-tests-python");
+        let python = folder.join("bin/python");
+        if !can_import_zmq(&python) {
+            run(Command::new("python3").args(["-m", "venv"]).arg(&folder), "install Python 3.9 or later with `venv`");
+            let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "pyzmq>=26,<28"];
+            run(Command::new(&python).args(install), "pip could not install pyzmq: is the package index reachable?");
+        }
+        python
+    })
+}
+
+fn can_import_zmq(python: &Path) -> bool {
+    Command::new(python).args(["-c", "import zmq"]).output().is_ok_and(|output| output.status.success())
+}
+
+fn run(command: &mut Command, what_to_do: &str) {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}; {what_to_do}"));
+    assert!(output.status.success(), "{what_to_do}\n{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// The folder of the test programs themselves, for example `target/debug`.
+fn build_folder() -> PathBuf {
+    let program = std::env::current_exe().expect("the path of the test program");
+    program.ancestors().nth(2).expect("target/debug/deps/program").to_owned()
+}

@@ -1,0 +1,11 @@
+//! A gate is declared twice.
+
+scl::topology!("topology.yaml");
+
+#[scl::main]
+async fn main(mut c: Controller) -> scl::Result<()> {
+    loop {
+        let measured = c.sensor.recv().await?;
+        c.actuator.send(&rover::Setpoint { angle: measured.data }).await?;
+    }
+}

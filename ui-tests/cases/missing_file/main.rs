@@ -1,0 +1,5 @@
+//! The path is misspelt.
+
+scl::topology!("topolgy.yaml");
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Generated code where the dependency has another name and common names mean something else.
