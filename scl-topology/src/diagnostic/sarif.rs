@@ -1,6 +1,7 @@
 //! Diagnostics as SARIF 2.1.0, the format that code hosts and review tools read.
 
 use super::{Diagnostic, Label, Severity};
+use crate::catalogue::{explain, find};
 use crate::source::Sources;
 use serde_json::{Value, json};
 
@@ -43,13 +44,18 @@ pub fn to_sarif(files: &[CheckedFile<'_>]) -> String {
     format!("{log:#}")
 }
 
+/// What the catalogue knows of a code.
 fn rule(diagnostic: &Diagnostic) -> Value {
-    let code = diagnostic.code;
-    json!({
-        "id": code,
-        "help": { "text": format!("`scl explain {code}` tells more") },
-        "defaultConfiguration": { "level": level(diagnostic.severity) },
-    })
+    let mut rule = json!({ "id": diagnostic.code, "defaultConfiguration": { "level": level(diagnostic.severity) } });
+    if let Some(known) = find(diagnostic.code) {
+        rule["shortDescription"] = json!({ "text": known.title });
+        rule["fullDescription"] = json!({ "text": known.explanation });
+        rule["defaultConfiguration"]["level"] = json!(level(known.severity));
+    }
+    if let Some(entry) = explain(diagnostic.code) {
+        rule["help"] = json!({ "text": entry, "markdown": entry });
+    }
+    rule
 }
 
 fn result(diagnostic: &Diagnostic, file: &CheckedFile<'_>, codes: &[&str]) -> Value {
@@ -151,6 +157,14 @@ mod tests {
         let rules: Vec<_> = results.iter().map(|result| (&result["ruleId"], &result["ruleIndex"])).collect();
         let expected = [("SCL0999", 2), ("SCL0100", 1), ("SCL0001", 0), ("SCL0999", 2)];
         assert_eq!(rules, expected.map(|(id, at)| (json!(id), json!(at))).each_ref().map(|(id, at)| (id, at)));
+    }
+
+    #[test]
+    fn rules_explain_themselves() {
+        let rule = &example()["runs"][0]["tool"]["driver"]["rules"][0];
+        assert_eq!(rule["shortDescription"]["text"], "topology file not found");
+        assert!(rule["help"]["markdown"].as_str().unwrap().starts_with("# SCL0001 "));
+        assert_eq!(rule["defaultConfiguration"]["level"], "error");
     }
 
     #[test]
