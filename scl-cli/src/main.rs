@@ -4,6 +4,7 @@
 mod check;
 mod diff;
 mod duration;
+mod explain;
 mod graph;
 mod load;
 mod print;
@@ -26,6 +27,7 @@ struct CommandLine {
 enum Command {
     Check(check::CheckArguments),
     Diff(diff::DiffArguments),
+    Explain(explain::ExplainArguments),
     Graph(graph::GraphArguments),
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
@@ -39,6 +41,7 @@ fn main() -> ExitCode {
     match CommandLine::parse().command {
         Command::Check(arguments) => check::check(&arguments),
         Command::Diff(arguments) => diff::diff(&arguments),
+        Command::Explain(arguments) => explain::explain_code(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

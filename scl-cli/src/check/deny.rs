@@ -1,5 +1,7 @@
 //! `--deny`: warnings that count as errors.
 
+use crate::explain::full_code;
+use scl_topology::catalogue::find;
 use scl_topology::diagnostic::{Diagnostic, Severity};
 
 /// What counts as an error.
@@ -17,12 +19,11 @@ pub(super) enum Deny {
 ///
 /// A text for the user if it is neither.
 pub(super) fn parse_deny(text: &str) -> Result<Deny, String> {
-    let code = text.to_ascii_uppercase();
-    let digits = code.strip_prefix("SCL").unwrap_or_default();
-    match text {
-        "warnings" => Ok(Deny::Warnings),
-        _ if digits.len() == 4 && digits.bytes().all(|byte| byte.is_ascii_digit()) => Ok(Deny::Code(code)),
-        _ => Err("expected `warnings` or a code like `SCL0402`".to_owned()),
+    let code = full_code(text);
+    match find(&code) {
+        _ if text == "warnings" => Ok(Deny::Warnings),
+        Some(_) => Ok(Deny::Code(code)),
+        None => Err("expected `warnings` or a code like `SCL0402`; `scl explain` lists them".to_owned()),
     }
 }
 
@@ -53,6 +54,7 @@ mod tests {
             ("scl0402", code("SCL0402")),
             ("warning", None),
             ("SCL402", None),
+            ("SCL9999", None),
             ("SCL04O2", None),
             ("", None),
         ] {
