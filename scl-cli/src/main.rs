@@ -2,6 +2,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod check;
+mod completions;
 mod diff;
 mod duration;
 mod explain;
@@ -11,7 +12,7 @@ mod print;
 mod run;
 mod schema;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// Checks, draws and runs systems made of components that talk through typed gates.
@@ -26,6 +27,7 @@ struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     Check(check::CheckArguments),
+    Completions(completions::CompletionsArguments),
     Diff(diff::DiffArguments),
     Explain(explain::ExplainArguments),
     Graph(graph::GraphArguments),
@@ -40,6 +42,7 @@ enum Command {
 fn main() -> ExitCode {
     match CommandLine::parse().command {
         Command::Check(arguments) => check::check(&arguments),
+        Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         Command::Diff(arguments) => diff::diff(&arguments),
         Command::Explain(arguments) => explain::explain_code(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),

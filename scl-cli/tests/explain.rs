@@ -37,19 +37,28 @@ fn unknown(code: &str, expected: Expect) {
 
 #[test]
 fn an_unknown_code_gets_a_suggestion() {
-    unknown("SCL0520", expect![[r#"
+    unknown(
+        "SCL0520",
+        expect![[r#"
         error: there is no check `SCL0520`
           = help: a similar code exists: `SCL0120`, key is not a plain word
           = help: a similar code exists: `SCL0502`, unknown gate
           = help: a similar code exists: `SCL0510`, duplicate connection
           = help: `scl explain` lists all of them
-    "#]]);
-    unknown("E0502", expect![[r#"
+    "#]],
+    );
+    unknown(
+        "E0502",
+        expect![[r#"
         error: there is no check `E0502`
           = help: `scl explain` lists all of them
-    "#]]);
-    unknown("gates", expect![[r#"
+    "#]],
+    );
+    unknown(
+        "gates",
+        expect![[r#"
         error: there is no check `gates`
           = help: `scl explain` lists all of them
-    "#]]);
+    "#]],
+    );
 }
