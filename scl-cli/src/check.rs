@@ -7,7 +7,7 @@ mod watch;
 
 use crate::load::STDIN;
 use crate::print::print_err;
-use checked::check_file;
+use checked::{Checked, check_file};
 use clap::{Args, ValueEnum};
 use deny::{Deny, parse_deny};
 use std::path::PathBuf;
@@ -74,19 +74,18 @@ pub(crate) fn check(arguments: &CheckArguments) -> ExitCode {
         print_err(&format!("error: {refusal}\n  = help: name a file instead of `-`\n"));
         return ExitCode::from(COULD_NOT_RUN);
     }
-    if arguments.watch { watch::watch(arguments) } else { ExitCode::from(check_once(arguments).code) }
-}
-
-/// What one run of the check came to.
-struct Outcome {
-    code: u8,
-    /// The files on which the result depends, those that are missing included.
-    depends_on: Vec<PathBuf>,
-}
-
-fn check_once(arguments: &CheckArguments) -> Outcome {
-    let checked: Vec<_> = arguments.files.iter().map(|file| check_file(file, arguments)).collect();
+    if arguments.watch {
+        return watch::watch(arguments);
+    }
+    let checked = check_files(arguments);
     report::report(&checked, arguments.format);
-    let code = checked.iter().map(checked::Checked::code).max().unwrap_or_default();
-    Outcome { code, depends_on: checked.iter().flat_map(checked::Checked::depends_on).collect() }
+    ExitCode::from(worst_code(&checked))
+}
+
+fn check_files(arguments: &CheckArguments) -> Vec<Checked> {
+    arguments.files.iter().map(|file| check_file(file, arguments)).collect()
+}
+
+fn worst_code(checked: &[Checked]) -> u8 {
+    checked.iter().map(Checked::code).max().unwrap_or_default()
 }

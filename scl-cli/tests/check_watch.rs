@@ -56,17 +56,22 @@ impl Watch {
     }
 }
 
+/// Writes a file as a whole: on a busy machine it may take longer to write it in steps than it takes to be seen.
+fn replace(system: &System, name: &str, text: &str) {
+    system.write("new", text);
+    fs::rename(system.path("new"), system.path(name)).unwrap();
+}
+
 #[test]
 fn every_change_is_checked() {
     let system = System::of_files(&[("topology.yaml", CLEAN)]);
     let mut watch = Watch::start(&system, &[]);
     watch.says("2 components, 2 gates, 1 connection");
-    system.write("topology.yaml", "colour: red\n");
+    replace(&system, "topology.yaml", "colour: red\n");
     watch.says("unknown section `colour`");
     fs::remove_file(system.path("topology.yaml")).unwrap();
     watch.says("cannot find the topology file");
-    system.write("new.yaml", CLEAN);
-    fs::rename(system.path("new.yaml"), system.path("topology.yaml")).unwrap();
+    replace(&system, "topology.yaml", CLEAN);
     watch.says("2 components, 2 gates, 1 connection");
     assert_eq!(watch.stop("-INT").code(), Some(0));
 }
@@ -76,7 +81,7 @@ fn a_change_of_the_same_size_is_seen() {
     let system = System::of_files(&[("topology.yaml", CLEAN)]);
     let mut watch = Watch::start(&system, &[]);
     watch.says("1 connection");
-    system.write("topology.yaml", &CLEAN.replace("measurements: pub", "measurements: sub"));
+    replace(&system, "topology.yaml", &CLEAN.replace("measurements: pub", "measurements: sub"));
     watch.says("both ends");
     assert_eq!(watch.stop("-TERM").code(), Some(1));
 }
@@ -87,11 +92,11 @@ fn schemas_and_what_they_import_are_watched() {
     let system = System::of_files(&[("t/topology.yaml", &topology)]);
     let mut watch = Watch::start(&system, &["t/topology.yaml"]);
     watch.says("cannot find the schema file `rover.proto`");
-    system.write("t/deep.proto", "syntax = \"proto3\"; package deep; message Place {}");
+    replace(&system, "t/deep.proto", "syntax = \"proto3\"; package deep; message Place {}");
     let schema = "syntax = \"proto3\"; package rover; import \"deep.proto\"; message Fix { deep.Place p = 1; }";
-    system.write("t/rover.proto", schema);
+    replace(&system, "t/rover.proto", schema);
     watch.says("2 components, 2 gates, 1 connection");
-    system.write("t/deep.proto", "syntax = \"proto3\"; package deep; message Room {}");
+    replace(&system, "t/deep.proto", "syntax = \"proto3\"; package deep; message Room {}");
     watch.says("SCL0406");
     assert_eq!(watch.stop("-HUP").code(), Some(1));
 }
@@ -101,7 +106,7 @@ fn several_files_are_checked_together() {
     let system = System::of_files(&[("a.yaml", CLEAN), ("b.yaml", CLEAN)]);
     let mut watch = Watch::start(&system, &["a.yaml", "b.yaml"]);
     watch.says("a.yaml: 2 components");
-    system.write("b.yaml", "colour: red\n");
+    replace(&system, "b.yaml", "colour: red\n");
     let text = watch.next_check();
     assert!(text.contains("a.yaml: 2 components") && text.contains("b.yaml:1:1"), "{text}");
     assert_eq!(watch.stop("-INT").code(), Some(1));

@@ -3,7 +3,9 @@
 //! The files are looked at ten times a second. That works on every file system and with every way in which editors write
 //! files, and costs a few system calls.
 
-use super::{COULD_NOT_RUN, CheckArguments, check_once};
+use super::checked::Checked;
+use super::report::report;
+use super::{COULD_NOT_RUN, CheckArguments, check_files, worst_code};
 use crate::print::print_err;
 use crate::run::stop_signals;
 use std::io;
@@ -32,19 +34,31 @@ pub(super) fn watch(arguments: &CheckArguments) -> ExitCode {
             return ExitCode::from(COULD_NOT_RUN);
         }
     };
-    // What a file looks like is noted before it is read, so that no change is missed while it is read. Only of schemas
-    // that a check meets for the first time it is noted right after.
-    let mut before = Marks::of(&arguments.files);
+    let mut marks = Marks(Vec::new());
     loop {
         print_err(BEGIN);
-        let outcome = check_once(arguments);
+        let (checked, before) = check_marked(arguments, marks);
+        report(&checked, arguments.format);
         print_err(END);
-        before = before.extended(&outcome.depends_on);
         match wait_for_change(before, &stop) {
-            Some(now) => before = now,
-            None => return ExitCode::from(outcome.code),
+            Some(now) => marks = now,
+            None => return ExitCode::from(worst_code(&checked)),
         }
         print_err("\n");
+    }
+}
+
+/// Checks files whose marks were taken before they were read, so that no change is missed while they are read. Which
+/// schemas there are, only reading tells, so that the first check is done twice if there are some.
+fn check_marked(arguments: &CheckArguments, marks: Marks) -> (Vec<Checked>, Marks) {
+    let mut marks = marks.extended(&arguments.files);
+    loop {
+        let checked = check_files(arguments);
+        let files: Vec<PathBuf> = checked.iter().flat_map(Checked::depends_on).collect();
+        if files.iter().all(|file| marks.has(file)) {
+            return (checked, marks.limited_to(&files));
+        }
+        marks = marks.extended(&files);
     }
 }
 
@@ -68,24 +82,29 @@ fn wait_for_change(before: Marks, stop: &Receiver<()>) -> Option<Marks> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Marks(Vec<(PathBuf, Option<Mark>)>);
 
-/// Inode, size, change of the content and change of the entry in nanoseconds. `None` for a file that is not there.
-type Mark = (u64, u64, i128, i128);
+/// Inode, size, and the time of the last change of the content or the entry, in seconds and nanoseconds. `None` for a file
+/// that is not there. The time of the content alone may be set by anybody, so it is not looked at.
+type Mark = (u64, u64, i64, i64);
 
 impl Marks {
-    fn of(files: &[PathBuf]) -> Self {
-        Self(Vec::new()).extended(files)
+    fn has(&self, file: &Path) -> bool {
+        self.0.iter().any(|(known, _)| known == file)
     }
 
-    /// These files and no others; those that are marked already keep their mark.
-    fn extended(&self, files: &[PathBuf]) -> Self {
-        let mut marks: Vec<(PathBuf, Option<Mark>)> = Vec::new();
+    /// With these files, too; those that are marked already keep their mark.
+    fn extended(mut self, files: &[PathBuf]) -> Self {
         for file in files {
-            if marks.iter().all(|(known, _)| known != file) {
-                let known = self.0.iter().find(|(known, _)| known == file);
-                marks.push((file.clone(), known.map_or_else(|| mark(file), |(_, mark)| *mark)));
+            if !self.has(file) {
+                self.0.push((file.clone(), mark(file)));
             }
         }
-        Self(marks)
+        self
+    }
+
+    /// Without all other files.
+    fn limited_to(mut self, files: &[PathBuf]) -> Self {
+        self.0.retain(|(file, _)| files.contains(file));
+        self
     }
 
     fn renewed(&self) -> Self {
@@ -95,9 +114,7 @@ impl Marks {
 
 fn mark(file: &Path) -> Option<Mark> {
     let about = std::fs::metadata(file).ok()?;
-    let nanoseconds = |seconds: i64, rest: i64| i128::from(seconds) * 1_000_000_000 + i128::from(rest);
-    let changed = nanoseconds(about.mtime(), about.mtime_nsec());
-    Some((about.ino(), about.size(), changed, nanoseconds(about.ctime(), about.ctime_nsec())))
+    Some((about.ino(), about.size(), about.ctime(), about.ctime_nsec()))
 }
 
 /// One thread waits for the signals, which are blocked in all others.
