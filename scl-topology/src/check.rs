@@ -34,6 +34,7 @@ mod pair_kinds;
 mod path_length;
 mod payload_type;
 mod prelude_type;
+mod repeated;
 mod reserved_name;
 mod rust_keyword;
 mod rust_name_collision;
@@ -169,7 +170,9 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     exchange_type::check(&draft, facts.messages.is_some(), problems);
     codec_agreement::check(&draft, problems);
 
-    unconnected::check(&draft, problems);
+    if !model.connections_unread {
+        unconnected::check(&draft, problems);
+    }
     needless_mark::check(&draft, problems);
     circle::check(&draft, problems);
     island::check(&draft, problems);
@@ -178,6 +181,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     shared_socket::check(&draft, &system, problems);
 
     misread::tell_once(problems);
+    repeated::tell_once(problems);
     control::apply(model, sources, problems);
     if problems.has_errors() { None } else { finish::finish(&draft, system, &codec) }
 }

@@ -56,6 +56,8 @@
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+#[cfg(test)]
+mod cases;
 pub mod catalogue;
 pub mod check;
 pub mod diagnostic;

@@ -20,6 +20,8 @@ pub struct Model {
     pub connections: Vec<ConnectionModel>,
     /// The word `connections`, if the section exists.
     pub connections_key: Option<Span>,
+    /// The section `connections` could not be read, perhaps because its key is misspelt; a problem says so.
+    pub connections_unread: bool,
     /// Some components or sections could not be read, and a problem says so. A component that seems to be unknown may
     /// be one of them, so that is no further problem.
     pub components_unread: bool,

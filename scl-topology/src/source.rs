@@ -71,6 +71,11 @@ impl SourceFile {
         LineColumn { line: line as u32, column: column as u32 }
     }
 
+    /// The line of a byte, from 1, without the time that the column takes on a very long line.
+    pub(crate) fn line(&self, byte: u32) -> u32 {
+        self.line_starts.partition_point(|&start| start <= byte).max(1) as u32
+    }
+
     /// The bytes of the line in which a byte lies, without the line break.
     pub(crate) fn line_range(&self, byte: u32) -> std::ops::Range<usize> {
         let line = self.line_starts.partition_point(|&start| start <= byte).max(1);

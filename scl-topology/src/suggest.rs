@@ -23,6 +23,9 @@ pub fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         })
         .collect();
     near.sort_by_key(|(distance, _)| *distance);
+    // Beside one that is much nearer, the others are noise.
+    let nearest = near.first().map_or(0, |(distance, _)| *distance);
+    near.retain(|(distance, _)| *distance <= 2 * nearest);
     near.dedup();
     near.truncate(MOST);
     near.into_iter().map(|(_, candidate)| candidate).collect()

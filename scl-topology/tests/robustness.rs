@@ -99,10 +99,12 @@ fn one_long_line() {
 
 #[test]
 fn a_mebibyte() {
-    for unit in ["a", "[", "\"", "- ", "\t", "\0", "&a ", "a: b: "] {
+    for unit in ["a", "[", "# scl: ", "\"", "- ", "\t", "\0", "&a ", "a: b: "] {
         run(&format!("components: {}", unit.repeat((1 << 20) / unit.len())));
     }
-    for unit in ["\t- a\n", "---\n", "%A\n", "- a:b\n", "? a\n", "  - [a\n", "\r"] {
+    for unit in
+        ["\t- a\n", "---\n", "%A\n", "# scl: allow(SCL0701)\n", "# scl:\n", "- a:b\n", "? a\n", "  - [a\n", "\r"]
+    {
         run(&format!("components:\n{}", unit.repeat((1 << 20) / unit.len())));
     }
 }

@@ -1,6 +1,7 @@
 //! Each entry does what it says.
 
 use super::{ALL, Examples, Rule, explain, page};
+use crate::cases::flow;
 use crate::check::testing::{USUAL, problems};
 use crate::diagnostic::{Diagnostic, Severity};
 
@@ -39,7 +40,8 @@ fn every_code_of_the_design_is_there_once() {
 #[test]
 fn a_bad_example_has_its_problem_and_no_other() {
     for (rule, bad, _) in topologies() {
-        for text in [bad.to_owned(), bad.replace('\n', "\r\n"), bad.trim_end().to_owned()] {
+        let spellings = [bad.to_owned(), bad.replace('\n', "\r\n"), bad.trim_end().to_owned()];
+        for text in spellings.into_iter().chain(flow::of(bad)) {
             let found = found(&text);
             assert!(found.iter().any(|found| found.code == rule.code), "{} is not found in {text:?}", rule.code);
             let other = found.iter().find(|found| found.code != rule.code && !is_companion(found, rule));

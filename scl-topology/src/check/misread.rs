@@ -1,5 +1,5 @@
-//! A word that YAML reads as a number or a boolean is told once: what else is wrong with it follows from that, or goes
-//! when it is mended.
+//! A word that YAML reads as a number or a boolean, or that has an invisible character in it, is told once: what else is
+//! wrong with it follows from that, or goes when it is mended.
 
 use crate::diagnostic::Diagnostics;
 use crate::source::Span;
@@ -7,20 +7,21 @@ use crate::source::Span;
 pub(super) fn tell_once(problems: &mut Diagnostics) {
     let mut misread: Vec<Span> = Vec::new();
     problems.retain(|found| {
-        let is_misread = matches!(found.code, "SCL0108" | "SCL0109" | "SCL0119");
+        let is_misread = matches!(found.code, "SCL0108" | "SCL0109" | "SCL0117" | "SCL0119");
         misread.extend(found.primary.as_ref().filter(|_| is_misread).map(|label| label.span));
         true
     });
     misread.sort_unstable();
     problems.retain(|found| {
         let follows = found.code.starts_with("SCL03") || found.code.starts_with("SCL05");
-        !(follows && found.primary.as_ref().is_some_and(|label| lies_in(label.span, &misread)))
+        !(follows && found.primary.as_ref().is_some_and(|label| meets(label.span, &misread)))
     });
 }
 
-fn lies_in(span: Span, spans: &[Span]) -> bool {
-    let next = spans.partition_point(|other| other.start <= span.start);
-    next > 0 && spans[next - 1].file == span.file && span.end <= spans[next - 1].end
+/// Whether a place overlaps with one of these, which do not overlap with each other.
+fn meets(span: Span, spans: &[Span]) -> bool {
+    let next = spans.partition_point(|other| other.start < span.end);
+    next > 0 && spans[next - 1].file == span.file && spans[next - 1].end > span.start
 }
 
 #[cfg(test)]

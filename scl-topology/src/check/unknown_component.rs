@@ -84,9 +84,7 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     let place = draft.part(text.span, component, false);
     let mut found = UNKNOWN.at(headline, place, "no component has this name");
     let meant = if draft.may_search() { meant(draft, component, gate) } else { Vec::new() };
-    if let [only] = meant.as_slice()
-        && let Some(at) = draft.component(only)
-    {
+    for at in meant.iter().filter_map(|name| draft.component(name)) {
         found = found.label(draft.components[at].model.name.span, "a similar name is declared here");
     }
     for name in &meant {

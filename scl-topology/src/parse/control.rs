@@ -36,7 +36,7 @@ impl Reader<'_> {
     fn control(&self, hash: usize, start: usize) -> ControlModel {
         let source = self.source;
         let line = source.line_range(hash as u32);
-        let own = source.line_column(hash as u32).line;
+        let own = source.line(hash as u32);
         let value = source.text()[start..line.end].trim_end().to_owned();
         let span = Span { file: self.file, start: start as u32, end: (start + value.len()) as u32 };
         let stands_alone = source.text()[line.start..hash].trim().is_empty();

@@ -2,6 +2,7 @@
 
 use super::fields::{Field, Fields};
 use super::{Reader, is_plain, pitfall, scalar, shape};
+use crate::diagnostic::Diagnostic;
 use crate::model::{ComponentModel, GateModel};
 use crate::source::{Span, Spanned};
 use crate::topology::GateKind;
@@ -15,6 +16,11 @@ impl Reader<'_> {
             NodeKind::Mapping { entries } => {
                 self.report(shape::section_kind::gates(field, self.source));
                 for gate in self.fields(entries, "`gates`").list {
+                    // `-- x: pub` is a key with a dash in it, not a gate with an odd name.
+                    if gate.key.starts_with('-') {
+                        component.gates_unread = true;
+                        continue;
+                    }
                     self.read_gate(gate, component);
                 }
             }
@@ -71,10 +77,7 @@ impl Reader<'_> {
                     component.gates.push(unread_gate(Spanned { value: name, span: item.span }));
                     problem
                 }
-                None => {
-                    component.gates.push(unread_gate(Spanned { value: text.clone(), span: item.span }));
-                    shape::gate::without_kind(text, item.span)
-                }
+                None => self.read_gate_without_colon(item, text, component),
             },
             _ => shape::gate::is_list(item),
         };
@@ -82,8 +85,35 @@ impl Reader<'_> {
         self.report(problem);
     }
 
+    /// `- name`, or `- name kind`, which can be understood.
+    fn read_gate_without_colon(&mut self, item: &Node, text: &str, component: &mut ComponentModel) -> Diagnostic {
+        let named = |name: &str| Spanned {
+            value: name.to_owned(),
+            span: Span { end: item.span.start + name.len() as u32, ..item.span },
+        };
+        match text.split_once(' ').filter(|(_, kind)| is_kind(kind.trim())) {
+            Some((name, kind)) if is_plain(item) => {
+                component.gates.push(bare_gate(
+                    named(name),
+                    Spanned { value: kind.trim().to_owned(), span: item.span },
+                    item.span,
+                ));
+                shape::gate::without_colon(name, kind.trim(), item.span)
+            }
+            _ => {
+                component.gates.push(unread_gate(Spanned { value: text.to_owned(), span: item.span }));
+                shape::gate::without_kind(text, item.span)
+            }
+        }
+    }
+
     /// `name: kind` or `name: {kind: type, option: value}`.
     fn read_gate(&mut self, field: Field<'_>, component: &mut ComponentModel) {
+        if let Some((name, rest)) = field.key.split_once(" {").filter(|_| is_plain(field.key_node)) {
+            self.report(shape::gate::without_colon(name, &format!("{{{rest}: ...}}"), field.key_span));
+            let span = Span { end: field.key_span.start + name.len() as u32, ..field.key_span };
+            return component.gates.push(unread_gate(Spanned { value: name.to_owned(), span }));
+        }
         let Some(name) = self.name(field.key_node, "gate name", "a gate name") else {
             component.gates_unread = true;
             return;

@@ -67,7 +67,7 @@ impl Place<'_> {
 
     /// The line of a byte, from 1.
     fn line(&self, at: usize) -> u32 {
-        self.source.line_column(at as u32).line
+        self.source.line(at as u32)
     }
 
     /// The bytes of the line of a byte, without the line break.
@@ -80,8 +80,8 @@ impl Place<'_> {
 pub(super) struct CheckedText {
     /// Of the same length as the file, with spaces where a reported character stood.
     pub(super) text: String,
-    /// Tabs are used for indentation, so that what the parser says of the structure means nothing.
-    pub(super) has_tabs: bool,
+    /// Tabs or invisible characters became spaces, so that what the parser says of the structure means nothing.
+    pub(super) is_mended: bool,
 }
 
 /// The rules that need no parser.
@@ -89,10 +89,10 @@ pub(super) fn check_text(source: &SourceFile, file: FileId, problems: &mut Diagn
     let place = Place { source, file };
     let mut text = source.text().to_owned();
     let scan = scan::scan(&text);
-    invisible::check(&place, &scan, &mut text, problems);
+    let is_cleaned = invisible::check(&place, &scan, &mut text, problems);
     directive::check(&place, &mut text, problems);
     let has_tabs = tab::check(&place, &scan, &mut text, problems);
-    CheckedText { text, has_tabs }
+    CheckedText { text, is_mended: is_cleaned || has_tabs }
 }
 
 /// The rules about what the parser found, but not about what it means.
@@ -121,7 +121,7 @@ pub(super) fn check_tree(
 
 /// The rule that explains best why the parser stopped; none where a problem says so already.
 fn syntax_error(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> Option<Diagnostic> {
-    if text.has_tabs {
+    if text.is_mended {
         return None;
     }
     let explained = match error.kind {

@@ -53,6 +53,17 @@ impl Reader<'_> {
     }
 
     fn report_unknown_section(&mut self, field: Field<'_>) {
+        if field.key == "gates"
+            && let Some(component) = self.model.components.last_mut()
+        {
+            // They are most probably those of the component above.
+            component.gates_unread = true;
+            let name = component.name.span;
+            self.problems.retain(|found| {
+                found.code != shape::gateless::RULE.code
+                    || found.primary.as_ref().is_none_or(|label| label.span != name)
+            });
+        }
         let problem =
             shape::level::at_top(field, self.source).unwrap_or_else(|| shape::unknown_section::diagnose(field));
         self.report(problem);
@@ -60,13 +71,21 @@ impl Reader<'_> {
 
     fn check_missing_sections(&mut self, fields: &Fields<'_>) {
         let perhaps = |section: &str| fields.damaged || fields.list.iter().any(|field| is_misspelt(field.key, section));
+        let is_odd_list = |field: &Field<'_>| {
+            !SECTIONS.contains(&field.key)
+                && !field.key.starts_with("x-")
+                && matches!(field.value.kind, NodeKind::Sequence { .. })
+        };
+        let has_connections = fields.get("connections").is_some();
+        let connections_unread = !has_connections && (perhaps("connections") || fields.list.iter().any(is_odd_list));
+        self.model.connections_unread = connections_unread;
         match fields.get("components") {
             None if perhaps("components") => self.model.components_unread = true,
             None => {
                 self.model.components_unread = true;
                 self.report(shape::missing_section::diagnose(fields, self.file));
             }
-            Some(components) if !perhaps("connections") && self.model.broken_ends.is_empty() => {
+            Some(components) if !connections_unread && self.model.broken_ends.is_empty() => {
                 let gates: usize = self.model.components.iter().map(|component| component.gates.len()).sum();
                 let connections = fields.get("connections");
                 self.problems.extend(shape::no_connections::find(components, connections, gates));

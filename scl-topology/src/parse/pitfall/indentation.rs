@@ -4,6 +4,7 @@ use super::Place;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::parse::component;
 use crate::yaml::{MAX_DEPTH, SyntaxError};
 use std::ops::Range;
 
@@ -29,6 +30,9 @@ pub(crate) const RULE: Rule = Rule {
     },
 };
 
+/// How far above an error its cause is looked for, in lines.
+const MOST_ABOVE: usize = 64;
+
 /// A column at which keys or list items stand, and the word that stood there first.
 #[derive(Debug, Clone)]
 struct Level {
@@ -43,9 +47,21 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     let words = levels_of(&text[line.clone()], line.start);
     let first = words.first()?;
     let above = levels_above(text, line.start);
+    if let Some(problem) = deeper_below(&line, text, place).or_else(|| fallen_out(&line, first.indent, text, place)) {
+        return Some(problem);
+    }
+    if first.is_dash
+        && let Some(problem) = first_of_list(first, &line, text, place)
+    {
+        return Some(problem);
+    }
     if first.is_dash && above.iter().all(|level| level.indent < first.indent) {
         let key = above.last().filter(|level| has_value(level, text, place))?;
         return Some(list_without_key(first, key, place));
+    }
+    let item = above.iter().rev().find(|level| level.is_dash && first.is_dash);
+    if let Some(item) = item.filter(|item| item.indent < first.indent) {
+        return Some(uneven_items(first, item, "deeper", place));
     }
     let same = above.iter().find(|level| level.indent == first.indent);
     let is_misplaced_key = same.is_some_and(|level| level.is_dash) && !first.is_dash;
@@ -55,6 +71,74 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     let keys = above.iter().filter(|level| level.is_dash == first.is_dash);
     let meant = keys.min_by_key(|level| (level.indent.abs_diff(first.indent), std::cmp::Reverse(level.indent)))?;
     Some(diagnose(first, meant, is_misplaced_key, &above, text, place))
+}
+
+/// A key that is indented deeper than the one above it, which has a value in its line: YAML takes both lines for one
+/// text, and stumbles over the colon.
+fn deeper_below(line: &Range<usize>, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let below = place.line_range((line.end + 1).min(text.len()));
+    let key = levels_of(&text[below.clone()], below.start).pop().filter(|key| !key.is_dash)?;
+    let own = levels_of(&text[line.clone()], line.start).pop().filter(|own| has_value(own, text, place))?;
+    let is_key = text[key.word.end..].starts_with(':') && below.start > line.start;
+    (is_key && key.indent > own.indent).then(|| {
+        let word = &text[key.word.clone()];
+        RULE.at(
+            format!("this line is indented by {}, deeper than the key above it", spaces(key.indent)),
+            place.span(key.word.clone()),
+            spaces(key.indent),
+        )
+        .label(place.span(own.word.clone()), format!("{}, with a value already", spaces(own.indent)))
+        .help(format!("indent `{word}` by {}", spaces(own.indent)))
+    })
+}
+
+/// A key of a component at the start of a line ends all that was open, so that the lines after it seem to be wrong.
+fn fallen_out(line: &Range<usize>, indent: usize, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let mut at = line.start;
+    for _ in 0..MOST_ABOVE {
+        let above = place.line_range(at.checked_sub(1)?);
+        let content = &text[above.clone()];
+        let key = content.split(':').next().unwrap_or("");
+        if indent > 0 && !content.is_empty() && !content.starts_with([' ', '#']) {
+            let is_fallen = component::KEYS.contains(&key) && above.start > 0;
+            return is_fallen.then(|| {
+                RULE.at(
+                    format!("`{key}` stands at the start of the line, outside of any component"),
+                    place.span(above.start..above.start + key.len()),
+                    "0 spaces",
+                )
+                .label(place.span(line.start + indent..line.end), "so this line belongs to nothing")
+                .help(format!("indent `{key}` like the other keys of its component"))
+            });
+        }
+        at = above.start;
+    }
+    None
+}
+
+/// The line above a list item, if it starts the list and is another kind of line: without its `-`, or indented deeper.
+fn first_of_list(item: &Level, line: &Range<usize>, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let above = place.line_range(line.start.checked_sub(1)?);
+    let key = place.line_range(above.start.checked_sub(1)?);
+    let levels = levels_of(&text[above.clone()], above.start);
+    let start = levels.first().filter(|_| text[key].trim_end().ends_with(':'))?;
+    if start.is_dash {
+        return (start.indent > item.indent).then(|| uneven_items(item, start, "less deep", place));
+    }
+    let content = text[start.word.start..above.end].trim_end();
+    (start.indent >= item.indent && !content.ends_with(':')).then(|| {
+        RULE.at("missing `-` before the first item of this list", place.span(start.word.clone()), "no list item")
+            .label(place.span(item.word.clone()), "a list item")
+            .help(format!("write `- {content}`"))
+    })
+}
+
+/// Two items of a list in different columns.
+fn uneven_items(item: &Level, above: &Level, how: &str, place: &Place<'_>) -> Diagnostic {
+    let message = format!("this list item is indented by {}, {how} than the one above it", spaces(item.indent));
+    RULE.at(message, place.span(item.word.clone()), spaces(item.indent))
+        .label(place.span(above.word.clone()), spaces(above.indent))
+        .help("indent both alike")
 }
 
 /// Whether a level's word is a key with a value in the same line.

@@ -25,8 +25,9 @@ pub(crate) const RULE: Rule = Rule {
     },
 };
 
-/// Reports each such character once, at its first place; puts spaces in the place of all of them.
-pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) {
+/// Reports each such character once, at its first place; puts spaces in the place of all of them. Says
+/// whether there are any.
+pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
     let mut places: BTreeMap<char, Vec<usize>> = BTreeMap::new();
     for (at, character) in text.char_indices() {
         if is_bad(character, text, at, scan) {
@@ -34,7 +35,7 @@ pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems:
         }
     }
     if places.is_empty() {
-        return;
+        return false;
     }
     let mut bytes = std::mem::take(text).into_bytes();
     for (character, places) in &places {
@@ -45,6 +46,7 @@ pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems:
     }
     // Whole characters became as many spaces, so the text is as valid as before.
     *text = String::from_utf8_lossy(&bytes).into_owned();
+    true
 }
 
 /// Comments and quoted texts may hold spaces and joiners of all kinds, but nothing that hides or reorders text.

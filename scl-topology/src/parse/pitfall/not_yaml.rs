@@ -6,6 +6,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::{component, sections};
 use crate::yaml::SyntaxError;
+use std::ops::Range;
 
 /// SCL0121.
 pub(crate) const RULE: Rule = Rule {
@@ -41,35 +42,42 @@ pub(super) fn diagnose(error: &SyntaxError, place: &Place<'_>) -> Diagnostic {
         .help("the mistake is here or shortly before")
 }
 
-/// A lone section or key without its colon, in the line of the error or the one before.
+/// A section or key without its colon, in the line of the error or the one before.
 fn missing_colon(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
-    let here = place.line_range(error.at);
-    let above = here.start.checked_sub(1).map(|at| place.line_range(at));
-    let line = std::iter::once(here).chain(above).find(|line| is_lone_key(&place.source.text()[line.clone()]))?;
-    let content = &place.source.text()[line.clone()];
-    let word = content.trim_start_matches([' ', '-']);
-    let start = line.end - word.len();
-    let word = word.trim_end();
+    let (start, word) = here_and_above(error, place).find_map(|line| {
+        let content = &place.source.text()[line.clone()];
+        let content = content.trim_start_matches([' ', '-']);
+        let word = content.split([' ', '#']).next().filter(|word| is_key(word))?;
+        Some((line.end - content.len(), word))
+    })?;
     Some(
         RULE.at(format!("missing `:` after `{word}`"), place.span(start..start + word.len()), "a key")
             .help(format!("write `{word}:`")),
     )
 }
 
-/// `-sensor` where `- sensor` is meant, in the line of the error.
-pub(super) fn missing_dash_space(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
-    let line = place.line_range(error.at);
-    let content = &place.source.text()[line.clone()];
-    let word = content.trim_start_matches(' ');
-    let rest = word.strip_prefix('-').filter(|rest| rest.starts_with(|c: char| c.is_alphabetic() || c == '['))?;
-    let start = line.end - word.len();
-    Some(
-        RULE.at("missing space after `-`", place.span(start..start + 1), "starts no list item")
-            .help(format!("write `- {}`", rest.trim_end())),
-    )
+/// The line of the error and the one above it.
+fn here_and_above(error: &SyntaxError, place: &Place<'_>) -> impl Iterator<Item = Range<usize>> {
+    let here = place.line_range(error.at);
+    let above = here.start.checked_sub(1).map(|at| place.line_range(at));
+    std::iter::once(here).chain(above)
 }
 
-fn is_lone_key(line: &str) -> bool {
-    let word = line.trim_start_matches([' ', '-']).trim_end();
+/// `-sensor` or `-- sensor` where `- sensor` is meant.
+pub(super) fn missing_dash_space(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
+    let (start, dashes, rest) = here_and_above(error, place).find_map(|line| {
+        let word = place.source.text()[line.clone()].trim_start_matches(' ');
+        let rest = word.trim_start_matches('-');
+        let dashes = word.len() - rest.len();
+        let starts_word = rest.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '[');
+        let is_odd = dashes == 2 || dashes == 1 && !rest.starts_with(' ');
+        (starts_word && is_odd).then_some((line.end - word.len(), dashes, rest.trim()))
+    })?;
+    let message = if dashes == 1 { "missing space after `-`" } else { "a list item starts with one `-`, not with two" };
+    let span = place.span(start..start + dashes);
+    Some(RULE.at(message, span, "starts no list item").help(format!("write `- {rest}`")))
+}
+
+fn is_key(word: &str) -> bool {
     sections::SECTIONS.contains(&word) || component::KEYS.contains(&word)
 }

@@ -44,6 +44,12 @@ pub(in crate::parse) fn without_kind(name: &str, at: Span) -> Diagnostic {
         .note(kinds())
 }
 
+/// `- measurements pub`.
+pub(in crate::parse) fn without_colon(name: &str, kind: &str, at: Span) -> Diagnostic {
+    RULE.at(format!("missing `:` after the name of gate `{name}`"), at, "name and kind in one word")
+        .help(format!("write `- {name}: {kind}`"))
+}
+
 /// `- measurements: {queue: 4}`.
 pub(in crate::parse) fn without_kind_key(gate: Field<'_>, fields: &Fields<'_>) -> Diagnostic {
     let name = gate.key;

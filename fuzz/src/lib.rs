@@ -1,0 +1,56 @@
+//! What the fuzz targets do with their input.
+//!
+//! `cargo fuzz run yaml_to_topology -- -max_total_time=300`; without a nightly toolchain, put `RUSTC_BOOTSTRAP=1` before
+//! it. `scl-topology/tests/files` is a good corpus to start from.
+
+mod model;
+
+use scl_topology::check::{Facts, check};
+use scl_topology::diagnostic::{Diagnostics, render, render_headless, to_json};
+use scl_topology::model::Model;
+use scl_topology::parse::parse;
+use scl_topology::resolve::{LONGEST_PATH, contract, endpoint, gate_endpoint};
+use scl_topology::source::Sources;
+use scl_topology::topology::Topology;
+
+/// Parses and checks a text, renders what is found, and resolves a topology that comes out.
+pub fn yaml_to_topology(text: &str) {
+    let mut sources = Sources::new();
+    let file = sources.add("topology.yaml", text);
+    let mut problems = Diagnostics::new();
+    let model = parse(&sources, file, &mut problems);
+    judge(&model, &sources, problems);
+}
+
+/// Checks a model that the bytes describe.
+pub fn model_to_topology(data: &[u8]) {
+    let mut sources = Sources::new();
+    if let Ok(model) = model::model(&mut arbitrary::Unstructured::new(data), &mut sources) {
+        judge(&model, &sources, Diagnostics::new());
+    }
+}
+
+fn judge(model: &Model, sources: &Sources, mut problems: Diagnostics) {
+    let facts = Facts { default_system: "fuzz".to_owned(), messages: None };
+    let topology = check(model, &facts, sources, &mut problems);
+    assert!(topology.is_none() || !problems.has_errors(), "a topology in spite of errors");
+    assert!(topology.is_some() || problems.has_errors(), "no topology and no error");
+    for problem in problems.into_sorted().iter().take(50) {
+        assert!(render(problem, sources).contains(problem.code));
+        assert!(!render_headless(problem, sources).starts_with("error"));
+        assert!(!to_json(problem, sources).contains('\n'));
+    }
+    topology.iter().for_each(resolve);
+}
+
+/// Every socket fits the kernel.
+fn resolve(topology: &Topology) {
+    let root = "/run/user/4294967295/scl/".len() + topology.system().len() + 1;
+    let connections = topology.connections().map(|(id, _)| endpoint(topology, id));
+    let gates = topology.components().flat_map(|(_, component)| component.gates());
+    let own = gates.filter_map(|&gate| gate_endpoint(topology, gate));
+    for name in connections.chain(own) {
+        assert!(root + name.len() <= LONGEST_PATH, "{name}");
+    }
+    assert!(topology.connections().all(|(id, _)| contract(topology, id).len() == 8));
+}
