@@ -1,12 +1,16 @@
 //! `scl check`: says about topology files what the macro would say.
 
-use crate::print::{print_err, print_out};
-use anstream::{AutoStream, ColorChoice};
+mod checked;
+mod deny;
+mod report;
+mod watch;
+
+use crate::load::STDIN;
+use crate::print::print_err;
+use checked::{Checked, check_file};
 use clap::{Args, ValueEnum};
-use scl_loader::{Loaded, Request, load};
-use scl_topology::diagnostic::{Diagnostic, Severity, render, render_styled, to_json};
-use scl_topology::topology::Topology;
-use std::path::{Path, PathBuf};
+use deny::{Deny, parse_deny};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Exit code: a file could not be read at all.
@@ -16,14 +20,19 @@ const COULD_NOT_RUN: u8 = 2;
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  scl check                        topology.yaml in the working folder
-  scl check a.yaml b.yaml --lints  two files, and what is off by default
-  scl check --format json          for programs: one object a line
+  scl check                         topology.yaml in the working folder
+  scl check a.yaml b.yaml --lints   two files, and what is off by default
+  scl check --deny warnings         for continuous integration: nothing to complain about, or exit code 1
+  scl check --deny SCL0402          untyped connections are errors here
+  scl check --watch                 again whenever the file, or a schema that it names, changes
+  scl check --format json           for programs: one object a line
+  scl check --format sarif > s.json for code hosts
+  generate | scl check -            standard input
 
-Text goes to standard error, JSON to standard output.
+Text goes to standard error, everything else to standard output.
 Exit code: 0 clean or only warnings, 1 errors, 2 a file could not be read.")]
 pub(crate) struct CheckArguments {
-    /// The topology files.
+    /// The topology files; `-` is standard input.
     #[arg(value_name = "FILE", default_value = "topology.yaml")]
     files: Vec<PathBuf>,
     /// How to say it.
@@ -32,6 +41,12 @@ pub(crate) struct CheckArguments {
     /// Show the lints that are off by default, too.
     #[arg(long)]
     lints: bool,
+    /// Make errors of all warnings (`warnings`), or of those with this code; may be given several times.
+    #[arg(long, value_name = "warnings|CODE", value_parser = parse_deny)]
+    deny: Vec<Deny>,
+    /// Check again whenever a file changes, until Ctrl-C; then the exit code is that of the last check.
+    #[arg(long)]
+    watch: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -40,74 +55,37 @@ enum Format {
     Text,
     /// One JSON object a line.
     Json,
+    /// SARIF 2.1.0, one log for all files.
+    Sarif,
+    /// As `cargo check --message-format=json`, for rust-analyzer's `check.overrideCommand`.
+    Cargo,
 }
 
 /// The body of `scl check`: the worst of all files is the exit code.
 pub(crate) fn check(arguments: &CheckArguments) -> ExitCode {
-    let codes = arguments.files.iter().map(|file| check_file(file, arguments));
-    ExitCode::from(codes.max().unwrap_or_default())
-}
-
-fn check_file(path: &Path, arguments: &CheckArguments) -> u8 {
-    let loaded = load_file(path);
-    let is_shown = |it: &&Diagnostic| arguments.lints || it.severity != Severity::Lint;
-    let shown: Vec<&Diagnostic> = loaded.diagnostics.iter().filter(is_shown).collect();
-    match arguments.format {
-        Format::Text => {
-            show_diagnostics(&loaded, &shown);
-            print_err(&closing_line(path, loaded.topology.as_ref(), &shown));
-        }
-        Format::Json => shown.iter().for_each(|it| print_out(&format!("{}\n", to_json(it, &loaded.sources)))),
-    }
-    match &loaded {
-        Loaded { file: None, .. } => COULD_NOT_RUN,
-        Loaded { topology: None, .. } => 1,
-        _ => 0,
-    }
-}
-
-/// Reads and checks a file, which messages call as the user did.
-pub(crate) fn load_file(path: &Path) -> Loaded {
-    load(&Request::new(path))
-}
-
-/// Shows diagnostics on standard error, each followed by an empty line.
-pub(crate) fn show_diagnostics(loaded: &Loaded, shown: &[&Diagnostic]) {
-    let plain = matches!(AutoStream::choice(&std::io::stderr()), ColorChoice::Never);
-    let render = if plain { render } else { render_styled };
-    shown.iter().for_each(|it| print_err(&format!("{}\n\n", render(it, &loaded.sources))));
-}
-
-/// Shows the errors alone, for the commands that cannot go on with them.
-pub(crate) fn show_errors(loaded: &Loaded) {
-    let errors: Vec<&Diagnostic> = loaded.diagnostics.iter().filter(|it| it.severity == Severity::Error).collect();
-    show_diagnostics(loaded, &errors);
-}
-
-/// `topology.yaml: 4 components, 8 gates, 4 connections` or `topology.yaml: 2 errors, 1 warning`.
-fn closing_line(path: &Path, topology: Option<&Topology>, shown: &[&Diagnostic]) -> String {
-    let number_of = |severity| shown.iter().filter(|it| it.severity == severity).count();
-    let problems = [
-        counted(number_of(Severity::Error), "error"),
-        counted(number_of(Severity::Warning), "warning"),
-        counted(number_of(Severity::Lint), "lint"),
-    ];
-    let problems = problems.into_iter().filter(|it| !it.starts_with("0 ")).collect::<Vec<_>>().join(", ");
-    let words = match topology.map(size_of) {
-        Some(size) if problems.is_empty() => size,
-        Some(size) => format!("{size}; {problems}"),
-        None => problems,
+    let from_stdin = arguments.files.iter().filter(|file| file.as_os_str() == STDIN).count();
+    let refusal = match from_stdin {
+        0 => None,
+        1 if arguments.watch => Some("standard input cannot be watched"),
+        1 => None,
+        _ => Some("standard input can be read only once"),
     };
-    format!("{}: {words}\n", path.display())
+    if let Some(refusal) = refusal {
+        print_err(&format!("error: {refusal}\n  = help: name a file instead of `-`\n"));
+        return ExitCode::from(COULD_NOT_RUN);
+    }
+    if arguments.watch {
+        return watch::watch(arguments);
+    }
+    let checked = check_files(arguments);
+    report::report(&checked, arguments.format);
+    ExitCode::from(worst_code(&checked))
 }
 
-fn size_of(topology: &Topology) -> String {
-    let gates = topology.components().map(|(_, component)| component.gates().len()).sum();
-    let components = counted(topology.components().len(), "component");
-    format!("{components}, {}, {}", counted(gates, "gate"), counted(topology.connections().len(), "connection"))
+fn check_files(arguments: &CheckArguments) -> Vec<Checked> {
+    arguments.files.iter().map(|file| check_file(file, arguments)).collect()
 }
 
-fn counted(number: usize, noun: &str) -> String {
-    let ending = if number == 1 { "" } else { "s" };
-    format!("{number} {noun}{ending}")
+fn worst_code(checked: &[Checked]) -> u8 {
+    checked.iter().map(Checked::code).max().unwrap_or_default()
 }

@@ -4,7 +4,7 @@ mod dot;
 mod edge;
 mod mermaid;
 
-use crate::check::{load_file, show_errors};
+use crate::load::{load_file, show_errors};
 use crate::print::print_out;
 use clap::{Args, ValueEnum};
 use dot::draw_dot;

@@ -2,12 +2,17 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod check;
+mod completions;
+mod diff;
 mod duration;
+mod explain;
 mod graph;
+mod load;
 mod print;
 mod run;
+mod schema;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// Checks, draws and runs systems made of components that talk through typed gates.
@@ -22,8 +27,12 @@ struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     Check(check::CheckArguments),
+    Completions(completions::CompletionsArguments),
+    Diff(diff::DiffArguments),
+    Explain(explain::ExplainArguments),
     Graph(graph::GraphArguments),
     Run(run::RunArguments),
+    Schema(schema::SchemaArguments),
     #[command(name = run::START_WORD, hide = true)]
     Start(run::StartArguments),
     #[command(name = run::GUARD_WORD, hide = true)]
@@ -33,8 +42,12 @@ enum Command {
 fn main() -> ExitCode {
     match CommandLine::parse().command {
         Command::Check(arguments) => check::check(&arguments),
+        Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
+        Command::Diff(arguments) => diff::diff(&arguments),
+        Command::Explain(arguments) => explain::explain_code(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
         Command::Run(arguments) => run::run(&arguments),
+        Command::Schema(arguments) => schema::schema(&arguments),
         Command::Start(arguments) => run::start_component(&arguments),
         Command::Guard => run::keep_watch(),
     }

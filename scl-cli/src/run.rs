@@ -13,13 +13,13 @@ mod program;
 mod reports;
 mod supervisor;
 
-pub(crate) use orphan_guard::{GUARD_WORD, START_WORD, StartArguments, keep_watch, start_component};
+pub(crate) use orphan_guard::{GUARD_WORD, START_WORD, StartArguments, keep_watch, start_component, stop_signals};
 
 use crate::duration::parse_duration;
 use crate::print::print_err;
 use children::{Event, Running};
 use clap::Args;
-use orphan_guard::{OrphanGuard, stop_signals};
+use orphan_guard::OrphanGuard;
 use output::Output;
 use problem::Problem;
 use program::Program;

@@ -56,6 +56,24 @@ pub fn load(request: &Request) -> Loaded {
     let mut loaded = Loaded::default();
     let mut problems = Diagnostics::new();
     match read::read_text(&request.path, request.max_size) {
+        Ok(text) => {
+            loaded.files_read.push(request.path.clone());
+            check_text(request, text, &mut loaded, &mut problems);
+        }
+        Err(cause) => problems.push(unreadable::diagnose(request, cause)),
+    }
+    loaded.diagnostics = problems.into_sorted();
+    loaded
+}
+
+/// As [`load`], with the bytes of the topology file from elsewhere, for example standard input.
+///
+/// The request's path is not read; it says where schemas are looked for and gives the system its default name. Bytes past
+/// the limit, and bytes that are no UTF-8, are refused as those of a file.
+pub fn load_bytes(request: &Request, bytes: Vec<u8>) -> Loaded {
+    let mut loaded = Loaded::default();
+    let mut problems = Diagnostics::new();
+    match read::decode(bytes, request.max_size) {
         Ok(text) => check_text(request, text, &mut loaded, &mut problems),
         Err(cause) => problems.push(unreadable::diagnose(request, cause)),
     }
@@ -66,7 +84,6 @@ pub fn load(request: &Request) -> Loaded {
 fn check_text(request: &Request, text: String, loaded: &mut Loaded, problems: &mut Diagnostics) {
     let file = loaded.sources.add(&request.shown_as, text);
     loaded.file = Some(file);
-    loaded.files_read.push(request.path.clone());
     loaded.model = parse(&loaded.sources, file, problems);
     let compiled = schemas::compile(request, &loaded.model, &mut loaded.sources, problems);
     let facts = Facts { default_system: request.default_system(), messages: compiled.messages };

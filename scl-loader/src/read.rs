@@ -49,6 +49,11 @@ pub(crate) fn read_text(path: &Path, max_size: u64) -> Result<String, Unreadable
     let file = File::open(path).map_err(Unreadable::Refused)?;
     // One byte more than allowed, because the file may have grown, or may not tell its length.
     file.take(max_size.saturating_add(1)).read_to_end(&mut bytes).map_err(Unreadable::Refused)?;
+    decode(bytes, max_size)
+}
+
+/// The text of at most `max_size` bytes.
+pub(crate) fn decode(bytes: Vec<u8>, max_size: u64) -> Result<String, Unreadable> {
     if bytes.len() as u64 > max_size {
         return Err(Unreadable::TooLarge(bytes.len() as u64));
     }

@@ -1,7 +1,7 @@
 //! Whole files, loaded from disk.
 
 use crate::testing::{folder, load_from};
-use crate::{Loaded, LookedIn, Request, load};
+use crate::{Loaded, LookedIn, Request, load, load_bytes};
 use expect_test::{Expect, expect};
 use scl_topology::diagnostic::{Severity, render};
 use std::fs;
@@ -44,6 +44,19 @@ fn a_good_file_gives_a_topology() {
     assert_eq!(rendered(&loaded), "");
     assert_eq!(loaded.topology.unwrap().system(), "rover");
     assert_eq!(loaded.files_read, [folder.path().join("rover.yaml")]);
+}
+
+#[test]
+fn bytes_from_elsewhere_are_checked_like_a_file() {
+    let folder = folder(&[]);
+    let request =
+        Request { max_size: 1000, shown_as: "<stdin>".into(), ..Request::new(folder.path().join("rover.yaml")) };
+    let loaded = load_bytes(&request, GOOD.into());
+    assert_eq!((rendered(&loaded).as_str(), loaded.files_read.len()), ("", 0));
+    assert_eq!(loaded.topology.unwrap().system(), "rover");
+    for (bytes, code) in [(vec![b' '; 1001], "SCL0004"), (vec![0xff], "SCL0003"), (vec![], "SCL0115")] {
+        assert_eq!(errors(&load_bytes(&request, bytes)), [code]);
+    }
 }
 
 #[test]

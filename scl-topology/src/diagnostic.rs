@@ -1,15 +1,19 @@
 //! What the checker has to say: one [`Diagnostic`] a problem, gathered in [`Diagnostics`].
 
+mod cargo;
 mod json;
 mod limit;
 mod render;
+mod sarif;
 
 use crate::source::Span;
 
+pub use cargo::{CargoUnit, cargo_end, cargo_start, to_cargo};
 pub use json::to_json;
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};
+pub use sarif::{CheckedFile, to_sarif};
 
 /// How bad it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -4,7 +4,7 @@ use super::cargo_package::{BuiltProgram, build_package};
 use super::launch_file::{LaunchComponent, LaunchFile, parse_launch_file};
 use super::problem::{Problem, quoted_list};
 use super::program::{Program, check_programs};
-use crate::check::{load_file, show_errors};
+use crate::load::{load_file, show_errors};
 use crate::print::print_err;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

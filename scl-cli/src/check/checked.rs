@@ -1,0 +1,48 @@
+//! One file, checked: what is shown of it, and its exit code.
+
+use super::deny::deny;
+use super::{COULD_NOT_RUN, CheckArguments};
+use crate::load::load_file;
+use scl_loader::Loaded;
+use scl_topology::diagnostic::{Diagnostic, Severity};
+use std::path::{Path, PathBuf};
+
+/// A file that was checked.
+pub(super) struct Checked {
+    /// As the user named it.
+    pub(super) path: PathBuf,
+    /// What it holds.
+    pub(super) loaded: Loaded,
+    /// What is said about it.
+    pub(super) shown: Vec<Diagnostic>,
+}
+
+/// Checks a file and chooses what is shown.
+pub(super) fn check_file(path: &Path, arguments: &CheckArguments) -> Checked {
+    let mut loaded = load_file(path);
+    let all = std::mem::take(&mut loaded.diagnostics).into_iter().map(|it| deny(it, &arguments.deny));
+    let shown = all.filter(|it| arguments.lints || it.severity != Severity::Lint).collect();
+    Checked { path: path.to_path_buf(), loaded, shown }
+}
+
+impl Checked {
+    pub(super) fn code(&self) -> u8 {
+        match &self.loaded {
+            Loaded { file: None, .. } => COULD_NOT_RUN,
+            Loaded { topology: None, .. } => 1,
+            _ => u8::from(self.number_of(Severity::Error) > 0),
+        }
+    }
+
+    pub(super) fn number_of(&self, severity: Severity) -> usize {
+        self.shown.iter().filter(|it| it.severity == severity).count()
+    }
+
+    /// The file, its schemas and what they import. A schema that is missing may appear.
+    pub(super) fn depends_on(&self) -> Vec<PathBuf> {
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let schemas = self.loaded.model.schemas.iter().map(|schema| folder.join(&schema.value));
+        let read = self.loaded.files_read.iter().cloned();
+        std::iter::once(self.path.clone()).chain(schemas).chain(read).collect()
+    }
+}

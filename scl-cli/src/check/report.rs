@@ -1,0 +1,87 @@
+//! The result of a check, in each format.
+
+use super::Format;
+use super::checked::Checked;
+use crate::load::{show_diagnostics, shown_path};
+use crate::print::{print_err, print_out};
+use scl_topology::diagnostic::{CargoUnit, CheckedFile, Severity, cargo_end, cargo_start, to_cargo, to_json, to_sarif};
+use scl_topology::topology::Topology;
+use std::path::{Path, PathBuf};
+
+/// Says what was found: text to standard error, everything else to standard output.
+pub(super) fn report(checked: &[Checked], format: Format) {
+    match format {
+        Format::Text => checked.iter().for_each(report_text),
+        Format::Json => checked.iter().for_each(report_json),
+        Format::Sarif => report_sarif(checked),
+        Format::Cargo => report_cargo(checked),
+    }
+}
+
+fn report_text(checked: &Checked) {
+    show_diagnostics(&checked.loaded, &checked.shown);
+    print_err(&closing_line(checked));
+}
+
+fn report_json(checked: &Checked) {
+    let lines = checked.shown.iter().map(|it| to_json(it, &checked.loaded.sources) + "\n");
+    print_out(&lines.collect::<String>());
+}
+
+fn report_sarif(checked: &[Checked]) {
+    let paths: Vec<String> = checked.iter().map(|it| shown_path(&it.path)).collect();
+    let files = checked.iter().zip(&paths).map(|(it, path)| CheckedFile {
+        path,
+        sources: &it.loaded.sources,
+        diagnostics: &it.shown,
+    });
+    print_out(&(to_sarif(&files.collect::<Vec<_>>()) + "\n"));
+}
+
+fn report_cargo(checked: &[Checked]) {
+    let folder = std::env::current_dir().unwrap_or_default();
+    for it in checked {
+        let unit = cargo_unit(&it.path, &folder);
+        let messages = it.shown.iter().map(|it_shown| to_cargo(it_shown, &it.loaded.sources, &unit));
+        let lines = std::iter::once(cargo_start(&unit)).chain(messages).map(|line| line + "\n");
+        print_out(&lines.collect::<String>());
+    }
+    let success = checked.iter().all(|it| it.code() == 0);
+    print_out(&(cargo_end(success) + "\n"));
+}
+
+fn cargo_unit(path: &Path, folder: &Path) -> CargoUnit {
+    let file = folder.join(shown_path(path));
+    let manifests = file.ancestors().skip(1).map(|above| above.join("Cargo.toml"));
+    let manifest = manifests.into_iter().find(|it| it.is_file()).unwrap_or_else(|| file.clone());
+    let text = |path: PathBuf| path.display().to_string();
+    CargoUnit { file: text(file), folder: text(folder.to_path_buf()), manifest: text(manifest) }
+}
+
+/// `topology.yaml: 4 components, 8 gates, 4 connections` or `topology.yaml: 2 errors, 1 warning`.
+fn closing_line(checked: &Checked) -> String {
+    let number_of = |severity| checked.number_of(severity);
+    let problems = [
+        counted(number_of(Severity::Error), "error"),
+        counted(number_of(Severity::Warning), "warning"),
+        counted(number_of(Severity::Lint), "lint"),
+    ];
+    let problems = problems.into_iter().filter(|it| !it.starts_with("0 ")).collect::<Vec<_>>().join(", ");
+    let words = match checked.loaded.topology.as_ref().map(size_of) {
+        Some(size) if problems.is_empty() => size,
+        Some(size) => format!("{size}; {problems}"),
+        None => problems,
+    };
+    format!("{}: {words}\n", shown_path(&checked.path))
+}
+
+fn size_of(topology: &Topology) -> String {
+    let gates = topology.components().map(|(_, component)| component.gates().len()).sum();
+    let components = counted(topology.components().len(), "component");
+    format!("{components}, {}, {}", counted(gates, "gate"), counted(topology.connections().len(), "connection"))
+}
+
+fn counted(number: usize, noun: &str) -> String {
+    let ending = if number == 1 { "" } else { "s" };
+    format!("{number} {noun}{ending}")
+}

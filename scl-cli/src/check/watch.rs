@@ -1,0 +1,131 @@
+//! `--watch`: checks again whenever a file changes.
+//!
+//! The files are looked at ten times a second. That works on every file system and with every way in which editors write
+//! files, and costs a few system calls.
+
+use super::checked::Checked;
+use super::report::report;
+use super::{COULD_NOT_RUN, CheckArguments, check_files, worst_code};
+use crate::print::print_err;
+use crate::run::stop_signals;
+use std::io;
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::mpsc::{Receiver, channel};
+use std::thread;
+use std::time::Duration;
+
+/// How often the files are looked at.
+const INTERVAL: Duration = Duration::from_millis(100);
+
+/// The line before a check; editors may search for it, so it stays as it is.
+const BEGIN: &str = "scl: checking\n";
+
+/// The line after a check; likewise.
+const END: &str = "scl: waiting for changes, Ctrl-C ends\n";
+
+/// Checks until a signal asks to stop; gives the exit code of the last check.
+pub(super) fn watch(arguments: &CheckArguments) -> ExitCode {
+    let stop = match listen_for_stop() {
+        Ok(stop) => stop,
+        Err(error) => {
+            print_err(&format!("error: cannot listen for signals: {error}\n"));
+            return ExitCode::from(COULD_NOT_RUN);
+        }
+    };
+    let mut marks = Marks(Vec::new());
+    loop {
+        print_err(BEGIN);
+        let (checked, before) = check_marked(arguments, marks);
+        report(&checked, arguments.format);
+        print_err(END);
+        match wait_for_change(before, &stop) {
+            Some(now) => marks = now,
+            None => return ExitCode::from(worst_code(&checked)),
+        }
+        print_err("\n");
+    }
+}
+
+/// Checks files whose marks were taken before they were read, so that no change is missed while they are read. Which
+/// schemas there are, only reading tells, so that the first check is done twice if there are some.
+fn check_marked(arguments: &CheckArguments, marks: Marks) -> (Vec<Checked>, Marks) {
+    let mut marks = marks.extended(&arguments.files);
+    loop {
+        let checked = check_files(arguments);
+        let files: Vec<PathBuf> = checked.iter().flat_map(Checked::depends_on).collect();
+        if files.iter().all(|file| marks.has(file)) {
+            return (checked, marks.limited_to(&files));
+        }
+        marks = marks.extended(&files);
+    }
+}
+
+/// Waits until a file differs from its mark, and then until it rests, as editors write files in several steps. Gives
+/// `None` when asked to stop.
+fn wait_for_change(before: Marks, stop: &Receiver<()>) -> Option<Marks> {
+    let mut last = before.clone();
+    loop {
+        if stop.recv_timeout(INTERVAL).is_ok() {
+            return None;
+        }
+        let now = last.renewed();
+        if now == last && now != before {
+            return Some(now);
+        }
+        last = now;
+    }
+}
+
+/// What the files look like from outside.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Marks(Vec<(PathBuf, Option<Mark>)>);
+
+/// Inode, size, and the time of the last change of the content or the entry, in seconds and nanoseconds. `None` for a file
+/// that is not there. The time of the content alone may be set by anybody, so it is not looked at.
+type Mark = (u64, u64, i64, i64);
+
+impl Marks {
+    fn has(&self, file: &Path) -> bool {
+        self.0.iter().any(|(known, _)| known == file)
+    }
+
+    /// With these files, too; those that are marked already keep their mark.
+    fn extended(mut self, files: &[PathBuf]) -> Self {
+        for file in files {
+            if !self.has(file) {
+                self.0.push((file.clone(), mark(file)));
+            }
+        }
+        self
+    }
+
+    /// Without all other files.
+    fn limited_to(mut self, files: &[PathBuf]) -> Self {
+        self.0.retain(|(file, _)| files.contains(file));
+        self
+    }
+
+    fn renewed(&self) -> Self {
+        Self(self.0.iter().map(|(file, _)| (file.clone(), mark(file))).collect())
+    }
+}
+
+fn mark(file: &Path) -> Option<Mark> {
+    let about = std::fs::metadata(file).ok()?;
+    Some((about.ino(), about.size(), about.ctime(), about.ctime_nsec()))
+}
+
+/// One thread waits for the signals, which are blocked in all others.
+fn listen_for_stop() -> io::Result<Receiver<()>> {
+    let signals = stop_signals();
+    signals.thread_block()?;
+    let (sender, stop) = channel();
+    thread::Builder::new().spawn(move || {
+        // Only a wrong set of signals fails; then nobody can stop us but by force, and so we stop at once.
+        let _ = signals.wait();
+        let _ = sender.send(());
+    })?;
+    Ok(stop)
+}

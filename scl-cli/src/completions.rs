@@ -1,0 +1,30 @@
+//! `scl completions`: words that a shell offers after `scl`.
+
+use crate::print::print_out;
+use clap::{Args, Command};
+use clap_complete::{Shell, generate};
+use std::process::ExitCode;
+
+/// Prints a script with which a shell completes the commands and options of `scl`.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl completions bash > ~/.local/share/bash-completion/completions/scl
+  scl completions zsh > ~/.zfunc/_scl         in a folder of $fpath
+  scl completions fish > ~/.config/fish/completions/scl.fish")]
+pub(crate) struct CompletionsArguments {
+    /// The shell.
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+/// The body of `scl completions`, for this command line.
+pub(crate) fn print_completions(arguments: &CompletionsArguments, command_line: &Command) -> ExitCode {
+    // Hidden commands are for ourselves; the generator for bash would offer them.
+    let visible = command_line.get_subcommands().filter(|command| !command.is_hide_set()).cloned();
+    let mut command_line = Command::new("scl").version(env!("CARGO_PKG_VERSION")).subcommands(visible);
+    let mut script = Vec::new();
+    generate(arguments.shell, &mut command_line, "scl", &mut script);
+    print_out(&String::from_utf8_lossy(&script));
+    ExitCode::SUCCESS
+}

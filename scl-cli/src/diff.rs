@@ -1,0 +1,86 @@
+//! `scl diff`: what differs between two topologies, and which components that concerns.
+
+mod change;
+mod facts;
+mod rebuild;
+mod report;
+
+use crate::load::{STDIN, load_file, show_errors};
+use crate::print::{print_err, print_out};
+use change::find_changes;
+use clap::{Args, ValueEnum};
+use rebuild::find_rebuilds;
+use report::{report_json, report_text};
+use scl_topology::topology::Topology;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Exit code: one of the two is not a sound topology.
+const TROUBLE: u8 = 2;
+
+/// Compares two topologies, and names the components that must be rebuilt.
+///
+/// Places, comments, order and spelling do not count, only what the files mean. A component must be rebuilt when something
+/// differs that is compiled into it: its gates, their options, its connections, and their contracts. What stands inside of
+/// schema files is not compared.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl diff old.yaml new.yaml
+  git show main:topology.yaml | scl diff - topology.yaml   against another branch
+  scl diff old.yaml new.yaml --format json                 one object
+
+Exit code, as of diff: 0 the same, 1 different, 2 a file has errors or could not be read.")]
+pub(crate) struct DiffArguments {
+    /// The topology as it was; `-` is standard input.
+    #[arg(value_name = "OLD")]
+    old: PathBuf,
+    /// The topology as it is; `-` is standard input.
+    #[arg(value_name = "NEW")]
+    new: PathBuf,
+    /// How to say it.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A line a difference.
+    Text,
+    /// One JSON object.
+    Json,
+}
+
+/// The body of `scl diff`.
+pub(crate) fn diff(arguments: &DiffArguments) -> ExitCode {
+    if [&arguments.old, &arguments.new].iter().all(|file| file.as_os_str() == STDIN) {
+        print_err("error: standard input can be read only once\n  = help: name a file instead of one `-`\n");
+        return ExitCode::from(TROUBLE);
+    }
+    // Both are read, so that the problems of both are told.
+    let (old, new) = (read(&arguments.old), read(&arguments.new));
+    let (Some(old), Some(new)) = (old, new) else { return ExitCode::from(TROUBLE) };
+    let (changes, rebuilds) = (find_changes(&old, &new), find_rebuilds(&old, &new));
+    let report = match arguments.format {
+        Format::Text => report_text,
+        Format::Json => report_json,
+    };
+    print_out(&report(&changes, &rebuilds));
+    ExitCode::from(u8::from(!changes.is_empty()))
+}
+
+/// One of the two topologies.
+struct Side {
+    topology: Topology,
+    /// The system's name as far as it is the file's own: a copy with another name is still the same topology.
+    system: String,
+}
+
+fn read(path: &Path) -> Option<Side> {
+    let loaded = load_file(path);
+    if loaded.topology.is_none() {
+        show_errors(&loaded);
+    }
+    let system = loaded.model.system.map_or_else(|| "that of the file".to_owned(), |system| system.value);
+    loaded.topology.map(|topology| Side { topology, system })
+}

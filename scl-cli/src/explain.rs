@@ -1,0 +1,89 @@
+//! `scl explain`: what a code of the checker means, and how to mend what it finds.
+
+use crate::print::{print_err, print_out};
+use clap::Args;
+use scl_topology::catalogue::{ALL, Rule, explain};
+use scl_topology::diagnostic::Severity;
+use scl_topology::suggest::similar;
+use std::process::ExitCode;
+
+/// Exit code: there is no such check.
+const UNKNOWN: u8 = 2;
+
+/// Explains a code of the checker, with an example; without a code, lists them all.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl explain SCL0502
+  scl explain 502        the same
+  scl explain | grep -i codec
+
+Exit code: 0 explained, 2 there is no such code.")]
+pub(crate) struct ExplainArguments {
+    /// For example `SCL0502`, as it stands in brackets at the start of a problem.
+    #[arg(value_name = "CODE")]
+    code: Option<String>,
+}
+
+/// The body of `scl explain`.
+pub(crate) fn explain_code(arguments: &ExplainArguments) -> ExitCode {
+    let Some(written) = &arguments.code else {
+        print_out(&ALL.iter().map(|rule| line(rule)).collect::<String>());
+        return ExitCode::SUCCESS;
+    };
+    let code = full_code(written);
+    match explain(&code) {
+        Some(text) => {
+            print_out(&format!("{}\n", text.trim_end()));
+            ExitCode::SUCCESS
+        }
+        None => {
+            print_err(&unknown(written, &code));
+            ExitCode::from(UNKNOWN)
+        }
+    }
+}
+
+/// `scl0502`, `[SCL0502]`, `502` and `scl::SCL0502`, as editors show it, are all `SCL0502`.
+pub(crate) fn full_code(written: &str) -> String {
+    let word = written.trim_matches(['[', ']', ' ']).rsplit(':').next().unwrap_or_default().to_ascii_uppercase();
+    let is_number = !word.is_empty() && word.bytes().all(|byte| byte.is_ascii_digit());
+    if is_number { format!("SCL{word:0>4}") } else { word }
+}
+
+/// Says that there is no such code, and which one may have been meant.
+pub(crate) fn unknown(written: &str, code: &str) -> String {
+    let mut text = format!("error: there is no check `{written}`\n");
+    let near = similar(code, ALL.iter().map(|rule| rule.code));
+    text.extend(near.iter().map(|near| format!("  = help: a similar code exists: `{near}`{}\n", titled(near))));
+    text + "  = help: `scl explain` lists all of them\n"
+}
+
+fn titled(code: &str) -> String {
+    ALL.iter().find(|rule| rule.code == code).map_or_else(String::new, |rule| format!(", {}", rule.title))
+}
+
+/// `SCL0502  error  unknown gate`
+fn line(rule: &Rule) -> String {
+    let level = match rule.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Lint => "off",
+    };
+    format!("{}  {level:7}  {}\n", rule.code, rule.title)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::full_code;
+
+    #[test]
+    fn codes_are_found_as_people_copy_them() {
+        for written in ["SCL0502", "scl0502", "[SCL0502]", "502", "0502", "scl::SCL0502"] {
+            assert_eq!(full_code(written), "SCL0502", "{written}");
+        }
+        for (written, code) in [("", ""), ("12345", "SCL12345"), ("unknown gate", "UNKNOWN GATE"), ("::", "")] {
+            assert_eq!(full_code(written), code, "{written}");
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Topology files from disk or standard input, for every command, and their problems on standard error.
+
+use crate::print::print_err;
+use anstream::{AutoStream, ColorChoice};
+use scl_loader::{Loaded, Request, load, load_bytes};
+use scl_topology::diagnostic::{Diagnostic, Severity, render, render_styled};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// The path that stands for standard input.
+pub(crate) const STDIN: &str = "-";
+
+/// What messages call standard input.
+const STDIN_NAME: &str = "<stdin>";
+
+/// How messages name a file: as the user did.
+pub(crate) fn shown_path(path: &Path) -> String {
+    if path.as_os_str() == STDIN { STDIN_NAME.to_owned() } else { path.display().to_string() }
+}
+
+/// Reads and checks a file, or standard input for `-`.
+pub(crate) fn load_file(path: &Path) -> Loaded {
+    if path.as_os_str() != STDIN {
+        return load(&Request::new(path));
+    }
+    // Schemas are looked for in the working folder, and the system is called like that of `topology.yaml`.
+    let request = Request { shown_as: STDIN_NAME.to_owned(), ..Request::new("topology.yaml") };
+    let mut bytes = Vec::new();
+    match io::stdin().lock().take(request.max_size.saturating_add(1)).read_to_end(&mut bytes) {
+        Ok(_) => load_bytes(&request, bytes),
+        Err(error) => {
+            let problem = Diagnostic::fileless("SCL0002", "standard input cannot be read").note(error.to_string());
+            Loaded { diagnostics: vec![problem], ..Loaded::default() }
+        }
+    }
+}
+
+/// Shows diagnostics on standard error, each followed by an empty line.
+pub(crate) fn show_diagnostics<'d>(loaded: &Loaded, shown: impl IntoIterator<Item = &'d Diagnostic>) {
+    let plain = matches!(AutoStream::choice(&io::stderr()), ColorChoice::Never);
+    let render = if plain { render } else { render_styled };
+    shown.into_iter().for_each(|it| print_err(&format!("{}\n\n", render(it, &loaded.sources))));
+}
+
+/// Shows the errors alone, for the commands that cannot go on with them.
+pub(crate) fn show_errors(loaded: &Loaded) {
+    show_diagnostics(loaded, loaded.diagnostics.iter().filter(|it| it.severity == Severity::Error));
+}

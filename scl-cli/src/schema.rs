@@ -1,0 +1,53 @@
+//! `scl schema`: the JSON Schema of the topology file, for editors.
+
+mod file;
+mod gate;
+mod names;
+
+use crate::load::{load_file, show_errors};
+use crate::print::print_out;
+use clap::Args;
+use file::file_schema;
+use names::Names;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Exit code: the file could not be read.
+const COULD_NOT_RUN: u8 = 2;
+
+/// Prints the JSON Schema (draft-07) of the topology file, which YAML language servers read.
+///
+/// With FILE the schema knows the gates and types of that file, so that editors complete them. It refuses no others, as
+/// the file may be ahead of the schema; what is wrong, `scl check` says.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl schema > topology.schema.json
+  scl schema topology.yaml > topology.schema.json   completes `component.gate` in connections, too
+
+The file refers to its schema by its first line:
+  # yaml-language-server: $schema=topology.schema.json
+
+Exit code: 0 printed, 2 the file could not be read.")]
+pub(crate) struct SchemaArguments {
+    /// The topology file whose names are completed; it may have errors. `-` is standard input.
+    #[arg(value_name = "FILE")]
+    file: Option<PathBuf>,
+}
+
+/// The body of `scl schema`.
+pub(crate) fn schema(arguments: &SchemaArguments) -> ExitCode {
+    let names = match &arguments.file {
+        None => Names::default(),
+        Some(path) => {
+            let loaded = load_file(path);
+            if loaded.file.is_none() {
+                show_errors(&loaded);
+                return ExitCode::from(COULD_NOT_RUN);
+            }
+            Names::of(&loaded.model)
+        }
+    };
+    print_out(&format!("{:#}\n", file_schema(&names)));
+    ExitCode::SUCCESS
+}

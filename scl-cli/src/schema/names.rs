@@ -1,0 +1,69 @@
+//! The names of one file, as values that editors offer.
+
+use scl_topology::model::Model;
+use serde_json::{Value, json};
+
+/// A word of letters, digits and `_`.
+pub(super) const NAME: &str = "^[A-Za-z_][A-Za-z0-9_]*$";
+
+/// `component.gate`.
+const END: &str = "^[A-Za-z_][A-Za-z0-9_]*\\.[A-Za-z_][A-Za-z0-9_]*$";
+
+/// A dotted type, or two with an arrow between them.
+const MESSAGE: &str = "^[A-Za-z_][A-Za-z0-9_.]*$";
+const EXCHANGE: &str = "^[A-Za-z_][A-Za-z0-9_.]*\\s*->\\s*[A-Za-z_][A-Za-z0-9_.]*$";
+
+/// What editors offer; nothing for a schema that belongs to no file.
+#[derive(Debug, Default)]
+pub(super) struct Names {
+    /// `component.gate`, each with its kind and type.
+    ends: Vec<(String, String)>,
+    messages: Vec<String>,
+    exchanges: Vec<String>,
+}
+
+impl Names {
+    /// The names of a file as it is written; it may have errors.
+    pub(super) fn of(model: &Model) -> Self {
+        let mut names = Self::default();
+        for component in &model.components {
+            for gate in &component.gates {
+                let payload = gate.payload.as_ref().map_or("", |payload| payload.value.as_str());
+                let words = format!("{} {payload}", gate.kind.value).trim().to_owned();
+                names.ends.push((format!("{}.{}", component.name.value, gate.name.value), words));
+                let types = if payload.contains("->") { &mut names.exchanges } else { &mut names.messages };
+                if !payload.is_empty() && !types.iter().any(|known| known == payload) {
+                    types.push(payload.to_owned());
+                }
+            }
+        }
+        names
+    }
+
+    /// One end of a connection.
+    pub(super) fn end_schema(&self) -> Value {
+        let (names, words): (Vec<_>, Vec<_>) = self.ends.iter().map(|(name, words)| (name, words)).unzip();
+        let known = json!({ "type": "string", "enum": names, "enumDescriptions": words });
+        offered(known, self.ends.is_empty(), END, "One end of a connection: `component.gate`.")
+    }
+
+    /// The type of `pub`, `sub`, `push` and `pull`.
+    pub(super) fn message_schema(&self, description: &str) -> Value {
+        let known = json!({ "type": "string", "enum": self.messages });
+        offered(known, self.messages.is_empty(), MESSAGE, description)
+    }
+
+    /// The types of `req` and `rep`.
+    pub(super) fn exchange_schema(&self, description: &str) -> Value {
+        let known = json!({ "type": "string", "enum": self.exchanges });
+        offered(known, self.exchanges.is_empty(), EXCHANGE, description)
+    }
+}
+
+/// A text of this shape; known ones are offered, but others are as good.
+fn offered(known: Value, none: bool, pattern: &str, description: &str) -> Value {
+    let any = json!({ "type": "string", "pattern": pattern });
+    let mut schema = if none { any } else { json!({ "anyOf": [known, any] }) };
+    schema["description"] = json!(description);
+    schema
+}

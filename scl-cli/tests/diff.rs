@@ -1,0 +1,199 @@
+//! What `scl diff` says about two topologies, and its exit codes.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod system;
+
+use expect_test::{Expect, expect};
+use serde_json::{Value, json};
+use system::System;
+
+const ROVER: &str = "\
+system: rover
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: rover.Measurement}
+  - name: controller
+    gates:
+      - sensor: sub
+      - commands: {rep: A -> B}
+  - name: panel
+    gates:
+      - commands: req
+connections:
+  - [sensor.measurements, controller.sensor]
+  - [panel.commands, controller.commands]
+";
+
+/// Compares the topology with itself after these replacements.
+#[track_caller]
+fn check(replacements: &[(&str, &str)], code: i32, expected: Expect) {
+    let mut new = ROVER.to_owned();
+    for (from, to) in replacements {
+        assert!(new.contains(from), "{from}");
+        new = new.replace(from, to);
+    }
+    let system = System::of_files(&[("old.yaml", ROVER), ("new.yaml", &new)]);
+    let output = system.scl(&["diff", "old.yaml", "new.yaml"]).output().unwrap();
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+    expected.assert_eq(&String::from_utf8(output.stdout).unwrap());
+    assert_eq!(output.status.code(), Some(code));
+}
+
+#[test]
+fn what_means_the_same_is_the_same() {
+    let swapped = ("[panel.commands, controller.commands]", "[controller.commands, panel.commands] # turned");
+    check(&[swapped, ("commands: req", "commands: {req: A -> B, timeout: 1000ms}")], 0, expect![[""]]);
+}
+
+#[test]
+fn a_copy_of_a_file_without_a_system_is_the_same() {
+    let nameless = ROVER.replace("system: rover\n", "");
+    let system = System::of_files(&[("old.yaml", &nameless), ("new.yaml", &nameless), ("named.yaml", ROVER)]);
+    let told = |new: &str| {
+        let output = system.scl(&["diff", "old.yaml", new]).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stdout).unwrap())
+    };
+    assert_eq!(told("new.yaml"), (Some(0), String::new()));
+    let (code, text) = told("named.yaml");
+    assert!(code == Some(1) && text.starts_with("~ system: name that of the file -> rover\n"), "{text}");
+}
+
+#[test]
+fn a_type_concerns_both_ends() {
+    check(
+        &[("rover.Measurement", "rover.Reading")],
+        1,
+        expect![[r#"
+        ~ gate `sensor.measurements`: type rover.Measurement -> rover.Reading
+        ~ gate `controller.sensor`: type rover.Measurement -> rover.Reading
+        ~ connection `sensor.measurements -> controller.sensor`: contract hl75aqsl -> 24knrqzm, socket sensor.measurements--controller.sensor.hl75aqsl -> sensor.measurements--controller.sensor.24knrqzm
+
+        to rebuild:
+          sensor: gate `measurements` differs, connection `sensor.measurements -> controller.sensor` differs
+          controller: gate `sensor` differs, connection `sensor.measurements -> controller.sensor` differs
+    "#]],
+    );
+}
+
+#[test]
+fn a_queue_concerns_its_senders() {
+    check(
+        &[("sensor: sub", "sensor: {sub: rover.Measurement, queue: 1}")],
+        1,
+        expect![[r#"
+        ~ gate `controller.sensor`: queue 100 -> 1
+
+        to rebuild:
+          sensor: connection `sensor.measurements -> controller.sensor` differs
+          controller: gate `sensor` differs, connection `sensor.measurements -> controller.sensor` differs
+    "#]],
+    );
+}
+
+#[test]
+fn a_component_comes_and_another_goes() {
+    let logger =
+        "  - name: logger\n    gates:\n      - input: sub\nconnections:\n  - [sensor.measurements, logger.input]";
+    check(
+        &[
+            ("  - name: panel\n    gates:\n      - commands: req\n", ""),
+            ("  - [panel.commands, controller.commands]\n", ""),
+            ("{rep: A -> B}", "{rep: A -> B, unconnected: ok}"),
+            ("connections:", logger),
+        ],
+        1,
+        expect![[r#"
+            - component `panel`
+            + component `logger`
+            - gate `panel.commands`: req A -> B
+            ~ gate `controller.commands`: unconnected false -> true
+            + gate `logger.input`: sub rover.Measurement
+            - connection `panel.commands -> controller.commands`
+            + connection `sensor.measurements -> logger.input`
+
+            to rebuild:
+              sensor: connection `sensor.measurements -> logger.input` is new
+              controller: connection `panel.commands -> controller.commands` is gone
+              logger: it is new
+        "#]],
+    );
+}
+
+#[test]
+fn words_for_people_need_no_rebuild() {
+    check(
+        &[("- name: sensor", "- name: sensor\n    doc: Reads.")],
+        1,
+        expect![[r#"
+        ~ component `sensor`: doc none -> "Reads."
+
+        nothing to rebuild
+    "#]],
+    );
+}
+
+#[test]
+fn a_kind_and_the_system_change() {
+    check(
+        &[
+            ("system: rover", "system: tank"),
+            ("{pub: rover.Measurement}", "{push: rover.Measurement}"),
+            ("sensor: sub", "sensor: pull"),
+        ],
+        1,
+        expect![[r#"
+            ~ system: name rover -> tank
+            ~ gate `sensor.measurements`: kind pub -> push
+            ~ gate `controller.sensor`: kind sub -> pull
+            ~ connection `sensor.measurements -> controller.sensor`: contract hl75aqsl -> yj2a5wbk, socket sensor.measurements--controller.sensor.hl75aqsl -> controller.sensor.yj2a5wbk
+
+            to rebuild:
+              sensor: the system's name differs, gate `measurements` differs, connection `sensor.measurements -> controller.sensor` differs
+              controller: the system's name differs, gate `sensor` differs, connection `sensor.measurements -> controller.sensor` differs
+              panel: the system's name differs
+        "#]],
+    );
+}
+
+#[test]
+fn optional_peers_are_not_waited_for() {
+    check(
+        &[("- name: panel", "- name: panel\n    optional: true")],
+        1,
+        expect![[r#"
+        ~ component `panel`: optional false -> true
+
+        to rebuild:
+          controller: connection `panel.commands -> controller.commands` differs
+    "#]],
+    );
+}
+
+#[test]
+fn json_says_the_same() {
+    let new = ROVER.replace("sensor: sub", "sensor: {sub: rover.Measurement, queue: 1}");
+    let system = System::of_files(&[("old.yaml", ROVER), ("new.yaml", &new)]);
+    let output = system.scl(&["diff", "--format", "json", "old.yaml", "new.yaml"]).output().unwrap();
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let facts = json!({ "queue": { "old": "100", "new": "1" } });
+    let changes = json!([{ "part": "gate", "name": "controller.sensor", "change": "changed", "facts": facts }]);
+    assert_eq!(found["changes"], changes);
+    let rebuilt: Vec<_> = found["rebuild"].as_array().unwrap().iter().map(|it| &it["component"]).collect();
+    assert_eq!(rebuilt, ["sensor", "controller"]);
+}
+
+#[test]
+fn trouble_is_told_of_both_files() {
+    let system = System::of_files(&[("rover.yaml", ROVER), ("wrong.yaml", "colour: red\n")]);
+    for (arguments, parts) in [
+        (["wrong.yaml", "missing.yaml"], &["unknown section `colour`", "cannot find"][..]),
+        (["rover.yaml", "wrong.yaml"], &["unknown section `colour`"]),
+        (["-", "-"], &["standard input can be read only once"]),
+    ] {
+        let output = system.scl(&[&["diff"][..], &arguments].concat()).output().unwrap();
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(parts.iter().all(|part| text.contains(part)), "{arguments:?}: {text}");
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    }
+}

@@ -1,0 +1,163 @@
+//! `scl schema`: agrees with the checker, and is understood by the real YAML language server.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod lsp;
+mod system;
+
+use lsp::Server;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use system::System;
+
+const ROVER: &str = "\
+# yaml-language-server: $schema=topology.schema.json
+system: rover
+components:
+  - name: sensor
+    gates:
+      - measurements: {pub: rover.Measurement, doc: Readings.}
+  - name: controller
+    gates:
+      - sensor: {sub: rover.Measurement, queue: 1, when_full: drop_newest}
+      - commands: {rep: A -> B, unconnected: ok}
+connections:
+  - [sensor.measurements, controller.sensor]
+x-note: anything
+";
+
+const KINDS: [&str; 6] = ["pub", "sub", "req", "rep", "push", "pull"];
+
+fn scl(system: &System, arguments: &[&str]) -> String {
+    let output = system.scl(arguments).output().unwrap();
+    String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap()
+}
+
+fn schema(system: &System, arguments: &[&str]) -> Value {
+    serde_json::from_str(&scl(system, &[&["schema"], arguments].concat())).unwrap()
+}
+
+/// The words in backticks after `start` in what the checker says about a file.
+fn listed(yaml: &str, start: &str) -> Vec<String> {
+    let text = scl(&System::of_files(&[("topology.yaml", yaml)]), &["check"]);
+    let list = text.split_once(start).unwrap_or_else(|| panic!("no `{start}` in\n{text}")).1.lines().next().unwrap();
+    let mut words: Vec<String> = list.split('`').skip(1).step_by(2).map(str::to_owned).collect();
+    words.sort();
+    words
+}
+
+fn keys(schema: &Value) -> Vec<String> {
+    let mut keys: Vec<String> = schema["properties"].as_object().unwrap().keys().cloned().collect();
+    keys.sort();
+    keys
+}
+
+#[test]
+fn the_schema_has_the_keys_of_the_checker() {
+    let schema = schema(&System::of_files(&[]), &[]);
+    let component = &schema["properties"]["components"]["items"];
+    assert_eq!(keys(&schema), listed("colour: red\n", "sections: "));
+    assert_eq!(keys(component), listed("components: [{name: a, gates: [], colour: red}]\n", "keys of a component: "));
+    let gates = component["properties"]["gates"]["items"]["additionalProperties"]["anyOf"].as_array().unwrap();
+    assert_eq!(gates[0]["enum"], json!(KINDS));
+    for (kind, gate) in KINDS.iter().zip(&gates[1..]) {
+        let yaml = format!("components: [{{name: a, gates: [{{b: {{{kind}: T, colour: red}}}}]}}]\n");
+        assert_eq!(keys(gate), listed(&yaml, &format!("keys of a `{kind}` gate: ")), "{kind}");
+    }
+}
+
+#[test]
+fn everything_has_a_description() {
+    fn look(schema: &Value, place: &str) {
+        for (key, property) in schema["properties"].as_object().into_iter().flatten() {
+            let place = format!("{place}.{key}");
+            assert!(property["description"].as_str().is_some_and(|text| !text.is_empty()), "{place}");
+            look(property, &place);
+        }
+        for key in ["items", "additionalProperties"] {
+            if schema[key].is_object() {
+                look(&schema[key], &format!("{place}.{key}"));
+            }
+        }
+        schema["anyOf"].as_array().into_iter().flatten().for_each(|other| look(other, place));
+    }
+    look(&schema(&System::of_files(&[]), &[]), "");
+}
+
+#[test]
+fn a_file_adds_its_gates_even_with_errors() {
+    let wrong = ROVER.replace("sensor.measurements,", "sensor.nothing,");
+    let system = System::of_files(&[("topology.yaml", &wrong)]);
+    let end = &schema(&system, &["topology.yaml"])["properties"]["connections"]["items"]["items"]["anyOf"][0];
+    assert_eq!(end["enum"], json!(["sensor.measurements", "controller.sensor", "controller.commands"]));
+    assert_eq!(end["enumDescriptions"][0], "pub rover.Measurement");
+    let output = system.scl(&["schema", "missing.yaml"]).output().unwrap();
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+}
+
+/// The server's program, installed below the target folder once; `None`, visibly, without npm or without a registry.
+fn language_server() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("yaml-language-server");
+    let program = folder.join("node_modules/yaml-language-server/bin/yaml-language-server");
+    let has_node = Command::new("node").arg("--version").stdout(Stdio::null()).status().is_ok_and(|it| it.success());
+    if !has_node {
+        println!("skipped: there is no `node` here");
+        return None;
+    }
+    if !program.is_file() {
+        let mut install = Command::new("npm");
+        install.args(["install", "--no-audit", "--no-fund", "yaml-language-server@1.25.0", "--prefix"]).arg(&folder);
+        if !install.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|it| it.success()) {
+            println!("skipped: `npm` cannot install yaml-language-server here");
+            return None;
+        }
+    }
+    Some(program)
+}
+
+/// The server on the files of a system that has its schema beside the topology.
+fn serve(system: &System, program: &Path) -> Server {
+    system.write("topology.schema.json", &scl(system, &["schema", "topology.yaml"]));
+    let settings =
+        json!({ "yaml": { "schemaStore": { "enable": false }, "completion": true, "validate": true, "hover": true } });
+    Server::start(Command::new("node").arg(program).arg("--stdio"), &system.path(""), settings)
+}
+
+#[test]
+fn the_yaml_language_server_validates_and_completes() {
+    let Some(program) = language_server() else { return };
+    let system = System::of_files(&[("topology.yaml", ROVER)]);
+    let mut server = serve(&system, &program);
+    let document = |name: &str| system.path(name);
+
+    server.open(&document("good.yaml"), "yaml", ROVER);
+    assert_eq!(server.diagnostics(&document("good.yaml")), Vec::<Value>::new());
+
+    let wrong =
+        ROVER.replace("queue: 1", "queue: 0").replace("doc: Readings.", "timeout: 1s").replace("rep:", "reply:");
+    server.open(&document("wrong.yaml"), "yaml", &wrong);
+    let found = server.diagnostics(&document("wrong.yaml"));
+    let mut lines: Vec<_> = found.iter().map(|it| it["range"]["start"]["line"].as_u64().unwrap()).collect();
+    lines.dedup();
+    assert_eq!(lines, [5, 8, 9], "{found:#?}");
+
+    let typing = ROVER.replace("- [sensor.measurements, controller.sensor]", "- [sensor.measurements, ]\n  - ");
+    server.open(&document("typing.yaml"), "yaml", &typing);
+    let offered = server.complete_behind(&document("typing.yaml"), &typing, "- [sensor.measurements, ");
+    for end in ["sensor.measurements", "controller.sensor", "controller.commands"] {
+        assert!(offered.iter().any(|it| it == end), "`{end}` is not in {offered:?}");
+    }
+
+    let typing = ROVER.replace(", when_full: drop_newest", ", whe");
+    server.open(&document("option.yaml"), "yaml", &typing);
+    let offered = server.complete_behind(&document("option.yaml"), &typing, "queue: 1, whe");
+    assert!(offered.iter().any(|it| it == "when_full") && !offered.iter().any(|it| it == "share"), "{offered:?}");
+
+    let typing = ROVER.replace("{pub: rover.Measurement, doc: Readings.}", "");
+    server.open(&document("kind.yaml"), "yaml", &typing);
+    let offered = server.complete_behind(&document("kind.yaml"), &typing, "- measurements: ");
+    assert!(KINDS.iter().all(|kind| offered.iter().any(|it| it == kind)), "{offered:?}");
+
+    let told = server.hover(&document("good.yaml"), ROVER, "queue");
+    assert!(told.contains("How many messages may wait for this gate"), "{told}");
+}

@@ -1,0 +1,227 @@
+//! A diagnostic as cargo prints those of rustc, one line of JSON, for editors that run a command in place of
+//! `cargo check`.
+//!
+//! The format is that of `cargo check --message-format=json`; cargo's reference names it "external tools".
+
+use super::{Diagnostic, Label, Severity, render};
+use crate::source::{LineColumn, Sources};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// What the messages are about. To cargo everything belongs to a package and a target, so a topology file is one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CargoUnit {
+    /// The absolute path of the topology file.
+    pub file: String,
+    /// The absolute path of the folder to which the paths of the sources are relative.
+    pub folder: String,
+    /// The Cargo.toml next to or above the file; the file itself where there is none.
+    pub manifest: String,
+}
+
+impl CargoUnit {
+    /// No package of cargo has this name, so that editors keep the problems of the file and of the crate apart.
+    fn package_id(&self) -> String {
+        format!("scl+file://{}", self.file)
+    }
+
+    fn target(&self) -> Value {
+        json!({
+            "kind": ["topology"], "crate_types": ["topology"], "name": "topology", "src_path": self.file,
+            "edition": "2024", "doc": false, "doctest": false, "test": false,
+        })
+    }
+}
+
+/// The line before the diagnostics of a file: a `compiler-artifact`, at which editors forget what they were told about
+/// the file before.
+pub fn cargo_start(unit: &CargoUnit) -> String {
+    json!({
+        "reason": "compiler-artifact", "package_id": unit.package_id(), "manifest_path": unit.manifest,
+        "target": unit.target(),
+        "profile": {
+            "opt_level": "0", "debuginfo": 0, "debug_assertions": true, "overflow_checks": true, "test": false,
+        },
+        "features": [], "filenames": [], "executable": null, "fresh": false,
+    })
+    .to_string()
+}
+
+/// One diagnostic: a `compiler-message` without line breaks.
+///
+/// The code is `scl::SCL0502`, in the manner of Clippy's lints, so that editors show `scl` as its source. Lines and
+/// columns count from 1, columns in characters, the end is one past the last one; bytes count from 0, without a byte
+/// order mark. A diagnostic without a place is put at the start of the file, as editors drop what is nowhere.
+pub fn to_cargo(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> String {
+    let level = match diagnostic.severity {
+        Severity::Error => "error",
+        Severity::Warning | Severity::Lint => "warning",
+    };
+    let message = json!({
+        "$message_type": "diagnostic",
+        "message": diagnostic.message,
+        "code": { "code": format!("scl::{}", diagnostic.code), "explanation": null },
+        "level": level,
+        "spans": spans(diagnostic, sources, unit),
+        "children": children(diagnostic),
+        "rendered": format!("{}\n\n", render(diagnostic, sources)),
+    });
+    json!({
+        "reason": "compiler-message", "package_id": unit.package_id(), "manifest_path": unit.manifest,
+        "target": unit.target(), "message": message,
+    })
+    .to_string()
+}
+
+/// The line after all others: `build-finished`.
+pub fn cargo_end(success: bool) -> String {
+    json!({ "reason": "build-finished", "success": success }).to_string()
+}
+
+fn spans(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> Vec<Value> {
+    match &diagnostic.primary {
+        None => vec![start_of_file(unit)],
+        Some(primary) => {
+            let secondary = diagnostic.secondary.iter().map(|label| span(label, false, sources, unit));
+            std::iter::once(span(primary, true, sources, unit)).chain(secondary).collect()
+        }
+    }
+}
+
+fn span(label: &Label, is_primary: bool, sources: &Sources, unit: &CargoUnit) -> Value {
+    let file = sources.file(label.span.file);
+    let (start, end) = (file.line_column(label.span.start), file.line_column(label.span.end));
+    json!({
+        "file_name": Path::new(&unit.folder).join(file.path()).display().to_string(),
+        "byte_start": label.span.start, "byte_end": label.span.end,
+        "line_start": start.line, "line_end": end.line,
+        "column_start": start.column, "column_end": end.column,
+        "is_primary": is_primary,
+        "text": covered_lines(file.text(), start, end),
+        "label": Some(&label.text).filter(|text| !text.is_empty()),
+        "suggested_replacement": null, "suggestion_applicability": null, "expansion": null,
+    })
+}
+
+/// The whole lines that a span touches, each with the columns that it covers. Editors count their own columns with them.
+fn covered_lines(text: &str, start: LineColumn, end: LineColumn) -> Vec<Value> {
+    let (first, last) = (start.line as usize, end.line as usize);
+    let lines = text.lines().enumerate().skip(first - 1).take(last + 1 - first);
+    lines
+        .map(|(index, line)| {
+            let from = if index + 1 == first { start.column as usize } else { 1 };
+            let to = if index + 1 == last { end.column as usize } else { line.chars().count() + 1 };
+            json!({ "text": line, "highlight_start": from, "highlight_end": to })
+        })
+        .collect()
+}
+
+fn start_of_file(unit: &CargoUnit) -> Value {
+    json!({
+        "file_name": unit.file,
+        "byte_start": 0, "byte_end": 0, "line_start": 1, "line_end": 1, "column_start": 1, "column_end": 1,
+        "is_primary": true, "text": [], "label": null,
+        "suggested_replacement": null, "suggestion_applicability": null, "expansion": null,
+    })
+}
+
+/// Helps and notes. Editors show no primary label beside them, so it comes first, as a note of its own.
+fn children(diagnostic: &Diagnostic) -> Vec<Value> {
+    let child = |level: &str, text: &str| json!({ "message": text, "code": null, "level": level, "spans": [], "children": [], "rendered": null });
+    let helps = diagnostic.helps.iter().map(|help| child("help", &format!("help: {help}")));
+    let notes = diagnostic.notes.iter().map(|note| child("note", &format!("note: {note}")));
+    let mut children: Vec<Value> = helps.chain(notes).collect();
+    let label = diagnostic.primary.iter().map(|label| &label.text).find(|text| !text.is_empty());
+    if let Some(label) = label.filter(|_| !children.is_empty()) {
+        children.insert(0, child("note", label));
+    }
+    children
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CargoUnit, cargo_end, cargo_start, to_cargo};
+    use crate::diagnostic::Diagnostic;
+    use crate::source::{Sources, Span};
+    use serde_json::{Value, json};
+
+    fn unit() -> CargoUnit {
+        let text = str::to_owned;
+        CargoUnit { file: text("/w/a b/t.yaml"), folder: text("/w"), manifest: text("/w/Cargo.toml") }
+    }
+
+    fn parsed(line: &str) -> Value {
+        assert!(!line.contains('\n'), "{line}");
+        serde_json::from_str(line).unwrap()
+    }
+
+    fn example() -> Value {
+        let mut sources = Sources::new();
+        let file = sources.add("a b/t.yaml", "ä: \"b\"\r\nc:\n  d\n");
+        let span = |start, end| Span { file, start, end };
+        let problem = Diagnostic::warning("SCL0999", "what", span(4, 7), "why")
+            .label(span(9, 15), "many lines")
+            .label(span(16, 16), "")
+            .help("one\ntwo")
+            .note("rule");
+        parsed(&to_cargo(&problem, &sources, &unit()))
+    }
+
+    #[test]
+    fn spans_have_bytes_lines_columns_and_texts() {
+        let spans = &example()["message"]["spans"];
+        assert_eq!(
+            spans[0],
+            json!({
+                "file_name": "/w/a b/t.yaml", "byte_start": 4, "byte_end": 7,
+                "line_start": 1, "line_end": 1, "column_start": 4, "column_end": 7, "is_primary": true,
+                "text": [{"text": "ä: \"b\"", "highlight_start": 4, "highlight_end": 7}], "label": "why",
+                "suggested_replacement": null, "suggestion_applicability": null, "expansion": null,
+            })
+        );
+        assert_eq!(
+            spans[1]["text"],
+            json!([
+                {"text": "c:", "highlight_start": 1, "highlight_end": 3},
+                {"text": "  d", "highlight_start": 1, "highlight_end": 4},
+            ])
+        );
+        assert_eq!((&spans[1]["line_end"], &spans[1]["is_primary"]), (&json!(3), &json!(false)));
+        assert_eq!((&spans[2]["label"], &spans[2]["text"]), (&Value::Null, &json!([])));
+    }
+
+    #[test]
+    fn helps_and_notes_are_children_after_the_label() {
+        let message = &example()["message"];
+        let children = message["children"].as_array().unwrap();
+        let words: Vec<_> = children.iter().map(|child| (&child["level"], &child["message"])).collect();
+        let expected = [("note", "why"), ("help", "help: one\ntwo"), ("note", "note: rule")];
+        assert_eq!(words, expected.map(|(level, text)| (json!(level), json!(text))).each_ref().map(|(l, t)| (l, t)));
+        assert_eq!((&message["level"], &message["code"]["code"]), (&json!("warning"), &json!("scl::SCL0999")));
+        assert!(message["rendered"].as_str().unwrap().starts_with("warning: [SCL0999] what\n --> a b/t.yaml:1:4\n"));
+    }
+
+    #[test]
+    fn a_label_alone_needs_no_child() {
+        let mut sources = Sources::new();
+        let file = sources.add("t.yaml", "a");
+        let problem = Diagnostic::error("SCL0999", "what", Span { file, start: 0, end: 1 }, "why");
+        assert_eq!(parsed(&to_cargo(&problem, &sources, &unit()))["message"]["children"], json!([]));
+    }
+
+    #[test]
+    fn what_is_nowhere_is_at_the_start_of_the_file() {
+        let message = parsed(&to_cargo(&Diagnostic::fileless("SCL0001", "no file"), &Sources::new(), &unit()));
+        let span = &message["message"]["spans"][0];
+        assert_eq!((&span["file_name"], &span["line_start"]), (&json!("/w/a b/t.yaml"), &json!(1)));
+    }
+
+    #[test]
+    fn all_lines_of_a_file_name_one_package() {
+        let start = parsed(&cargo_start(&unit()));
+        assert_eq!((&start["reason"], &start["fresh"]), (&json!("compiler-artifact"), &json!(false)));
+        assert_eq!(start["package_id"], example()["package_id"]);
+        assert_eq!(start["target"], example()["target"]);
+        assert_eq!(parsed(&cargo_end(false)), json!({"reason": "build-finished", "success": false}));
+    }
+}

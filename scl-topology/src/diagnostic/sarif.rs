@@ -1,0 +1,205 @@
+//! Diagnostics as SARIF 2.1.0, the format that code hosts and review tools read.
+
+use super::{Diagnostic, Label, Severity};
+use crate::catalogue::{explain, find};
+use crate::source::Sources;
+use serde_json::{Value, json};
+
+/// One checked file with what was found in it.
+#[derive(Debug, Clone, Copy)]
+pub struct CheckedFile<'a> {
+    /// The path as messages name it.
+    pub path: &'a str,
+    /// The texts that the diagnostics point into.
+    pub sources: &'a Sources,
+    /// What was found.
+    pub diagnostics: &'a [Diagnostic],
+}
+
+/// One SARIF log with one run over all files, over several lines.
+///
+/// The rules are the codes that occur, sorted. Columns count characters from 1, the end is one past the last one. The
+/// text of a result is the headline, then the label, the helps and the notes, each on its own line; the secondary labels
+/// are related locations. Paths become relative URIs, absolute ones `file:` URIs. A diagnostic without a place is
+/// located at its file as a whole.
+pub fn to_sarif(files: &[CheckedFile<'_>]) -> String {
+    let mut found: Vec<&Diagnostic> = files.iter().flat_map(|file| file.diagnostics).collect();
+    found.sort_by_key(|diagnostic| diagnostic.code);
+    found.dedup_by_key(|diagnostic| diagnostic.code);
+    let codes: Vec<&str> = found.iter().map(|diagnostic| diagnostic.code).collect();
+    let results = files.iter().flat_map(|file| file.diagnostics.iter().map(|it| result(it, file, &codes)));
+    let driver = json!({
+        "name": "scl", "semanticVersion": env!("CARGO_PKG_VERSION"),
+        "rules": found.iter().map(|diagnostic| rule(diagnostic)).collect::<Vec<_>>(),
+    });
+    let log = json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": { "driver": driver },
+            "columnKind": "unicodeCodePoints",
+            "results": results.collect::<Vec<_>>(),
+        }],
+    });
+    format!("{log:#}")
+}
+
+/// What the catalogue knows of a code.
+fn rule(diagnostic: &Diagnostic) -> Value {
+    let mut rule = json!({ "id": diagnostic.code, "defaultConfiguration": { "level": level(diagnostic.severity) } });
+    if let Some(known) = find(diagnostic.code) {
+        rule["shortDescription"] = json!({ "text": known.title });
+        rule["fullDescription"] = json!({ "text": known.explanation });
+        rule["defaultConfiguration"]["level"] = json!(level(known.severity));
+    }
+    if let Some(entry) = explain(diagnostic.code) {
+        rule["help"] = json!({ "text": entry, "markdown": entry });
+    }
+    rule
+}
+
+fn result(diagnostic: &Diagnostic, file: &CheckedFile<'_>, codes: &[&str]) -> Value {
+    let place = match &diagnostic.primary {
+        Some(label) => location(label, file.sources),
+        None => json!({ "physicalLocation": { "artifactLocation": { "uri": uri(file.path) } } }),
+    };
+    let related = diagnostic.secondary.iter().enumerate().map(|(id, label)| {
+        let mut related = location(label, file.sources);
+        related["id"] = json!(id);
+        related
+    });
+    json!({
+        "ruleId": diagnostic.code,
+        "ruleIndex": codes.iter().position(|code| *code == diagnostic.code),
+        "level": level(diagnostic.severity),
+        "message": { "text": text(diagnostic) },
+        "locations": [place],
+        "relatedLocations": related.collect::<Vec<_>>(),
+    })
+}
+
+fn level(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Lint => "note",
+    }
+}
+
+fn text(diagnostic: &Diagnostic) -> String {
+    let label = diagnostic.primary.iter().map(|label| label.text.clone()).filter(|text| !text.is_empty());
+    let helps = diagnostic.helps.iter().map(|help| format!("help: {help}"));
+    let notes = diagnostic.notes.iter().map(|note| format!("note: {note}"));
+    let lines = std::iter::once(diagnostic.message.clone()).chain(label).chain(helps).chain(notes);
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn location(label: &Label, sources: &Sources) -> Value {
+    let file = sources.file(label.span.file);
+    let (start, end) = (file.line_column(label.span.start), file.line_column(label.span.end));
+    let mut location = json!({
+        "physicalLocation": {
+            "artifactLocation": { "uri": uri(file.path()) },
+            "region": {
+                "startLine": start.line, "startColumn": start.column,
+                "endLine": end.line, "endColumn": end.column,
+            },
+        },
+    });
+    if !label.text.is_empty() {
+        location["message"] = json!({ "text": label.text });
+    }
+    location
+}
+
+/// A path as an URI: what has a meaning there, and what is no ASCII, is escaped by bytes.
+fn uri(path: &str) -> String {
+    let mut uri = String::from(if path.starts_with('/') { "file://" } else { "" });
+    for byte in path.bytes() {
+        match byte {
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b'/' => uri.push(char::from(byte)),
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CheckedFile, to_sarif, uri};
+    use crate::diagnostic::Diagnostic;
+    use crate::source::{Sources, Span};
+    use serde_json::{Value, json};
+
+    fn example() -> Value {
+        let mut sources = Sources::new();
+        let file = sources.add("a b/ä.yaml", "ä: \"b\"\r\nc:\n");
+        let span = |start, end| Span { file, start, end };
+        let problem = Diagnostic::warning("SCL0999", "what", span(4, 7), "why")
+            .label(span(9, 10), "here")
+            .help("write `[a.b, c.d]`")
+            .note("rule");
+        let first = [problem.clone(), Diagnostic::error("SCL0100", "other", span(0, 1), "")];
+        let second = [Diagnostic::fileless("SCL0001", "no file"), problem];
+        let files = [("a b/ä.yaml", &first), ("/x.yaml", &second)];
+        let files = files.map(|(path, diagnostics)| CheckedFile { path, sources: &sources, diagnostics });
+        serde_json::from_str(&to_sarif(&files)).unwrap()
+    }
+
+    #[test]
+    fn one_run_with_each_code_once() {
+        let log = example();
+        assert_eq!((&log["version"], log["runs"].as_array().map(Vec::len)), (&json!("2.1.0"), Some(1)));
+        let run = &log["runs"][0];
+        let ids: Vec<_> = run["tool"]["driver"]["rules"].as_array().unwrap().iter().map(|rule| &rule["id"]).collect();
+        assert_eq!(ids, ["SCL0001", "SCL0100", "SCL0999"]);
+        let results = run["results"].as_array().unwrap();
+        let rules: Vec<_> = results.iter().map(|result| (&result["ruleId"], &result["ruleIndex"])).collect();
+        let expected = [("SCL0999", 2), ("SCL0100", 1), ("SCL0001", 0), ("SCL0999", 2)];
+        assert_eq!(rules, expected.map(|(id, at)| (json!(id), json!(at))).each_ref().map(|(id, at)| (id, at)));
+    }
+
+    #[test]
+    fn rules_explain_themselves() {
+        let rule = &example()["runs"][0]["tool"]["driver"]["rules"][0];
+        assert_eq!(rule["shortDescription"]["text"], "topology file not found");
+        assert!(rule["help"]["markdown"].as_str().unwrap().starts_with("# SCL0001 "));
+        assert_eq!(rule["defaultConfiguration"]["level"], "error");
+    }
+
+    #[test]
+    fn a_result_has_its_region_its_words_and_related_places() {
+        let location = |region: Value, text: &str| {
+            json!({
+                "physicalLocation": { "artifactLocation": { "uri": "a%20b/%C3%A4.yaml" }, "region": region },
+                "message": { "text": text },
+            })
+        };
+        let mut related = location(json!({"startLine": 2, "startColumn": 1, "endLine": 2, "endColumn": 2}), "here");
+        related["id"] = json!(0);
+        assert_eq!(
+            example()["runs"][0]["results"][0],
+            json!({
+                "ruleId": "SCL0999", "ruleIndex": 2, "level": "warning",
+                "message": { "text": "what\nwhy\nhelp: write `[a.b, c.d]`\nnote: rule" },
+                "locations": [
+                    location(json!({"startLine": 1, "startColumn": 4, "endLine": 1, "endColumn": 7}), "why"),
+                ],
+                "relatedLocations": [related],
+            })
+        );
+    }
+
+    #[test]
+    fn what_is_nowhere_is_at_its_file() {
+        let place = json!({ "physicalLocation": { "artifactLocation": { "uri": "file:///x.yaml" } } });
+        assert_eq!(example()["runs"][0]["results"][2]["locations"], json!([place]));
+    }
+
+    #[test]
+    fn uris_are_ascii() {
+        for (path, expected) in [("a/b.yaml", "a/b.yaml"), ("<stdin>", "%3Cstdin%3E"), ("/a%20", "file:///a%2520")] {
+            assert_eq!(uri(path), expected, "{path}");
+        }
+    }
+}
