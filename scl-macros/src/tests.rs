@@ -211,7 +211,7 @@ connections:
         impl scl :: private :: Component for Sensor {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
         system : "t" , name : "sensor" , place : "t.yaml:2:11" , gates : & [scl :: private :: GateSpec {
-        name : "measurements" , kind : scl :: private :: GateKind :: Pub , payload : "rover.Measurement" , codec : "protobuf" , place : "t.yaml:5:9" , endpoint : "sensor.measurements" , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , backpressure : false , timeout : scl :: private :: Duration :: new (1u64 , 0u32) , links : & [scl :: private :: LinkSpec {
+        name : "measurements" , kind : scl :: private :: GateKind :: Pub , payload : "rover.Measurement" , codec : "protobuf" , place : "t.yaml:5:9" , endpoint : "sensor.measurements.tap" , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , backpressure : false , timeout : scl :: private :: Duration :: new (1u64 , 0u32) , links : & [scl :: private :: LinkSpec {
         peer_component : "controller" , peer_gate : "sensor" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 1u32 , when_full : scl :: private :: WhenFull :: DropOldest , }] , }] }
         ;
         fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
