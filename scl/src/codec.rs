@@ -1,13 +1,21 @@
 //! What is said: how a message becomes bytes and bytes become a message.
 //!
 //! A codec knows neither endpoints nor sockets; it sees one message at a time. Each codec is a unit struct that is never
-//! built: [`Opaque`] is always there, `Protobuf`, `Json` and `Raw` have a cargo feature each, and a user's own codec works
-//! like these.
+//! built: [`Opaque`] is always there, `Protobuf`, `Json`, `Raw`, `Cbor`, `Msgpack` and `Postcard` have a cargo feature each
+//! (the last three are not on by default), and a user's own codec works like these.
 
+#[cfg(any(feature = "msgpack", feature = "postcard"))]
+mod bounded;
+#[cfg(feature = "cbor")]
+mod cbor;
 mod error;
 #[cfg(feature = "json")]
 mod json;
+#[cfg(feature = "msgpack")]
+mod msgpack;
 mod opaque;
+#[cfg(feature = "postcard")]
+mod postcard;
 #[cfg(feature = "protobuf")]
 mod protobuf;
 #[cfg(feature = "raw")]
@@ -15,9 +23,15 @@ mod raw;
 
 use bytes::{Bytes, BytesMut};
 
+#[cfg(feature = "postcard")]
+pub use self::postcard::Postcard;
+#[cfg(feature = "cbor")]
+pub use cbor::Cbor;
 pub use error::{DecodeError, EncodeError};
 #[cfg(feature = "json")]
 pub use json::Json;
+#[cfg(feature = "msgpack")]
+pub use msgpack::Msgpack;
 pub use opaque::Opaque;
 #[cfg(feature = "protobuf")]
 pub use protobuf::Protobuf;
@@ -68,7 +82,7 @@ pub use raw::Raw;
     message = "the codec `{Self}` cannot carry messages of type `{T}`",
     label = "`{T}` lacks what `{Self}` needs of a message",
     note = "`Protobuf` carries types that are `prost::Message` and `Default`: those generated from `schemas`, or with `#[derive(prost::Message)]`",
-    note = "`Json` carries types with `#[derive(serde::Serialize, serde::Deserialize)]`",
+    note = "`Json`, `Cbor`, `Msgpack` and `Postcard` carry types with `#[derive(serde::Serialize, serde::Deserialize)]`",
     note = "`Raw` carries types of fixed layout: `#[repr(C)]` with `#[derive(zerocopy::IntoBytes, zerocopy::FromBytes, zerocopy::KnownLayout, zerocopy::Immutable)]`",
     note = "`Opaque` carries `bytes::Bytes` only: leave the gate untyped to use it",
     note = "a codec of your own carries what you write `impl scl::codec::Codec<{T}>` for"
@@ -94,5 +108,7 @@ pub trait Codec<T>: Send + Sync + 'static {
     fn decode(bytes: Bytes) -> Result<T, DecodeError>;
 }
 
+#[cfg(all(test, any(feature = "cbor", feature = "msgpack", feature = "postcard")))]
+mod serde_tests;
 #[cfg(test)]
 mod tests;

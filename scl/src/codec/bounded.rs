@@ -1,0 +1,234 @@
+//! Bounds on what serde reads, for formats whose library sets none.
+//!
+//! Without them a frame of some kilobytes could nest so deep that the stack overflows, which ends the process, or
+//! announce 2^60 elements that take no bytes, which keeps it busy for ever. Each serde interface is wrapped, the
+//! wrapped value handed on to the next, and the calls that go a level down or to a next element are counted.
+
+use std::cell::Cell;
+use std::fmt;
+
+use serde::de::{
+    Deserialize, DeserializeSeed, Deserializer, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor,
+};
+
+/// How many sequences, maps, enums and `Some` may lie in each other.
+const LEVELS: usize = 128;
+/// How many elements without bytes a frame may have; every other element takes a byte of the frame.
+const EMPTY_ELEMENTS: usize = 4096;
+
+/// Reads a value from the bytes of a frame, of which `length` says how many they are.
+pub(super) fn read<'de, T: Deserialize<'de>, D: Deserializer<'de>>(input: D, length: usize) -> Result<T, D::Error> {
+    let elements = length.saturating_add(EMPTY_ELEMENTS);
+    let bounds = Bounds { levels: Cell::new(LEVELS), elements: Cell::new(elements) };
+    T::deserialize(Bounded { inner: input, bounds: &bounds })
+}
+
+/// What is left.
+struct Bounds {
+    levels: Cell<usize>,
+    elements: Cell<usize>,
+}
+
+impl Bounds {
+    fn enter<E: Error>(&self) -> Result<Level<'_>, E> {
+        let left = self.levels.get().checked_sub(1);
+        self.levels.set(left.ok_or_else(|| E::custom(format_args!("it is nested deeper than {LEVELS} levels")))?);
+        Ok(Level(&self.levels))
+    }
+
+    fn count_element<E: Error>(&self) -> Result<(), E> {
+        let left = self.elements.get().checked_sub(1);
+        self.elements.set(left.ok_or_else(|| E::custom("it announces more elements than the frame can hold"))?);
+        Ok(())
+    }
+}
+
+/// A level that is left when this is dropped.
+struct Level<'b>(&'b Cell<usize>);
+
+impl Drop for Level<'_> {
+    fn drop(&mut self) {
+        self.0.set(self.0.get() + 1);
+    }
+}
+
+/// A deserializer, a seed, or an enum's access.
+struct Bounded<'b, I> {
+    inner: I,
+    bounds: &'b Bounds,
+}
+
+/// A visitor, or the elements of what it visits; `announced` if the frame itself says how many they are.
+struct Watched<'b, I> {
+    inner: I,
+    bounds: &'b Bounds,
+    announced: bool,
+}
+
+macro_rules! hand_on {
+    ($($method:ident($($argument:ident: $type:ty),*) $announced:literal)*) => {$(
+        fn $method<V: Visitor<'de>>(self, $($argument: $type,)* visitor: V) -> Result<V::Value, D::Error> {
+            self.inner.$method($($argument,)* Watched { inner: visitor, bounds: self.bounds, announced: $announced })
+        }
+    )*};
+}
+
+impl<'de, D: Deserializer<'de>> Deserializer<'de> for Bounded<'_, D> {
+    type Error = D::Error;
+
+    hand_on! {
+        deserialize_any() true deserialize_seq() true deserialize_map() true deserialize_ignored_any() true
+        deserialize_bool() false deserialize_char() false
+        deserialize_i8() false deserialize_i16() false deserialize_i32() false deserialize_i64() false
+        deserialize_u8() false deserialize_u16() false deserialize_u32() false deserialize_u64() false
+        deserialize_i128() false deserialize_u128() false deserialize_f32() false deserialize_f64() false
+        deserialize_str() false deserialize_string() false deserialize_bytes() false deserialize_byte_buf() false
+        deserialize_option() false deserialize_unit() false deserialize_identifier() false
+        deserialize_unit_struct(name: &'static str) false
+        deserialize_newtype_struct(name: &'static str) false
+        deserialize_tuple(length: usize) false
+        deserialize_tuple_struct(name: &'static str, length: usize) false
+        deserialize_struct(name: &'static str, fields: &'static [&'static str]) false
+        deserialize_enum(name: &'static str, variants: &'static [&'static str]) false
+    }
+
+    fn is_human_readable(&self) -> bool {
+        self.inner.is_human_readable()
+    }
+}
+
+macro_rules! visit_plain {
+    ($($method:ident($type:ty))*) => {$(
+        fn $method<E: Error>(self, value: $type) -> Result<V::Value, E> {
+            self.inner.$method(value)
+        }
+    )*};
+}
+
+impl<'de, V: Visitor<'de>> Visitor<'de> for Watched<'_, V> {
+    type Value = V::Value;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.inner.expecting(formatter)
+    }
+
+    visit_plain! {
+        visit_bool(bool) visit_char(char) visit_f32(f32) visit_f64(f64)
+        visit_i8(i8) visit_i16(i16) visit_i32(i32) visit_i64(i64) visit_i128(i128)
+        visit_u8(u8) visit_u16(u16) visit_u32(u32) visit_u64(u64) visit_u128(u128)
+        visit_str(&str) visit_borrowed_str(&'de str) visit_string(String)
+        visit_bytes(&[u8]) visit_borrowed_bytes(&'de [u8]) visit_byte_buf(Vec<u8>)
+    }
+
+    fn visit_none<E: Error>(self) -> Result<V::Value, E> {
+        self.inner.visit_none()
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<V::Value, E> {
+        self.inner.visit_unit()
+    }
+
+    fn visit_newtype_struct<D: Deserializer<'de>>(self, content: D) -> Result<V::Value, D::Error> {
+        self.inner.visit_newtype_struct(Bounded { inner: content, bounds: self.bounds })
+    }
+
+    fn visit_some<D: Deserializer<'de>>(self, content: D) -> Result<V::Value, D::Error> {
+        let _level = self.bounds.enter()?;
+        self.inner.visit_some(Bounded { inner: content, bounds: self.bounds })
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, elements: A) -> Result<V::Value, A::Error> {
+        let _level = self.bounds.enter()?;
+        self.inner.visit_seq(Watched { inner: elements, bounds: self.bounds, announced: self.announced })
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, entries: A) -> Result<V::Value, A::Error> {
+        let _level = self.bounds.enter()?;
+        self.inner.visit_map(Watched { inner: entries, bounds: self.bounds, announced: self.announced })
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, variant: A) -> Result<V::Value, A::Error> {
+        let _level = self.bounds.enter()?;
+        self.inner.visit_enum(Bounded { inner: variant, bounds: self.bounds })
+    }
+}
+
+impl<I> Watched<'_, I> {
+    fn count<E: Error>(&self) -> Result<(), E> {
+        if self.announced { self.bounds.count_element() } else { Ok(()) }
+    }
+}
+
+impl<'de, A: SeqAccess<'de>> SeqAccess<'de> for Watched<'_, A> {
+    type Error = A::Error;
+
+    fn next_element_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>, A::Error> {
+        let element = self.inner.next_element_seed(Bounded { inner: seed, bounds: self.bounds })?;
+        self.count()?;
+        Ok(element)
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        self.inner.size_hint()
+    }
+}
+
+impl<'de, A: MapAccess<'de>> MapAccess<'de> for Watched<'_, A> {
+    type Error = A::Error;
+
+    fn next_key_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>, A::Error> {
+        let key = self.inner.next_key_seed(Bounded { inner: seed, bounds: self.bounds })?;
+        self.count()?;
+        Ok(key)
+    }
+
+    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, A::Error> {
+        self.inner.next_value_seed(Bounded { inner: seed, bounds: self.bounds })
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        self.inner.size_hint()
+    }
+}
+
+impl<'de, S: DeserializeSeed<'de>> DeserializeSeed<'de> for Bounded<'_, S> {
+    type Value = S::Value;
+
+    fn deserialize<D: Deserializer<'de>>(self, input: D) -> Result<S::Value, D::Error> {
+        self.inner.deserialize(Bounded { inner: input, bounds: self.bounds })
+    }
+}
+
+impl<'de, 'b, A: EnumAccess<'de>> EnumAccess<'de> for Bounded<'b, A> {
+    type Error = A::Error;
+    type Variant = Bounded<'b, A::Variant>;
+
+    fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Self::Variant), A::Error> {
+        let (name, content) = self.inner.variant_seed(Bounded { inner: seed, bounds: self.bounds })?;
+        Ok((name, Bounded { inner: content, bounds: self.bounds }))
+    }
+}
+
+impl<'de, A: VariantAccess<'de>> VariantAccess<'de> for Bounded<'_, A> {
+    type Error = A::Error;
+
+    fn unit_variant(self) -> Result<(), A::Error> {
+        self.inner.unit_variant()
+    }
+
+    fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, A::Error> {
+        self.inner.newtype_variant_seed(Bounded { inner: seed, bounds: self.bounds })
+    }
+
+    fn tuple_variant<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, A::Error> {
+        self.inner.tuple_variant(length, Watched { inner: visitor, bounds: self.bounds, announced: false })
+    }
+
+    fn struct_variant<V: Visitor<'de>>(
+        self,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, A::Error> {
+        self.inner.struct_variant(fields, Watched { inner: visitor, bounds: self.bounds, announced: false })
+    }
+}

@@ -1,0 +1,249 @@
+//! The codecs for any serde type that are not on by default: one list of demands, and each codec's own bytes.
+#![allow(clippy::unwrap_used)]
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+
+use bytes::{Bytes, BytesMut};
+use serde::{Deserialize, Serialize};
+
+use super::{Codec, DecodeError};
+
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Event {
+    name: String,
+    values: Vec<Option<f64>>,
+    kind: Kind,
+    by_axis: BTreeMap<char, i64>,
+    inner: Option<Box<Event>>,
+}
+
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+enum Kind {
+    Silent,
+    Level(u8),
+    Pair(u64, i16),
+    Named { text: String },
+}
+
+fn event() -> Event {
+    let plain = |kind, inner| Event {
+        name: String::new(),
+        values: vec![],
+        kind,
+        by_axis: BTreeMap::new(),
+        inner: Option::map(inner, Box::new),
+    };
+    let named = plain(Kind::Named { text: "läuft \u{1F600}".into() }, Some(plain(Kind::Silent, None)));
+    Event {
+        name: "imu".into(),
+        values: vec![Some(0.1), None, Some(f64::NEG_INFINITY)],
+        by_axis: BTreeMap::from([('x', i64::MIN), ('ß', -1)]),
+        ..plain(Kind::Level(255), Some(plain(Kind::Pair(u64::MAX, i16::MIN), Some(named))))
+    }
+}
+
+/// A list that nests through `Option`, as [`Chain`] does through enums.
+#[derive(Debug, Serialize, Deserialize)]
+struct List(Option<Box<List>>);
+
+#[derive(Debug, Serialize, Deserialize)]
+enum Chain {
+    End,
+    Next(Box<Chain>),
+}
+
+fn chain(levels: usize) -> Chain {
+    (0..levels).fold(Chain::End, |inner, _| Chain::Next(Box::new(inner)))
+}
+
+fn encoded<C: Codec<T>, T>(message: &T) -> Bytes {
+    let mut into = BytesMut::from(&b"before"[..]);
+    C::encode(message, &mut into).unwrap();
+    assert_eq!(into.split_to(6), b"before"[..]);
+    into.freeze()
+}
+
+fn decoded<C: Codec<T>, T>(bytes: &[u8]) -> Result<T, DecodeError> {
+    C::decode(Bytes::copy_from_slice(bytes))
+}
+
+fn refused<C: Codec<T>, T: Debug>(case: &str, bytes: &[u8]) -> DecodeError {
+    match decoded::<C, T>(bytes) {
+        Ok(message) => panic!("{case}: accepted as {message:.200?}"),
+        Err(error) => error,
+    }
+}
+
+fn check_round_trip_and_ends<C: Codec<Event> + Codec<u32>>() {
+    let whole = encoded::<C, _>(&event());
+    assert_eq!(decoded::<C, Event>(&whole).unwrap(), event());
+    for length in 0..whole.len() {
+        refused::<C, Event>(&format!("truncated to {length} bytes"), &whole[..length]);
+    }
+    refused::<C, Event>("a zero byte behind", &[&whole[..], b"\0"].concat());
+    refused::<C, Event>("twice", &[&whole[..], &whole[..]].concat());
+}
+
+/// Texts, bytes, lists and maps that announce more than there is end at once, and without room made for them.
+fn check_announced_lengths<C>(cases: &[(&str, &[u8])])
+where
+    C: Codec<String> + Codec<Vec<u64>> + Codec<Vec<()>> + Codec<BTreeMap<u8, u8>> + Codec<Event>,
+{
+    for (case, bytes) in cases {
+        refused::<C, String>(case, bytes);
+        refused::<C, Vec<u64>>(case, bytes);
+        refused::<C, Vec<()>>(case, bytes);
+        refused::<C, BTreeMap<u8, u8>>(case, bytes);
+        refused::<C, Event>(case, bytes);
+    }
+}
+
+/// A frame of two million bytes that nests all the way, and one made of a megabyte of any byte.
+fn check_nesting<C: Codec<List> + Codec<Chain> + Codec<Event>>(one_level: &[u8]) {
+    let deep = one_level.repeat(2_000_000 / one_level.len());
+    refused::<C, Chain>("a chain of enums", &deep);
+    refused::<C, List>("a chain of enums as a list", &deep);
+    for byte in 0..=255 {
+        let same = vec![byte; 1_000_000];
+        // Most are refused; what matters is that none takes the process down.
+        let _ = decoded::<C, List>(&same);
+        let _ = decoded::<C, Event>(&same);
+    }
+    assert!(decoded::<C, Chain>(&encoded::<C, _>(&chain(100))).is_ok());
+}
+
+fn check_noise<C: Codec<Event> + Codec<Kind>>() {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let whole = encoded::<C, _>(&event());
+    for round in 0..20_000 {
+        let mut bytes = whole.to_vec();
+        for _ in 0..=round % 4 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let place = (state >> 33) as usize % bytes.len();
+            bytes[place] = (state >> 24) as u8;
+        }
+        // Whatever is accepted must be a message that can be sent again.
+        if let Ok(message) = decoded::<C, Event>(&bytes) {
+            encoded::<C, _>(&message);
+        }
+    }
+}
+
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct First {
+    x: u32,
+    name: String,
+}
+
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Second {
+    x: u32,
+    name: String,
+    unit: Option<Vec<Kind>>,
+}
+
+/// With the names of fields in the frame, each version reads the other.
+#[cfg(any(feature = "cbor", feature = "msgpack"))]
+fn check_versions<C: Codec<First> + Codec<Second>>() {
+    let second = Second { x: 7, name: "a".into(), unit: Some(vec![Kind::Level(1), Kind::Named { text: "b".into() }]) };
+    let first = First { x: 7, name: "a".into() };
+    assert_eq!(decoded::<C, First>(&encoded::<C, _>(&second)).unwrap(), first);
+    assert_eq!(decoded::<C, Second>(&encoded::<C, _>(&first)).unwrap(), Second { unit: None, ..second });
+}
+
+fn check_failed_encode<C: Codec<T>, T>(message: &T, cause: &str) {
+    let mut into = BytesMut::from(&b"before"[..]);
+    let error = C::encode(message, &mut into).unwrap_err();
+    assert_eq!(into, b"before"[..]);
+    assert!(error.to_string().contains(&format!("codec `{}` cannot encode", C::NAME)), "{error}");
+    assert!(std::error::Error::source(&error).unwrap().to_string().contains(cause), "{:?}", error);
+}
+
+/// A type that no serde format can write.
+#[derive(Debug, Deserialize)]
+struct Unwritable;
+
+impl Serialize for Unwritable {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::{Error, SerializeSeq};
+        let mut written = serializer.serialize_seq(Some(2))?;
+        written.serialize_element("half of it")?;
+        Err(S::Error::custom("only half can be written"))
+    }
+}
+
+fn check_all<C>(lengths: &[(&str, &[u8])], one_level: &[u8])
+where
+    C: Codec<Event> + Codec<Kind> + Codec<u32> + Codec<String> + Codec<Vec<u64>> + Codec<Vec<()>>,
+    C: Codec<BTreeMap<u8, u8>> + Codec<List> + Codec<Chain>,
+{
+    check_round_trip_and_ends::<C>();
+    check_announced_lengths::<C>(lengths);
+    check_nesting::<C>(one_level);
+    check_noise::<C>();
+}
+
+#[cfg(feature = "cbor")]
+#[test]
+fn cbor() {
+    use super::Cbor;
+    let lengths: [(&str, &[u8]); 5] = [
+        ("text of 2^64-1 bytes", b"\x7b\xff\xff\xff\xff\xff\xff\xff\xff"),
+        ("bytes of 2^62", b"\x5b\x40\0\0\0\0\0\0\0x"),
+        ("list of 2^62", b"\x9b\x40\0\0\0\0\0\0\0\x01"),
+        ("map of 2^63", b"\xbb\x80\0\0\0\0\0\0\0\x01\x02"),
+        ("list without an end", b"\x9f\x01\x02"),
+    ];
+    check_all::<Cbor>(&lengths, b"\xa1\x64Next");
+    check_versions::<Cbor>();
+    check_failed_encode::<Cbor, _>(&Unwritable, "only half can be written");
+    let error = refused::<Cbor, u32>("two items", b"\x01\x02");
+    assert_eq!(error.to_string(), "codec `cbor` cannot decode what arrived: 2 bytes are more than one cbor item");
+}
+
+#[cfg(feature = "msgpack")]
+#[test]
+fn msgpack() {
+    use super::Msgpack;
+    let lengths: [(&str, &[u8]); 4] = [
+        ("text of 2^32-1 bytes", b"\xdb\xff\xff\xff\xff"),
+        ("bytes of 2^32-1", b"\xc6\xff\xff\xff\xff"),
+        ("list of 2^32-1", b"\xdd\xff\xff\xff\xff\x01"),
+        ("map of 2^32-1", b"\xdf\xff\xff\xff\xff\x01\x02"),
+    ];
+    check_all::<Msgpack>(&lengths, b"\x81\xa4Next");
+    check_versions::<Msgpack>();
+    check_failed_encode::<Msgpack, _>(&Unwritable, "only half can be written");
+    let error = refused::<Msgpack, u32>("two values", b"\x01\x02");
+    let text = "codec `msgpack` cannot decode what arrived: 1 of 2 bytes follow after the value";
+    assert_eq!(error.to_string(), text);
+}
+
+#[cfg(feature = "postcard")]
+#[test]
+fn postcard() {
+    use super::Postcard;
+    let lengths: [(&str, &[u8]); 2] = [
+        ("2^63 of anything", b"\x80\x80\x80\x80\x80\x80\x80\x80\x80\x01"),
+        ("2^40 of anything", b"\x80\x80\x80\x80\x80\x20\x01"),
+    ];
+    check_all::<Postcard>(&lengths, b"\x01");
+    check_failed_encode::<Postcard, _>(&Unwritable, "Serde Serialization Error");
+    let error = refused::<Postcard, u32>("two values", b"\x01\x02");
+    let text = "codec `postcard` cannot decode what arrived: 1 of 2 bytes follow after the value";
+    assert_eq!(error.to_string(), text);
+}
+
+/// Without names a frame of another version ends too early or too late, and either is an error, never a wrong field.
+#[cfg(feature = "postcard")]
+#[test]
+fn postcard_refuses_a_version_with_a_field_more_or_less() {
+    use super::Postcard;
+    let first = encoded::<Postcard, _>(&First { x: 7, name: "a".into() });
+    refused::<Postcard, Second>("a field less", &first);
+    for unit in [None, Some(vec![]), Some(vec![Kind::Level(1)])] {
+        let second = encoded::<Postcard, _>(&Second { x: 7, name: "a".into(), unit });
+        refused::<Postcard, First>("a field more", &second);
+    }
+}
