@@ -1,6 +1,7 @@
 //! The `scl` command: checks, draws and runs SCL systems.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod bench;
 mod check;
 mod duration;
 mod graph;
@@ -21,6 +22,9 @@ struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
+    Bench(bench::BenchArguments),
+    #[command(name = bench::OTHER_SIDE_WORD, hide = true)]
+    BenchOtherSide(bench::OtherSideArguments),
     Check(check::CheckArguments),
     Graph(graph::GraphArguments),
     Run(run::RunArguments),
@@ -32,6 +36,8 @@ enum Command {
 
 fn main() -> ExitCode {
     match CommandLine::parse().command {
+        Command::Bench(arguments) => bench::bench(&arguments),
+        Command::BenchOtherSide(arguments) => bench::play_other_side(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
         Command::Run(arguments) => run::run(&arguments),
