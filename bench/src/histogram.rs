@@ -2,12 +2,15 @@
 
 use hdrhistogram::Histogram;
 
+/// A minute; longer times count as this one, in nanoseconds.
+const LONGEST: u64 = 60_000_000_000;
+
 /// The times of one way of doing something, in nanoseconds.
 pub(crate) struct Times(Histogram<u64>);
 
 impl Times {
     pub(crate) fn new() -> scl::Result<Self> {
-        Ok(Self(Histogram::new(3)?))
+        Ok(Self(Histogram::new_with_max(LONGEST, 3)?))
     }
 
     pub(crate) fn record(&mut self, nanoseconds: u64) {

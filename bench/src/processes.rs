@@ -1,7 +1,7 @@
 //! The other processes of a scenario: this program again, started with a hidden word.
 
 use crate::{delay, one_way, open, roundtrip};
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufRead, BufReader, ErrorKind, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
 use tokio::runtime::{Builder, Runtime};
@@ -18,13 +18,20 @@ pub const OTHER_SIDE: &str = "bench-other-side";
 pub fn play_other_side(arguments: &[String]) -> scl::Result<()> {
     end_with_input();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    match words.as_slice() {
+    let played = match words.as_slice() {
         ["roundtrip", rest @ ..] => roundtrip::play_wall(rest),
         ["one-way", rest @ ..] => one_way::play_receiver(rest),
         ["delay", rest @ ..] => delay::play_source(rest),
         ["open", rest @ ..] => open::play(rest),
         _ => Err(wrong_words(&words)),
-    }
+    };
+    played.or_else(|error| if says_peer_ended(&error) { Ok(()) } else { Err(error) })
+}
+
+/// A peer that ends while it is being listened to has all it wanted, or says itself what it lacked.
+fn says_peer_ended(error: &scl::Error) -> bool {
+    let kind = error.inner().downcast_ref().map(std::io::Error::kind);
+    matches!(kind, Some(ErrorKind::UnexpectedEof | ErrorKind::BrokenPipe | ErrorKind::ConnectionReset))
 }
 
 /// The words of a process are not for people, so this is said only when somebody tries them.

@@ -83,7 +83,8 @@ impl Measured {
         let after = allocated();
         let received = runtime.block_on(self.lane.received())?;
         if counts {
-            self.paces.record(received.span / (batch as u64 - 1));
+            // At least a nanosecond, so that there is a rate even of batches too small for the clock.
+            self.paces.record((received.span / (batch as u64 - 1)).max(1));
             self.allocations += after - before;
             received.delays.iter().for_each(|delay| self.delays.record(*delay));
         }
