@@ -6,7 +6,8 @@ mod xml;
 
 use crate::histogram::Times;
 use crate::report::{Column, Report, Row, Table};
-use record::{FlatRecord, Record};
+use prost::Message;
+use record::{Example, FlatRecord, Record};
 use scl::bytes::{BufMut, Bytes, BytesMut};
 use scl::codec::{Cbor, Codec, Json, Msgpack, Postcard, Protobuf, Raw};
 use std::hint::black_box;
@@ -28,10 +29,13 @@ struct Subject {
     name: &'static str,
     beside: Option<&'static str>,
     /// Encodes into an empty buffer.
-    encode: Box<dyn Fn(&mut BytesMut) -> scl::Result<()>>,
+    encode: Box<Encode>,
     /// Decodes and drops the message.
-    decode: Box<dyn Fn(Bytes) -> scl::Result<()>>,
+    decode: Box<Decode>,
 }
+
+type Encode = dyn Fn(&mut BytesMut) -> scl::Result<()>;
+type Decode = dyn Fn(Bytes) -> scl::Result<()>;
 
 /// What came of one codec.
 struct Measured {
@@ -78,10 +82,7 @@ fn subjects() -> Vec<Subject> {
     ]
 }
 
-fn subject<C: Codec<T>, T: Default + 'static>(name: &'static str) -> Subject
-where
-    T: record::Example,
-{
+fn subject<C: Codec<T>, T: Example + 'static>(name: &'static str) -> Subject {
     let message = T::example();
     Subject {
         name,
@@ -101,20 +102,20 @@ impl Subject {
 }
 
 fn prost_alone() -> Subject {
-    let message = <Record as record::Example>::example();
+    let message = Record::example();
     Subject {
         name: "prost alone",
         beside: None,
-        encode: Box::new(move |into| Ok(prost::Message::encode(black_box(&message), into)?)),
+        encode: Box::new(move |into| Ok(black_box(&message).encode(into)?)),
         decode: Box::new(|bytes| {
-            black_box(<Record as prost::Message>::decode(bytes)?);
+            black_box(Record::decode(bytes)?);
             Ok(())
         }),
     }
 }
 
 fn serde_json_alone() -> Subject {
-    let message = <Record as record::Example>::example();
+    let message = Record::example();
     Subject {
         name: "serde_json alone",
         beside: None,
@@ -167,7 +168,6 @@ fn table(all: &[Measured]) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use record::Example;
 
     #[test]
     fn every_subject_reads_what_it_wrote() {

@@ -1,4 +1,5 @@
 //! `scl bench`: every scenario runs for next to nothing and prints figures that programs can read. No figure is judged.
+#![allow(clippy::unwrap_used)]
 
 use serde_json::Value;
 use std::process::{Command, Output};
