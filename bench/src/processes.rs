@@ -16,16 +16,16 @@ pub const OTHER_SIDE: &str = "bench-other-side";
 ///
 /// No such part, or what it could not do.
 pub fn play_other_side(arguments: &[String]) -> scl::Result<()> {
-    end_with_input();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let played = match words.as_slice() {
-        ["roundtrip", rest @ ..] => roundtrip::play_wall(rest),
-        ["one-way", rest @ ..] => one_way::play_receiver(rest),
-        ["delay", rest @ ..] => delay::play_source(rest),
-        ["open", rest @ ..] => open::play(rest),
-        _ => Err(wrong_words(&words)),
+    let (part, rest): (fn(&[&str]) -> scl::Result<()>, _) = match words.as_slice() {
+        ["roundtrip", rest @ ..] => (roundtrip::play_wall, rest),
+        ["one-way", rest @ ..] => (one_way::play_receiver, rest),
+        ["delay", rest @ ..] => (delay::play_source, rest),
+        ["open", rest @ ..] => (open::play, rest),
+        _ => return Err(wrong_words(&words)),
     };
-    played.or_else(|error| if says_peer_ended(&error) { Ok(()) } else { Err(error) })
+    end_with_input();
+    part(rest).or_else(|error| if says_peer_ended(&error) { Ok(()) } else { Err(error) })
 }
 
 /// A peer that ends while it is being listened to has all it wanted, or says itself what it lacked.

@@ -1,5 +1,5 @@
 //! `scl bench`: every scenario runs for next to nothing and prints figures that programs can read. No figure is judged.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use serde_json::Value;
 use std::process::{Command, Output};
