@@ -2,6 +2,8 @@
 
 mod ball;
 mod components;
+#[cfg(feature = "libzmq")]
+mod libzmq;
 mod wall;
 
 pub(crate) use wall::play_wall;
@@ -42,13 +44,17 @@ const fn way(word: &'static str, name: &'static str, beside: Option<&'static str
 const PUBLISH: &str = "zeromq XPUB/SUB";
 const CALL: &str = "zeromq DEALER/ROUTER";
 
-const WAYS: [Way; 8] = [
+const WAYS: &[Way] = &[
     way("scl-publish", "SCL pub/sub", Some(PUBLISH)),
     way("scl-publish-blocking", "SCL pub/sub blocking", Some(PUBLISH)),
     way("raw-publish", PUBLISH, None),
     way("scl-call", "SCL req/rep", Some(CALL)),
     way("scl-call-blocking", "SCL req/rep blocking", Some(CALL)),
     way("raw-call", CALL, None),
+    #[cfg(feature = "libzmq")]
+    way("libzmq-publish-blocking", "libzmq XPUB/SUB", Some(PUBLISH)),
+    #[cfg(feature = "libzmq")]
+    way("libzmq-call-blocking", "libzmq REQ/REP", Some(CALL)),
     way("unix", "Unix socket, tokio", None),
     way("unix-blocking", "Unix socket, blocking", None),
 ];
@@ -80,7 +86,7 @@ pub fn measure_roundtrip(options: &Roundtrip) -> scl::Result<Report> {
 fn measure_length(runtime: &Runtime, bytes: usize, options: &Roundtrip) -> scl::Result<Table> {
     let folder = scratch_folder()?;
     let mut courses = Vec::new();
-    for way in &WAYS {
+    for way in WAYS {
         let (ball, wall) = Ball::start(runtime, way.word, as_text(folder.path())?, bytes)?;
         courses.push(Course { way, ball, times: Times::new()?, allocations: 0, recorded: 0, _wall: wall });
     }

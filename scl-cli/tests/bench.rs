@@ -68,6 +68,10 @@ fn round_trips_of_several_lengths() {
         "SCL req/rep",
         "SCL req/rep blocking",
         "zeromq DEALER/ROUTER",
+        #[cfg(feature = "libzmq")]
+        "libzmq XPUB/SUB",
+        #[cfg(feature = "libzmq")]
+        "libzmq REQ/REP",
         "Unix socket, tokio",
         "Unix socket, blocking",
     ];

@@ -32,6 +32,8 @@ pub(super) enum AsyncBall {
 pub(super) enum BlockingBall {
     SclPublish(components::Ball),
     SclCall(components::Ball),
+    #[cfg(feature = "libzmq")]
+    Libzmq(super::libzmq::Ball),
     Unix(StdUnixStream),
 }
 
@@ -150,6 +152,11 @@ impl BlockingBall {
                 ball.ready_blocking(PATIENCE)?;
                 Ok((if word == "scl-call-blocking" { Self::SclCall(ball) } else { Self::SclPublish(ball) }, wall))
             }
+            #[cfg(feature = "libzmq")]
+            "libzmq-publish-blocking" | "libzmq-call-blocking" => {
+                let (ball, wall) = super::libzmq::Ball::start(word, folder, wall)?;
+                Ok((Self::Libzmq(ball), wall))
+            }
             "unix-blocking" => {
                 let listener = StdUnixListener::bind(RawPlace::new(folder, word).socket("stream"))?;
                 let wall = OtherProcess::start(wall)?;
@@ -166,6 +173,8 @@ impl BlockingBall {
                 ball.back.recv_blocking()?;
             }
             Self::SclCall(ball) => drop(ball.question.call_blocking(payload)?),
+            #[cfg(feature = "libzmq")]
+            Self::Libzmq(ball) => ball.exchange(payload)?,
             Self::Unix(stream) => raw::exchange_blocking(stream, payload, answer)?,
         }
         Ok(())

@@ -21,6 +21,10 @@ pub(crate) fn play_wall(words: &[&str]) -> scl::Result<()> {
         "scl-call-blocking" => scl_call_blocking(options),
         "raw-publish" => runtime.block_on(raw_publish(&place)),
         "raw-call" => runtime.block_on(raw_call(&place)),
+        #[cfg(feature = "libzmq")]
+        "libzmq-publish-blocking" => super::libzmq::send_back_published(&place),
+        #[cfg(feature = "libzmq")]
+        "libzmq-call-blocking" => super::libzmq::send_back_asked(&place),
         "unix" => runtime.block_on(async {
             let stream = UnixStream::connect(place.socket("stream")).await?;
             raw::send_back(stream, bytes).await
