@@ -17,7 +17,7 @@ pub const OTHER_SIDE: &str = "bench-other-side";
 /// No such part, or what it could not do.
 pub fn play_other_side(arguments: &[String]) -> scl::Result<()> {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let (part, rest): (fn(&[&str]) -> scl::Result<()>, _) = match words.as_slice() {
+    let (part, rest): (Part, _) = match words.as_slice() {
         ["roundtrip", rest @ ..] => (roundtrip::play_wall, rest),
         ["one-way", rest @ ..] => (one_way::play_receiver, rest),
         ["delay", rest @ ..] => (delay::play_source, rest),
@@ -27,6 +27,9 @@ pub fn play_other_side(arguments: &[String]) -> scl::Result<()> {
     end_with_input();
     part(rest).or_else(|error| if says_peer_ended(&error) { Ok(()) } else { Err(error) })
 }
+
+/// Plays a part with the words that follow its name.
+type Part = fn(&[&str]) -> scl::Result<()>;
 
 /// A peer that ends while it is being listened to has all it wanted, or says itself what it lacked.
 fn says_peer_ended(error: &scl::Error) -> bool {
