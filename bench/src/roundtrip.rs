@@ -1,142 +1,142 @@
 //! How long a message takes to another process and back.
 
-use crate::figures::{self, Figures};
+mod ball;
+mod components;
+#[cfg(feature = "libzmq")]
+mod libzmq;
+mod wall;
+
+pub(crate) use wall::play_wall;
+
+use crate::AllocationCount;
+use crate::histogram::Times;
+use crate::processes::{OtherProcess, as_text, scratch_folder, start_runtime};
+use crate::report::{Column, Report, Row, Table};
+use ball::Ball;
 use scl::bytes::Bytes;
-use std::os::unix::fs::DirBuilderExt;
-use std::path::Path;
-use std::process::{Child, Command};
-use std::time::{Duration, Instant};
-use zeromq::{DealerSocket, RouterSocket, Socket, SocketRecv, SocketSend, SubSocket, XPubSocket, ZmqMessage};
+use tokio::runtime::Runtime;
 
-scl::topology!("roundtrip.yaml");
-
-/// Rounds of [`BATCH`] messages of each way; the first ones only warm up.
-const ROUNDS: usize = 80;
-const WARM_UP: usize = 10;
+/// Messages of one way before it is the next one's turn.
 const BATCH: usize = 500;
 
-/// Measures round trips of a payload of so many bytes.
-pub(crate) fn measure(bytes: usize) -> scl::Result<()> {
-    let folder = tempfile::Builder::new().prefix("scl-bench").tempdir()?;
-    let path = folder.path().to_string_lossy().into_owned();
-    std::fs::DirBuilder::new().mode(0o700).create(folder.path().join("raw"))?;
-    on_one_thread(play_ball(&path, Bytes::from(vec![7; bytes])))
+/// What [`measure_roundtrip`] is asked for.
+#[derive(Debug, Clone)]
+pub struct Roundtrip {
+    /// The lengths of the messages, in bytes, one table each.
+    pub bytes: Vec<usize>,
+    /// How many messages of each length go each way there and back.
+    pub messages: usize,
+    /// Adds how many allocations of this process a message takes.
+    pub allocations: Option<AllocationCount>,
 }
 
-/// The other process: sends everything back.
-pub(crate) fn send_back(folder: &str) -> scl::Result<()> {
-    on_one_thread(play_wall(folder))
+/// A way there and back: `word` names it between the processes.
+struct Way {
+    word: &'static str,
+    name: &'static str,
+    beside: Option<&'static str>,
 }
 
-fn on_one_thread(main: impl Future<Output = scl::Result<()>>) -> scl::Result<()> {
-    tokio::runtime::Builder::new_current_thread().enable_all().build()?.block_on(main)
+const fn way(word: &'static str, name: &'static str, beside: Option<&'static str>) -> Way {
+    Way { word, name, beside }
 }
 
-async fn play_ball(folder: &str, payload: Bytes) -> scl::Result<()> {
-    let mut raw_there = XPubSocket::new();
-    raw_there.bind(&raw(folder, "there")).await?;
-    let _wall = OtherProcess::start(folder)?;
-    let mut ball = Ball::open_with(scl::OpenOptions::new().runtime_dir(folder)).await?;
-    ball.ready(Duration::from_secs(10)).await?;
-    let mut raw_back = SubSocket::new();
-    raw_back.connect(&raw(folder, "back")).await?;
-    raw_back.subscribe("").await?;
-    let mut raw_question = DealerSocket::new();
-    raw_question.connect(&raw(folder, "question")).await?;
-    raw_there.recv().await?;
-    first_exchange(&mut raw_there, &mut raw_back, &payload).await?;
+const PUBLISH: &str = "zeromq XPUB/SUB";
+const CALL: &str = "zeromq DEALER/ROUTER";
 
-    let mut publishing = [Figures::of("SCL pub/sub"), Figures::of("raw XPUB/SUB")];
-    let mut asking = [Figures::of("SCL req/rep"), Figures::of("raw DEALER/ROUTER")];
-    for round in 0..ROUNDS {
-        for _ in 0..BATCH {
-            let started = Instant::now();
-            ball.there.send(&payload).await?;
-            ball.back.recv().await?;
-            record(&mut publishing[0], round, started);
-        }
-        for _ in 0..BATCH {
-            let started = Instant::now();
-            raw_there.send(payload.clone().into()).await?;
-            raw_back.recv().await?;
-            record(&mut publishing[1], round, started);
-        }
-        for _ in 0..BATCH {
-            let started = Instant::now();
-            ball.question.call(&payload).await?;
-            record(&mut asking[0], round, started);
-        }
-        for _ in 0..BATCH {
-            let started = Instant::now();
-            let mut question = ZmqMessage::from(Bytes::new());
-            question.push_back(payload.clone());
-            raw_question.send(question).await?;
-            raw_question.recv().await?;
-            record(&mut asking[1], round, started);
+const WAYS: &[Way] = &[
+    way("scl-publish", "SCL pub/sub", Some(PUBLISH)),
+    way("scl-publish-blocking", "SCL pub/sub blocking", Some(PUBLISH)),
+    way("raw-publish", PUBLISH, None),
+    way("scl-call", "SCL req/rep", Some(CALL)),
+    way("scl-call-blocking", "SCL req/rep blocking", Some(CALL)),
+    way("raw-call", CALL, None),
+    #[cfg(feature = "libzmq")]
+    way("libzmq-publish-blocking", "libzmq XPUB/SUB", Some(PUBLISH)),
+    #[cfg(feature = "libzmq")]
+    way("libzmq-call-blocking", "libzmq REQ/REP", Some(CALL)),
+    way("unix", "Unix socket, tokio", None),
+    way("unix-blocking", "Unix socket, blocking", None),
+];
+
+/// A way in use, with its other process.
+struct Course {
+    way: &'static Way,
+    ball: Ball,
+    times: Times,
+    allocations: u64,
+    recorded: usize,
+    _wall: OtherProcess,
+}
+
+/// Measures the time to another process and back for every way, beside each other.
+///
+/// # Errors
+///
+/// The folder for temporary files cannot be used, a process cannot be started, or a connection fails.
+pub fn measure_roundtrip(options: &Roundtrip) -> scl::Result<Report> {
+    let mut report = Report::new("roundtrip");
+    let runtime = start_runtime()?;
+    for &bytes in &options.bytes {
+        report.add(measure_length(&runtime, bytes, options)?);
+    }
+    Ok(report)
+}
+
+fn measure_length(runtime: &Runtime, bytes: usize, options: &Roundtrip) -> scl::Result<Table> {
+    let folder = scratch_folder()?;
+    let mut courses = Vec::new();
+    for way in WAYS {
+        let (ball, wall) = Ball::start(runtime, way.word, as_text(folder.path())?, bytes)?;
+        courses.push(Course { way, ball, times: Times::new()?, allocations: 0, recorded: 0, _wall: wall });
+    }
+    let payload = Bytes::from(vec![7; bytes]);
+    for batch in batches(options.messages) {
+        for course in &mut courses {
+            course.play(runtime, &payload, batch, options.allocations)?;
         }
     }
-    figures::print(&format!("round trip of {} bytes between two processes", payload.len()), &[publishing, asking]);
-    Ok(())
+    Ok(table(bytes, &courses, options.allocations.is_some()))
 }
 
-/// The raw subscriber's subscription takes a while to arrive, and a raw publisher does not wait for it.
-async fn first_exchange(there: &mut XPubSocket, back: &mut SubSocket, payload: &Bytes) -> scl::Result<()> {
-    loop {
-        there.send(payload.clone().into()).await?;
-        if tokio::time::timeout(Duration::from_millis(50), back.recv()).await.is_ok() {
-            while tokio::time::timeout(Duration::from_millis(50), back.recv()).await.is_ok() {}
-            return Ok(());
+fn batches(messages: usize) -> impl Iterator<Item = usize> {
+    (0..messages).step_by(BATCH).map(move |done| BATCH.min(messages - done))
+}
+
+impl Course {
+    /// One batch, after a tenth of it that only warms up again what the others cooled down.
+    fn play(
+        &mut self,
+        runtime: &Runtime,
+        payload: &Bytes,
+        messages: usize,
+        count: Option<AllocationCount>,
+    ) -> scl::Result<()> {
+        self.ball.throw(runtime, payload, messages.div_ceil(10), &mut |_| {})?;
+        let allocated = count.map(|count| count());
+        let times = &mut self.times;
+        self.ball.throw(runtime, payload, messages, &mut |nanoseconds| times.record(nanoseconds))?;
+        if let (Some(count), Some(before)) = (count, allocated) {
+            self.allocations += count() - before;
         }
-    }
-}
-
-fn record(figures: &mut Figures, round: usize, started: Instant) {
-    if round >= WARM_UP {
-        figures.record(started.elapsed());
-    }
-}
-
-async fn play_wall(folder: &str) -> scl::Result<()> {
-    let mut raw_back = XPubSocket::new();
-    raw_back.bind(&raw(folder, "back")).await?;
-    let mut raw_question = RouterSocket::new();
-    raw_question.bind(&raw(folder, "question")).await?;
-    let mut raw_there = SubSocket::new();
-    raw_there.connect(&raw(folder, "there")).await?;
-    raw_there.subscribe("").await?;
-    let mut wall = Wall::open_with(scl::OpenOptions::new().runtime_dir(folder)).await?;
-    raw_back.recv().await?;
-    loop {
-        tokio::select! {
-            ball = wall.there.recv() => wall.back.send(&ball?).await?,
-            question = wall.question.recv() => {
-                let question = question?;
-                let answer = question.message().clone();
-                question.reply(&answer).await?;
-            }
-            ball = raw_there.recv() => raw_back.send(ball?).await?,
-            question = raw_question.recv() => raw_question.send(question?).await?,
-        }
-    }
-}
-
-fn raw(folder: &str, name: &str) -> String {
-    format!("ipc://{}", Path::new(folder).join("raw").join(name).display())
-}
-
-/// The other process; ended when dropped.
-struct OtherProcess(Child);
-
-impl OtherProcess {
-    fn start(folder: &str) -> scl::Result<Self> {
-        Ok(Self(Command::new(std::env::current_exe()?).args(["wall", folder]).spawn()?))
+        self.recorded += messages;
+        Ok(())
     }
 }
 
-impl Drop for OtherProcess {
-    fn drop(&mut self) {
-        // It may have ended by itself.
-        let _ended = self.0.kill();
-        let _status = self.0.wait();
+fn table(bytes: usize, courses: &[Course], counted: bool) -> Table {
+    let mut columns = vec![Column::compared("p50_us"), Column::compared("p99_us")];
+    if counted {
+        columns.push(Column::plain("allocations"));
     }
+    let mut table = Table::new(format!("round trip of {bytes} bytes between two processes"), &columns);
+    for course in courses {
+        let mut figures = vec![course.times.quantile(0.5), course.times.quantile(0.99)];
+        if counted {
+            figures.push(course.allocations as f64 / course.recorded.max(1) as f64);
+        }
+        let row = Row::new(course.way.name, figures).beside(course.way.beside);
+        table.add(row.with_distribution(&course.times));
+    }
+    table
 }

@@ -1,6 +1,7 @@
 //! The `scl` command: checks, draws and runs SCL systems.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod bench;
 mod check;
 mod completions;
 mod diff;
@@ -26,6 +27,9 @@ struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
+    Bench(bench::BenchArguments),
+    #[command(name = bench::OTHER_SIDE_WORD, hide = true)]
+    BenchOtherSide(bench::OtherSideArguments),
     Check(check::CheckArguments),
     Completions(completions::CompletionsArguments),
     Diff(diff::DiffArguments),
@@ -41,6 +45,8 @@ enum Command {
 
 fn main() -> ExitCode {
     match CommandLine::parse().command {
+        Command::Bench(arguments) => bench::bench(&arguments),
+        Command::BenchOtherSide(arguments) => bench::play_other_side(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         Command::Diff(arguments) => diff::diff(&arguments),

@@ -1,0 +1,3 @@
+//! The two components of these scenarios.
+
+scl::topology!("one_way.yaml");

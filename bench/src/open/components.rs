@@ -1,0 +1,3 @@
+//! The two components of this scenario.
+
+scl::topology!("open.yaml");
