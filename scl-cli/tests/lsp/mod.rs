@@ -1,4 +1,5 @@
 //! A language server as a process, and the little of the protocol that the tests need.
+#![allow(dead_code, reason = "each test program uses a part of it")]
 
 use serde_json::{Value, json};
 use std::collections::VecDeque;
@@ -31,12 +32,16 @@ impl Server {
                 "hover": { "contentFormat": ["plaintext"] },
                 "publishDiagnostics": { "relatedInformation": true },
             },
+            "experimental": { "serverStatusNotification": true },
         });
         let root = uri(folder);
         let folders = json!([{ "uri": root, "name": "test" }]);
         server.request(
             "initialize",
-            json!({ "processId": null, "rootUri": root, "capabilities": capabilities, "workspaceFolders": folders }),
+            json!({
+                "processId": null, "rootUri": root, "capabilities": capabilities, "workspaceFolders": folders,
+                "initializationOptions": server.settings,
+            }),
         );
         server.notify("initialized", json!({}));
         server
@@ -60,6 +65,19 @@ impl Server {
         let mut place = position(path, text, marker);
         place["position"]["character"] = json!(place["position"]["character"].as_u64().unwrap() - 1);
         self.request("textDocument/hover", place).to_string()
+    }
+
+    /// Waits until rust-analyzer has read everything.
+    pub(crate) fn wait_until_quiescent(&mut self) {
+        loop {
+            let message = match self.notified.pop_front() {
+                Some(message) => message,
+                None => self.read(),
+            };
+            if message["method"] == "experimental/serverStatus" && message["params"]["quiescent"] == true {
+                return;
+            }
+        }
     }
 
     /// Waits for the next diagnostics of this document.
