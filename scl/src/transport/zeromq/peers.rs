@@ -31,6 +31,11 @@ impl Peers {
         }
     }
 
+    /// How many have introduced themselves since all connections were closed, whether they are still there or not.
+    pub(super) fn connected(&self) -> usize {
+        self.accepted.len()
+    }
+
     /// Closes all connections.
     pub(super) fn close(&mut self) {
         for peer in self.accepted.drain(..) {

@@ -17,7 +17,11 @@ use std::future::poll_fn;
 use std::pin::Pin;
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll};
+use std::time::{Duration, Instant};
 use zeromq::{SocketSend, XPubSocket, ZmqMessage};
+
+/// While messages flow, how often at most it is looked whether the subscriber is still there.
+const LOOK: Duration = Duration::from_millis(1);
 
 pub(super) struct Publishing {
     desk: Arc<Mutex<Desk>>,
@@ -100,6 +104,7 @@ enum Step {
 /// Sends what is on the desk and keeps account of who subscribed.
 async fn pump(mut socket: XPubSocket, mut accepted: Accepted, desk: Arc<Mutex<Desk>>) {
     let mut peers = Peers::of(&mut socket);
+    let mut looked = Instant::now();
     loop {
         match poll_fn(|cx| next_step(&mut socket, &mut peers, &mut accepted, &desk, cx)).await {
             Step::Send(message) => {
@@ -107,10 +112,16 @@ async fn pump(mut socket: XPubSocket, mut accepted: Accepted, desk: Arc<Mutex<De
                     tracing::debug!(%error, "a message could not be written");
                 }
                 lock(&desk).busy = false;
+                if looked.elapsed() >= LOOK {
+                    looked = Instant::now();
+                    // A send that meets a broken connection succeeds like any other, and takes away what would have
+                    // told of the break; the task finds out.
+                    poll_fn(|cx| Poll::Ready(cx.waker().wake_by_ref())).await;
+                }
             }
             Step::Heard(Some(message)) if is_subscription(&message) => {
                 accepted.subscribed();
-                lock(&desk).subscriber = accepted.any_left();
+                lock(&desk).subscriber = accepted.is_anybody();
             }
             Step::Heard(_) => {}
         }
@@ -138,8 +149,9 @@ fn next_step(
         Poll::Pending => {
             peers.note(cx);
             let mut desk = lock(desk);
-            if desk.subscriber && !accepted.any_left() {
+            if desk.subscriber && !accepted.any_left(peers.connected()) {
                 desk.subscriber = false;
+                accepted.forget();
                 peers.close();
             }
             Poll::Pending
