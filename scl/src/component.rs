@@ -5,6 +5,7 @@ mod core;
 mod main;
 mod opener;
 mod options;
+mod realtime;
 
 pub use self::core::Core;
 pub use main::{Outcome, run_async, run_blocking};
