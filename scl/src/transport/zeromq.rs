@@ -10,9 +10,11 @@
 //! | pull | PULL | |
 //! | request | DEALER with an id frame | REQ never recovers from a restarted peer (`request.rs`) |
 //! | reply | ROUTER | |
+//! | all that listen | | spinning when no descriptors are left (`door.rs`) |
 
 mod accepted;
 mod dial;
+mod door;
 mod frames;
 mod line;
 mod listen;

@@ -18,7 +18,7 @@ async fn main() -> std::process::ExitCode {
     match played {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(error) => {
-            say(format!("failed: {error}"));
+            say(format!("failed: {error:?}"));
             std::process::ExitCode::FAILURE
         }
     }

@@ -4,6 +4,7 @@
 //! component that is closed and opened again in one process would leave its subscribers waiting at the old one. Telling
 //! the library that each peer left closes its connection.
 
+use super::door::Door;
 use futures_core::Stream;
 use std::pin::Pin;
 use std::sync::Arc;
@@ -15,20 +16,23 @@ pub(super) struct Peers {
     backend: Arc<dyn MultiPeerBackend>,
     events: Pin<Box<dyn Stream<Item = SocketEvent> + Send>>,
     accepted: Vec<PeerIdentity>,
+    door: Door,
 }
 
 impl Peers {
-    pub(super) fn of(socket: &mut impl Socket) -> Self {
-        Self { backend: socket.backend(), events: Box::pin(socket.monitor()), accepted: Vec::new() }
+    pub(super) fn of(socket: &mut impl Socket, door: Door) -> Self {
+        Self { backend: socket.backend(), events: Box::pin(socket.monitor()), accepted: Vec::new(), door }
     }
 
     /// Takes note of who has connected since.
     pub(super) fn note(&mut self, cx: &mut Context<'_>) {
         while let Poll::Ready(Some(event)) = self.events.as_mut().poll_next(cx) {
+            self.door.heard(&event);
             if let SocketEvent::Accepted(_, peer) = event {
                 self.accepted.push(peer);
             }
         }
+        self.door.keep(cx);
     }
 
     /// How many have introduced themselves since all connections were closed, whether they are still there or not.

@@ -4,6 +4,7 @@ use super::Medium;
 use super::frames::{poll_message, single_frame};
 use super::listen::listen;
 use crate::place::{Claim, SystemDir};
+use crate::sync::AbortOnDrop;
 use crate::transport::{Inlet, TransportError};
 use bytes::Bytes;
 use std::task::{Context, Poll};
@@ -12,13 +13,15 @@ use zeromq::{PullSocket, Socket};
 pub(super) struct Pulling {
     socket: PullSocket,
     malformed: u64,
+    _door: AbortOnDrop,
     _guard: Claim,
 }
 
 impl Pulling {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let listening = listen(place, medium, endpoint)?;
-        Ok(Self { socket: listening.socket, malformed: 0, _guard: listening.guard })
+        let mut listening = listen(place, medium, endpoint)?;
+        let door = listening.door.watch(&mut listening.socket);
+        Ok(Self { socket: listening.socket, malformed: 0, _door: door, _guard: listening.guard })
     }
 }
 

@@ -4,6 +4,7 @@ use super::Medium;
 use super::frames::poll_message;
 use super::listen::listen;
 use crate::place::{Claim, SystemDir};
+use crate::sync::AbortOnDrop;
 use crate::transport::{Answerer, Asked, RequesterGone, Responder, TransportError};
 use bytes::Bytes;
 use std::task::{Context, Poll, Waker};
@@ -13,14 +14,16 @@ pub(super) struct Replying {
     requests: RouterRecvHalf,
     replies: RouterSendHalf,
     malformed: u64,
+    _door: AbortOnDrop,
     _guard: Claim,
 }
 
 impl Replying {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let listening = listen::<RouterSocket>(place, medium, endpoint)?;
+        let mut listening = listen::<RouterSocket>(place, medium, endpoint)?;
+        let door = listening.door.watch(&mut listening.socket);
         let (replies, requests) = listening.socket.split();
-        Ok(Self { requests, replies, malformed: 0, _guard: listening.guard })
+        Ok(Self { requests, replies, malformed: 0, _door: door, _guard: listening.guard })
     }
 }
 
