@@ -87,7 +87,7 @@ fn schedule(priority: u8) {
     }
 }
 
-/// Locks what the program has and will have.
+/// Locks what the program has and will have, as soon as it is used.
 fn lock_memory() {
     // With a limit, locking what is still to come would make a later allocation fail, and end the program.
     let limited = rustix::process::getrlimit(Resource::Memlock).current.is_some();
@@ -95,7 +95,9 @@ fn lock_memory() {
     let locked = if limited && !capable {
         Err("its size is limited".to_owned())
     } else {
-        rustix::mm::mlockall(MlockAllFlags::CURRENT | MlockAllFlags::FUTURE).map_err(|error| error.to_string())
+        // On first use: a peer that announces 8 GiB makes the library ask for them, and they shall cost nothing.
+        let flags = MlockAllFlags::CURRENT | MlockAllFlags::FUTURE | MlockAllFlags::ONFAULT;
+        rustix::mm::mlockall(flags).map_err(|error| error.to_string())
     };
     if let Err(error) = locked {
         tracing::warn!(

@@ -172,7 +172,7 @@ mod tests {
     fn as_long_as_a_silent_connection_is_there_nobody_is_believed_to_be_left() {
         let listener = TcpListener::bind("127.0.0.1:0").expect("bound");
         let address = listener.local_addr().expect("address");
-        let mut connect = || (std::net::TcpStream::connect(address).expect("connected"), listener.accept());
+        let connect = || (std::net::TcpStream::connect(address).expect("connected"), listener.accept());
         let (pairs, introduced) = ([connect(), connect(), connect()], [2, 3]);
         let [first, second, _third] = pairs;
         let mut in_doubt = Accepted::at(LocalAddress::Tcp(address.port()));

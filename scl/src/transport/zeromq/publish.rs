@@ -118,7 +118,7 @@ async fn pump(mut socket: XPubSocket, door: Door, desk: Arc<Mutex<Desk>>) {
                     looked = Instant::now();
                     // A send that meets a broken connection succeeds like any other, and takes away what would have
                     // told of the break; the task finds out.
-                    poll_fn(|cx| Poll::Ready(cx.waker().wake_by_ref())).await;
+                    poll_fn(wake_again).await;
                 }
             }
             Step::Heard(Some(message)) if is_subscription(&message) => {
@@ -128,6 +128,12 @@ async fn pump(mut socket: XPubSocket, door: Door, desk: Arc<Mutex<Desk>>) {
             Step::Heard(_) => {}
         }
     }
+}
+
+/// Has the task polled once more.
+fn wake_again(cx: &mut Context<'_>) -> Poll<()> {
+    cx.waker().wake_by_ref();
+    Poll::Ready(())
 }
 
 fn next_step(
