@@ -33,6 +33,8 @@ fn the_connecting_and_listening_sides_survive_restarts_of_the_sink() {
         let mut sink = open(&place, "sink");
         exchange(&mut source, &mut sink, round);
         sink.kill();
+        // What is sent before the source has seen that is on its way to the dead one, and lost with it.
+        source.does("alone", "alone");
     }
     let mut sink = open(&place, "sink");
     exchange(&mut source, &mut sink, RESTARTS);

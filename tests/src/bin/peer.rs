@@ -64,6 +64,13 @@ async fn play_source() -> scl::Result<()> {
                 }
                 say("peers");
             }
+            // Until every gate has seen that nobody is there: what is sent from now on waits for the next one.
+            "alone" => {
+                while source.readings.stats().peers + source.lossless.stats().peers + source.jobs.stats().peers > 0 {
+                    tokio::time::sleep(Duration::from_millis(1)).await;
+                }
+                say("alone");
+            }
             "stats" => {
                 let stats = source.readings.stats();
                 say(format!("sent {} dropped {} waiting {}", stats.sent, stats.dropped_oldest, stats.waiting));
