@@ -5,6 +5,7 @@ mod core;
 mod main;
 mod opener;
 mod options;
+mod realtime;
 mod site;
 
 pub use self::core::Core;

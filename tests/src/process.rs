@@ -1,5 +1,6 @@
 //! A program under test: told what to do through its input, watched through its output.
 
+use rustix::process::{Pid, Signal};
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
@@ -47,6 +48,58 @@ impl Process {
     /// The process number.
     pub fn id(&self) -> u32 {
         self.child.id()
+    }
+
+    /// What `/proc` says of it after its name: state, parent, and so on, as `man 5 proc` counts from 3.
+    fn stat(&self) -> Vec<String> {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.id())).expect("a running process");
+        let (_name, rest) = stat.rsplit_once(')').expect("a name in brackets");
+        rest.split_whitespace().map(str::to_owned).collect()
+    }
+
+    /// The processor time that it has used, in ticks of the system (10 ms).
+    pub fn ticks(&self) -> u64 {
+        self.stat()[11..13].iter().map(|ticks| ticks.parse::<u64>().expect("a number")).sum()
+    }
+
+    /// How the operating system schedules it: 0 is the usual way, 1 is first in, first out.
+    pub fn policy(&self) -> String {
+        self.stat()[38].clone()
+    }
+
+    /// Its real-time priority; 0 is none.
+    pub fn priority(&self) -> String {
+        self.stat()[37].clone()
+    }
+
+    /// A line of `/proc/PID/status`, without its name.
+    pub fn status(&self, name: &str) -> String {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.id())).expect("a running process");
+        let line = status.lines().find_map(|line| line.strip_prefix(name)).expect("a known line");
+        line.trim_start_matches(':').trim().to_owned()
+    }
+
+    /// How many descriptors it has open.
+    pub fn descriptors(&self) -> usize {
+        std::fs::read_dir(format!("/proc/{}/fd", self.id())).expect("a running process").count()
+    }
+
+    /// Stops it as Ctrl-Z does, and waits until it stands still.
+    pub fn stop(&self) {
+        self.signal(Signal::STOP);
+        while self.stat()[0] != "T" {
+            thread::yield_now();
+        }
+    }
+
+    /// Lets it go on after [`stop`](Self::stop).
+    pub fn go_on(&self) {
+        self.signal(Signal::CONT);
+    }
+
+    fn signal(&self, signal: Signal) {
+        let id = Pid::from_raw(self.id().cast_signed()).expect("a process number");
+        rustix::process::kill_process(id, signal).expect("a running process");
     }
 
     /// Tells the program what to do.

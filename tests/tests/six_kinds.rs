@@ -81,15 +81,14 @@ fn a_stopped_subscriber_stops_nobody_else() {
         source.does("publish 0 1", "published");
         watcher.does("receive 1", "0..1");
         sink.does("receive 1", "0..1");
-        let stopped = rustix::process::Pid::from_raw(watcher.id() as i32).expect("a process number");
-        rustix::process::kill_process(stopped, rustix::process::Signal::STOP).expect("stopped");
+        watcher.stop();
         // 20 MiB to a process that takes nothing: what its queue does not hold is dropped, for it alone.
         for round in 0..20 {
             let (from, to) = (1 + round * 100, 1 + (round + 1) * 100);
             source.does(&format!("publish {from} {to} 10000"), "published");
             sink.does("receive 100", &format!("{from}..{to}"));
         }
-        rustix::process::kill_process(stopped, rustix::process::Signal::CONT).expect("continued");
+        watcher.go_on();
         // The watcher goes on with what its connection and its queue held, in order, up to the newest.
         watcher.tell("receive_up_to 2000");
         let received = watcher.line();

@@ -1,6 +1,6 @@
 //! What `#[scl::main]` does around a program: the component, the runtime, the signals, the log, the exit code.
 
-use super::{Component, OpenOptions};
+use super::{Component, OpenOptions, realtime};
 use crate::error::{BlockingError, Error};
 use std::future::poll_fn;
 use std::pin::pin;
@@ -42,7 +42,10 @@ where
     R: Outcome,
 {
     set_up_log();
-    exit_code(Builder::new_current_thread().enable_all().build().map_err(Error::from).and_then(|runtime| {
+    // Before any thread is started, so that all have it.
+    let honoured = realtime::honour_environment().map_err(Error::from);
+    let runtime = honoured.and_then(|()| Builder::new_current_thread().enable_all().build().map_err(Error::from));
+    exit_code(runtime.and_then(|runtime| {
         runtime.block_on(async {
             let component = super::open::<C>(OpenOptions::new()).await?;
             let core = component.gates().first().map(|gate| std::sync::Arc::clone(gate.core()));
@@ -69,7 +72,8 @@ where
 /// as a clean end.
 pub fn run_blocking<C: Component, R: Outcome>(main: fn(C) -> R) -> ExitCode {
     set_up_log();
-    let result = watch_signals().map_err(Error::from).and_then(|()| {
+    let honoured = realtime::honour_environment().map_err(Error::from);
+    let result = honoured.and_then(|()| watch_signals().map_err(Error::from)).and_then(|()| {
         let component = super::open_blocking::<C>(OpenOptions::new())?;
         let core = component.gates().first().map(|gate| std::sync::Arc::clone(gate.core()));
         let result = main(component).into_result();

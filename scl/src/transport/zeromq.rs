@@ -10,9 +10,11 @@
 //! | pull | PULL | connections that outlive their socket (`latecomers.rs`) |
 //! | request | DEALER with an id frame | REQ never recovers from a restarted peer (`request.rs`) |
 //! | reply | ROUTER | the same, and a socket that lives as long as any unanswered request (`reply.rs`) |
+//! | all that listen | | spinning when no descriptors are left (`door.rs`) |
 
 mod accepted;
 mod dial;
+mod door;
 mod frames;
 mod latecomers;
 mod line;

@@ -18,7 +18,7 @@ async fn main() -> std::process::ExitCode {
     match played {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(error) => {
-            say(format!("failed: {error}"));
+            say(format!("failed: {error:?}"));
             std::process::ExitCode::FAILURE
         }
     }
@@ -58,6 +58,19 @@ async fn play_source() -> scl::Result<()> {
                 }
                 say("disconnected");
             }
+            "peers" => {
+                while source.readings.stats().peers as u64 != number(1) {
+                    tokio::time::sleep(Duration::from_millis(1)).await;
+                }
+                say("peers");
+            }
+            // Until every gate has seen that nobody is there: what is sent from now on waits for the next one.
+            "alone" => {
+                while source.readings.stats().peers + source.lossless.stats().peers + source.jobs.stats().peers > 0 {
+                    tokio::time::sleep(Duration::from_millis(1)).await;
+                }
+                say("alone");
+            }
             "stats" => {
                 let stats = source.readings.stats();
                 say(format!("sent {} dropped {} waiting {}", stats.sent, stats.dropped_oldest, stats.waiting));
@@ -73,14 +86,16 @@ async fn play_sink() -> scl::Result<()> {
     let mut sink = Sink::open().await?;
     say("open");
     // Requests that are never answered.
-    let mut heard = Vec::new();
+    let mut heard: Vec<scl::Request<test::Number, test::Number>> = Vec::new();
     let mut commands = Commands::listen();
     while let Some(words) = commands.next().await {
         let count = words.get(1).and_then(|word| word.parse::<u64>().ok()).unwrap_or(1);
         match words.first().map_or("", String::as_str) {
             "ready" => answer(sink.ready(Duration::from_millis(count)).await.map(|()| "ready")),
             "receive" => receive(&mut sink.readings, count).await,
+            "receive_up_to" => receive_while(&mut sink.readings, |_, value| value != count).await,
             "receive_lossless" => receive(&mut sink.lossless, count).await,
+            "lossless_up_to" => receive_while(&mut sink.lossless, |_, value| value != count).await,
             "newest" => answer(sink.newest.recv().await.map(|newest| newest.value)),
             "latest" => {
                 answer(sink.newest.latest().map(|newest| newest.map_or("none".to_owned(), |n| n.value.to_string())))
@@ -91,6 +106,28 @@ async fn play_sink() -> scl::Result<()> {
                     values.push(sink.jobs.recv().await?.value);
                 }
                 say(ranges(&values));
+            }
+            "pull_up_to" => {
+                let mut values = vec![sink.jobs.recv().await?.value];
+                while values.last() != Some(&count) {
+                    values.push(sink.jobs.recv().await?.value);
+                }
+                say(ranges(&values));
+            }
+            "answer_heard" => {
+                for question in heard.drain(..) {
+                    let doubled = message(question.value * 2, 0);
+                    answer(question.reply(&doubled).await.map(|()| "answered"));
+                }
+            }
+            "malformed" => {
+                while sink.readings.stats().rejected + sink.jobs.stats().rejected < count {
+                    let turn = Duration::from_millis(1);
+                    // Nothing that decodes is on its way; receiving is what counts the rest.
+                    let _nothing = tokio::time::timeout(turn, sink.readings.recv()).await;
+                    let _nothing = tokio::time::timeout(turn, sink.jobs.recv()).await;
+                }
+                say("malformed");
             }
             "serve" => {
                 for _ in 0..count {

@@ -3,6 +3,10 @@
 //! The library's XPUB forgets a subscriber that went away without telling anyone, and then sends to nobody with
 //! success. So the publisher looks up the operating system's sockets that were accepted at its address, and, whenever
 //! it wakes, whether they are still open in this process: the library closes them as it forgets them.
+//!
+//! Which of the sockets is a subscriber's is not to be seen: another may have connected and stay silent. So as soon as
+//! one closes while there are more sockets than peers that introduced themselves, nobody is believed to be left; a
+//! subscriber that is there after all is disconnected, dials again at once, and finds what was queued meanwhile.
 
 use std::fs;
 use std::net::{SocketAddr, TcpListener};
@@ -34,6 +38,8 @@ impl LocalAddress {
 pub(super) struct Accepted {
     address: LocalAddress,
     open: Vec<OpenSocket>,
+    /// How many of those that were found have closed since all were forgotten.
+    closed: usize,
     /// Set when a subscriber is there whose socket could not be found: then it is taken to stay.
     untraceable: bool,
 }
@@ -47,19 +53,38 @@ struct OpenSocket {
 
 impl Accepted {
     pub(super) fn at(address: LocalAddress) -> Self {
-        Self { address, open: Vec::new(), untraceable: false }
+        Self { address, open: Vec::new(), closed: 0, untraceable: false }
     }
 
     /// Somebody subscribed: finds the sockets accepted so far.
     pub(super) fn subscribed(&mut self) {
-        self.open = open_sockets(&self.address);
+        let before = std::mem::replace(&mut self.open, open_sockets(&self.address));
+        self.closed += before.iter().filter(|socket| !self.open.contains(socket)).count();
         self.untraceable = self.open.is_empty();
     }
 
-    /// Forgets the sockets that are closed by now; whether anybody is left.
-    pub(super) fn any_left(&mut self) -> bool {
-        self.open.retain(OpenSocket::is_open);
+    /// Whether anybody was found.
+    pub(super) fn is_anybody(&self) -> bool {
         self.untraceable || !self.open.is_empty()
+    }
+
+    /// Whether anybody is left for sure, given how many peers have introduced themselves since all were forgotten.
+    pub(super) fn any_left(&mut self, introduced: usize) -> bool {
+        if self.untraceable {
+            return true;
+        }
+        let before = self.open.len();
+        self.open.retain(OpenSocket::is_open);
+        let closed = before - self.open.len();
+        self.closed += closed;
+        let doubtful = closed > 0 && self.closed + self.open.len() > introduced;
+        !self.open.is_empty() && !doubtful
+    }
+
+    /// Starts afresh, after all connections were closed.
+    pub(super) fn forget(&mut self) {
+        self.open.clear();
+        self.closed = 0;
     }
 }
 
@@ -126,9 +151,9 @@ mod tests {
         let _client = UnixStream::connect(folder.path().join("a b.sock")).expect("connected");
         let (server, _) = listener.accept().expect("accepted");
         accepted.subscribed();
-        assert!(accepted.any_left() && !accepted.untraceable);
+        assert!(accepted.any_left(1) && !accepted.untraceable);
         drop(server);
-        assert!(!accepted.any_left());
+        assert!(!accepted.any_left(1));
     }
 
     #[test]
@@ -138,8 +163,26 @@ mod tests {
         let _client = std::net::TcpStream::connect(listener.local_addr().expect("address")).expect("connected");
         let (server, _) = listener.accept().expect("accepted");
         accepted.subscribed();
-        assert!(accepted.any_left() && !accepted.untraceable);
+        assert!(accepted.any_left(1) && !accepted.untraceable);
         drop(server);
-        assert!(!accepted.any_left());
+        assert!(!accepted.any_left(1));
+    }
+
+    #[test]
+    fn as_long_as_a_silent_connection_is_there_nobody_is_believed_to_be_left() {
+        let listener = TcpListener::bind("127.0.0.1:0").expect("bound");
+        let address = listener.local_addr().expect("address");
+        let connect = || (std::net::TcpStream::connect(address).expect("connected"), listener.accept());
+        let (pairs, introduced) = ([connect(), connect(), connect()], [2, 3]);
+        let [first, second, _third] = pairs;
+        let mut in_doubt = Accepted::at(LocalAddress::Tcp(address.port()));
+        let mut sure = Accepted::at(LocalAddress::Tcp(address.port()));
+        in_doubt.subscribed();
+        sure.subscribed();
+        assert!(in_doubt.any_left(introduced[0]) && sure.any_left(introduced[1]));
+        drop(first);
+        assert!(!in_doubt.any_left(introduced[0]) && sure.any_left(introduced[1]));
+        drop(second);
+        assert!(sure.any_left(introduced[1]));
     }
 }

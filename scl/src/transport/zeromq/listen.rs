@@ -1,7 +1,7 @@
 //! The listening side of an endpoint: bound safely by [`place`](crate::place), handed to the library.
 
 use super::Medium;
-use super::accepted::LocalAddress;
+use super::door::Door;
 use crate::place::{self, Claim, SystemDir};
 use crate::transport::TransportError;
 use std::task::{Context, Poll, Waker};
@@ -10,7 +10,7 @@ use zeromq::{Listener, Socket};
 /// A socket that listens, with what removes its endpoint again.
 pub(super) struct Listening<S> {
     pub(super) socket: S,
-    pub(super) address: LocalAddress,
+    pub(super) door: Door,
     pub(super) guard: Claim,
 }
 
@@ -20,23 +20,23 @@ pub(super) fn listen<S: Socket>(
     medium: Medium,
     endpoint: &str,
 ) -> Result<Listening<S>, TransportError> {
-    let (listener, address, guard) = bind(place, medium, endpoint)?;
+    let refused = |reason| TransportError::Refused { endpoint: endpoint.to_owned(), reason };
+    let (listener, guard) = bind(place, medium, endpoint)?;
+    let door = Door::of(&listener).map_err(|error| refused(error.to_string()))?;
     let mut socket = S::new();
-    adopt(&mut socket, listener).map_err(|reason| TransportError::Refused { endpoint: endpoint.to_owned(), reason })?;
-    Ok(Listening { socket, address, guard })
+    adopt(&mut socket, listener).map_err(refused)?;
+    Ok(Listening { socket, door, guard })
 }
 
-fn bind(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<(Listener, LocalAddress, Claim), TransportError> {
+fn bind(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<(Listener, Claim), TransportError> {
     match medium {
         Medium::Ipc => {
             let bound = place::bind_ipc(place, endpoint)?;
-            let address = LocalAddress::of_unix(&bound.listener);
-            Ok((Listener::from(bound.listener), address, bound.guard))
+            Ok((Listener::from(bound.listener), bound.guard))
         }
         Medium::Tcp => {
             let bound = place::bind_tcp(place, endpoint)?;
-            let address = LocalAddress::of_tcp(&bound.listener);
-            Ok((Listener::from(bound.listener), address, bound.guard))
+            Ok((Listener::from(bound.listener), bound.guard))
         }
     }
 }

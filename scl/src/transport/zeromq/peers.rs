@@ -5,6 +5,7 @@
 //! the library that each peer left closes its connection. A peer is taken in a moment before it is reported, so those
 //! that are reported after the socket was dropped are waited for.
 
+use super::door::Door;
 use crate::sync::lock;
 use futures_core::Stream;
 use std::pin::Pin;
@@ -28,17 +29,29 @@ struct Book {
     backend: Arc<dyn MultiPeerBackend>,
     events: Pin<Box<dyn Stream<Item = SocketEvent> + Send>>,
     accepted: Vec<PeerIdentity>,
+    /// Gone with the socket, so that nobody knocks at a listener that takes nobody in.
+    door: Option<Door>,
 }
 
 impl Peers {
-    pub(super) fn of(socket: &mut impl Socket) -> Self {
-        let book = Book { backend: socket.backend(), events: Box::pin(socket.monitor()), accepted: Vec::new() };
+    pub(super) fn of(socket: &mut impl Socket, door: Door) -> Self {
+        let book = Book {
+            backend: socket.backend(),
+            events: Box::pin(socket.monitor()),
+            accepted: Vec::new(),
+            door: Some(door),
+        };
         Self { book: Arc::new(Mutex::new(book)), runtime: Handle::try_current().ok() }
     }
 
     /// Takes note of who has connected since.
     pub(super) fn note(&mut self, cx: &mut Context<'_>) {
         lock(&self.book).note(cx);
+    }
+
+    /// How many have introduced themselves since all connections were closed, whether they are still there or not.
+    pub(super) fn connected(&self) -> usize {
+        lock(&self.book).accepted.len()
     }
 
     /// Closes all connections.
@@ -50,9 +63,15 @@ impl Peers {
 impl Book {
     fn note(&mut self, cx: &mut Context<'_>) {
         while let Poll::Ready(Some(event)) = self.events.as_mut().poll_next(cx) {
+            if let Some(door) = &mut self.door {
+                door.heard(&event);
+            }
             if let SocketEvent::Accepted(_, peer) = event {
                 self.accepted.push(peer);
             }
+        }
+        if let Some(door) = &mut self.door {
+            door.keep(cx);
         }
     }
 
@@ -75,6 +94,7 @@ impl Book {
 
 impl Drop for Peers {
     fn drop(&mut self) {
+        lock(&self.book).door = None;
         lock(&self.book).close_all();
         if let Some(runtime) = &self.runtime {
             runtime.spawn(close_latecomers(Arc::clone(&self.book)));

@@ -6,6 +6,7 @@
 
 use super::Medium;
 use super::accepted::Accepted;
+use super::door::Door;
 use super::frames::poll_message;
 use super::listen::{Listening, listen};
 use super::peers::Peers;
@@ -17,7 +18,11 @@ use std::future::poll_fn;
 use std::pin::Pin;
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll};
+use std::time::{Duration, Instant};
 use zeromq::{SocketSend, XPubSocket, ZmqMessage};
+
+/// While messages flow, how often at most it is looked whether the subscriber is still there.
+const LOOK: Duration = Duration::from_millis(1);
 
 pub(super) struct Publishing {
     desk: Arc<Mutex<Desk>>,
@@ -49,11 +54,11 @@ impl Desk {
 
 impl Publishing {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { socket, address, guard } = listen::<XPubSocket>(place, medium, endpoint)?;
+        let Listening { socket, door, guard } = listen::<XPubSocket>(place, medium, endpoint)?;
         let desk = Desk { outgoing: None, busy: false, listening: false, subscriber: false };
         let desk = Arc::new(Mutex::new(desk));
         // The task budget would refuse the write of a caller that has sent much, and nobody would come back to it.
-        let pump = tokio::task::unconstrained(pump(socket, Accepted::at(address), Arc::clone(&desk)));
+        let pump = tokio::task::unconstrained(pump(socket, door, Arc::clone(&desk)));
         Ok(Self { desk, pump: Box::pin(pump), _guard: guard })
     }
 
@@ -98,8 +103,10 @@ enum Step {
 }
 
 /// Sends what is on the desk and keeps account of who subscribed.
-async fn pump(mut socket: XPubSocket, mut accepted: Accepted, desk: Arc<Mutex<Desk>>) {
-    let mut peers = Peers::of(&mut socket);
+async fn pump(mut socket: XPubSocket, door: Door, desk: Arc<Mutex<Desk>>) {
+    let mut accepted = Accepted::at(door.address());
+    let mut peers = Peers::of(&mut socket, door);
+    let mut looked = Instant::now();
     loop {
         match poll_fn(|cx| next_step(&mut socket, &mut peers, &mut accepted, &desk, cx)).await {
             Step::Send(message) => {
@@ -107,14 +114,26 @@ async fn pump(mut socket: XPubSocket, mut accepted: Accepted, desk: Arc<Mutex<De
                     tracing::debug!(%error, "a message could not be written");
                 }
                 lock(&desk).busy = false;
+                if looked.elapsed() >= LOOK {
+                    looked = Instant::now();
+                    // A send that meets a broken connection succeeds like any other, and takes away what would have
+                    // told of the break; the task finds out.
+                    poll_fn(wake_again).await;
+                }
             }
             Step::Heard(Some(message)) if is_subscription(&message) => {
                 accepted.subscribed();
-                lock(&desk).subscriber = accepted.any_left();
+                lock(&desk).subscriber = accepted.is_anybody();
             }
             Step::Heard(_) => {}
         }
     }
+}
+
+/// Has the task polled once more.
+fn wake_again(cx: &mut Context<'_>) -> Poll<()> {
+    cx.waker().wake_by_ref();
+    Poll::Ready(())
 }
 
 fn next_step(
@@ -138,8 +157,9 @@ fn next_step(
         Poll::Pending => {
             peers.note(cx);
             let mut desk = lock(desk);
-            if desk.subscriber && !accepted.any_left() {
+            if desk.subscriber && !accepted.any_left(peers.connected()) {
                 desk.subscriber = false;
+                accepted.forget();
                 peers.close();
             }
             Poll::Pending

@@ -5,6 +5,7 @@ use super::frames::{poll_message, single_frame};
 use super::latecomers::ClosesLatecomers;
 use super::listen::{Listening, listen};
 use crate::place::{Claim, SystemDir};
+use crate::sync::AbortOnDrop;
 use crate::transport::{Inlet, TransportError};
 use bytes::Bytes;
 use std::task::{Context, Poll};
@@ -14,14 +15,16 @@ pub(super) struct Pulling {
     socket: PullSocket,
     malformed: u64,
     _connections: ClosesLatecomers,
+    _door: AbortOnDrop,
     _guard: Claim,
 }
 
 impl Pulling {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { socket, guard, .. } = listen::<PullSocket>(place, medium, endpoint)?;
+        let Listening { mut socket, door, guard, .. } = listen::<PullSocket>(place, medium, endpoint)?;
         let connections = ClosesLatecomers::of(&socket);
-        Ok(Self { socket, malformed: 0, _connections: connections, _guard: guard })
+        let door = door.watch(&mut socket);
+        Ok(Self { socket, malformed: 0, _connections: connections, _door: door, _guard: guard })
     }
 }
 

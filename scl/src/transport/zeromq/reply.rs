@@ -9,6 +9,7 @@ use super::frames::poll_message;
 use super::latecomers::ClosesLatecomers;
 use super::listen::{Listening, listen};
 use crate::place::{Claim, SystemDir};
+use crate::sync::AbortOnDrop;
 use crate::transport::{Answerer, Asked, RequesterGone, Responder, TransportError};
 use bytes::Bytes;
 use std::sync::{Arc, Weak};
@@ -20,15 +21,18 @@ pub(super) struct Replying {
     replies: Arc<RouterSendHalf>,
     malformed: u64,
     _connections: ClosesLatecomers,
+    _door: AbortOnDrop,
     _guard: Claim,
 }
 
 impl Replying {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { socket, guard, .. } = listen::<RouterSocket>(place, medium, endpoint)?;
+        let Listening { mut socket, door, guard, .. } = listen::<RouterSocket>(place, medium, endpoint)?;
         let connections = ClosesLatecomers::of(&socket);
+        let door = door.watch(&mut socket);
         let (replies, requests) = socket.split();
-        Ok(Self { requests, replies: Arc::new(replies), malformed: 0, _connections: connections, _guard: guard })
+        let replies = Arc::new(replies);
+        Ok(Self { requests, replies, malformed: 0, _connections: connections, _door: door, _guard: guard })
     }
 }
 

@@ -1,0 +1,125 @@
+//! Peers that speak nonsense, stay silent, announce too much, or send what plain ZeroMQ allows and SCL does not: they get
+//! nothing, and a good peer beside them gets everything.
+
+use scl_tests::{Place, Process, python_with_pyzmq};
+use std::io::Write;
+use std::os::unix::net::UnixStream;
+
+const PEER: &str = env!("CARGO_BIN_EXE_peer");
+/// What a PUSH socket says first (ZMTP 3.0, RFC 23).
+const HELLO: &[u8] = b"\xff\0\0\0\0\0\0\0\0\x7f\x03\0NULL\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\
+    \0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\
+    \x04\x1a\x05READY\x0bSocket-Type\0\0\0\x04PUSH";
+const ENDPOINTS: [&str; 3] = ["source.readings--sink.readings.", "sink.jobs.", "sink.answer."];
+
+fn open(place: &Place, component: &str) -> Process {
+    let mut process = place.start(PEER, &[component]);
+    process.says("open");
+    process
+}
+
+/// Everything still works between two good peers.
+fn assert_good(source: &mut Process, sink: &mut Process, from: u64) {
+    let to = from + 10;
+    source.does(&format!("publish {from} {to}"), "published");
+    sink.does("receive 10", &format!("{from}..{to}"));
+    source.does(&format!("push {from} {to}"), "pushed");
+    sink.does("pull 10", &format!("{from}..{to}"));
+    sink.tell("serve 1");
+    source.does(&format!("call {from}"), &(2 * from).to_string());
+    sink.says("served");
+}
+
+#[test]
+fn a_peer_that_speaks_garbage_is_ignored() {
+    let place = Place::new("ipc");
+    let (mut source, mut sink) = (open(&place, "source"), open(&place, "sink"));
+    source.does("ready 30000", "ready");
+    let mut word = 0x2545_f491_4f6c_dd1d_u64;
+    for round in 0..20 {
+        for endpoint in ENDPOINTS {
+            let mut stranger = UnixStream::connect(place.socket("six", endpoint)).expect("connected");
+            let mut garbage = Vec::new();
+            // Every other one is polite first, so that the nonsense reaches what comes after the greeting.
+            if round % 2 == 1 {
+                garbage.extend_from_slice(HELLO);
+            }
+            for _ in 0..200 {
+                word ^= word << 13;
+                word ^= word >> 7;
+                word ^= word << 17;
+                // No long frames here: what those do is another test.
+                garbage.extend(word.to_le_bytes().map(|byte| byte & !0x02));
+            }
+            // It may be thrown out before it has said everything.
+            let _thrown_out = stranger.write_all(&garbage);
+        }
+        source.tell(&format!("publish {round} {}", round + 1));
+        source.says("published");
+        sink.does("receive 1", &format!("{round}..{}", round + 1));
+    }
+    // What happened to be a frame was handed to the gate, which said that it is no message; none is waiting any more.
+    source.does("publish 100 110", "published");
+    sink.does("receive 10", "100..110");
+}
+
+#[test]
+fn a_peer_that_connects_and_stays_silent_is_ignored() {
+    let place = Place::new("ipc");
+    let mut source = open(&place, "source");
+    let silent = UnixStream::connect(place.socket("six", ENDPOINTS[0])).expect("connected");
+    let mut sink = open(&place, "sink");
+    let others = ENDPOINTS[1..].iter().map(|endpoint| UnixStream::connect(place.socket("six", endpoint)));
+    let others: Vec<UnixStream> = others.map(|stream| stream.expect("connected")).collect();
+    source.does("ready 30000", "ready");
+    assert_good(&mut source, &mut sink, 0);
+    drop((silent, others));
+    assert_good(&mut source, &mut sink, 10);
+}
+
+#[test]
+fn a_frame_that_is_announced_with_8_gib_costs_no_memory_until_it_comes() {
+    let place = Place::new("ipc");
+    let (mut source, mut sink) = (open(&place, "source"), open(&place, "sink"));
+    source.does("ready 30000", "ready");
+    let mut stranger = UnixStream::connect(place.socket("six", "sink.jobs.")).expect("connected");
+    stranger.write_all(HELLO).expect("said");
+    stranger.write_all(&[2, 0, 0, 0, 2, 0, 0, 0, 0]).expect("announced");
+    stranger.write_all(&[7; 1000]).expect("a beginning");
+    assert_good(&mut source, &mut sink, 0);
+    let resident = sink.status("VmRSS");
+    let kib: u64 = resident.trim_end_matches(" kB").parse().expect("a number");
+    assert!(kib < 200_000, "{resident}");
+    drop(stranger);
+    assert_good(&mut source, &mut sink, 10);
+}
+
+#[test]
+fn a_message_of_several_frames_is_passed_over_and_counted() {
+    let place = Place::new("ipc");
+    let mut sink = open(&place, "sink");
+    let mut plain = strange(&place, "multipart");
+    plain.says("sent");
+    sink.does("pull 1", "5..6");
+    sink.does("malformed 1", "malformed");
+    sink.tell("serve 1");
+    let mut plain = strange(&place, "two_bodies");
+    sink.says("served");
+    plain.says(r"b'\x08\n'");
+}
+
+#[test]
+fn a_subscriber_with_heartbeats_is_disconnected_and_harms_nobody() {
+    let place = Place::new("ipc");
+    let (mut source, mut sink) = (open(&place, "source"), open(&place, "sink"));
+    source.does("ready 30000", "ready");
+    let mut plain = strange(&place, "heartbeats");
+    plain.says("disconnected");
+    assert_good(&mut source, &mut sink, 0);
+}
+
+fn strange(place: &Place, what: &str) -> Process {
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/python/strange_sender.py");
+    let folder = place.runtime_dir().join("six");
+    Process::start(python_with_pyzmq(), &[script, folder.to_str().expect("a path in UTF-8"), what], &[])
+}
