@@ -1,6 +1,7 @@
 //! What a gate has done so far.
 
-use std::time::Instant;
+use rustix::time::{ClockId, clock_gettime};
+use std::time::{Duration, Instant};
 
 /// A gate's account since its component was opened.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -22,7 +23,7 @@ pub struct GateStats {
     pub waiting: usize,
     /// Peers connected now, where the gate can know.
     pub peers: usize,
-    /// When a message last moved.
+    /// When a message last moved, exact to a few milliseconds.
     pub last_activity: Option<Instant>,
 }
 
@@ -34,14 +35,30 @@ pub(crate) struct Counts {
     pub(crate) dropped_oldest: u64,
     pub(crate) dropped_newest: u64,
     pub(crate) rejected: u64,
-    pub(crate) last: Option<Instant>,
+    last: Option<CoarseTime>,
+}
+
+/// The operating system's coarse clock, exact to a few milliseconds: a sixth of the price of an exact one, paid for each
+/// message.
+#[derive(Debug, Clone, Copy)]
+struct CoarseTime(Duration);
+
+impl CoarseTime {
+    fn now() -> Self {
+        let now = clock_gettime(ClockId::MonotonicCoarse);
+        Self(Duration::new(now.tv_sec.unsigned_abs(), now.tv_nsec.unsigned_abs() as u32))
+    }
+
+    fn to_instant(self) -> Option<Instant> {
+        Instant::now().checked_sub(Self::now().0.saturating_sub(self.0))
+    }
 }
 
 impl Counts {
     pub(crate) fn moved(&mut self, bytes: usize) {
         self.messages += 1;
         self.bytes += bytes as u64;
-        self.last = Some(Instant::now());
+        self.last = Some(CoarseTime::now());
     }
 
     pub(crate) fn dropped(&mut self, newest: bool) {
@@ -57,6 +74,6 @@ impl Counts {
         stats.dropped_newest += self.dropped_newest;
         stats.rejected += self.rejected;
         stats.bytes += self.bytes;
-        stats.last_activity = stats.last_activity.max(self.last);
+        stats.last_activity = stats.last_activity.max(self.last.and_then(CoarseTime::to_instant));
     }
 }
