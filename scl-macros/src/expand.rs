@@ -6,6 +6,7 @@ mod component;
 mod counterpart;
 mod docs;
 mod excerpt;
+mod file_spans;
 mod names;
 mod problems;
 mod schemas;

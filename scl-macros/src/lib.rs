@@ -2,6 +2,7 @@
 //!
 //! This crate holds no rule: what is wrong with a topology, `scl-topology` finds and words; here it only becomes compile
 //! errors, and a topology without errors becomes structs.
+#![cfg_attr(feature = "nightly", feature(proc_macro_expand, proc_macro_span))]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod arguments;

@@ -1,5 +1,7 @@
 //! What whole calls expand to.
 
+mod mutations;
+
 use crate::expand::expand_topology;
 use crate::locate::Surroundings;
 use expect_test::expect;
@@ -299,23 +301,30 @@ message IMUPose { message Axis { double x = 1; } Axis axis = 1; }
     }
 }
 
-/// The time is printed, not judged: `cargo test -p scl-macros forty -- --nocapture`.
+/// The time is printed, not judged: `cargo test -p scl-macros many -- --nocapture`.
 #[test]
-fn forty_components_expand() {
+fn many_components_expand() {
+    for count in [40, 1_000] {
+        let yaml = ring(count);
+        let start = std::time::Instant::now();
+        let tokens = expand(&yaml);
+        println!("{count} components, {} gates: {:?}", 3 * count, start.elapsed());
+        assert_eq!(errors(&tokens), 0);
+        assert_eq!(structs(&parsed(&tokens)).len(), count);
+    }
+}
+
+/// Components that each publish to the one before, and have a gate to spare.
+fn ring(count: usize) -> String {
     let component = |at: usize| {
-        let next = (at + 1) % 40;
+        let next = (at + 1) % count;
         let gates = format!(
             "      - out{at}: {{pub: rover.M{at}}}\n      - in{at}: {{sub: rover.M{next}}}\n      - spare{at}: {{pub: rover.S{at}, unconnected: ok}}\n"
         );
         format!("  - name: c{at}\n    gates:\n{gates}")
     };
-    let connection = |at: usize| format!("  - [c{0}.out{0}, c{1}.in{1}]\n", (at + 1) % 40, at);
-    let components: String = (0..40).map(component).collect();
-    let connections: String = (0..40).map(connection).collect();
-    let yaml = format!("components:\n{components}connections:\n{connections}");
-    let start = std::time::Instant::now();
-    let tokens = expand(&yaml);
-    println!("40 components, 120 gates: {:?}", start.elapsed());
-    assert_eq!(errors(&tokens), 0);
-    assert_eq!(structs(&parsed(&tokens)).len(), 40);
+    let connection = |at: usize| format!("  - [c{0}.out{0}, c{1}.in{1}]\n", (at + 1) % count, at);
+    let components: String = (0..count).map(component).collect();
+    let connections: String = (0..count).map(connection).collect();
+    format!("components:\n{components}connections:\n{connections}")
 }

@@ -72,6 +72,7 @@
 //! | `json`, `raw` (default), `cbor`, `msgpack`, `postcard` | a codec each |
 //! | `zeromq` (default) | the transport between programs |
 //! | `memory` (default) | the transport within a program, for unit tests of components |
+//! | `nightly` | the macro's problems shown in the YAML file itself; needs a nightly compiler |
 //! | `conformance` | the tests that transports and codecs are put to, for those of your own |
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]

@@ -10,6 +10,7 @@ use super::spec::{codec_text, payload_text};
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use scl_topology::topology::{Codec, ConnectionId, Gate, GateId, GateKind, Payload, Topology, TypeName};
+use std::collections::HashMap;
 use syn::Ident;
 
 /// A trait for each pair of payload and codec, that opens the gates which have it: check and use are one, and gates of
@@ -24,20 +25,45 @@ pub(super) struct Carrier<'a> {
     first: GateId,
 }
 
+/// All traits of a call, found by what they carry: a large system has thousands.
+#[derive(Default)]
+pub(super) struct Carriers<'a> {
+    all: Vec<Carrier<'a>>,
+    index: HashMap<(String, &'a Codec), usize>,
+}
+
+impl<'a> Carriers<'a> {
+    /// The trait that opens a gate; none opens a gate without a type.
+    pub(super) fn of(&self, gate: &Gate) -> Option<&Carrier<'a>> {
+        self.index.get(&key(gate)).and_then(|&at| self.all.get(at))
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Carrier<'a>> {
+        self.all.iter()
+    }
+}
+
+/// What gates that share a trait have in common.
+fn key(gate: &Gate) -> (String, &Codec) {
+    (payload_text(gate.payload()), gate.codec())
+}
+
 /// The traits that the wanted components need.
-pub(super) fn carriers<'a>(call: &Call<'_>, topology: &'a Topology) -> Vec<Carrier<'a>> {
-    let mut carriers: Vec<Carrier<'a>> = Vec::new();
+pub(super) fn carriers<'a>(call: &Call<'_>, topology: &'a Topology) -> Carriers<'a> {
+    let mut carriers = Carriers::default();
     let wanted = topology.components().map(|(_, component)| component).filter(|component| call.wants(component.name()));
     for &id in wanted.flat_map(|component| component.gates()) {
         let gate = topology.gate(id);
-        match carriers.iter_mut().find(|carrier| carrier.fits(gate)) {
+        let known = carriers.index.get(&key(gate)).and_then(|&at| carriers.all.get_mut(at));
+        match known {
             Some(carrier) if carrier.kinds.contains(&gate.kind()) => {}
             Some(carrier) => carrier.kinds.extend(both_ends(gate)),
             None if *gate.payload() == Payload::Bytes => {}
             None => {
-                let name = carrier_name(call, gate, carriers.len());
+                let name = carrier_name(call, gate, carriers.all.len());
                 let kinds = both_ends(gate).to_vec();
-                carriers.push(Carrier { name, payload: gate.payload(), codec: gate.codec(), kinds, first: id });
+                carriers.index.insert(key(gate), carriers.all.len());
+                carriers.all.push(Carrier { name, payload: gate.payload(), codec: gate.codec(), kinds, first: id });
             }
         }
     }
@@ -50,11 +76,6 @@ fn both_ends(gate: &Gate) -> [GateKind; 2] {
 }
 
 impl Carrier<'_> {
-    /// Whether this trait opens a gate.
-    pub(super) fn fits(&self, gate: &Gate) -> bool {
-        payload_text(self.payload) == payload_text(gate.payload()) && self.codec == gate.codec()
-    }
-
     /// The trait, with a method for each kind of gate, and its implementation for what the codec carries.
     pub(super) fn expand(&self, call: &Call<'_>, topology: &Topology) -> TokenStream {
         let private = &call.private;

@@ -1,6 +1,6 @@
 //! A checked component becomes a struct with its gates, and the code that opens them.
 
-use super::assertions::{self, Carrier};
+use super::assertions::{self, Carrier, Carriers};
 use super::call::Call;
 use super::{counterpart, docs, names, spec};
 use proc_macro2::{Span, TokenStream};
@@ -56,7 +56,7 @@ fn expand_implementation(
     call: &Call<'_>,
     topology: &Topology,
     component: &Component,
-    carriers: &[Carrier<'_>],
+    carriers: &Carriers<'_>,
 ) -> TokenStream {
     let private = &call.private;
     let name = struct_name(component);
@@ -87,7 +87,7 @@ pub(super) fn expand_opened(
     call: &Call<'_>,
     topology: &Topology,
     component: &Component,
-    carriers: &[Carrier<'_>],
+    carriers: &Carriers<'_>,
     side: fn(&GateKind) -> GateKind,
 ) -> TokenStream {
     let private = &call.private;
@@ -99,7 +99,7 @@ pub(super) fn expand_opened(
         let field = field_name(topology, id);
         let kind = side(&gate.kind());
         let method = opener_method(call, kind);
-        match carriers.iter().find(|carrier| carrier.fits(gate)) {
+        match carriers.of(gate) {
             // The types are inferred from the struct, so that a wrong one is reported once, there.
             Some(Carrier { name, .. }) => quote_spanned! { call.span => #field: #name::#method(__opener, #index)? },
             None => {

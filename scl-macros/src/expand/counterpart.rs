@@ -3,7 +3,7 @@
 //! `Controller::test()` opens a `Controller` and a `ControllerPeer` that are connected within the process. All of it is
 //! `#[cfg(test)]` of the crate that calls the macro, so that nobody else compiles it.
 
-use super::assertions::Carrier;
+use super::assertions::Carriers;
 use super::call::Call;
 use super::component::{expand_opened, field_name, gate_type, struct_name};
 use super::spec::{codec_text, expand_kind, payload_text};
@@ -17,7 +17,7 @@ pub(super) fn expand_counterpart(
     call: &Call<'_>,
     topology: &Topology,
     component: &Component,
-    carriers: &[Carrier<'_>],
+    carriers: &Carriers<'_>,
 ) -> TokenStream {
     if component.gates().is_empty() {
         return TokenStream::new();

@@ -6,7 +6,8 @@ use scl_topology::source::{Sources, Span};
 pub(super) fn excerpt(sources: &Sources, span: Span) -> String {
     let file = sources.file(span.file);
     let at = file.line_column(span.start);
-    let line = file.text().lines().nth(at.line as usize - 1).unwrap_or("").trim_end().replace('\t', "    ");
+    let start = file.text().get(..span.start as usize).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
+    let line = file.text()[start..].lines().next().unwrap_or("").trim_end().replace('\t', "    ");
     let number = at.line.to_string();
     let margin = " ".repeat(number.len());
     let length = sources.snippet(span).lines().next().unwrap_or("").chars().count().max(1);

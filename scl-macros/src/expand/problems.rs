@@ -1,6 +1,7 @@
-//! Diagnostics become compile errors and warnings at the path literal.
+//! Diagnostics become compile errors and warnings, at the path literal or, where rustc can, in the topology file.
 
 use super::call::Call;
+use super::file_spans::FileSpans;
 use super::names::identifier;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
@@ -16,10 +17,11 @@ pub(super) fn expand_problems(call: &Call<'_>) -> TokenStream {
     problems.extend(unknown_wishes(call));
     let problems = limit(problems, &call.path);
     let (errors, warnings): (Vec<_>, Vec<_>) = problems.iter().partition(|problem| problem.severity == Severity::Error);
+    let spans = FileSpans::of(call);
     let text = |problem: &&Diagnostic| render_headless(problem, &call.loaded.sources);
-    let mut errors = errors.iter().map(|problem| compile_error(&text(problem), call.span));
+    let mut errors = errors.iter().map(|problem| compile_error(&text(problem), spans.span(call, problem)));
     let first = errors.next().map(|first| unknown_type(call, first));
-    let warnings = warnings.iter().map(|problem| warning(&text(problem), call.span));
+    let warnings = warnings.iter().map(|problem| warning(&text(problem), spans.span(call, problem)));
     quote! { #first #(#errors)* #(#warnings)* }
 }
 

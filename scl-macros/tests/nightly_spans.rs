@@ -1,0 +1,101 @@
+//! With the feature `nightly`, rustc marks problems in the topology file itself. Each file is compiled by a nightly
+//! compiler in a crate of its own; where there is no such compiler, a line on standard error says so.
+#![allow(clippy::unwrap_used)]
+
+use serde_json::Value;
+use std::fs;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::Command;
+
+const WRONG_IN_TWO_PLACES: &str = "\
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+      - größe: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.senser]
+";
+
+/// Two warnings: a gate without a peer, and a file without connections.
+const UNCONNECTED: &str = "\
+components:
+  - name: sensor
+    gates:
+      - measurements: pub
+";
+
+const MANIFEST: &str = "[package]\nname = \"spans\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n";
+
+/// As the wrapper in `scl` makes it.
+const CALL: &str = "scl_macros::__topology! { crate, \"topology.yaml\" }\n";
+
+#[test]
+fn problems_are_marked_in_the_topology_file() {
+    if !has_nightly() {
+        // Written past the test's captured output.
+        writeln!(std::io::stderr(), "skipped: no nightly toolchain, `rustup toolchain install nightly`").unwrap();
+        return;
+    }
+    let wrong =
+        ["SCL0304 src/topology.yaml 5:9-14", "SCL0502 src/topology.yaml 10:38-44", "SCL0701 src/topology.yaml 5:9-14"];
+    let unconnected = ["SCL0206 src/topology.yaml 1:1-11", "SCL0701 src/topology.yaml 4:9-21"];
+    let outside = wrong.map(|mark| mark.replace("src/", "/"));
+    let outside: Vec<&str> = outside.iter().map(String::as_str).collect();
+    let missing = ["SCL0001 src/lib.rs 1:34-49"];
+    let with_bom = format!("\u{feff}{}", WRONG_IN_TWO_PLACES.replace('\n', "\r\n"));
+    let cases: [(&str, &str, &[&str]); 5] = [
+        ("src/topology.yaml", WRONG_IN_TWO_PLACES, &wrong),
+        ("src/topology.yaml", &with_bom, &wrong),
+        ("src/topology.yaml", UNCONNECTED, &unconnected),
+        ("topology.yaml", WRONG_IN_TWO_PLACES, &outside),
+        ("src/other.txt", "", &missing),
+    ];
+    for (path, text, expected) in cases {
+        assert_eq!(marks(path, text), expected, "{path}:\n{text}");
+    }
+}
+
+fn has_nightly() -> bool {
+    let asked = Command::new("rustup").args(["run", "nightly", "rustc", "--version"]).output();
+    asked.is_ok_and(|asked| asked.status.success())
+}
+
+/// Code, file, line and columns of the primary spans, when a crate with this file is compiled.
+fn marks(path: &str, text: &str) -> Vec<String> {
+    let krate = tempfile::tempdir().unwrap();
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let manifest = format!("{MANIFEST}scl-macros = {{ path = {here:?}, features = [\"nightly\"] }}\n");
+    fs::create_dir(krate.path().join("src")).unwrap();
+    fs::write(krate.path().join("Cargo.toml"), manifest).unwrap();
+    fs::write(krate.path().join("src/lib.rs"), CALL).unwrap();
+    fs::write(krate.path().join(path), text).unwrap();
+    // The versions that the workspace has, so that nothing is looked up.
+    fs::copy(here.join("../Cargo.lock"), krate.path().join("Cargo.lock")).unwrap();
+    let built = Command::new("rustup")
+        .args(["run", "nightly", "cargo", "check", "--offline", "--message-format=json", "--target-dir"])
+        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("nightly_spans"))
+        .current_dir(krate.path())
+        .env_remove("RUSTC_BOOTSTRAP")
+        .output()
+        .unwrap();
+    let lines = String::from_utf8(built.stdout).unwrap();
+    let marks: Vec<String> = lines.lines().filter_map(|line| mark(&serde_json::from_str(line).unwrap())).collect();
+    assert!(!marks.is_empty(), "{lines}\n{}", String::from_utf8_lossy(&built.stderr));
+    marks
+}
+
+/// Of a problem of ours; the crate has others, because there is no runtime.
+fn mark(message: &Value) -> Option<String> {
+    let text = message["message"]["message"].as_str()?;
+    let code = &text[text.find("[SCL")? + 1..][..7];
+    let span = message["message"]["spans"].as_array()?.iter().find(|span| span["is_primary"] == true)?;
+    let file = span["file_name"].as_str()?;
+    // A file outside of the source folder has its absolute path.
+    let file = if file.starts_with('/') { &file[file.rfind('/')?..] } else { file };
+    Some(format!("{code} {file} {}:{}-{}", span["line_start"], span["column_start"], span["column_end"]))
+}
