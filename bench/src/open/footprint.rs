@@ -11,7 +11,8 @@ pub(super) fn resident_kib(process: u32) -> scl::Result<u64> {
 pub(super) fn context_switches(process: u32) -> scl::Result<u64> {
     let mut switches = 0;
     for thread in fs::read_dir(format!("/proc/{process}/task"))? {
-        let status = fs::read_to_string(thread?.path().join("status"))?;
+        // A thread that has ended since the folder was read counts no more.
+        let Ok(status) = fs::read_to_string(thread?.path().join("status")) else { continue };
         switches += field(&status, "voluntary_ctxt_switches")? + field(&status, "nonvoluntary_ctxt_switches")?;
     }
     Ok(switches)
