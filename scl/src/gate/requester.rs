@@ -113,6 +113,8 @@ impl<A, B> Req<A, B> {
             tokio::task::yield_now().await;
         }
         self.asked += 1;
+        // The library writes in a task of its own: let it, before looking for an answer.
+        tokio::task::yield_now().await;
         loop {
             let answer = self.by(deadline, |link, cx| link.poll_answer(cx)).await?;
             let (gate, peers) = (self.name, Peers(self.spec.links));
