@@ -11,8 +11,9 @@ use std::alloc::System;
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-/// What a whole batch may allocate besides its messages, and what the threads beside it do, spread over its messages.
-const TOLERANCE: f64 = 0.5;
+/// What a whole batch may allocate besides its messages, spread over them, and what wake-ups for nothing cost: each is one
+/// more poll of a future that the library allocates, and how many there are is up to the operating system.
+const TOLERANCE: f64 = 3.0;
 
 fn main() -> scl_bench::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

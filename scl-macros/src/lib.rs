@@ -33,7 +33,18 @@ pub fn __topology(input: TokenStream) -> TokenStream {
 /// ```
 ///
 /// The component is opened before the function runs. `async fn` runs on a current-thread runtime, `fn` on the plain main
-/// thread. An error that the function returns is printed with its causes, and the program ends with exit code 1.
+/// thread. An error that the function returns is printed with its causes, and the program ends with exit code 1. SIGTERM
+/// and SIGINT end an async program at its next `.await`, another one by an error of its next blocking call; both count as
+/// a clean end, exit code 0, and what connected peers still take is handed over.
+///
+/// | environment | meaning |
+/// |---|---|
+/// | `SCL_LOG=debug` | how much is logged to standard error, unless the program has a log of its own: `error`, `warn` (default), `info`, `debug`, `trace` |
+/// | `SCL_SCHED=fifo:80` | real-time priority, 1 to 99 |
+/// | `SCL_CPU=1` | the one processor to run on; with either, memory is locked |
+/// | `SCL_RUNTIME_DIR`, `SCL_SYSTEM`, `SCL_TRANSPORT` | as for `OpenOptions` |
+///
+/// Without the right to real-time priority the program warns and goes on.
 #[proc_macro_attribute]
 pub fn main(arguments: TokenStream, item: TokenStream) -> TokenStream {
     main_attribute::expand_main(arguments.into(), item.into()).into()

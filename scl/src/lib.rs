@@ -102,15 +102,24 @@ pub use scl_macros::main;
 
 /// Turns a topology file into one struct for each of its components, with a field for each gate.
 ///
-/// ```text
-/// scl::topology!("topology.yaml");
-/// scl::topology!("topology.yaml", only = [sensor, controller]);
-/// scl::topology!("topology.yaml", max_size = "8MiB");
+/// ```no_run
+/// scl::topology!("doc/rover.yaml", only = [sensor, recorder]);
+/// # fn main() {}
 /// ```
 ///
-/// The file is looked for beside the calling source file, then in the package root, then in the workspace root. What is
-/// wrong with it becomes compile errors, all at once. With `schemas:` in the file, each protobuf package becomes a module
-/// with its messages.
+/// The file is looked for beside the calling source file, then in the package root, then in the workspace root. Cargo
+/// builds again when it changes, or a schema that it names. With `schemas:` in the file, each protobuf package becomes a
+/// module with its messages.
+///
+/// A struct has the functions `open`, `open_blocking`, `ready` and `close`. In unit tests, `Component::test()` gives it
+/// together with the other ends of all its gates.
+///
+/// `only = [..]` generates some of the components, which keeps the build of a system of hundreds short. `max_size =
+/// "8MiB"` allows a file of more than 1 MiB.
+///
+/// # Errors
+/// Everything that is wrong with the file becomes a compile error that shows its place there and what to write instead,
+/// all at once. `scl explain CODE` says more about each.
 #[macro_export]
 macro_rules! topology {
     ($($input:tt)*) => {
