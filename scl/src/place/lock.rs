@@ -1,8 +1,9 @@
 use std::{
     fs,
-    io::{Read, Write},
+    io::{Read, Seek, Write},
     os::unix::fs::{FileTypeExt, OpenOptionsExt},
     path::{Path, PathBuf},
+    time::Duration,
 };
 
 use rustix::{
@@ -15,6 +16,10 @@ use super::{
     SystemDir,
     error::{Holder, PlaceError},
 };
+
+/// A program writes its number right after it has got the lock; a tenth of a second is plenty.
+const LOOKS_FOR_HOLDER: u32 = 50;
+const PAUSE: Duration = Duration::from_millis(2);
 
 /// The right to play a component, held by one process at a time.
 ///
@@ -44,7 +49,7 @@ impl ComponentLock {
             Err(Errno::WOULDBLOCK) => {
                 return Err(PlaceError::AlreadyRunning {
                     component: component.to_owned(),
-                    holder: read_holder(&mut file),
+                    holder: find_holder(&mut file),
                     lock: path,
                 });
             }
@@ -101,6 +106,20 @@ fn open(path: &Path) -> std::io::Result<fs::File> {
         .mode(0o600)
         .custom_flags(flags)
         .open(path)
+}
+
+/// Who has the lock. Whoever has just got it has not written its number yet, so it is waited for a little.
+fn find_holder(file: &mut fs::File) -> Holder {
+    for _ in 0..LOOKS_FOR_HOLDER {
+        match read_holder(file) {
+            Holder::Unknown => std::thread::sleep(PAUSE),
+            known => return known,
+        }
+        if file.rewind().is_err() {
+            break;
+        }
+    }
+    Holder::Unknown
 }
 
 /// Who holds the lock, as far as the file tells. A holder may have been killed half way through writing, and one that has
