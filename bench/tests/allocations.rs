@@ -11,9 +11,9 @@ use std::alloc::System;
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-/// What a whole batch may allocate besides its messages, spread over them, and what wake-ups for nothing cost: each is one
-/// more poll of a future that the library allocates, and how many there are is up to the operating system.
-const TOLERANCE: f64 = 3.0;
+/// What a whole batch may allocate besides its messages, and what the threads beside it do, spread over its messages: up
+/// to 0.44 was seen. One more allocation a message is always too many.
+const TOLERANCE: f64 = 0.75;
 
 fn main() -> scl_bench::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -40,7 +40,8 @@ fn count() -> scl_bench::Result<()> {
         (&roundtrip, "SCL pub/sub", "zeromq XPUB/SUB", 1.0),
         (&roundtrip, "SCL pub/sub blocking", "zeromq XPUB/SUB", 1.0),
         (&roundtrip, "SCL req/rep", "zeromq DEALER/ROUTER", 5.0),
-        (&roundtrip, "SCL req/rep blocking", "zeromq DEALER/ROUTER", 5.0),
+        // One more than async: the call steps aside once for the library's writer, and is polled again.
+        (&roundtrip, "SCL req/rep blocking", "zeromq DEALER/ROUTER", 6.0),
         (&rate, "SCL pub/sub", "zeromq XPUB/SUB", 1.0),
         (&rate, "SCL push/pull", "zeromq PUSH/PULL", 1.0),
     ] {
