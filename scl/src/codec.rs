@@ -100,6 +100,19 @@ pub trait Codec<T>: Send + Sync + 'static {
     /// [`EncodeError`] when this codec has no bytes for this value.
     fn encode(message: &T, into: &mut BytesMut) -> Result<(), EncodeError>;
 
+    /// The bytes of `message` as a frame of its own; `memory` comes and is left empty, but may keep its room.
+    ///
+    /// By default they are encoded into `memory` and split off. A codec whose messages are [`Bytes`] already hands them on
+    /// without a copy.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`encode`](Self::encode).
+    fn to_frame(message: &T, memory: &mut BytesMut) -> Result<Bytes, EncodeError> {
+        Self::encode(message, memory)?;
+        Ok(memory.split().freeze())
+    }
+
     /// Reads one message, which must take all of `bytes`.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! Gates: the typed ends of connections, as the fields of a component.
 
+pub(crate) mod encoding;
 pub(crate) mod holding;
 pub(crate) mod incoming;
 mod outgoing;

@@ -18,6 +18,7 @@ use std::fmt::Debug;
 pub fn all<C: Codec<T>, T: PartialEq + Debug>(samples: &[T]) {
     round_trips::<C, T>(samples);
     keeps_what_is_in_front::<C, T>(samples);
+    makes_the_same_frame::<C, T>(samples);
     ignores_no_byte::<C, T>(samples);
     survives_truncation::<C, T>(samples);
     survives_damage::<C, T>(samples);
@@ -43,6 +44,18 @@ pub fn keeps_what_is_in_front<C: Codec<T>, T: PartialEq + Debug>(samples: &[T]) 
         let behind = into.split_off(8).freeze();
         let message = read::<C, T>(behind);
         assert_eq!(message.as_ref(), Some(sample), "codec `{}` depends on what is in front", C::NAME);
+    }
+}
+
+/// A frame holds what is encoded, whatever the memory was used for before, and leaves the memory empty.
+pub fn makes_the_same_frame<C: Codec<T>, T: PartialEq + Debug>(samples: &[T]) {
+    let mut memory = BytesMut::new();
+    for sample in samples.iter().chain(samples.iter().rev()) {
+        match C::to_frame(sample, &mut memory) {
+            Ok(frame) => assert_eq!(frame, encoded::<C, T>(sample), "codec `{}` makes another frame", C::NAME),
+            Err(error) => panic!("codec `{}` makes no frame of {sample:?}, which it encodes: {error}", C::NAME),
+        }
+        assert!(memory.is_empty(), "codec `{}` leaves something in the memory", C::NAME);
     }
 }
 

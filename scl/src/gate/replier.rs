@@ -1,18 +1,20 @@
 //! The `rep` gate.
 
+use super::encoding::Encoding;
 use super::stats::Counts;
 use super::{AnyGate, GateName, GateStats, Peers};
-use crate::codec::{Codec, DecodeError, EncodeError};
+use crate::codec::{Codec, DecodeError};
 use crate::component::Core;
 use crate::error::{RecvError, ReplyError};
 use crate::spec::{GateSpec, LinkSpec};
+use crate::sync::lock;
 use crate::transport::{Answerer, Asked, Responder};
-use bytes::{Bytes, BytesMut};
+use bytes::Bytes;
 use futures_core::Stream;
 use std::future::poll_fn;
 use std::ops::Deref;
 use std::pin::Pin;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Waker};
 
 /// Answers the requests of any number of `req` gates.
@@ -35,7 +37,8 @@ pub struct Rep<A, B> {
     spec: &'static GateSpec,
     name: GateName,
     link: Box<dyn Answerer>,
-    encode: fn(&B, &mut BytesMut) -> Result<(), EncodeError>,
+    /// Shared with the requests, each of which may be answered anywhere.
+    encoding: Arc<Mutex<Encoding<B>>>,
     decode: fn(Bytes) -> Result<A, DecodeError>,
     counts: Counts,
     /// Let go after the link, whose endpoint is this component's only as long as it has its name.
@@ -49,8 +52,8 @@ impl<A, B> Rep<A, B> {
         link: Box<dyn Answerer>,
     ) -> Self {
         let name = GateName::new(core.spec().name, spec.name);
-        let (encode, decode) = (<C as Codec<B>>::encode, <C as Codec<A>>::decode);
-        Self { core, spec, name, link, encode, decode, counts: Counts::default() }
+        let (encoding, decode) = (Arc::new(Mutex::new(Encoding::with::<C>())), <C as Codec<A>>::decode);
+        Self { core, spec, name, link, encoding, decode, counts: Counts::default() }
     }
 
     /// Waits for the next request.
@@ -103,7 +106,8 @@ impl<A, B> Rep<A, B> {
             self.counts.moved(body.len());
             match (self.decode)(body) {
                 Ok(message) => {
-                    Ok(Request { message, way_back: WayBack { responder, encode: self.encode, gate: self.name } })
+                    let way_back = WayBack { responder, encoding: Arc::clone(&self.encoding), gate: self.name };
+                    Ok(Request { message, way_back })
                 }
                 Err(source) => {
                     self.counts.rejected += 1;
@@ -125,7 +129,7 @@ pub struct Request<A, B> {
 
 struct WayBack<B> {
     responder: Box<dyn Responder>,
-    encode: fn(&B, &mut BytesMut) -> Result<(), EncodeError>,
+    encoding: Arc<Mutex<Encoding<B>>>,
     gate: GateName,
 }
 
@@ -152,10 +156,9 @@ impl<A, B> Request<A, B> {
     /// # Errors
     /// Those of `reply`.
     pub fn reply_now(self, answer: &B) -> Result<(), ReplyError> {
-        let WayBack { responder, encode, gate } = self.way_back;
-        let mut body = BytesMut::new();
-        encode(answer, &mut body).map_err(|source| ReplyError::Encode { gate, source })?;
-        responder.respond(body.freeze()).map_err(|_gone| ReplyError::RequesterGone { gate })
+        let WayBack { responder, encoding, gate } = self.way_back;
+        let body = lock(&encoding).encode(answer).map_err(|source| ReplyError::Encode { gate, source })?;
+        responder.respond(body).map_err(|_gone| ReplyError::RequesterGone { gate })
     }
 }
 

@@ -1,14 +1,15 @@
 //! The `req` gate.
 
+use super::encoding::Encoding;
 use super::stats::Counts;
 use super::{AnyGate, GateName, GateStats, Peers};
-use crate::codec::{Codec, DecodeError, EncodeError};
+use crate::codec::{Codec, DecodeError};
 use crate::component::Core;
 use crate::error::CallError;
 use crate::spec::{GateSpec, LinkSpec};
 use crate::time::Watchdog;
 use crate::transport::{Answer, Asker};
-use bytes::{Bytes, BytesMut};
+use bytes::Bytes;
 use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
@@ -32,7 +33,7 @@ pub struct Req<A, B> {
     /// `None` for a gate that is meant to be unconnected.
     link: Option<Box<dyn Asker>>,
     watchdog: Watchdog,
-    encode: fn(&A, &mut BytesMut) -> Result<(), EncodeError>,
+    encoding: Encoding<A>,
     decode: fn(Bytes) -> Result<B, DecodeError>,
     last_id: u64,
     asked: u64,
@@ -48,8 +49,8 @@ impl<A, B> Req<A, B> {
         watchdog: Watchdog,
     ) -> Self {
         let name = GateName::new(core.spec().name, spec.name);
-        let (encode, decode) = (<C as Codec<A>>::encode, <C as Codec<B>>::decode);
-        Self { core, spec, name, link, watchdog, encode, decode, last_id: 0, asked: 0, counts: Counts::default() }
+        let (encoding, decode) = (Encoding::with::<C>(), <C as Codec<B>>::decode);
+        Self { core, spec, name, link, watchdog, encoding, decode, last_id: 0, asked: 0, counts: Counts::default() }
     }
 
     /// Asks, and waits for the answer, together no longer than the gate's `timeout`.
@@ -63,11 +64,10 @@ impl<A, B> Req<A, B> {
     /// # Cancel safety
     /// Cancel safe: a call that is dropped may still be answered, and its answer is then discarded.
     pub async fn call(&mut self, request: &A) -> Result<B, CallError> {
-        let mut body = BytesMut::new();
-        let encoded = (self.encode)(request, &mut body);
-        encoded.map_err(|source| CallError::Encode { gate: self.name, source })?;
+        let encoded = self.encoding.encode(request);
+        let body = encoded.map_err(|source| CallError::Encode { gate: self.name, source })?;
         let started = Instant::now();
-        let answered = self.exchange(body.freeze(), started + self.spec.timeout).await;
+        let answered = self.exchange(body, started + self.spec.timeout).await;
         answered.unwrap_or_else(|TimedOut| {
             let (connected, waited) = (self.connected(), started.elapsed());
             Err(CallError::Timeout { gate: self.name, peers: Peers(self.spec.links), waited, connected })

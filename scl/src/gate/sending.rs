@@ -1,27 +1,24 @@
 //! What `pub` and `push` share: a message is encoded once and offered to each connection.
 
+use super::encoding::Encoding;
 use super::stats::GateStats;
 use super::{GateName, Outgoing, Peers};
-use crate::codec::{Codec, EncodeError};
+use crate::codec::Codec;
 use crate::component::Core;
 use crate::error::{SendError, TrySendError};
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
 use crate::sync::lock;
-use bytes::{Bytes, BytesMut};
+use bytes::Bytes;
 use std::future::poll_fn;
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll};
-
-/// Memory for encoded messages is taken in pieces of this size and used again.
-const BUFFER: usize = 16 * 1024;
 
 pub(crate) struct Sending<T> {
     pub(crate) spec: &'static GateSpec,
     name: GateName,
     /// One a connection, in the order of `spec.links`; of a `pub` gate the tap comes last.
     connections: Vec<Arc<Mutex<Outgoing>>>,
-    encode: fn(&T, &mut BytesMut) -> Result<(), EncodeError>,
-    buffer: BytesMut,
+    encoding: Encoding<T>,
     may_wait: bool,
     /// Whether each message goes to one of the peers only.
     shares: bool,
@@ -39,7 +36,7 @@ impl<T> Sending<T> {
         let may_wait = spec.backpressure && spec.links.iter().any(|link| link.when_full == WhenFull::Wait);
         let shares = spec.kind == GateKind::Push && connections.len() > 1;
         let name = GateName::new(core.spec().name, spec.name);
-        Self { core, spec, name, connections, encode: C::encode, buffer: BytesMut::new(), may_wait, shares, turn: 0 }
+        Self { core, spec, name, connections, encoding: Encoding::with::<C>(), may_wait, shares, turn: 0 }
     }
 
     pub(crate) async fn send(&mut self, message: &T) -> Result<(), SendError> {
@@ -98,17 +95,7 @@ impl<T> Sending<T> {
     }
 
     fn encode(&mut self, message: &T) -> Result<Bytes, SendError> {
-        self.buffer.reserve(1);
-        if self.buffer.capacity() < BUFFER / 16 {
-            self.buffer.reserve(BUFFER);
-        }
-        match (self.encode)(message, &mut self.buffer) {
-            Ok(()) => Ok(self.buffer.split().freeze()),
-            Err(source) => {
-                self.buffer.clear();
-                Err(SendError::Encode { gate: self.name, source })
-            }
-        }
+        self.encoding.encode(message).map_err(|source| SendError::Encode { gate: self.name, source })
     }
 
     fn hand_out(&mut self, message: &Bytes) {

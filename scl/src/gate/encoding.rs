@@ -1,0 +1,29 @@
+//! Encoding with memory that is used again.
+
+use crate::codec::{Codec, EncodeError};
+use bytes::{Bytes, BytesMut};
+
+/// Memory for encoded messages is taken in pieces of this size; a piece is used again when all its messages are gone.
+const PIECE: usize = 16 * 1024;
+
+/// How a gate turns messages into frames.
+pub(crate) struct Encoding<T> {
+    to_frame: fn(&T, &mut BytesMut) -> Result<Bytes, EncodeError>,
+    memory: BytesMut,
+}
+
+impl<T> Encoding<T> {
+    pub(crate) fn with<C: Codec<T>>() -> Self {
+        Self { to_frame: C::to_frame, memory: BytesMut::new() }
+    }
+
+    pub(crate) fn encode(&mut self, message: &T) -> Result<Bytes, EncodeError> {
+        if self.memory.capacity() < PIECE / 16 {
+            self.memory.reserve(PIECE);
+        }
+        let frame = (self.to_frame)(message, &mut self.memory);
+        // What a codec wrote before it failed is no part of the next message.
+        self.memory.clear();
+        frame
+    }
+}
