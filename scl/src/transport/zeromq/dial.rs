@@ -24,6 +24,9 @@ const ATTEMPTS_BEFORE_LOOKING_AROUND: u32 = 50;
 
 /// A socket type that connects to a listening end.
 pub(super) trait Dials: Socket + 'static {
+    /// What is used of a connected socket.
+    type End: Send;
+
     /// Whether the probe is kept to notice the end of the peer, because the library would not.
     const KEEPS_PROBE: bool = false;
 
@@ -31,16 +34,18 @@ pub(super) trait Dials: Socket + 'static {
     fn prepare(&mut self) -> impl Future<Output = ZmqResult<()>> + Send {
         async { Ok(()) }
     }
+
+    fn into_end(self) -> Self::End;
 }
 
 /// A connected socket.
-pub(super) struct Dialled<S> {
-    pub(super) socket: S,
+pub(super) struct Dialled<S: Dials> {
+    pub(super) end: S::End,
     pub(super) probe: Option<Probe>,
     events: Pin<Box<dyn Stream<Item = SocketEvent> + Send>>,
 }
 
-impl<S> Dialled<S> {
+impl<S: Dials> Dialled<S> {
     /// Ready when the library reports that the peer left. A receiving socket notices that only while it is polled, so
     /// this is to be asked after a poll that found nothing.
     pub(super) fn poll_lost(&mut self, cx: &mut Context<'_>) -> Poll<()> {
@@ -111,7 +116,7 @@ async fn try_dial<S: Dials>(place: &SystemDir, endpoint: &str) -> io::Result<Dia
         () = listener.replaced(place, endpoint) => return Err(io::ErrorKind::ConnectionAborted.into()),
     }
     socket.prepare().await.map_err(io::Error::other)?;
-    Ok(Dialled { socket, probe, events })
+    Ok(Dialled { end: socket.into_end(), probe, events })
 }
 
 /// Who listens at an endpoint.

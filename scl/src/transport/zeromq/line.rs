@@ -9,18 +9,18 @@ use std::task::{Context, Poll, Waker};
 use tokio::sync::Notify;
 
 /// One end of a connection that comes back.
-pub(super) struct Line<S> {
+pub(super) struct Line<S: Dials> {
     shared: Arc<Shared<S>>,
     current: Option<Dialled<S>>,
     _task: AbortOnDrop,
 }
 
-struct Shared<S> {
+struct Shared<S: Dials> {
     slot: Mutex<Slot<S>>,
     lost: Notify,
 }
 
-struct Slot<S> {
+struct Slot<S: Dials> {
     arrived: Option<Dialled<S>>,
     waiting: Option<Waker>,
     /// Whether a socket is in the slot or in use.
@@ -36,8 +36,8 @@ impl<S: Dials> Line<S> {
         Self { shared, current: None, _task: AbortOnDrop(task.abort_handle()) }
     }
 
-    /// The connected socket, as soon as there is one.
-    pub(super) fn poll_socket(&mut self, cx: &mut Context<'_>) -> Poll<&mut Dialled<S>> {
+    /// The connection, as soon as there is one.
+    pub(super) fn poll_dialled(&mut self, cx: &mut Context<'_>) -> Poll<&mut Dialled<S>> {
         if self.current.is_none() {
             let mut slot = lock(&self.shared.slot);
             self.current = slot.arrived.take();

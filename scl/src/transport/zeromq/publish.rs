@@ -1,170 +1,113 @@
 //! The publishing end of one connection: an XPUB socket of its own.
 //!
-//! A message is written from the caller. The library's `send` cannot be abandoned half way, so a future of its own
-//! (the pump) owns the socket for good and is polled both by the caller that offers a message and by the connection's
-//! task, whose waker it always gets.
+//! A message is written from the caller. The library's `send` cannot be abandoned half way, so the future of a write owns
+//! the socket until its message is with the operating system; whoever comes first, the caller with the next message or
+//! the connection's task, takes the socket back. Both poll it with the task's waker.
 
 use super::Medium;
 use super::accepted::Accepted;
-use super::door::Door;
 use super::frames::poll_message;
 use super::listen::{Listening, listen};
 use super::peers::Peers;
 use crate::place::{Claim, SystemDir};
-use crate::sync::lock;
 use crate::transport::{Outlet, TransportError};
 use bytes::Bytes;
-use std::future::poll_fn;
-use std::pin::Pin;
-use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
+use tokio_util::sync::ReusableBoxFuture;
 use zeromq::{SocketSend, XPubSocket, ZmqMessage};
 
 /// While messages flow, how often at most it is looked whether the subscriber is still there.
 const LOOK: Duration = Duration::from_millis(1);
 
 pub(super) struct Publishing {
-    desk: Arc<Mutex<Desk>>,
-    pump: Pin<Box<dyn Future<Output = ()> + Send>>,
-    _guard: Claim,
-}
-
-/// What the pump and its callers share.
-struct Desk {
-    /// A message that the pump is to send.
-    outgoing: Option<Bytes>,
-    /// Whether a message was taken that is not with the operating system yet.
-    busy: bool,
-    /// Whether the poll in progress may look for subscriptions: not when it comes from a sender, who is in a hurry.
-    listening: bool,
+    peers: Peers,
+    accepted: Accepted,
     subscriber: bool,
-}
-
-impl Desk {
-    /// Takes a message for the subscriber, if there is one; the poll that follows only sends it.
-    fn put(&mut self, message: Bytes) -> Result<(), Bytes> {
-        if !self.subscriber {
-            return Err(message);
-        }
-        (self.outgoing, self.busy, self.listening) = (Some(message), true, false);
-        Ok(())
-    }
+    looked: Instant,
+    /// `None` while a message is being written; in a box, because it is moved with each message.
+    socket: Option<Box<XPubSocket>>,
+    writing: ReusableBoxFuture<'static, Box<XPubSocket>>,
+    _guard: Claim,
 }
 
 impl Publishing {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { socket, door, guard } = listen::<XPubSocket>(place, medium, endpoint)?;
-        let desk = Desk { outgoing: None, busy: false, listening: false, subscriber: false };
-        let desk = Arc::new(Mutex::new(desk));
-        // The task budget would refuse the write of a caller that has sent much, and nobody would come back to it.
-        let pump = tokio::task::unconstrained(pump(socket, door, Arc::clone(&desk)));
-        Ok(Self { desk, pump: Box::pin(pump), _guard: guard })
+        let Listening { mut socket, door, guard } = listen::<XPubSocket>(place, medium, endpoint)?;
+        Ok(Self {
+            accepted: Accepted::at(door.address()),
+            peers: Peers::of(&mut socket, door),
+            subscriber: false,
+            looked: Instant::now(),
+            socket: Some(Box::new(socket)),
+            writing: ReusableBoxFuture::new(std::future::pending()),
+            _guard: guard,
+        })
     }
 
-    fn poll_pump(&mut self, cx: &mut Context<'_>, listening: bool) {
-        lock(&self.desk).listening = listening;
-        let _endless = self.pump.as_mut().poll(cx);
+    /// Whether nothing is being written any more.
+    fn is_written(&mut self, cx: &mut Context<'_>) -> bool {
+        if self.socket.is_none()
+            && let Poll::Ready(socket) = self.writing.poll(cx)
+        {
+            self.socket = Some(socket);
+        }
+        self.socket.is_some()
     }
 
-    fn is_busy(&self) -> bool {
-        lock(&self.desk).busy
+    /// Takes note of who came and who left; a socket that writes is deaf.
+    fn listen(&mut self, cx: &mut Context<'_>) {
+        let Some(socket) = &mut self.socket else { return };
+        while let Poll::Ready(heard) = poll_message(&mut **socket, cx) {
+            if heard.is_ok_and(|message| is_subscription(&message)) {
+                self.accepted.subscribed();
+                self.subscriber = self.accepted.is_anybody();
+            }
+        }
+        self.peers.note(cx);
+        if self.subscriber && !self.accepted.any_left(self.peers.connected()) {
+            self.subscriber = false;
+            self.accepted.forget();
+            self.peers.close();
+        }
     }
 }
 
 impl Outlet for Publishing {
     fn drive(&mut self, cx: &mut Context<'_>) -> bool {
-        self.poll_pump(cx, true);
-        lock(&self.desk).subscriber
+        if self.is_written(cx) {
+            self.listen(cx);
+        }
+        self.subscriber
     }
 
     fn offer(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes> {
-        if self.is_busy() {
-            self.poll_pump(cx, false);
-            if self.is_busy() {
-                return Err(message);
-            }
-            // The pump left a send behind, during which it was deaf: the task has to listen again.
+        if self.socket.is_none() && self.is_written(cx) {
+            // Nobody has listened since the write began: the task does.
             cx.waker().wake_by_ref();
         }
-        lock(&self.desk).put(message)?;
-        let _endless = self.pump.as_mut().poll(cx);
+        let Some(socket) = self.socket.take_if(|_| self.subscriber) else { return Err(message) };
+        // The task budget would refuse the write of a caller that has sent much, and nobody would come back to it.
+        self.writing.set(tokio::task::unconstrained(write(socket, message)));
+        if self.is_written(cx) && self.looked.elapsed() >= LOOK {
+            self.looked = Instant::now();
+            // A write that meets a broken connection succeeds like any other, and takes away what would have told of
+            // the break; the task finds out.
+            cx.waker().wake_by_ref();
+        }
         Ok(())
     }
 
     fn is_flushed(&self) -> bool {
-        !self.is_busy()
+        self.socket.is_some()
     }
 }
 
-enum Step {
-    Send(Bytes),
-    Heard(Option<ZmqMessage>),
-}
-
-/// Sends what is on the desk and keeps account of who subscribed.
-async fn pump(mut socket: XPubSocket, door: Door, desk: Arc<Mutex<Desk>>) {
-    let mut accepted = Accepted::at(door.address());
-    let mut peers = Peers::of(&mut socket, door);
-    let mut looked = Instant::now();
-    loop {
-        match poll_fn(|cx| next_step(&mut socket, &mut peers, &mut accepted, &desk, cx)).await {
-            Step::Send(message) => {
-                if let Err(error) = socket.send(message.into()).await {
-                    tracing::debug!(%error, "a message could not be written");
-                }
-                lock(&desk).busy = false;
-                if looked.elapsed() >= LOOK {
-                    looked = Instant::now();
-                    // A send that meets a broken connection succeeds like any other, and takes away what would have
-                    // told of the break; the task finds out.
-                    poll_fn(wake_again).await;
-                }
-            }
-            Step::Heard(Some(message)) if is_subscription(&message) => {
-                accepted.subscribed();
-                lock(&desk).subscriber = accepted.is_anybody();
-            }
-            Step::Heard(_) => {}
-        }
+async fn write(mut socket: Box<XPubSocket>, message: Bytes) -> Box<XPubSocket> {
+    if let Err(error) = socket.send(message.into()).await {
+        tracing::debug!(%error, "a message could not be written");
     }
-}
-
-/// Has the task polled once more.
-fn wake_again(cx: &mut Context<'_>) -> Poll<()> {
-    cx.waker().wake_by_ref();
-    Poll::Ready(())
-}
-
-fn next_step(
-    socket: &mut XPubSocket,
-    peers: &mut Peers,
-    accepted: &mut Accepted,
-    desk: &Mutex<Desk>,
-    cx: &mut Context<'_>,
-) -> Poll<Step> {
-    {
-        let mut desk = lock(desk);
-        if let Some(message) = desk.outgoing.take() {
-            return Poll::Ready(Step::Send(message));
-        }
-        if !desk.listening {
-            return Poll::Pending;
-        }
-    }
-    match poll_message(socket, cx) {
-        Poll::Ready(heard) => Poll::Ready(Step::Heard(heard.ok())),
-        Poll::Pending => {
-            peers.note(cx);
-            let mut desk = lock(desk);
-            if desk.subscriber && !accepted.any_left(peers.connected()) {
-                desk.subscriber = false;
-                accepted.forget();
-                peers.close();
-            }
-            Poll::Pending
-        }
-    }
+    socket
 }
 
 fn is_subscription(message: &ZmqMessage) -> bool {

@@ -1,7 +1,7 @@
 //! The pulling end: a PULL socket that any number of pushers connect to.
 
 use super::Medium;
-use super::frames::{poll_message, single_frame};
+use super::frames::{Messages, single_frame};
 use super::latecomers::ClosesLatecomers;
 use super::listen::{Listening, listen};
 use crate::place::{Claim, SystemDir};
@@ -12,7 +12,7 @@ use std::task::{Context, Poll};
 use zeromq::PullSocket;
 
 pub(super) struct Pulling {
-    socket: PullSocket,
+    messages: Messages<PullSocket>,
     malformed: u64,
     _connections: ClosesLatecomers,
     _door: AbortOnDrop,
@@ -24,14 +24,14 @@ impl Pulling {
         let Listening { mut socket, door, guard, .. } = listen::<PullSocket>(place, medium, endpoint)?;
         let connections = ClosesLatecomers::of(&socket);
         let door = door.watch(&mut socket);
-        Ok(Self { socket, malformed: 0, _connections: connections, _door: door, _guard: guard })
+        Ok(Self { messages: Messages::of(socket), malformed: 0, _connections: connections, _door: door, _guard: guard })
     }
 }
 
 impl Inlet for Pulling {
     fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Bytes> {
         loop {
-            match poll_message(&mut self.socket, cx) {
+            match self.messages.poll(cx) {
                 Poll::Ready(Ok(message)) => match single_frame(message) {
                     Some(frame) => return Poll::Ready(frame),
                     None => self.malformed += 1,

@@ -1,8 +1,8 @@
 //! The pushing end: a PUSH socket, kept from queueing by itself.
 //!
 //! The library queues up to 100,000 messages a peer and tells nobody how many wait. But it drops a message's bytes as
-//! it writes them, so each message carries a token that counts itself out when dropped, and no more than [`WINDOW`]
-//! are with the library at a time. And since a PUSH socket never reads, the library would notice a lost puller only by
+//! it writes them, so each message carries a token that counts itself out when dropped, and no more than
+//! [`MOST_MESSAGES`] or [`MOST_BYTES`] are with the library at a time. And since a PUSH socket never reads, the library would notice a lost puller only by
 //! a message that is lost with it: a second connection to the same puller, which only listens, tells in time.
 
 use super::dial::{Dials, Probe};
@@ -16,8 +16,10 @@ use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Waker};
 use zeromq::{PushSocket, SocketSend};
 
-/// Enough for the library to write several messages at once, few enough to keep the file's promise about memory.
-const WINDOW: usize = 32;
+/// As many as the library writes at once.
+const MOST_MESSAGES: usize = 128;
+/// Few enough to keep the file's promise about memory. A longer message goes to the library alone.
+const MOST_BYTES: usize = 64 * 1024;
 
 pub(super) struct Pushing {
     line: Line<PushSocket>,
@@ -32,7 +34,7 @@ impl Pushing {
 
     /// Whether the connection in use has just broken.
     fn poll_lost(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        let Poll::Ready(dialled) = self.line.poll_socket(cx) else { return Poll::Pending };
+        let Poll::Ready(dialled) = self.line.poll_dialled(cx) else { return Poll::Pending };
         if let Some(probe) = dialled.probe.take() {
             self.peer_ended = Some(Box::pin(tokio::task::unconstrained(ended(probe))));
         }
@@ -55,7 +57,12 @@ async fn ended(mut probe: Probe) {
 }
 
 impl Dials for PushSocket {
+    type End = Self;
     const KEEPS_PROBE: bool = true;
+
+    fn into_end(self) -> Self {
+        self
+    }
 }
 
 impl Outlet for Pushing {
@@ -65,17 +72,17 @@ impl Outlet for Pushing {
             self.peer_ended = None;
         }
         self.window.watch(cx);
-        self.line.poll_socket(cx).is_ready()
+        self.line.poll_dialled(cx).is_ready()
     }
 
     fn offer(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes> {
-        let Poll::Ready(dialled) = self.line.poll_socket(cx) else { return Err(message) };
-        if self.window.is_full() {
+        let Poll::Ready(dialled) = self.line.poll_dialled(cx) else { return Err(message) };
+        if self.window.is_full(message.len()) {
             return Err(message);
         }
         let counted = Bytes::from_owner(Counted::new(message.clone(), &self.window));
         // The library only queues here; its writer runs as a task of its own.
-        match dialled.socket.send(counted.into()).as_mut().poll(cx) {
+        match dialled.end.send(counted.into()).as_mut().poll(cx) {
             Poll::Ready(Ok(())) => Ok(()),
             Poll::Ready(Err(_)) | Poll::Pending => {
                 cx.waker().wake_by_ref();
@@ -85,7 +92,7 @@ impl Outlet for Pushing {
     }
 
     fn is_flushed(&self) -> bool {
-        lock(&self.window.state).outstanding == 0
+        lock(&self.window.state).messages == 0
     }
 }
 
@@ -97,13 +104,32 @@ struct Window {
 
 #[derive(Debug, Default)]
 struct Outstanding {
-    outstanding: usize,
+    messages: usize,
+    bytes: usize,
     waiting: Option<Waker>,
 }
 
+impl Outstanding {
+    fn count_in(&mut self, length: usize) {
+        self.messages += 1;
+        self.bytes += length;
+    }
+
+    fn count_out(&mut self, length: usize) {
+        self.messages -= 1;
+        self.bytes -= length;
+    }
+
+    fn is_half_empty(&self) -> bool {
+        self.messages <= MOST_MESSAGES / 2 && self.bytes <= MOST_BYTES / 2
+    }
+}
+
 impl Window {
-    fn is_full(&self) -> bool {
-        lock(&self.state).outstanding >= WINDOW
+    /// Whether a message of a length would be too much.
+    fn is_full(&self, length: usize) -> bool {
+        let state = lock(&self.state);
+        state.messages >= MOST_MESSAGES || (state.messages > 0 && state.bytes + length > MOST_BYTES)
     }
 
     fn watch(&self, cx: &Context<'_>) {
@@ -122,7 +148,7 @@ struct Counted {
 
 impl Counted {
     fn new(bytes: Bytes, window: &Arc<Window>) -> Self {
-        lock(&window.state).outstanding += 1;
+        lock(&window.state).count_in(bytes.len());
         Self { bytes, window: Arc::clone(window) }
     }
 }
@@ -136,9 +162,10 @@ impl AsRef<[u8]> for Counted {
 impl Drop for Counted {
     fn drop(&mut self) {
         let mut state = lock(&self.window.state);
-        state.outstanding -= 1;
+        let before = state.is_half_empty();
+        state.count_out(self.bytes.len());
         // Woken when the window is half empty, so that the library gets several messages at once.
-        if (state.outstanding == WINDOW / 2 || state.outstanding == 0)
+        if (before != state.is_half_empty() || state.messages == 0)
             && let Some(waker) = &state.waiting
         {
             waker.wake_by_ref();

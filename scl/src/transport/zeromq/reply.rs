@@ -5,19 +5,20 @@
 //! nobody reads.
 
 use super::Medium;
-use super::frames::poll_message;
+use super::frames::Messages;
 use super::latecomers::ClosesLatecomers;
 use super::listen::{Listening, listen};
 use crate::place::{Claim, SystemDir};
 use crate::sync::AbortOnDrop;
 use crate::transport::{Answerer, Asked, RequesterGone, Responder, TransportError};
 use bytes::Bytes;
+use std::collections::VecDeque;
 use std::sync::{Arc, Weak};
 use std::task::{Context, Poll, Waker};
 use zeromq::{RouterRecvHalf, RouterSendHalf, RouterSocket, SocketSend, ZmqMessage};
 
 pub(super) struct Replying {
-    requests: RouterRecvHalf,
+    requests: Messages<RouterRecvHalf>,
     replies: Arc<RouterSendHalf>,
     malformed: u64,
     _connections: ClosesLatecomers,
@@ -32,6 +33,7 @@ impl Replying {
         let door = door.watch(&mut socket);
         let (replies, requests) = socket.split();
         let replies = Arc::new(replies);
+        let requests = Messages::of(requests);
         Ok(Self { requests, replies, malformed: 0, _connections: connections, _door: door, _guard: guard })
     }
 }
@@ -39,7 +41,7 @@ impl Replying {
 impl Answerer for Replying {
     fn poll_asked(&mut self, cx: &mut Context<'_>) -> Poll<Asked> {
         loop {
-            match poll_message(&mut self.requests, cx) {
+            match self.requests.poll(cx) {
                 Poll::Ready(Ok(message)) => match split_envelope(message) {
                     Some((envelope, body)) => {
                         let responder = Box::new(Envelope { frames: envelope, replies: Arc::downgrade(&self.replies) });
@@ -59,18 +61,19 @@ impl Answerer for Replying {
 }
 
 /// Splits `[identity, .., empty, body]` behind the empty frame.
-fn split_envelope(mut message: ZmqMessage) -> Option<(ZmqMessage, Bytes)> {
-    let delimiter = message.iter().skip(1).position(Bytes::is_empty)? + 1;
-    if message.len() != delimiter + 2 {
+fn split_envelope(message: ZmqMessage) -> Option<(VecDeque<Bytes>, Bytes)> {
+    let mut frames = message.into_vecdeque();
+    let delimiter = frames.iter().skip(1).position(Bytes::is_empty)? + 1;
+    if frames.len() != delimiter + 2 {
         return None;
     }
-    let body = message.split_off(delimiter + 1).into_vecdeque().pop_front()?;
-    Some((message, body))
+    let body = frames.pop_back()?;
+    Some((frames, body))
 }
 
 /// The frames that lead back to one requester.
 struct Envelope {
-    frames: ZmqMessage,
+    frames: VecDeque<Bytes>,
     replies: Weak<RouterSendHalf>,
 }
 
@@ -78,8 +81,9 @@ impl Responder for Envelope {
     fn respond(mut self: Box<Self>, body: Bytes) -> Result<(), RequesterGone> {
         let mut replies = RouterSendHalf::clone(&*self.replies.upgrade().ok_or(RequesterGone)?);
         self.frames.push_back(body);
+        let message = ZmqMessage::try_from(self.frames).map_err(|_empty| RequesterGone)?;
         // The library only queues here; its writer runs as a task of its own.
-        match replies.send(self.frames).as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+        match replies.send(message).as_mut().poll(&mut Context::from_waker(Waker::noop())) {
             Poll::Ready(Ok(())) => Ok(()),
             Poll::Ready(Err(_)) | Poll::Pending => Err(RequesterGone),
         }

@@ -5,33 +5,59 @@
 //! late reply is never taken for a newer one.
 
 use super::dial::Dials;
-use super::frames::poll_message;
+use super::frames::Messages;
 use super::line::Line;
 use crate::place::SystemDir;
 use crate::transport::{Answer, Asker};
-use bytes::Bytes;
+use bytes::{BufMut, Bytes, BytesMut};
 use std::sync::Arc;
 use std::task::{Context, Poll, Waker};
-use zeromq::{DealerSocket, SocketSend, ZmqMessage};
+use zeromq::{DealerRecvHalf, DealerSendHalf, DealerSocket, SocketSend, ZmqMessage};
+
+/// Memory for the numbers of requests is taken in pieces of this size; a piece is used again when all its numbers are
+/// written.
+const PIECE: usize = 1024;
 
 pub(super) struct Requesting {
     line: Line<DealerSocket>,
+    numbers: BytesMut,
+}
+
+/// A connected socket.
+pub(super) struct Exchange {
+    requests: DealerSendHalf,
+    replies: Messages<DealerRecvHalf>,
 }
 
 impl Requesting {
     pub(super) fn open(place: &Arc<SystemDir>, endpoint: &str) -> Self {
-        Self { line: Line::open(place, endpoint) }
+        Self { line: Line::open(place, endpoint), numbers: BytesMut::new() }
+    }
+
+    fn number(&mut self, id: u64) -> Bytes {
+        if self.numbers.capacity() < size_of::<u64>() {
+            self.numbers.reserve(PIECE);
+        }
+        self.numbers.put_u64(id);
+        self.numbers.split().freeze()
     }
 }
 
-impl Dials for DealerSocket {}
+impl Dials for DealerSocket {
+    type End = Exchange;
+
+    fn into_end(self) -> Exchange {
+        let (requests, replies) = self.split();
+        Exchange { requests, replies: Messages::of(replies) }
+    }
+}
 
 impl Asker for Requesting {
     fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         loop {
-            let Poll::Ready(dialled) = self.line.poll_socket(cx) else { return Poll::Pending };
+            let Poll::Ready(dialled) = self.line.poll_dialled(cx) else { return Poll::Pending };
             // A peer that left is noticed only by looking for what it sends; nothing that comes now is still wanted.
-            match poll_message(&mut dialled.socket, cx) {
+            match dialled.end.replies.poll(cx) {
                 Poll::Ready(Ok(_stale)) => continue,
                 Poll::Ready(Err(_)) => {}
                 Poll::Pending if dialled.poll_lost(cx).is_pending() => return Poll::Ready(()),
@@ -42,13 +68,13 @@ impl Asker for Requesting {
     }
 
     fn ask(&mut self, id: u64, body: Bytes) -> Result<(), Bytes> {
+        let number = self.number(id);
         let mut cx = Context::from_waker(Waker::noop());
-        let Poll::Ready(dialled) = self.line.poll_socket(&mut cx) else { return Err(body) };
-        let mut message = ZmqMessage::from(Bytes::copy_from_slice(&id.to_be_bytes()));
-        message.push_back(Bytes::new());
-        message.push_back(body.clone());
+        let Poll::Ready(dialled) = self.line.poll_dialled(&mut cx) else { return Err(body) };
+        let frames = vec![number, Bytes::new(), body.clone()];
+        let Ok(message) = ZmqMessage::try_from(frames) else { return Err(body) };
         // The library only queues here; its writer runs as a task of its own.
-        match dialled.socket.send(message).as_mut().poll(&mut cx) {
+        match dialled.end.requests.send(message).as_mut().poll(&mut cx) {
             Poll::Ready(Ok(())) => Ok(()),
             Poll::Ready(Err(_)) | Poll::Pending => Err(body),
         }
@@ -60,8 +86,8 @@ impl Asker for Requesting {
 
     fn poll_answer(&mut self, cx: &mut Context<'_>) -> Poll<Answer> {
         loop {
-            let Poll::Ready(dialled) = self.line.poll_socket(cx) else { return Poll::Ready(Answer::Lost) };
-            match poll_message(&mut dialled.socket, cx) {
+            let Poll::Ready(dialled) = self.line.poll_dialled(cx) else { return Poll::Ready(Answer::Lost) };
+            match dialled.end.replies.poll(cx) {
                 Poll::Ready(Ok(message)) => match numbered(message) {
                     Some((id, body)) => return Poll::Ready(Answer::Reply { id, body }),
                     None => tracing::warn!("a reply without the number of its request was passed over"),

@@ -1,7 +1,7 @@
 //! The subscribing end: a SUB socket for each publisher, so that one that is lost is dialled again by itself.
 
 use super::dial::Dials;
-use super::frames::{poll_message, single_frame};
+use super::frames::{Messages, single_frame};
 use super::line::Line;
 use crate::place::SystemDir;
 use crate::transport::Inlet;
@@ -22,16 +22,22 @@ impl Subscribing {
 }
 
 impl Dials for SubSocket {
+    type End = Messages<Self>;
+
     async fn prepare(&mut self) -> ZmqResult<()> {
         self.subscribe("").await
+    }
+
+    fn into_end(self) -> Messages<Self> {
+        Messages::of(self)
     }
 }
 
 impl Inlet for Subscribing {
     fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Bytes> {
         loop {
-            let Poll::Ready(dialled) = self.line.poll_socket(cx) else { return Poll::Pending };
-            match poll_message(&mut dialled.socket, cx) {
+            let Poll::Ready(dialled) = self.line.poll_dialled(cx) else { return Poll::Pending };
+            match dialled.end.poll(cx) {
                 Poll::Ready(Ok(message)) => match single_frame(message) {
                     Some(frame) => return Poll::Ready(frame),
                     None => self.malformed += 1,
