@@ -122,7 +122,6 @@ impl Outgoing {
 
     /// Gives the link what waits, in order, as far as it takes it.
     fn hand_over(&mut self) {
-        let full = self.waiting.len() >= self.holding.capacity;
         while self.present
             && let Some(message) = self.waiting.pop_front()
         {
@@ -141,8 +140,8 @@ impl Outgoing {
         {
             flusher.wake();
         }
-        if full
-            && self.waiting.len() < self.holding.capacity
+        // A sender that waits is woken when half of the queue is free, so that it can fill it in one go.
+        if self.waiting.len() <= self.holding.capacity / 2
             && let Some(sender) = self.sender.take()
         {
             sender.wake();
