@@ -75,10 +75,12 @@ impl<T> Sending<T> {
     /// Ready when no connection would make the message wait, so that it goes to all of them at once or to none.
     pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         let mut waits = |connection: &Arc<Mutex<Outgoing>>| lock(connection).poll_room(cx).is_pending();
+        // A tap never makes anybody wait.
+        let mut peers = self.connections.iter().take(self.spec.links.len());
         let waiting = match self.shares {
-            true => self.connections.iter().all(&mut waits),
+            true => peers.all(&mut waits),
             // Only one of them needs to be waited for at a time.
-            false => self.connections.iter().any(&mut waits),
+            false => peers.any(&mut waits),
         };
         if waiting { Poll::Pending } else { Poll::Ready(()) }
     }
