@@ -85,6 +85,15 @@ pub async fn close<C: Component>(component: C, timeout: Duration) -> Result<(), 
 }
 
 #[doc(hidden)]
+pub fn close_blocking<C: Component>(component: C, timeout: Duration) -> crate::Result<()> {
+    let core = component.gates().first().map(|gate| Arc::clone(gate.core()));
+    match core {
+        Some(core) => Ok(core.block_on(close(component, timeout))??),
+        None => Ok(()),
+    }
+}
+
+#[doc(hidden)]
 pub fn block_on<C: Component, F: Future>(component: &C, future: F) -> Result<F::Output, crate::error::BlockingError> {
     match component.gates().first() {
         Some(gate) => gate.core().block_on(future),
@@ -162,6 +171,15 @@ macro_rules! __component_methods {
                 timeout: ::core::time::Duration,
             ) -> ::core::result::Result<(), $crate::NotFlushed> {
                 $crate::private::close(self, timeout).await
+            }
+
+            /// `close` from a program without async. Messages that are pushed or answered are written before the call that
+            /// gives them returns, so only what waits for a slow peer is left to hand over.
+            ///
+            /// # Errors
+            /// Those of `close`, or that the call could not wait.
+            pub fn close_blocking(self, timeout: ::core::time::Duration) -> $crate::Result<()> {
+                $crate::private::close_blocking(self, timeout)
             }
 
             #[doc(hidden)]

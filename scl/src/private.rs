@@ -4,7 +4,8 @@ pub use crate::__component_methods as component_methods;
 pub use crate::__component_test_methods as component_test_methods;
 pub use crate::codec::{self, Codec};
 pub use crate::component::{
-    Component, Core, Idle, Opener, Outcome, block_on, close, open, open_blocking, ready, run_async, run_blocking,
+    Component, Core, Idle, Opener, Outcome, block_on, close, close_blocking, open, open_blocking, ready, run_async,
+    run_blocking,
 };
 pub use crate::error::OpenError;
 pub use crate::gate::{AnyGate, Pub, Pull, Push, Rep, Req, Sub};

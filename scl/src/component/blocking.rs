@@ -2,20 +2,25 @@
 //!
 //! The component owns a runtime. A blocking call drives it itself, so that no message crosses a thread; while the
 //! program makes no call, a thread of the component drives it, so that late peers are served and queues follow. The
-//! thread takes over only after [`IDLE`] without a call: in a loop at 1 kHz it never does.
+//! thread takes over only after [`IDLE`] without a call: in a loop at 1 kHz it never does. So a call that has nothing to
+//! wait for gives the runtime a turn now and then, or else nobody would let a late peer in.
 
 use crate::error::{BlockingError, OpenError};
 use crate::sync::lock;
+use std::future::poll_fn;
 use std::pin::pin;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::task::{Context, Poll, Wake};
 use std::thread::{self, Thread};
 use std::time::{Duration, Instant};
 use tokio::runtime::{Builder, EnterGuard, Handle, Runtime};
 use tokio::sync::Notify;
+use tokio::task::yield_now;
 
 const IDLE: Duration = Duration::from_millis(2);
+/// How long calls that wait for nothing may follow each other without a turn of the runtime.
+const TURN: Duration = Duration::from_millis(1);
 
 /// The runtime of a component that was opened without async.
 #[derive(Debug)]
@@ -30,11 +35,31 @@ struct Shared {
     runtime: Mutex<Option<Runtime>>,
     /// Calls that want the runtime now.
     callers: AtomicUsize,
-    /// Tells the idle thread to give the runtime back.
+    /// Whether the idle thread drives the runtime, and wants to be told to give it back.
+    idle_drives: AtomicBool,
     wanted: Notify,
     ended: AtomicBool,
-    last_call: Mutex<Instant>,
+    opened: Instant,
+    last_call: Moment,
+    last_turn: Moment,
+    /// Where the idle thread rests, and whether it is to be woken by the end of a call.
+    rest: Mutex<()>,
+    awaits_end: AtomicBool,
     called: Condvar,
+}
+
+/// A time since the component was opened.
+#[derive(Debug, Default)]
+struct Moment(AtomicU64);
+
+impl Moment {
+    fn set(&self, since_opened: Duration) {
+        self.0.store(since_opened.as_nanos() as u64, Ordering::SeqCst);
+    }
+
+    fn get(&self) -> Duration {
+        Duration::from_nanos(self.0.load(Ordering::SeqCst))
+    }
 }
 
 impl OwnedRuntime {
@@ -45,9 +70,14 @@ impl OwnedRuntime {
         let shared = Arc::new(Shared {
             runtime: Mutex::new(Some(runtime)),
             callers: AtomicUsize::new(0),
+            idle_drives: AtomicBool::new(false),
             wanted: Notify::new(),
             ended: AtomicBool::new(false),
-            last_call: Mutex::new(Instant::now()),
+            opened: Instant::now(),
+            last_call: Moment::default(),
+            last_turn: Moment::default(),
+            rest: Mutex::default(),
+            awaits_end: AtomicBool::new(false),
             called: Condvar::new(),
         });
         let idle = Arc::clone(&shared);
@@ -67,17 +97,22 @@ impl OwnedRuntime {
     /// Drives the runtime until a future is ready.
     pub(super) fn drive_until<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
         refuse_inside_async()?;
-        self.shared.callers.fetch_add(1, Ordering::SeqCst);
-        self.shared.wanted.notify_one();
-        let runtime = lock(&self.shared.runtime);
+        let shared = &self.shared;
+        shared.callers.fetch_add(1, Ordering::SeqCst);
+        if shared.idle_drives.load(Ordering::SeqCst) {
+            shared.wanted.notify_one();
+        }
+        let runtime = lock(&shared.runtime);
         let ready = match &*runtime {
-            Some(runtime) => Ok(runtime.block_on(future)),
+            Some(runtime) => Ok(runtime.block_on(shared.with_a_turn(future))),
             None => Err(BlockingError::Stopped),
         };
         drop(runtime);
-        self.shared.callers.fetch_sub(1, Ordering::SeqCst);
-        *lock(&self.shared.last_call) = Instant::now();
-        self.shared.called.notify_one();
+        shared.callers.fetch_sub(1, Ordering::SeqCst);
+        shared.last_call.set(shared.opened.elapsed());
+        if shared.awaits_end.load(Ordering::SeqCst) {
+            shared.wake_idle_thread();
+        }
         ready
     }
 }
@@ -86,7 +121,7 @@ impl Drop for OwnedRuntime {
     fn drop(&mut self) {
         self.shared.ended.store(true, Ordering::SeqCst);
         self.shared.wanted.notify_one();
-        self.shared.called.notify_one();
+        self.shared.wake_idle_thread();
         if let Some(runtime) = lock(&self.shared.runtime).take() {
             // Waiting for its threads would be refused inside async code; it has none that matter.
             runtime.shutdown_background();
@@ -95,31 +130,74 @@ impl Drop for OwnedRuntime {
 }
 
 impl Shared {
+    /// The future's result; if it had nothing to wait for, then after a turn of the runtime where one is due.
+    async fn with_a_turn<F: Future>(&self, future: F) -> F::Output {
+        let mut future = pin!(future);
+        let mut waited = false;
+        let ready = poll_fn(|cx| {
+            let polled = future.as_mut().poll(cx);
+            waited |= polled.is_pending();
+            polled
+        })
+        .await;
+        let now = self.opened.elapsed();
+        let due = now.saturating_sub(self.last_turn.get()) >= TURN;
+        if waited || due {
+            self.last_turn.set(now);
+        }
+        if due && !waited {
+            // The first lets the runtime look what has happened, the second runs what that woke.
+            yield_now().await;
+            yield_now().await;
+        }
+        ready
+    }
+
     fn drive_while_idle(&self) {
         while !self.ended.load(Ordering::SeqCst) {
             self.wait_until_idle();
             let runtime = lock(&self.runtime);
+            self.idle_drives.store(true, Ordering::SeqCst);
+            // A call that comes from now on sees that it has to ask for the runtime.
             if let Some(runtime) = &*runtime
                 && self.callers.load(Ordering::SeqCst) == 0
             {
                 runtime.block_on(self.wanted.notified());
             }
+            self.idle_drives.store(false, Ordering::SeqCst);
         }
     }
 
     /// Returns when there was no call for a while.
     fn wait_until_idle(&self) {
-        let mut last_call = lock(&self.last_call);
+        let mut rest = lock(&self.rest);
         while !self.ended.load(Ordering::SeqCst) {
-            let quiet = last_call.elapsed();
+            let quiet = self.opened.elapsed().saturating_sub(self.last_call.get());
             let busy = self.callers.load(Ordering::SeqCst) > 0;
             if quiet >= IDLE && !busy {
                 return;
             }
-            // A call in progress ends this wait by itself, however long it takes.
-            let pause = if busy { Duration::from_secs(3600) } else { IDLE - quiet };
-            last_call = self.called.wait_timeout(last_call, pause).unwrap_or_else(|error| error.into_inner()).0;
+            rest = if busy {
+                self.wait_for_end_of_call(rest)
+            } else {
+                self.called.wait_timeout(rest, IDLE - quiet).unwrap_or_else(PoisonError::into_inner).0
+            };
         }
+    }
+
+    /// Waits however long a call takes.
+    fn wait_for_end_of_call<'r>(&self, rest: MutexGuard<'r, ()>) -> MutexGuard<'r, ()> {
+        self.awaits_end.store(true, Ordering::SeqCst);
+        // A call that has ended before it could see this is not waited for.
+        let awaits = |_: &mut ()| self.callers.load(Ordering::SeqCst) > 0 && !self.ended.load(Ordering::SeqCst);
+        let rest = self.called.wait_while(rest, awaits).unwrap_or_else(PoisonError::into_inner);
+        self.awaits_end.store(false, Ordering::SeqCst);
+        rest
+    }
+
+    fn wake_idle_thread(&self) {
+        let _rest = lock(&self.rest);
+        self.called.notify_one();
     }
 }
 
@@ -146,4 +224,25 @@ pub(super) fn wait_beside<F: Future>(future: F) -> Result<F::Output, BlockingErr
 fn refuse_inside_async() -> Result<(), BlockingError> {
     // A thread that only entered a runtime, as opening does, could wait; but nothing waits then.
     if Handle::try_current().is_ok() { Err(BlockingError::InsideAsync) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn calls_that_wait_for_nothing_give_the_runtime_its_turns() {
+        let owned = OwnedRuntime::start("sensor").unwrap();
+        // As if the idle thread never got around to it.
+        let _held = lock(&owned.shared.rest);
+        let ran = Arc::new(AtomicBool::new(false));
+        let task = Arc::clone(&ran);
+        owned.handle.spawn(async move {
+            yield_now().await;
+            task.store(true, Ordering::SeqCst);
+        });
+        let call_until_it_ran =
+            || (0..10_000_000).any(|_| owned.block_on(async { ran.load(Ordering::SeqCst) }).unwrap());
+        assert!(call_until_it_ran());
+    }
 }

@@ -73,6 +73,14 @@ impl Core {
         }
     }
 
+    /// Runs what the transport left to tasks of its own: nobody else does between two calls of a program without async.
+    pub(crate) fn give_turn(&self) {
+        if let Some(runtime) = &self.runtime {
+            // Refused inside async code; there the component's idle thread does it a little later.
+            let _refused = runtime.drive_until(tokio::task::yield_now());
+        }
+    }
+
     /// The end of a program without async: hands over what connected peers still take, also when it was told to stop.
     pub(super) fn flush_blocking(&self, timeout: Duration) -> Result<(), NotFlushed> {
         match &self.runtime {

@@ -106,8 +106,8 @@ impl<A, B> Rep<A, B> {
             self.counts.moved(body.len());
             match (self.decode)(body) {
                 Ok(message) => {
-                    let way_back = WayBack { responder, encoding: Arc::clone(&self.encoding), gate: self.name };
-                    Ok(Request { message, way_back })
+                    let (encoding, core) = (Arc::clone(&self.encoding), Arc::clone(&self.core));
+                    Ok(Request { message, way_back: WayBack { responder, encoding, gate: self.name, core } })
                 }
                 Err(source) => {
                     self.counts.rejected += 1;
@@ -131,6 +131,7 @@ struct WayBack<B> {
     responder: Box<dyn Responder>,
     encoding: Arc<Mutex<Encoding<B>>>,
     gate: GateName,
+    core: Arc<Core>,
 }
 
 impl<A, B> Request<A, B> {
@@ -156,9 +157,11 @@ impl<A, B> Request<A, B> {
     /// # Errors
     /// Those of `reply`.
     pub fn reply_now(self, answer: &B) -> Result<(), ReplyError> {
-        let WayBack { responder, encoding, gate } = self.way_back;
+        let WayBack { responder, encoding, gate, core } = self.way_back;
         let body = lock(&encoding).encode(answer).map_err(|source| ReplyError::Encode { gate, source })?;
-        responder.respond(body).map_err(|_gone| ReplyError::RequesterGone { gate })
+        responder.respond(body).map_err(|_gone| ReplyError::RequesterGone { gate })?;
+        core.give_turn();
+        Ok(())
     }
 }
 

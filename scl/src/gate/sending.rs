@@ -59,7 +59,11 @@ impl<T> Sending<T> {
 
     pub(crate) fn send_blocking(&mut self, message: &T) -> Result<(), SendError> {
         let core = Arc::clone(&self.core);
-        core.block_on(self.send(message)).map_err(|source| SendError::Blocking { gate: self.name, source })?
+        let sent = core.block_on(self.send(message));
+        if self.spec.kind == GateKind::Push {
+            core.give_turn();
+        }
+        sent.map_err(|source| SendError::Blocking { gate: self.name, source })?
     }
 
     pub(crate) fn try_send(&mut self, message: &T) -> Result<(), TrySendError> {
