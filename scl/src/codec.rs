@@ -4,7 +4,7 @@
 //! built: [`Opaque`] is always there, `Protobuf`, `Json`, `Raw`, `Cbor`, `Msgpack` and `Postcard` have a cargo feature each
 //! (the last three are not on by default), and a user's own codec works like these.
 
-#[cfg(any(feature = "msgpack", feature = "postcard"))]
+#[cfg(any(feature = "cbor", feature = "msgpack", feature = "postcard"))]
 mod bounded;
 #[cfg(feature = "cbor")]
 mod cbor;

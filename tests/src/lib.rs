@@ -1,5 +1,6 @@
 //! What the tests across processes share: programs that are told what to do line by line, and a folder to meet in.
 
+pub mod fuzz;
 mod process;
 mod python;
 mod script;

@@ -1,8 +1,9 @@
 //! Bounds on what serde reads, for formats whose library sets none.
 //!
 //! Without them a frame of some kilobytes could nest so deep that the stack overflows, which ends the process, or
-//! announce 2^60 elements that take no bytes, which keeps it busy for ever. Each serde interface is wrapped, the
-//! wrapped value handed on to the next, and the calls that go a level down or to a next element are counted.
+//! announce 2^60 elements that take no bytes, which keeps it busy for ever. And serde makes room for up to 1 MiB of
+//! elements that are only announced, on each level anew: a few bytes a level would take 128 MiB. Each serde interface is
+//! wrapped, the wrapped value handed on to the next, and the calls that go a level down or to a next element are counted.
 
 use std::cell::Cell;
 use std::fmt;
@@ -19,7 +20,7 @@ const EMPTY_ELEMENTS: usize = 4096;
 /// Reads a value from the bytes of a frame, of which `length` says how many they are.
 pub(super) fn read<'de, T: Deserialize<'de>, D: Deserializer<'de>>(input: D, length: usize) -> Result<T, D::Error> {
     let elements = length.saturating_add(EMPTY_ELEMENTS);
-    let bounds = Bounds { levels: Cell::new(LEVELS), elements: Cell::new(elements) };
+    let bounds = Bounds { levels: Cell::new(LEVELS), elements: Cell::new(elements), expected: Cell::new(length) };
     T::deserialize(Bounded { inner: input, bounds: &bounds })
 }
 
@@ -27,6 +28,8 @@ pub(super) fn read<'de, T: Deserialize<'de>, D: Deserializer<'de>>(input: D, len
 struct Bounds {
     levels: Cell<usize>,
     elements: Cell<usize>,
+    /// For how many more elements room may be made before they come: all together no more than the frame has bytes.
+    expected: Cell<usize>,
 }
 
 impl Bounds {
@@ -40,6 +43,12 @@ impl Bounds {
         let left = self.elements.get().checked_sub(1);
         self.elements.set(left.ok_or_else(|| E::custom("it announces more elements than the frame can hold"))?);
         Ok(())
+    }
+
+    fn expect_elements(&self, announced: usize) -> usize {
+        let expected = announced.min(self.expected.get());
+        self.expected.set(self.expected.get() - expected);
+        expected
     }
 }
 
@@ -157,6 +166,10 @@ impl<I> Watched<'_, I> {
     fn count<E: Error>(&self) -> Result<(), E> {
         if self.announced { self.bounds.count_element() } else { Ok(()) }
     }
+
+    fn expected(&self, hint: Option<usize>) -> Option<usize> {
+        if self.announced { hint.map(|announced| self.bounds.expect_elements(announced)) } else { hint }
+    }
 }
 
 impl<'de, A: SeqAccess<'de>> SeqAccess<'de> for Watched<'_, A> {
@@ -169,7 +182,7 @@ impl<'de, A: SeqAccess<'de>> SeqAccess<'de> for Watched<'_, A> {
     }
 
     fn size_hint(&self) -> Option<usize> {
-        self.inner.size_hint()
+        self.expected(self.inner.size_hint())
     }
 }
 
@@ -187,7 +200,7 @@ impl<'de, A: MapAccess<'de>> MapAccess<'de> for Watched<'_, A> {
     }
 
     fn size_hint(&self) -> Option<usize> {
-        self.inner.size_hint()
+        self.expected(self.inner.size_hint())
     }
 }
 

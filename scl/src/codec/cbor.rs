@@ -4,13 +4,14 @@ use cbor4ii::core::utils::SliceReader;
 use cbor4ii::serde::Deserializer;
 use serde::{Serialize, de::DeserializeOwned};
 
-use super::{Codec, DecodeError, EncodeError};
+use super::{Codec, DecodeError, EncodeError, bounded};
 
 /// Carries any serde type as one CBOR item (RFC 8949), structs as maps by field name.
 ///
 /// A reader passes over fields that it does not know, and an optional field that is not there is `None`, so both ends
-/// may have different versions of a type. Values nested deeper than 256 levels, floats of 16 bits, and anything after
-/// the item are refused.
+/// may have different versions of a type. Values nested deeper than 128 levels (each `Some` is one), floats of 16 bits,
+/// and anything after the item are refused. The unit type is written as an empty list, and read as one by types that look
+/// at what comes next: `serde_json::Value::Null` does not come back as itself.
 #[derive(Debug)]
 pub struct Cbor;
 
@@ -30,7 +31,7 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Cbor {
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
         let refused = |reason| DecodeError::new(<Self as Codec<T>>::NAME, reason);
         let mut input = Deserializer::new(SliceReader::new(&bytes));
-        let message = T::deserialize(&mut input).map_err(|error| {
+        let message = bounded::read(&mut input, bytes.len()).map_err(|error| {
             refused(format!("{} bytes are no cbor item of the expected type", bytes.len())).caused_by(error)
         })?;
         match input.into_inner().fill(1) {

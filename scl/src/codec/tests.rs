@@ -107,6 +107,11 @@ mod json {
     }
 
     #[test]
+    fn a_number_arrives_to_its_last_digit() {
+        check_round_trip::<Json, _>(&[2.222_222_222_222_222_6e283, 0.1 + 0.2, f64::MIN_POSITIVE, f64::MAX, -5e-324]);
+    }
+
+    #[test]
     fn truncated_is_an_error_at_every_length() {
         let whole = encoded::<Json, _>(&event());
         for length in 0..whole.len() {

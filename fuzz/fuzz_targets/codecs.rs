@@ -1,0 +1,10 @@
+//! Any frame is read by every codec without a panic and without memory that does not befit it.
+#![no_main]
+
+use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};
+use std::alloc::System;
+
+#[global_allocator]
+static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| scl_tests::fuzz::codecs(data));
