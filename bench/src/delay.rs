@@ -110,7 +110,7 @@ fn table(situation: &str, all: &[Times]) -> Table {
         Table::new(format!("delay of {BYTES} bytes at 1000 Hz between two processes, {situation}"), &COLUMNS);
     for (way, times) in WAYS.iter().zip(all) {
         let figures = vec![times.least(), times.quantile(0.5), times.mean(), times.greatest(), times.variance()];
-        table.add(Row::new(way.name, figures).beside(way.beside).with_distribution(times));
+        table.add(Row::new(way.name, figures).beside_all(way.beside).with_times(times));
     }
     table
 }

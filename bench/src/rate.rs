@@ -105,8 +105,8 @@ fn table(bytes: usize, batch: usize, all: &[Measured], counted: bool) -> Table {
         if counted {
             figures.push(measured.allocations as f64 / (batch * BATCHES) as f64);
         }
-        let row = Row::new(measured.way.name, figures).beside(measured.way.beside);
-        table.add(row.with_distribution(&measured.delays));
+        let row = Row::new(measured.way.name, figures).beside_all(measured.way.beside);
+        table.add(row.with_times(&measured.delays));
     }
     table
 }

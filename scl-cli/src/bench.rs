@@ -19,6 +19,9 @@ pub(crate) struct BenchArguments {
     /// Print one JSON object instead of tables.
     #[arg(long, global = true)]
     json: bool,
+    /// Print below each table how its times are distributed: the last percents, and a picture of all of them.
+    #[arg(long, global = true, conflicts_with = "json")]
+    histogram: bool,
     /// Measure next to nothing: enough to see that everything runs.
     #[arg(long, global = true, hide = true)]
     quick: bool,
@@ -74,7 +77,11 @@ pub(crate) struct OtherSideArguments {
 pub(crate) fn bench(arguments: &BenchArguments) -> ExitCode {
     match measure(&arguments.scenario, arguments.quick) {
         Ok(report) => {
-            print_out(&if arguments.json { format!("{:#}\n", report.to_json()) } else { report.to_string() });
+            print_out(&match (arguments.json, arguments.histogram) {
+                (true, _) => format!("{:#}\n", report.to_json()),
+                (false, true) => format!("{report:#}"),
+                (false, false) => report.to_string(),
+            });
             ExitCode::SUCCESS
         }
         Err(error) => failed(&error),
