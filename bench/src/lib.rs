@@ -10,6 +10,8 @@ mod clock;
 mod codecs;
 mod delay;
 mod histogram;
+#[cfg(feature = "libzmq")]
+mod libzmq;
 mod one_way;
 mod open;
 mod processes;
