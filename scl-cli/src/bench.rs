@@ -3,7 +3,7 @@
 use crate::duration::parse_duration;
 use crate::print::{print_err, print_out};
 use clap::{Args, Subcommand};
-use scl_bench::{Codecs, Delay, Open, Rate, Report, Roundtrip};
+use scl_bench::{Codecs, Delay, Fanout, Open, Rate, Report, Roundtrip};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -53,6 +53,12 @@ enum Scenario {
         #[arg(long, default_value_t = 5.0, value_parser = parse_seconds)]
         seconds: f64,
     },
+    /// The delay from one process to eight at 1000 Hz, while all of them run and while one of them is stopped.
+    Fanout {
+        /// How long each way is measured in each situation.
+        #[arg(long, default_value_t = 5.0, value_parser = parse_seconds)]
+        seconds: f64,
+    },
     /// The time to encode and decode a record, and its length, for every codec.
     Codecs {
         /// How many records each codec encodes and decodes.
@@ -97,6 +103,7 @@ pub(crate) fn play_other_side(arguments: &OtherSideArguments) -> ExitCode {
 
 fn measure(scenario: &Scenario, quick: bool) -> scl_bench::Result<Report> {
     let few = |messages: usize| if quick { messages.min(50) } else { messages };
+    let short = |seconds: f64| Duration::from_secs_f64(if quick { seconds.min(0.05) } else { seconds });
     match scenario {
         Scenario::Roundtrip { bytes, messages } => scl_bench::measure_roundtrip(&Roundtrip {
             bytes: bytes.clone(),
@@ -106,10 +113,8 @@ fn measure(scenario: &Scenario, quick: bool) -> scl_bench::Result<Report> {
         Scenario::Rate { bytes, messages } => {
             scl_bench::measure_rate(&Rate { bytes: bytes.clone(), messages: few(*messages), allocations: None })
         }
-        Scenario::Delay { seconds } => {
-            let time = Duration::from_secs_f64(if quick { seconds.min(0.05) } else { *seconds });
-            scl_bench::measure_delay(&Delay { time })
-        }
+        Scenario::Delay { seconds } => scl_bench::measure_delay(&Delay { time: short(*seconds) }),
+        Scenario::Fanout { seconds } => scl_bench::measure_fanout(&Fanout { time: short(*seconds) }),
         Scenario::Codecs { messages } => scl_bench::measure_codecs(&Codecs { messages: few(*messages) }),
         Scenario::Open { starts } => {
             let idle = Duration::from_millis(if quick { 50 } else { 1000 });

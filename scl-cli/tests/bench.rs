@@ -52,21 +52,27 @@ fn names(report: &Value) -> Vec<&str> {
     rows(report).map(|row| row["name"].as_str().unwrap()).collect()
 }
 
-/// Each row of this name stands beside just these others, with the ratio of this figure to theirs.
-fn assert_compared(report: &Value, figure: &str, name: &str, others: &[&str]) {
+/// In every table of a report: see [`assert_compared`].
+fn assert_compared_everywhere(report: &Value, figure: &str, name: &str, others: &[&str]) {
     for table in report["tables"].as_array().unwrap() {
-        let row = |name: &str| table["rows"].as_array().unwrap().iter().find(|row| row["name"] == name).unwrap();
-        let compared: Vec<&str> = row(name)["ratios"].as_object().unwrap().keys().map(String::as_str).collect();
-        let mut expected = others.to_vec();
-        expected.sort_unstable();
-        assert_eq!(compared, expected, "{name}");
-        for other in others {
-            let [ours, theirs] = [name, other].map(|name| row(name)[figure].as_f64().unwrap());
-            assert!(ours > 0.0 && theirs > 0.0, "{table}");
-            // Numbers in JSON may lose their last digit.
-            let error = row(name)["ratios"][other][figure].as_f64().unwrap() * theirs / ours - 1.0;
-            assert!(error.abs() < 1e-9, "{table}");
-        }
+        assert_compared(table, figure, name, others);
+    }
+}
+
+/// The row of this name stands beside just these others, with the ratio of this figure to theirs.
+fn assert_compared(table: &Value, figure: &str, name: &str, others: &[&str]) {
+    let row = |name: &str| table["rows"].as_array().unwrap().iter().find(|row| row["name"] == name).unwrap();
+    let mut compared: Vec<&str> = row(name)["ratios"].as_object().unwrap().keys().map(String::as_str).collect();
+    let mut expected = others.to_vec();
+    compared.sort_unstable();
+    expected.sort_unstable();
+    assert_eq!(compared, expected, "{name}");
+    for other in others {
+        let [ours, theirs] = [name, other].map(|name| row(name)[figure].as_f64().unwrap());
+        assert!(ours > 0.0 && theirs > 0.0, "{table}");
+        // Numbers in JSON may lose their last digit.
+        let error = row(name)["ratios"][other][figure].as_f64().unwrap() * theirs / ours - 1.0;
+        assert!(error.abs() < 1e-9, "{table}");
     }
 }
 
@@ -93,8 +99,8 @@ fn round_trips_of_several_lengths() {
         ("SCL req/rep", "zeromq DEALER/ROUTER", "libzmq REQ/REP"),
     ] {
         let others = if cfg!(feature = "libzmq") { vec![raw, libzmq] } else { vec![raw] };
-        assert_compared(&report, "p50_us", ours, &others);
-        assert_compared(&report, "p99_us", &format!("{ours} blocking"), &[others, vec![ours]].concat());
+        assert_compared_everywhere(&report, "p50_us", ours, &others);
+        assert_compared_everywhere(&report, "p99_us", &format!("{ours} blocking"), &[others, vec![ours]].concat());
     }
     assert_eq!(report["tables"][1]["title"], "round trip of 1024 bytes between two processes");
 }
@@ -119,7 +125,7 @@ fn rates_of_published_and_pushed_messages() {
         ("SCL push/pull", "zeromq PUSH/PULL", "libzmq PUSH/PULL"),
     ] {
         let others = if cfg!(feature = "libzmq") { vec![raw, libzmq] } else { vec![raw] };
-        assert_compared(&report, "messages_per_s", ours, &others);
+        assert_compared_everywhere(&report, "messages_per_s", ours, &others);
     }
 }
 
@@ -143,7 +149,24 @@ fn delays_idle_and_under_load() {
     let refused = report["notes"].to_string().contains("real-time priority was not tried")
         || report["notes"].to_string().contains("real-time priority is not permitted");
     assert_eq!(tables.len(), if refused { 2 } else { 3 });
-    assert_compared(&report, "max_us", "SCL pub/sub", &["zeromq XPUB/SUB"]);
+    assert_compared_everywhere(&report, "max_us", "SCL pub/sub", &["zeromq XPUB/SUB"]);
+}
+
+#[test]
+fn delays_while_one_of_eight_is_stopped() {
+    let report = report(&["fanout"]);
+    let one = ["SCL, all eight run", "SCL, one stopped", "zeromq PUB, all eight run", "zeromq PUB, one stopped"];
+    assert_eq!(names(&report), [&one[..], &one[..], &["SCL", "zeromq PUB"]].concat());
+    assert_eq!(report["tables"][0]["rows"][0]["lost"], 0.0);
+    // Nobody who stood still read anything of its fifty messages, so all of them fit into queue and socket.
+    for row in report["tables"][2]["rows"].as_array().unwrap() {
+        assert_eq!(row["messages"], 50.0, "{row}");
+    }
+    let [delays, sends] = [0, 1].map(|table| &report["tables"][table]);
+    assert_compared(delays, "p50_us", "SCL, all eight run", &["zeromq PUB, all eight run"]);
+    assert_compared(delays, "max_us", "SCL, one stopped", &["SCL, all eight run", "zeromq PUB, one stopped"]);
+    assert_compared(sends, "p99_us", "SCL, one stopped", &["SCL, all eight run"]);
+    assert_compared(sends, "p99_us", "zeromq PUB, one stopped", &["zeromq PUB, all eight run"]);
 }
 
 #[test]
@@ -155,8 +178,8 @@ fn codecs_and_xml() {
     assert_eq!(bytes("protobuf"), bytes("prost alone"));
     assert_eq!(bytes("json"), bytes("serde_json alone"));
     assert!(bytes("postcard") < bytes("json") && bytes("json") < bytes("xml"));
-    assert_compared(&report, "encode_ns", "json", &["serde_json alone", "xml"]);
-    assert_compared(&report, "decode_ns", "postcard", &["xml"]);
+    assert_compared_everywhere(&report, "encode_ns", "json", &["serde_json alone", "xml"]);
+    assert_compared_everywhere(&report, "decode_ns", "postcard", &["xml"]);
 }
 
 #[test]
@@ -169,8 +192,13 @@ fn the_cost_of_an_open_component() {
         "async runtime only",
     ];
     assert_eq!(names(&report), expected);
-    assert_compared(&report, "memory_kib", "SCL, 10 gates, alone", &["10 zeromq sockets, 5 of them bound"]);
-    assert_compared(&report, "memory_kib", "SCL, 10 gates, connected", &["10 zeromq sockets, 5 of them bound"]);
+    assert_compared_everywhere(&report, "memory_kib", "SCL, 10 gates, alone", &["10 zeromq sockets, 5 of them bound"]);
+    assert_compared_everywhere(
+        &report,
+        "memory_kib",
+        "SCL, 10 gates, connected",
+        &["10 zeromq sockets, 5 of them bound"],
+    );
 }
 
 /// What is printed for people, each line's words with one space between them.
