@@ -11,6 +11,7 @@ mod codecs;
 mod delay;
 mod fanout;
 mod histogram;
+mod lengths;
 #[cfg(feature = "libzmq")]
 mod libzmq;
 mod one_way;

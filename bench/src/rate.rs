@@ -2,6 +2,7 @@
 
 use crate::AllocationCount;
 use crate::histogram::Times;
+use crate::lengths::check_lengths;
 use crate::one_way::{self, Lane, SHORTEST, Way};
 use crate::processes::{as_text, scratch_folder, start_runtime};
 use crate::report::{Column, Report, Row, Table};
@@ -66,10 +67,7 @@ struct Measured {
 /// A length outside [`Rate::BYTES`]; the folder for temporary files cannot be used, a process cannot be started, or a
 /// connection fails.
 pub fn measure_rate(options: &Rate) -> scl::Result<Report> {
-    if let Some(refused) = options.bytes.iter().find(|bytes| !Rate::BYTES.contains(bytes)) {
-        let (least, most) = Rate::BYTES.into_inner();
-        return Err(scl::Error::message(format!("a message has from {least} to {most} bytes, not {refused}")));
-    }
+    check_lengths(&options.bytes, Rate::BYTES)?;
     let mut report = Report::new("rate");
     let runtime = start_runtime()?;
     for &bytes in &options.bytes {

@@ -54,7 +54,11 @@ pub(crate) type Others = &'static [(&'static str, &'static str)];
 
 impl Report {
     pub(crate) fn new(scenario: &'static str) -> Self {
-        Self { scenario, tables: Vec::new(), notes: Vec::new() }
+        let mut report = Self { scenario, tables: Vec::new(), notes: Vec::new() };
+        if cfg!(debug_assertions) {
+            report.note("this program was built without optimisation: build it with `--release` for figures");
+        }
+        report
     }
 
     pub(crate) fn add(&mut self, table: Table) {
@@ -68,8 +72,8 @@ impl Report {
     /// One object: `scenario`, `tables` (each with `title` and `rows`) and `notes`.
     ///
     /// A row has its `name`, its figures by names that end in their unit (`p50_us`), and where there is something to
-    /// compare with, `ratios`: by the name of each other row, the ratios of this row's figures to that row's. Times also
-    /// have their `distribution`, pairs of a part of all times and the microseconds that this part does not exceed.
+    /// compare with, `ratios`: by the name of each other row, the ratios of this row's figures to that row's. Times
+    /// also have their `distribution`, pairs of a part of all times and the microseconds that it does not exceed.
     pub fn to_json(&self) -> Value {
         let tables: Vec<Value> = self.tables.iter().map(Table::to_json).collect();
         json!({ "scenario": self.scenario, "tables": tables, "notes": self.notes })
@@ -173,9 +177,7 @@ mod tests {
         let mut table = Table::new("speed", &[Column::compared("p50_us"), Column::plain("bytes")]);
         table.add(Row::new("ours", vec![3.0, 20.0]).beside_all(&[("raw", "raw"), ("other", "not measured")]));
         table.add(Row::new("raw", vec![2.5, 20.0]));
-        let mut report = Report::new("example");
-        report.add(table);
-        report.note("nothing else ran");
+        let report = Report { scenario: "example", tables: vec![table], notes: vec!["nothing else ran".to_owned()] };
         let rows = json!([
             { "name": "ours", "p50_us": 3.0, "bytes": 20.0, "ratios": { "raw": { "p50_us": 1.2 } } },
             { "name": "raw", "p50_us": 2.5, "bytes": 20.0 },

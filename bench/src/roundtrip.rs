@@ -10,10 +10,12 @@ pub(crate) use wall::play_wall;
 
 use crate::AllocationCount;
 use crate::histogram::Times;
+use crate::lengths::check_lengths;
 use crate::processes::{OtherProcess, as_text, scratch_folder, start_runtime};
 use crate::report::{Column, Others, Report, Row, Table};
 use ball::Ball;
 use scl::bytes::Bytes;
+use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
 
 /// Messages of one way before it is the next one's turn.
@@ -22,12 +24,17 @@ const BATCH: usize = 500;
 /// What [`measure_roundtrip`] is asked for.
 #[derive(Debug, Clone)]
 pub struct Roundtrip {
-    /// The lengths of the messages, in bytes, one table each.
+    /// The lengths of the messages, in bytes, one table each; within [`Roundtrip::BYTES`].
     pub bytes: Vec<usize>,
     /// How many messages of each length go each way there and back.
     pub messages: usize,
     /// Adds how many allocations of this process a message takes.
     pub allocations: Option<AllocationCount>,
+}
+
+impl Roundtrip {
+    /// The lengths that messages may have. Some ten processes keep a few of them each in memory.
+    pub const BYTES: RangeInclusive<usize> = 1..=16 << 20;
 }
 
 /// A way there and back: `word` names it between the processes.
@@ -85,8 +92,10 @@ struct Course {
 ///
 /// # Errors
 ///
-/// The folder for temporary files cannot be used, a process cannot be started, or a connection fails.
+/// A length outside [`Roundtrip::BYTES`]; the folder for temporary files cannot be used, a process cannot be started,
+/// or a connection fails.
 pub fn measure_roundtrip(options: &Roundtrip) -> scl::Result<Report> {
+    check_lengths(&options.bytes, Roundtrip::BYTES)?;
     let mut report = Report::new("roundtrip");
     let runtime = start_runtime()?;
     for &bytes in &options.bytes {

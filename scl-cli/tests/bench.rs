@@ -130,11 +130,23 @@ fn rates_of_published_and_pushed_messages() {
 }
 
 #[test]
-fn a_message_too_short_for_its_time_is_refused() {
-    let output = bench(&["rate", "--bytes", "20,7"]);
-    assert_eq!(output.status.code(), Some(2));
-    let expected = "error: a message has from 8 to 1048576 bytes, not 7\n";
-    assert_eq!(String::from_utf8_lossy(&output.stderr), expected);
+fn refused_options_say_what_to_write() {
+    let (number, seconds) = ("a whole number from", "a time from 0.001 to 3600 seconds, like `5` or `500ms`");
+    for (arguments, refused, expected) in [
+        (["rate", "--bytes", "20,7"], "7' for '--bytes <BYTES>", format!("{number} 8 to 1048576")),
+        (["rate", "--messages", "0"], "0' for '--messages <MESSAGES>", format!("{number} 1 to 10000000")),
+        (["roundtrip", "--bytes", "0"], "0' for '--bytes <BYTES>", format!("{number} 1 to 16777216")),
+        (["codecs", "--messages", "1e6"], "1e6' for '--messages <MESSAGES>", format!("{number} 1 to 10000000")),
+        (["open", "--starts", "99999"], "99999' for '--starts <STARTS>", format!("{number} 1 to 10000")),
+        (["delay", "--seconds", "2h"], "2h' for '--seconds <SECONDS>", seconds.to_owned()),
+        (["fanout", "--seconds", "0"], "0' for '--seconds <SECONDS>", seconds.to_owned()),
+    ] {
+        let output = bench(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        let expected = format!("error: invalid value '{refused}': write {expected}");
+        assert_eq!(errors.lines().next(), Some(expected.as_str()));
+    }
 }
 
 #[test]

@@ -76,7 +76,7 @@ impl Sender {
             Self::SclPush(source) => source.jobs.send(&message).await?,
             Self::RawPublish(socket) => socket.send(message.into()).await?,
             Self::RawPush(socket) => socket.send(message.into()).await?,
-            // It blocks this thread, which has nothing else to do, until the library's own threads have taken the message.
+            // It may block this thread, which has nothing else to do: the library's threads do the work.
             #[cfg(feature = "libzmq")]
             Self::Libzmq(socket) => socket.send(&message[..], 0)?,
             Self::Unix(stream) => stream.write_all(&message).await?,

@@ -79,10 +79,7 @@ mod tests {
         table.add(ours.with_times(&times));
         table.add(Row::new("raw", vec![2.5, 20.0]));
         table.add(Row::new("other library", vec![6.0, 20.0]).beside("raw", "raw"));
-        let mut report = Report::new("example");
-        report.add(table);
-        report.note("nothing else ran");
-        report
+        Report { scenario: "example", tables: vec![table], notes: vec!["nothing else ran".to_owned()] }
     }
 
     #[test]
