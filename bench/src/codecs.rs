@@ -5,7 +5,7 @@ mod record;
 mod xml;
 
 use crate::histogram::Times;
-use crate::report::{Column, Report, Row, Table};
+use crate::report::{Column, Others, Report, Row, Table};
 use prost::Message;
 use record::{Example, FlatRecord, Record};
 use scl::bytes::{BufMut, Bytes, BytesMut};
@@ -17,6 +17,9 @@ use xml::Xml;
 /// Messages measured together, because one alone is too short for the clock.
 const BATCH: usize = 100;
 
+const XML: &str = "xml";
+const BESIDE_XML: Others = &[("xml", XML)];
+
 /// What [`measure_codecs`] is asked for.
 #[derive(Debug, Clone)]
 pub struct Codecs {
@@ -27,7 +30,7 @@ pub struct Codecs {
 /// A codec with a message, behind one face.
 struct Subject {
     name: &'static str,
-    beside: Option<&'static str>,
+    beside: Others,
     /// Encodes into an empty buffer.
     encode: Box<Encode>,
     /// Decodes and drops the message.
@@ -72,13 +75,13 @@ fn subjects() -> Vec<Subject> {
     vec![
         subject::<Raw, FlatRecord>("raw"),
         subject::<Postcard, Record>("postcard"),
-        subject::<Protobuf, Record>("protobuf").beside("prost alone"),
+        subject::<Protobuf, Record>("protobuf").beside(&[("library", "prost alone"), ("xml", XML)]),
         prost_alone(),
         subject::<Msgpack, Record>("msgpack"),
         subject::<Cbor, Record>("cbor"),
-        subject::<Json, Record>("json").beside("serde_json alone"),
+        subject::<Json, Record>("json").beside(&[("library", "serde_json alone"), ("xml", XML)]),
         serde_json_alone(),
-        subject::<Xml, Record>("xml"),
+        subject::<Xml, Record>(XML).beside(&[]),
     ]
 }
 
@@ -86,7 +89,7 @@ fn subject<C: Codec<T>, T: Example + 'static>(name: &'static str) -> Subject {
     let message = T::example();
     Subject {
         name,
-        beside: None,
+        beside: BESIDE_XML,
         encode: Box::new(move |into| Ok(C::encode(black_box(&message), into)?)),
         decode: Box::new(|bytes| {
             black_box(C::decode(bytes)?);
@@ -96,8 +99,8 @@ fn subject<C: Codec<T>, T: Example + 'static>(name: &'static str) -> Subject {
 }
 
 impl Subject {
-    fn beside(self, name: &'static str) -> Self {
-        Self { beside: Some(name), ..self }
+    fn beside(self, others: Others) -> Self {
+        Self { beside: others, ..self }
     }
 }
 
@@ -105,7 +108,7 @@ fn prost_alone() -> Subject {
     let message = Record::example();
     Subject {
         name: "prost alone",
-        beside: None,
+        beside: BESIDE_XML,
         encode: Box::new(move |into| Ok(black_box(&message).encode(into)?)),
         decode: Box::new(|bytes| {
             black_box(Record::decode(bytes)?);
@@ -118,7 +121,7 @@ fn serde_json_alone() -> Subject {
     let message = Record::example();
     Subject {
         name: "serde_json alone",
-        beside: None,
+        beside: BESIDE_XML,
         encode: Box::new(move |into| Ok(serde_json::to_writer(into.writer(), black_box(&message))?)),
         decode: Box::new(|bytes| {
             black_box(serde_json::from_slice::<Record>(&bytes)?);
@@ -160,7 +163,7 @@ fn table(all: &[Measured]) -> Table {
         // What was recorded as picoseconds comes out in nanoseconds.
         let [encode, decode] = [measured.encoding.quantile(0.5), measured.decoding.quantile(0.5)];
         let row = Row::new(measured.subject.name, vec![encode, decode, measured.bytes as f64]);
-        table.add(row.beside(measured.subject.beside));
+        table.add(row.beside_all(measured.subject.beside));
     }
     table
 }

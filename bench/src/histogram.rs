@@ -6,6 +6,7 @@ use hdrhistogram::Histogram;
 const LONGEST: u64 = 60_000_000_000;
 
 /// The times of one way of doing something, in nanoseconds.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Times(Histogram<u64>);
 
 impl Times {
@@ -44,6 +45,22 @@ impl Times {
         let steps = self.0.iter_quantiles(1);
         steps.map(|step| (step.quantile_iterated_to(), micros(step.value_iterated_to() as f64))).collect()
     }
+
+    /// The parts of all times in so many steps from one time to another, in microseconds; each step is the same factor.
+    pub(crate) fn shares(&self, from: f64, to: f64, steps: usize) -> Vec<f64> {
+        // A clock may see no time at all, which has no logarithm.
+        let [from, to] = [from, to].map(|time| time.max(1e-3).ln());
+        let mut counts = vec![0; steps];
+        for value in self.0.iter_recorded() {
+            let place = (micros(value.value_iterated_to() as f64).max(1e-3).ln() - from) / (to - from);
+            // A rounded time may lie just outside, and times that are all the same have no place: saturating will do.
+            let step = ((place * steps as f64) as usize).min(steps.saturating_sub(1));
+            if let Some(count) = counts.get_mut(step) {
+                *count += value.count_at_value();
+            }
+        }
+        counts.into_iter().map(|count| count as f64 / self.0.len() as f64).collect()
+    }
 }
 
 fn micros(nanoseconds: f64) -> f64 {
@@ -65,5 +82,17 @@ mod tests {
             assert!((figure - expected).abs() < 0.01, "{figures:?}");
         }
         assert_eq!(times.distribution().last().map(|(part, _)| *part), Some(1.0));
+    }
+
+    #[test]
+    fn shares_are_of_steps_by_a_factor() {
+        let mut times = Times::new().unwrap();
+        for nanoseconds in [1_000, 2_000, 20_000, 999_000] {
+            times.record(nanoseconds);
+        }
+        assert_eq!(times.shares(1.0, 1000.0, 3), [0.5, 0.25, 0.25]);
+        let mut same = Times::new().unwrap();
+        same.record(5_000);
+        assert_eq!(same.shares(same.least(), same.greatest(), 2).iter().sum::<f64>(), 1.0);
     }
 }

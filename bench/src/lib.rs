@@ -9,7 +9,11 @@
 mod clock;
 mod codecs;
 mod delay;
+mod fanout;
 mod histogram;
+mod lengths;
+#[cfg(feature = "libzmq")]
+mod libzmq;
 mod one_way;
 mod open;
 mod processes;
@@ -20,6 +24,7 @@ mod roundtrip;
 
 pub use codecs::{Codecs, measure_codecs};
 pub use delay::{Delay, measure_delay};
+pub use fanout::{Fanout, measure_fanout};
 pub use open::{Open, measure_open};
 pub use processes::{OTHER_SIDE, play_other_side};
 pub use rate::{Rate, measure_rate};

@@ -10,6 +10,7 @@ mod sender;
 pub(crate) use receiver::play_receiver;
 
 use crate::processes::OtherProcess;
+use crate::report::Others;
 use scl::bytes::{BufMut, Bytes, BytesMut};
 use scl::time::interval;
 use sender::Sender;
@@ -24,16 +25,22 @@ pub(crate) const SHORTEST: usize = 8;
 pub(crate) struct Way {
     pub(crate) word: &'static str,
     pub(crate) name: &'static str,
-    pub(crate) beside: Option<&'static str>,
+    pub(crate) beside: Others,
 }
 
-pub(crate) const SCL_PUBLISH: Way = way("scl-publish", "SCL pub/sub", Some("zeromq XPUB/SUB"));
-pub(crate) const RAW_PUBLISH: Way = way("raw-publish", "zeromq XPUB/SUB", None);
-pub(crate) const SCL_PUSH: Way = way("scl-push", "SCL push/pull", Some("zeromq PUSH/PULL"));
-pub(crate) const RAW_PUSH: Way = way("raw-push", "zeromq PUSH/PULL", None);
-pub(crate) const UNIX: Way = way("unix", "Unix socket, tokio", None);
+pub(crate) const SCL_PUBLISH: Way =
+    way("scl-publish", "SCL pub/sub", &[("zeromq", "zeromq XPUB/SUB"), ("libzmq", "libzmq XPUB/SUB")]);
+pub(crate) const RAW_PUBLISH: Way = way("raw-publish", "zeromq XPUB/SUB", &[("libzmq", "libzmq XPUB/SUB")]);
+#[cfg(feature = "libzmq")]
+pub(crate) const LIBZMQ_PUBLISH: Way = way("libzmq-publish", "libzmq XPUB/SUB", &[("zeromq", "zeromq XPUB/SUB")]);
+pub(crate) const SCL_PUSH: Way =
+    way("scl-push", "SCL push/pull", &[("zeromq", "zeromq PUSH/PULL"), ("libzmq", "libzmq PUSH/PULL")]);
+pub(crate) const RAW_PUSH: Way = way("raw-push", "zeromq PUSH/PULL", &[("libzmq", "libzmq PUSH/PULL")]);
+#[cfg(feature = "libzmq")]
+pub(crate) const LIBZMQ_PUSH: Way = way("libzmq-push", "libzmq PUSH/PULL", &[("zeromq", "zeromq PUSH/PULL")]);
+pub(crate) const UNIX: Way = way("unix", "Unix socket, tokio", &[]);
 
-const fn way(word: &'static str, name: &'static str, beside: Option<&'static str>) -> Way {
+const fn way(word: &'static str, name: &'static str, beside: Others) -> Way {
     Way { word, name, beside }
 }
 

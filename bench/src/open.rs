@@ -8,7 +8,7 @@ pub(crate) use station::play;
 
 use crate::histogram::Times;
 use crate::processes::{OtherProcess, as_text, scratch_folder, start_runtime};
-use crate::report::{Column, Report, Row, Table};
+use crate::report::{Column, Others, Report, Row, Table};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tokio::runtime::Runtime;
@@ -26,17 +26,17 @@ pub struct Open {
 struct Kind {
     word: &'static str,
     name: &'static str,
-    beside: Option<&'static str>,
+    beside: Others,
     with_neighbour: bool,
 }
 
-const RAW: &str = "10 zeromq sockets, 5 of them bound";
+const RAW: &str = "10 zeromq sockets";
 
 const KINDS: [Kind; 4] = [
-    Kind { word: "station", name: "SCL, 10 gates, alone", beside: Some(RAW), with_neighbour: false },
-    Kind { word: "station", name: "SCL, 10 gates, connected", beside: Some(RAW), with_neighbour: true },
-    Kind { word: "sockets", name: RAW, beside: None, with_neighbour: false },
-    Kind { word: "nothing", name: "async runtime only", beside: None, with_neighbour: false },
+    Kind { word: "station", name: "SCL, 10 gates, alone", beside: &[("zeromq", RAW)], with_neighbour: false },
+    Kind { word: "station", name: "SCL, 10 gates, connected", beside: &[("zeromq", RAW)], with_neighbour: true },
+    Kind { word: "sockets", name: RAW, beside: &[], with_neighbour: false },
+    Kind { word: "nothing", name: "async runtime only", beside: &[], with_neighbour: false },
 ];
 
 const COLUMNS: [Column; 4] = [
@@ -74,6 +74,7 @@ pub fn measure_open(options: &Open) -> scl::Result<Report> {
     let mut report = Report::new("open");
     report.add(table(&all));
     report.note("memory is all that is resident, the program's own code included");
+    report.note("of the `zeromq` sockets alone, the five that listen are bound and nothing is connected");
     Ok(report)
 }
 
@@ -103,7 +104,7 @@ fn table(all: &[Measured]) -> Table {
     for (kind, measured) in KINDS.iter().zip(all) {
         let opening = &measured.opening;
         let figures = vec![opening.quantile(0.5), opening.greatest(), measured.memory, measured.wakeups];
-        table.add(Row::new(kind.name, figures).beside(kind.beside).with_distribution(opening));
+        table.add(Row::new(kind.name, figures).beside_all(kind.beside).with_times(opening));
     }
     table
 }

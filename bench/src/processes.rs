@@ -1,6 +1,7 @@
 //! The other processes of a scenario: this program again, started with a hidden word.
 
-use crate::{delay, one_way, open, roundtrip};
+use crate::{delay, fanout, one_way, open, roundtrip};
+use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
 use std::io::{BufRead, BufReader, ErrorKind, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
@@ -21,6 +22,7 @@ pub fn play_other_side(arguments: &[String]) -> scl::Result<()> {
         ["roundtrip", rest @ ..] => (roundtrip::play_wall, rest),
         ["one-way", rest @ ..] => (one_way::play_receiver, rest),
         ["delay", rest @ ..] => (delay::play_source, rest),
+        ["fanout", rest @ ..] => (fanout::play_sink, rest),
         ["open", rest @ ..] => (open::play, rest),
         _ => return Err(wrong_words(&words)),
     };
@@ -115,6 +117,25 @@ impl OtherProcess {
 
     pub(crate) fn id(&self) -> u32 {
         self.child.id()
+    }
+
+    /// Makes it stand still where it is; it does when this returns.
+    pub(crate) fn stop(&self) -> scl::Result<()> {
+        let process = Pid::from_child(&self.child);
+        kill_process(process, Signal::STOP)?;
+        // If it has ended instead, that is left for others to see.
+        waitid(WaitId::Pid(process), WaitIdOptions::STOPPED | WaitIdOptions::EXITED | WaitIdOptions::NOWAIT)?;
+        Ok(())
+    }
+
+    /// Lets it go on after [`stop`](Self::stop).
+    pub(crate) fn go_on(&self) -> scl::Result<()> {
+        Ok(kill_process(Pid::from_child(&self.child), Signal::CONT)?)
+    }
+
+    /// Whether it has said something that nobody has heard yet.
+    pub(crate) fn has_said_more(&self) -> bool {
+        !self.lines.is_empty()
     }
 
     /// The next thing that it says; the runtime goes on meanwhile.

@@ -2,25 +2,52 @@
 
 use crate::AllocationCount;
 use crate::histogram::Times;
-use crate::one_way::{Lane, RAW_PUBLISH, RAW_PUSH, SCL_PUBLISH, SCL_PUSH, SHORTEST, UNIX, Way};
+use crate::lengths::check_lengths;
+use crate::one_way::{self, Lane, SHORTEST, Way};
 use crate::processes::{as_text, scratch_folder, start_runtime};
 use crate::report::{Column, Report, Row, Table};
+use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
 
-/// Batches of each way, after one that only warms up.
+/// Batches of each way at least, after one that only warms up.
 const BATCHES: usize = 10;
 
-const WAYS: [&Way; 5] = [&SCL_PUBLISH, &RAW_PUBLISH, &SCL_PUSH, &RAW_PUSH, &UNIX];
+/// The greatest batch in bytes: libzmq without a high-water mark may hold all of it in memory.
+const BATCH_BYTES: usize = 32 << 20;
+
+const WAYS: &[&Way] = &[
+    &one_way::SCL_PUBLISH,
+    &one_way::RAW_PUBLISH,
+    #[cfg(feature = "libzmq")]
+    &one_way::LIBZMQ_PUBLISH,
+    &one_way::SCL_PUSH,
+    &one_way::RAW_PUSH,
+    #[cfg(feature = "libzmq")]
+    &one_way::LIBZMQ_PUSH,
+    &one_way::UNIX,
+];
+
+/// How many messages are sent together, and how often.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Batches {
+    size: usize,
+    number: usize,
+}
 
 /// What [`measure_rate`] is asked for.
 #[derive(Debug, Clone)]
 pub struct Rate {
-    /// The lengths of the messages, in bytes, one table each; at least 8.
+    /// The lengths of the messages, in bytes, one table each; within [`Rate::BYTES`].
     pub bytes: Vec<usize>,
     /// How many messages of each length go each way.
     pub messages: usize,
     /// Adds how many allocations of this process a sent message takes.
     pub allocations: Option<AllocationCount>,
+}
+
+impl Rate {
+    /// The lengths that messages may have: each carries its time, 8 bytes, and 1000 of them may wait in memory.
+    pub const BYTES: RangeInclusive<usize> = SHORTEST..=1 << 20;
 }
 
 /// A way in use and what came of it.
@@ -37,13 +64,10 @@ struct Measured {
 ///
 /// # Errors
 ///
-/// A length of less than 8 bytes; the folder for temporary files cannot be used, a process cannot be started, or a
+/// A length outside [`Rate::BYTES`]; the folder for temporary files cannot be used, a process cannot be started, or a
 /// connection fails.
 pub fn measure_rate(options: &Rate) -> scl::Result<Report> {
-    if let Some(short) = options.bytes.iter().find(|bytes| **bytes < SHORTEST) {
-        let text = format!("messages of {short} bytes are too short: each carries its time, {SHORTEST} bytes");
-        return Err(scl::Error::message(text));
-    }
+    check_lengths(&options.bytes, Rate::BYTES)?;
     let mut report = Report::new("rate");
     let runtime = start_runtime()?;
     for &bytes in &options.bytes {
@@ -54,19 +78,26 @@ pub fn measure_rate(options: &Rate) -> scl::Result<Report> {
 
 fn measure_length(runtime: &Runtime, bytes: usize, options: &Rate) -> scl::Result<Table> {
     let folder = scratch_folder()?;
-    // A rate takes two messages at least.
-    let batch = (options.messages / BATCHES).max(2);
+    let batches = Batches::of(options.messages, bytes);
     let mut all = Vec::new();
     for way in WAYS {
-        let lane = Lane::open(runtime, way, as_text(folder.path())?, bytes, batch)?;
+        let lane = Lane::open(runtime, way, as_text(folder.path())?, bytes, batches.size)?;
         all.push(Measured { way, lane, paces: Times::new()?, delays: Times::new()?, allocations: 0 });
     }
-    for round in 0..=BATCHES {
+    for round in 0..=batches.number {
         for measured in &mut all {
-            measured.play(runtime, batch, round > 0, options.allocations)?;
+            measured.play(runtime, batches.size, round > 0, options.allocations)?;
         }
     }
-    Ok(table(bytes, batch, &all, options.allocations.is_some()))
+    Ok(table(bytes, batches, &all, options.allocations.is_some()))
+}
+
+impl Batches {
+    fn of(messages: usize, bytes: usize) -> Self {
+        // A rate takes two messages at least.
+        let size = (messages / BATCHES).min(BATCH_BYTES / bytes).max(2);
+        Self { size, number: (messages / size).max(BATCHES) }
+    }
 }
 
 impl Measured {
@@ -92,21 +123,45 @@ impl Measured {
     }
 }
 
-fn table(bytes: usize, batch: usize, all: &[Measured], counted: bool) -> Table {
+fn table(bytes: usize, batches: Batches, all: &[Measured], counted: bool) -> Table {
     let mut columns = vec![Column::compared("messages_per_s"), Column::plain("delay_p50_us")];
     if counted {
         columns.push(Column::plain("allocations"));
     }
-    let title =
-        format!("{bytes} bytes from one process to another as fast as they go, none lost (median of {BATCHES})");
+    let title = format!(
+        "{bytes} bytes from one process to another as fast as they go, none lost (median of {})",
+        batches.number
+    );
     let mut table = Table::new(title, &columns);
     for measured in all {
         let mut figures = vec![1e6 / measured.paces.quantile(0.5), measured.delays.quantile(0.5)];
         if counted {
-            figures.push(measured.allocations as f64 / (batch * BATCHES) as f64);
+            figures.push(measured.allocations as f64 / (batches.size * batches.number) as f64);
         }
-        let row = Row::new(measured.way.name, figures).beside(measured.way.beside);
-        table.add(row.with_distribution(&measured.delays));
+        let row = Row::new(measured.way.name, figures).beside_all(measured.way.beside);
+        table.add(row.with_times(&measured.delays));
     }
     table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn batches_of_long_messages_are_small() {
+        for (messages, bytes, size, number) in
+            [(500_000, 20, 50_000, 10), (50, 20, 5, 10), (1, 8, 2, 10), (500_000, 1 << 20, 32, 15_625)]
+        {
+            assert_eq!(Batches::of(messages, bytes), Batches { size, number }, "{messages} of {bytes} bytes");
+        }
+    }
+
+    #[test]
+    fn lengths_outside_the_range_are_refused() {
+        for refused in [7, (1 << 20) + 1] {
+            let error = measure_rate(&Rate { bytes: vec![20, refused], messages: 2, allocations: None }).unwrap_err();
+            assert_eq!(error.to_string(), format!("a message has from 8 to 1048576 bytes, not {refused}"));
+        }
+    }
 }

@@ -10,10 +10,12 @@ pub(crate) use wall::play_wall;
 
 use crate::AllocationCount;
 use crate::histogram::Times;
+use crate::lengths::check_lengths;
 use crate::processes::{OtherProcess, as_text, scratch_folder, start_runtime};
-use crate::report::{Column, Report, Row, Table};
+use crate::report::{Column, Others, Report, Row, Table};
 use ball::Ball;
 use scl::bytes::Bytes;
+use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
 
 /// Messages of one way before it is the next one's turn.
@@ -22,7 +24,7 @@ const BATCH: usize = 500;
 /// What [`measure_roundtrip`] is asked for.
 #[derive(Debug, Clone)]
 pub struct Roundtrip {
-    /// The lengths of the messages, in bytes, one table each.
+    /// The lengths of the messages, in bytes, one table each; within [`Roundtrip::BYTES`].
     pub bytes: Vec<usize>,
     /// How many messages of each length go each way there and back.
     pub messages: usize,
@@ -30,33 +32,50 @@ pub struct Roundtrip {
     pub allocations: Option<AllocationCount>,
 }
 
+impl Roundtrip {
+    /// The lengths that messages may have. Some ten processes keep a few of them each in memory.
+    pub const BYTES: RangeInclusive<usize> = 1..=16 << 20;
+}
+
 /// A way there and back: `word` names it between the processes.
 struct Way {
     word: &'static str,
     name: &'static str,
-    beside: Option<&'static str>,
+    beside: Others,
 }
 
-const fn way(word: &'static str, name: &'static str, beside: Option<&'static str>) -> Way {
+const fn way(word: &'static str, name: &'static str, beside: Others) -> Way {
     Way { word, name, beside }
 }
 
-const PUBLISH: &str = "zeromq XPUB/SUB";
-const CALL: &str = "zeromq DEALER/ROUTER";
+const SCL_PUBLISH: &str = "SCL pub/sub";
+const SCL_CALL: &str = "SCL req/rep";
+const RAW_PUBLISH: &str = "zeromq XPUB/SUB";
+const RAW_CALL: &str = "zeromq DEALER/ROUTER";
+const LIBZMQ_PUBLISH: &str = "libzmq XPUB/SUB";
+const LIBZMQ_CALL: &str = "libzmq REQ/REP";
 
 const WAYS: &[Way] = &[
-    way("scl-publish", "SCL pub/sub", Some(PUBLISH)),
-    way("scl-publish-blocking", "SCL pub/sub blocking", Some(PUBLISH)),
-    way("raw-publish", PUBLISH, None),
-    way("scl-call", "SCL req/rep", Some(CALL)),
-    way("scl-call-blocking", "SCL req/rep blocking", Some(CALL)),
-    way("raw-call", CALL, None),
+    way("scl-publish", SCL_PUBLISH, &[("zeromq", RAW_PUBLISH), ("libzmq", LIBZMQ_PUBLISH)]),
+    way(
+        "scl-publish-blocking",
+        "SCL pub/sub blocking",
+        &[("zeromq", RAW_PUBLISH), ("libzmq", LIBZMQ_PUBLISH), ("async", SCL_PUBLISH)],
+    ),
+    way("raw-publish", RAW_PUBLISH, &[("libzmq", LIBZMQ_PUBLISH)]),
     #[cfg(feature = "libzmq")]
-    way("libzmq-publish-blocking", "libzmq XPUB/SUB", Some(PUBLISH)),
+    way("libzmq-publish-blocking", LIBZMQ_PUBLISH, &[("zeromq", RAW_PUBLISH)]),
+    way("scl-call", SCL_CALL, &[("zeromq", RAW_CALL), ("libzmq", LIBZMQ_CALL)]),
+    way(
+        "scl-call-blocking",
+        "SCL req/rep blocking",
+        &[("zeromq", RAW_CALL), ("libzmq", LIBZMQ_CALL), ("async", SCL_CALL)],
+    ),
+    way("raw-call", RAW_CALL, &[("libzmq", LIBZMQ_CALL)]),
     #[cfg(feature = "libzmq")]
-    way("libzmq-call-blocking", "libzmq REQ/REP", Some(CALL)),
-    way("unix", "Unix socket, tokio", None),
-    way("unix-blocking", "Unix socket, blocking", None),
+    way("libzmq-call-blocking", LIBZMQ_CALL, &[("zeromq", RAW_CALL)]),
+    way("unix", "Unix socket, tokio", &[]),
+    way("unix-blocking", "Unix socket, blocking", &[]),
 ];
 
 /// A way in use, with its other process.
@@ -73,8 +92,10 @@ struct Course {
 ///
 /// # Errors
 ///
-/// The folder for temporary files cannot be used, a process cannot be started, or a connection fails.
+/// A length outside [`Roundtrip::BYTES`]; the folder for temporary files cannot be used, a process cannot be started,
+/// or a connection fails.
 pub fn measure_roundtrip(options: &Roundtrip) -> scl::Result<Report> {
+    check_lengths(&options.bytes, Roundtrip::BYTES)?;
     let mut report = Report::new("roundtrip");
     let runtime = start_runtime()?;
     for &bytes in &options.bytes {
@@ -135,8 +156,8 @@ fn table(bytes: usize, courses: &[Course], counted: bool) -> Table {
         if counted {
             figures.push(course.allocations as f64 / course.recorded.max(1) as f64);
         }
-        let row = Row::new(course.way.name, figures).beside(course.way.beside);
-        table.add(row.with_distribution(&course.times));
+        let row = Row::new(course.way.name, figures).beside_all(course.way.beside);
+        table.add(row.with_times(&course.times));
     }
     table
 }

@@ -29,6 +29,8 @@ enum Receiver {
     SclPush(Sink),
     RawPublish(SubSocket),
     RawPush(PullSocket),
+    #[cfg(feature = "libzmq")]
+    Libzmq(zmq2::Socket),
     Unix(UnixStream, BytesMut),
 }
 
@@ -46,6 +48,10 @@ impl Receiver {
                 say("ready")?;
                 Self::RawPush(socket)
             }
+            #[cfg(feature = "libzmq")]
+            "libzmq-publish" => Self::Libzmq(endless(place.subscribe_libzmq(&zmq2::Context::new(), "stream")?)?),
+            #[cfg(feature = "libzmq")]
+            "libzmq-push" => Self::Libzmq(endless(place.bind_libzmq(&zmq2::Context::new(), zmq2::PULL, "stream")?)?),
             "unix" => {
                 Self::Unix(UnixStream::connect(place.socket("stream")).await?, BytesMut::zeroed(bytes.max(SHORTEST)))
             }
@@ -73,10 +79,19 @@ impl Receiver {
             Self::SclPush(sink) => sink.jobs.recv().await?,
             Self::RawPublish(socket) => only_frame(socket.recv().await?),
             Self::RawPush(socket) => only_frame(socket.recv().await?),
+            #[cfg(feature = "libzmq")]
+            Self::Libzmq(socket) => socket.recv_bytes(0)?.into(),
             Self::Unix(stream, buffer) => {
                 stream.read_exact(buffer).await?;
                 Bytes::copy_from_slice(buffer)
             }
         })
     }
+}
+
+/// Waits for a message as long as it takes: between two batches others have their turn.
+#[cfg(feature = "libzmq")]
+fn endless(socket: zmq2::Socket) -> scl::Result<zmq2::Socket> {
+    socket.set_rcvtimeo(-1)?;
+    Ok(socket)
 }

@@ -17,6 +17,8 @@ pub(super) enum Sender {
     SclPush(Source),
     RawPublish(XPubSocket),
     RawPush(PushSocket),
+    #[cfg(feature = "libzmq")]
+    Libzmq(zmq2::Socket),
     Unix(UnixStream),
 }
 
@@ -46,6 +48,19 @@ impl Sender {
                 socket.connect(&place.zeromq("stream")).await?;
                 (Self::RawPush(socket), receiver)
             }
+            #[cfg(feature = "libzmq")]
+            "libzmq-publish" => {
+                let socket = place.publish_libzmq(&zmq2::Context::new(), "stream")?;
+                let receiver = start_receiver()?;
+                // The receiver's subscription.
+                socket.recv_bytes(0)?;
+                (Self::Libzmq(socket), receiver)
+            }
+            #[cfg(feature = "libzmq")]
+            "libzmq-push" => {
+                let socket = place.connect_libzmq(&zmq2::Context::new(), zmq2::PUSH, "stream")?;
+                (Self::Libzmq(socket), start_receiver()?)
+            }
             "unix" => {
                 let listener = UnixListener::bind(place.socket("stream"))?;
                 let receiver = start_receiver()?;
@@ -61,6 +76,9 @@ impl Sender {
             Self::SclPush(source) => source.jobs.send(&message).await?,
             Self::RawPublish(socket) => socket.send(message.into()).await?,
             Self::RawPush(socket) => socket.send(message.into()).await?,
+            // It may block this thread, which has nothing else to do: the library's threads do the work.
+            #[cfg(feature = "libzmq")]
+            Self::Libzmq(socket) => socket.send(&message[..], 0)?,
             Self::Unix(stream) => stream.write_all(&message).await?,
         }
         Ok(())

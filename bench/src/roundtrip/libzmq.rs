@@ -2,10 +2,7 @@
 
 use crate::processes::OtherProcess;
 use crate::raw::RawPlace;
-use zmq2::{Context, REP, REQ, SUB, Socket, SocketType, XPUB};
-
-/// How long the two sides may take to find each other, in milliseconds.
-const PATIENCE: i32 = 10_000;
+use zmq2::{Context, REP, REQ, Socket};
 
 /// What sends there and what brings back; the same socket for requests.
 pub(super) enum Ball {
@@ -17,13 +14,12 @@ impl Ball {
     pub(super) fn start(word: &str, folder: &str, wall: &[&str]) -> scl::Result<(Self, OtherProcess)> {
         let (context, place) = (Context::new(), RawPlace::new(folder, word));
         if word == "libzmq-call-blocking" {
-            let socket = bound(&context, REQ, &place, "question")?;
+            let socket = place.bind_libzmq(&context, REQ, "question")?;
             return Ok((Self::Call(socket), OtherProcess::start(wall)?));
         }
-        let there = bound(&context, XPUB, &place, "there")?;
+        let there = place.publish_libzmq(&context, "there")?;
         let wall = OtherProcess::start(wall)?;
-        let back = connected(&context, SUB, &place, "back")?;
-        back.set_subscribe(b"")?;
+        let back = place.subscribe_libzmq(&context, "back")?;
         // The wall's subscription.
         there.recv_bytes(0)?;
         Ok((Self::Publish { there, back }, wall))
@@ -42,9 +38,8 @@ impl Ball {
 
 pub(super) fn send_back_published(place: &RawPlace) -> scl::Result<()> {
     let context = Context::new();
-    let back = bound(&context, XPUB, place, "back")?;
-    let there = connected(&context, SUB, place, "there")?;
-    there.set_subscribe(b"")?;
+    let back = place.publish_libzmq(&context, "back")?;
+    let there = place.subscribe_libzmq(&context, "there")?;
     // The ball's subscription.
     back.recv_bytes(0)?;
     there.set_rcvtimeo(-1)?;
@@ -54,28 +49,9 @@ pub(super) fn send_back_published(place: &RawPlace) -> scl::Result<()> {
 }
 
 pub(super) fn send_back_asked(place: &RawPlace) -> scl::Result<()> {
-    let socket = connected(&Context::new(), REP, place, "question")?;
+    let socket = place.connect_libzmq(&Context::new(), REP, "question")?;
     socket.set_rcvtimeo(-1)?;
     loop {
         socket.send(socket.recv_bytes(0)?, 0)?;
     }
-}
-
-fn bound(context: &Context, kind: SocketType, place: &RawPlace, end: &str) -> scl::Result<Socket> {
-    let socket = patient(context, kind)?;
-    socket.bind(&place.zeromq(end))?;
-    Ok(socket)
-}
-
-fn connected(context: &Context, kind: SocketType, place: &RawPlace, end: &str) -> scl::Result<Socket> {
-    let socket = patient(context, kind)?;
-    socket.connect(&place.zeromq(end))?;
-    Ok(socket)
-}
-
-fn patient(context: &Context, kind: SocketType) -> scl::Result<Socket> {
-    let socket = context.socket(kind)?;
-    socket.set_rcvtimeo(PATIENCE)?;
-    socket.set_linger(0)?;
-    Ok(socket)
 }

@@ -1,0 +1,3 @@
+//! The nine components of this scenario.
+
+scl::topology!("fanout.yaml");

@@ -1,0 +1,56 @@
+//! What the options of `scl bench` accept. A refusal says what to write instead.
+
+use crate::duration::parse_duration;
+use std::ops::RangeInclusive;
+use std::time::Duration;
+
+/// Ten million messages keep some 800 MB of times for a moment.
+pub(super) const MESSAGES: RangeInclusive<usize> = 1..=10_000_000;
+
+pub(super) const STARTS: RangeInclusive<usize> = 1..=10_000;
+
+/// Reads a whole number within a range.
+pub(super) fn within(range: RangeInclusive<usize>) -> impl Fn(&str) -> Result<usize, String> + Clone {
+    move |text| match text.trim().parse() {
+        Ok(number) if range.contains(&number) => Ok(number),
+        _ => Err(format!("write a whole number from {} to {}", range.start(), range.end())),
+    }
+}
+
+/// `5`, `0.5`, or with a unit as elsewhere, `5s`.
+pub(super) fn parse_seconds(text: &str) -> Result<f64, String> {
+    let with_unit = if text.ends_with(|c: char| c.is_ascii_digit()) { format!("{text}s") } else { text.to_owned() };
+    let wanted = || "write a time from 0.001 to 3600 seconds, like `5` or `500ms`".to_owned();
+    let time = parse_duration(&with_unit).map_err(|_| wanted())?;
+    if time < Duration::from_millis(1) || time > Duration::from_secs(3600) {
+        return Err(wanted());
+    }
+    Ok(time.as_secs_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_need_no_unit() {
+        for (text, seconds) in [("5", 5.0), ("0.5", 0.5), ("250ms", 0.25), ("1h", 3600.0)] {
+            assert_eq!(parse_seconds(text), Ok(seconds), "{text}");
+        }
+        for text in ["0", "-1", "2h", "five", "", "5 days", "0.0009"] {
+            let expected = Err("write a time from 0.001 to 3600 seconds, like `5` or `500ms`".to_owned());
+            assert_eq!(parse_seconds(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_keep_to_their_range() {
+        let parse = within(8..=1024);
+        for (text, number) in [("8", 8), ("1024", 1024), (" 20", 20)] {
+            assert_eq!(parse(text), Ok(number), "{text}");
+        }
+        for text in ["7", "1025", "-1", "1e3", "many", "", "99999999999999999999999999"] {
+            assert_eq!(parse(text), Err("write a whole number from 8 to 1024".to_owned()), "{text}");
+        }
+    }
+}
