@@ -6,7 +6,6 @@
 
 use super::Medium;
 use super::accepted::Accepted;
-use super::door::Door;
 use super::frames::poll_message;
 use super::listen::{Listening, listen};
 use super::peers::Peers;
@@ -54,11 +53,14 @@ impl Desk {
 
 impl Publishing {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { socket, door, guard } = listen::<XPubSocket>(place, medium, endpoint)?;
+        let Listening { socket, events, door, guard } = listen::<XPubSocket>(place, medium, endpoint)?;
         let desk = Desk { outgoing: None, busy: false, listening: false, subscriber: false };
         let desk = Arc::new(Mutex::new(desk));
+        let accepted = Accepted::at(door.address());
+        // Made here, because whoever is taken in before the first poll is to be disconnected with the others.
+        let peers = Peers::of(&socket, events, door);
         // The task budget would refuse the write of a caller that has sent much, and nobody would come back to it.
-        let pump = tokio::task::unconstrained(pump(socket, door, Arc::clone(&desk)));
+        let pump = tokio::task::unconstrained(pump(socket, peers, accepted, Arc::clone(&desk)));
         Ok(Self { desk, pump: Box::pin(pump), _guard: guard })
     }
 
@@ -103,9 +105,7 @@ enum Step {
 }
 
 /// Sends what is on the desk and keeps account of who subscribed.
-async fn pump(mut socket: XPubSocket, door: Door, desk: Arc<Mutex<Desk>>) {
-    let mut accepted = Accepted::at(door.address());
-    let mut peers = Peers::of(&mut socket, door);
+async fn pump(mut socket: XPubSocket, mut peers: Peers, mut accepted: Accepted, desk: Arc<Mutex<Desk>>) {
     let mut looked = Instant::now();
     loop {
         match poll_fn(|cx| next_step(&mut socket, &mut peers, &mut accepted, &desk, cx)).await {
