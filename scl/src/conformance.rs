@@ -66,7 +66,7 @@ macro_rules! transport_conformance {
         $crate::transport_conformance! { @tests $run $fresh;
             keeps_order carries_every_size gives_back_what_nobody_takes reports_a_late_peer serves_the_next_receiver
             serves_the_next_sender stops_and_resumes serves_every_pusher keeps_what_is_flushed frees_its_endpoint
-            finds_the_peer_that_stays stays_quiet_when_idle
+            finds_the_peer_that_stays lets_go_of_who_came_early stays_quiet_when_idle
             answers_who_asked_in_any_order numbers_old_answers carries_requests_of_every_size
             gives_back_what_nobody_answers tells_of_a_lost_replier finds_the_replier_that_stays survives_a_lost_requester
         }

@@ -39,6 +39,7 @@ mod draft;
 mod error;
 mod find;
 mod folder;
+mod holder;
 mod lock;
 mod small_file;
 

@@ -1,6 +1,5 @@
 //! The ZeroMQ transport keeps every guarantee, over Unix sockets and over TCP, on the runtime that SCL's programs use. On
-//! one of several threads `finds_the_replier_that_stays` was seen to hang over TCP, rarely and on a busy machine only:
-//! see `docs/zeromq.md`.
+//! one of several threads the library's `pull` and `rep` ends may block those for ever: see `docs/zeromq.md`.
 #![allow(clippy::unwrap_used)]
 
 use scl::place::RuntimeDir;

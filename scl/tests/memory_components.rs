@@ -4,6 +4,8 @@
 use scl::private::{AnyGate, Component, ComponentSpec, GateKind, GateSpec, LinkSpec, OpenError, Opener, WhenFull};
 use scl::transport::memory::Memory;
 use scl::{OpenOptions, Pub, Rep, Req, Sub};
+use std::pin::pin;
+use std::task::{Context, Waker};
 use std::time::Duration;
 
 struct Sensor {
@@ -111,6 +113,23 @@ async fn components_meet_in_memory_and_touch_no_file() {
     let (answer, ()) = tokio::join!(controller.calibrate.call(&7), answering);
     assert_eq!(answer.unwrap(), "done");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "files in the runtime folder");
+}
+
+#[tokio::test]
+async fn a_publisher_is_told_that_its_subscriber_came_and_went() {
+    let place = Memory::new();
+    let open_controller = || Controller::open_with(OpenOptions::new().transport(place.clone()));
+    let mut sensor = Sensor::open_with(OpenOptions::new().transport(place.clone())).await.unwrap();
+    for _ in 0..3 {
+        let controller = open_controller().await.unwrap();
+        // It comes while nobody waits for that, and goes while somebody does.
+        sensor.ready(Duration::from_secs(60)).await.unwrap();
+        assert_eq!(sensor.measurements.peers_changed().await, 1);
+        let (peers, ()) = tokio::join!(sensor.measurements.peers_changed(), async { drop(controller) });
+        assert_eq!(peers, 0);
+        let nothing_new = pin!(sensor.measurements.peers_changed());
+        assert!(nothing_new.poll(&mut Context::from_waker(Waker::noop())).is_pending());
+    }
 }
 
 #[tokio::test]

@@ -5,7 +5,7 @@ mod process;
 mod python;
 mod script;
 
-pub use process::Process;
+pub use process::{HANGS, Process};
 pub use python::python_with_pyzmq;
 pub use script::{Commands, say};
 

@@ -9,7 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 /// When a line has not come by then, it never will: the test fails instead of hanging.
-const HANGS: Duration = Duration::from_secs(60);
+pub const HANGS: Duration = Duration::from_secs(60);
 
 /// A running program; killed when dropped.
 pub struct Process {
@@ -57,9 +57,9 @@ impl Process {
         rest.split_whitespace().map(str::to_owned).collect()
     }
 
-    /// The processor time that it has used, in ticks of the system (10 ms).
-    pub fn ticks(&self) -> u64 {
-        self.stat()[11..13].iter().map(|ticks| ticks.parse::<u64>().expect("a number")).sum()
+    /// How often its first thread has gone to sleep by itself, until something happened.
+    pub fn sleeps(&self) -> u64 {
+        self.status("voluntary_ctxt_switches").parse().expect("a number")
     }
 
     /// How the operating system schedules it: 0 is the usual way, 1 is first in, first out.

@@ -1,8 +1,8 @@
 //! No descriptors left: a clear error when opening; later, no busy waiting, and recovery when some come free.
 
-use scl_tests::{Place, Process};
+use scl_tests::{HANGS, Place, Process};
+use std::io::ErrorKind;
 use std::os::unix::net::UnixStream;
-use std::time::{Duration, Instant};
 
 const PEER: &str = env!("CARGO_BIN_EXE_peer");
 
@@ -46,10 +46,8 @@ fn crowd_out(component: &str, endpoints: &[&str], works: impl Fn(&Place, &mut Pr
         let connect = || UnixStream::connect(&socket).expect("connected");
         let crowd: Vec<UnixStream> = (0..100).map(|_| connect()).collect();
         // As many as fit; the last ones were closed again.
-        while !crowd.iter().rev().take(30).all(is_closed) {
-            std::thread::yield_now();
-        }
-        assert_idle(&crowded);
+        crowd.iter().rev().take(30).for_each(wait_until_closed);
+        assert_idle(&mut crowded);
         drop(crowd);
         while crowded.descriptors() > 50 {
             std::thread::yield_now();
@@ -64,24 +62,30 @@ fn open(place: &Place, component: &str) -> Process {
     process
 }
 
-fn is_closed(stream: &UnixStream) -> bool {
+/// Reads until the other side closes.
+fn wait_until_closed(stream: &UnixStream) {
     use std::io::Read;
-    stream.set_nonblocking(true).expect("not blocking");
+    stream.set_read_timeout(Some(HANGS)).expect("a limit");
     let mut greeting = [0; 64];
     loop {
         match { stream }.read(&mut greeting) {
-            Ok(0) => return true,
+            Ok(0) => return,
             Ok(_) => {}
-            Err(error) => return error.kind() != std::io::ErrorKind::WouldBlock,
+            Err(error) if error.kind() == ErrorKind::WouldBlock => panic!("it was not turned away"),
+            Err(_) => return,
         }
     }
 }
 
-/// A program that spins uses as much processor time as goes by; one that waits uses none.
-fn assert_idle(process: &Process) {
-    let (started, before) = (Instant::now(), process.ticks());
-    std::thread::sleep(Duration::from_millis(500));
-    let used = process.ticks() - before;
-    let ticks = started.elapsed().as_millis() as u64 / 10;
-    assert!(used * 4 < ticks, "{used} of {ticks} ticks were used while there was nothing to do");
+/// A program that waits is asleep when it is asked something, so each question takes it a change of context that it
+/// makes by itself; one that spins is awake already.
+fn assert_idle(process: &mut Process) {
+    const QUESTIONS: u64 = 200;
+    let before = process.sleeps();
+    for _ in 0..QUESTIONS {
+        process.does("idle?", "unknown command `idle?`");
+    }
+    let slept = process.sleeps() - before;
+    // A question may come in the moment between an answer and the sleep, so not all of them are demanded.
+    assert!(slept * 2 > QUESTIONS, "it slept {slept} times while it was asked {QUESTIONS} questions one by one");
 }

@@ -157,17 +157,9 @@ fn links_by_gate(draft: &Draft<'_>) -> Vec<Vec<(usize, usize)>> {
 fn several_publishers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> Diagnostic {
     let path = draft.path(gate);
     let headline = format!("gate `{path}` subscribes to several publishers");
-    let second = links[1].1;
-    let (first_owner, second_owner) = (draft.component_name(links[0].1), draft.component_name(second));
+    let (first_owner, second_owner) = (draft.component_name(links[0].1), draft.component_name(links[1].1));
     let extra = format!("{second_owner}_{}", draft.gates[gate].model.name.value);
-    let place = draft.end_span(links[1].0, gate);
-    let label = format!("second publisher: `{}`", draft.path(second));
-    let mut found = SEVERAL_PUBLISHERS.at(headline, place, label);
-    found = found.label(draft.end_span(links[0].0, gate), format!("first publisher: `{}`", draft.path(links[0].1)));
-    for &(link, publisher) in &links[2..] {
-        found = found.label(draft.end_span(link, gate), format!("another publisher: `{}`", draft.path(publisher)));
-    }
-    found
+    peers(&SEVERAL_PUBLISHERS, headline, draft, gate, links, |which, path| format!("{which} publisher: `{path}`"))
         .help(format!("declare a second gate: `- {extra}: sub`"))
         .help(format!(
             "if `{first_owner}` and `{second_owner}` are two implementations of one component, declare one component and \

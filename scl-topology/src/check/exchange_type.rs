@@ -134,21 +134,21 @@ fn request(span: Span, asked: Exchange<'_>, answered: Exchange<'_>, replies_agre
         .label(asked.0.span(), "the requester sends this");
     match replies_agree {
         true => found.help(format!("the reply types agree (`{}`)", asked.1.dotted())),
-        false => found.help(format!(
-            "the reply types differ too: `{}` is answered, `{}` is expected",
-            answered.1.dotted(),
-            asked.1.dotted()
-        )),
+        false => found.help(format!("the reply types differ too: {}", replies(asked, answered))),
     }
 }
 
 fn reply(span: Span, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic {
-    let label = format!("`{}` is answered, `{}` is expected", answered.1.dotted(), asked.1.dotted());
     REPLIES_DIFFER
-        .at("the reply types of this connection differ", span, label)
+        .at("the reply types of this connection differ", span, replies(asked, answered))
         .label(answered.1.span(), "the replier answers this")
         .label(asked.1.span(), "the requester expects this")
         .help(format!("the request types agree (`{}`)", asked.0.dotted()))
+}
+
+/// How the replies differ, in the label of their own report and in that of the requests.
+fn replies(asked: Exchange<'_>, answered: Exchange<'_>) -> String {
+    format!("`{}` is answered, `{}` is expected", answered.1.dotted(), asked.1.dotted())
 }
 
 fn swap(span: Span, asker: &str, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic {

@@ -100,11 +100,8 @@ fn connection_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnost
         more => format!("{more} connections of `{}` use different message types at their two ends", draft.path(hub)),
     };
     let label = format!("`{sent}` is sent, `{expected}` is expected");
-    let mut found = RULE.at(headline, draft.links[link].model.span, label);
-    for gate in std::iter::once(hub).chain(peers.iter().map(|&(_, peer)| peer)) {
-        found = with_type(draft, found, gate);
-    }
-    found
+    let found = with_type(draft, RULE.at(headline, draft.links[link].model.span, label), hub);
+    with_peers(draft, found, peers)
         .help(format!("use `{sent}` on both ends, if `{}` takes it as it is", draft.component_name(sink)))
         .help("or put a component between them that converts")
 }
@@ -117,12 +114,13 @@ fn hub_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnostic {
         false => (format!("`{path}` expects `{own}`, but all its senders send `{theirs}`"), "expected"),
     };
     let place = message(draft, hub).map_or(draft.gates[hub].model.span, TypeName::span);
-    let mut found = RULE.at(headline, place, verb);
-    for &(_, peer) in peers {
-        found = with_type(draft, found, peer);
-    }
+    let found = with_peers(draft, RULE.at(headline, place, verb), peers);
     let paths = peers.iter().map(|&(_, peer)| draft.path(peer));
     found.help(format!("use `{theirs}` for `{path}` too")).note(format!("the other ends agree: {}", listed(paths)))
+}
+
+fn with_peers(draft: &Draft<'_>, found: Diagnostic, peers: &[Peer]) -> Diagnostic {
+    peers.iter().fold(found, |found, &(_, peer)| with_type(draft, found, peer))
 }
 
 /// Shows the type of a gate, once for gates that have it from one place.

@@ -14,7 +14,8 @@ pub use call::{
 };
 pub use flow::{
     carries_every_size, finds_the_peer_that_stays, frees_its_endpoint, gives_back_what_nobody_takes, keeps_order,
-    keeps_what_is_flushed, reports_a_late_peer, serves_every_pusher, serves_the_next_receiver, serves_the_next_sender,
+    keeps_what_is_flushed, lets_go_of_who_came_early, reports_a_late_peer, serves_every_pusher,
+    serves_the_next_receiver, serves_the_next_sender,
 };
 pub use pace::{stays_quiet_when_idle, stops_and_resumes};
 

@@ -21,6 +21,9 @@ pub(crate) struct Outgoing {
     sender: Option<Waker>,
     /// A task that waits until everything is handed over.
     flusher: Option<Waker>,
+    /// How often the peer has come or gone, and a task that waits for the next time.
+    changes: u64,
+    watcher: Option<Waker>,
     counts: Counts,
     dropping: bool,
     gate: GateName,
@@ -37,6 +40,8 @@ impl Outgoing {
             task: Waker::noop().clone(),
             sender: None,
             flusher: None,
+            changes: 0,
+            watcher: None,
             counts: Counts::default(),
             dropping: false,
             gate,
@@ -52,6 +57,10 @@ impl Outgoing {
         let present = self.link.drive(cx);
         if present != self.present {
             self.present = present;
+            self.changes += 1;
+            if let Some(watcher) = self.watcher.take() {
+                watcher.wake();
+            }
             let (gate, peer) = (self.gate, &self.peer);
             tracing::debug!(%gate, peer, "{}", if present { "connected" } else { "disconnected" });
         }
@@ -91,6 +100,12 @@ impl Outgoing {
     /// Wakes a task when the queue has moved on; it then asks [`Self::is_flushed`] again.
     pub(crate) fn wake_when_flushed(&mut self, waker: &Waker) {
         self.flusher = Some(waker.clone());
+    }
+
+    /// How often the peer has come or gone so far; the task is woken when that is no longer true.
+    pub(crate) fn watch_changes(&mut self, waker: &Waker) -> u64 {
+        self.watcher = Some(waker.clone());
+        self.changes
     }
 
     pub(crate) fn is_connected(&self) -> bool {

@@ -66,6 +66,25 @@ impl<T> Pub<T> {
         self.sending.missing().is_empty()
     }
 
+    /// Waits until a subscriber has connected or disconnected since this was last called, at first since the gate was
+    /// opened, and says how many are connected now. Several changes in a row are reported as one.
+    ///
+    /// A peer that is killed disconnects as soon as this program notices; one that merely stands still stays connected.
+    ///
+    /// ```no_run
+    /// # scl::topology!("doc/rover.yaml");
+    /// # async fn wait(mut sensor: Sensor) {
+    /// while sensor.measurements.peers_changed().await > 0 {}
+    /// println!("nobody is left");
+    /// # }
+    /// ```
+    ///
+    /// # Cancel safety
+    /// Cancel safe: a change that was not reported is reported by the next call.
+    pub async fn peers_changed(&mut self) -> usize {
+        self.sending.peers_changed().await
+    }
+
     /// What this gate has done so far.
     pub fn stats(&self) -> GateStats {
         self.sending.stats()

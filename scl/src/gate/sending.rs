@@ -24,6 +24,8 @@ pub(crate) struct Sending<T> {
     shares: bool,
     /// Of a gate that shares, whose turn it is.
     turn: usize,
+    /// How many comings and goings of peers were reported.
+    reported: u64,
     pub(crate) core: Arc<Core>,
 }
 
@@ -36,7 +38,8 @@ impl<T> Sending<T> {
         let may_wait = spec.backpressure && spec.links.iter().any(|link| link.when_full == WhenFull::Wait);
         let shares = spec.kind == GateKind::Push && connections.len() > 1;
         let name = GateName::new(core.spec().name, spec.name);
-        Self { core, spec, name, connections, encoding: Encoding::with::<C>(), may_wait, shares, turn: 0 }
+        let encoding = Encoding::with::<C>();
+        Self { core, spec, name, connections, encoding, may_wait, shares, turn: 0, reported: 0 }
     }
 
     pub(crate) async fn send(&mut self, message: &T) -> Result<(), SendError> {
@@ -98,6 +101,17 @@ impl<T> Sending<T> {
             }
         }
         Poll::Ready(())
+    }
+
+    pub(crate) async fn peers_changed(&mut self) -> usize {
+        poll_fn(|cx| self.poll_peers_changed(cx)).await;
+        self.stats().peers
+    }
+
+    fn poll_peers_changed(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        let peers = self.connections.iter().take(self.spec.links.len());
+        let changes = peers.map(|connection| lock(connection).watch_changes(cx.waker())).sum();
+        if std::mem::replace(&mut self.reported, changes) == changes { Poll::Pending } else { Poll::Ready(()) }
     }
 
     fn encode(&mut self, message: &T) -> Result<Bytes, SendError> {

@@ -1,25 +1,16 @@
 use std::{
     fs,
-    io::{Read, Seek, Write},
+    io::Write,
     os::unix::fs::{FileTypeExt, OpenOptionsExt},
     path::{Path, PathBuf},
-    time::Duration,
 };
 
 use rustix::{
     fs::{FlockOperation, OFlags},
     io::Errno,
-    process::Pid,
 };
 
-use super::{
-    SystemDir,
-    error::{Holder, PlaceError},
-};
-
-/// A program writes its number right after it has got the lock; a tenth of a second is plenty.
-const LOOKS_FOR_HOLDER: u32 = 50;
-const PAUSE: Duration = Duration::from_millis(2);
+use super::{SystemDir, error::PlaceError, holder::find_holder};
 
 /// The right to play a component, held by one process at a time.
 ///
@@ -108,62 +99,11 @@ fn open(path: &Path) -> std::io::Result<fs::File> {
         .open(path)
 }
 
-/// Who has the lock. Whoever has just got it has not written its number yet, so it is waited for a little.
-fn find_holder(file: &mut fs::File) -> Holder {
-    for _ in 0..LOOKS_FOR_HOLDER {
-        match read_holder(file) {
-            Holder::Unknown => std::thread::sleep(PAUSE),
-            known => return known,
-        }
-        if file.rewind().is_err() {
-            break;
-        }
-    }
-    Holder::Unknown
-}
-
-/// Who holds the lock, as far as the file tells. A holder may have been killed half way through writing, and one that has
-/// just taken the lock may still show its predecessor's number, so a process that is gone is not named.
-fn read_holder(file: &mut fs::File) -> Holder {
-    let mut text = String::new();
-    let read = file.take(32).read_to_string(&mut text);
-    let number =
-        read.ok().and_then(|_| text.trim().parse::<i32>().ok()).filter(|number| *number > 0).and_then(Pid::from_raw);
-    match number {
-        Some(pid) if pid == rustix::process::getpid() => Holder::ThisProcess,
-        Some(pid) if rustix::process::test_kill_process(pid) != Err(Errno::SRCH) => {
-            Holder::Process(pid.as_raw_nonzero().get().cast_unsigned())
-        }
-        _ => Holder::Unknown,
-    }
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::place::RuntimeDir;
-
-    #[test]
-    fn the_holder_is_read_from_whatever_the_file_says() {
-        let own = std::process::id().to_string();
-        let cases: [(&[u8], Holder); 8] = [
-            (own.as_bytes(), Holder::ThisProcess),
-            (b"1\n", Holder::Process(1)),
-            (b"", Holder::Unknown),
-            (b"no number", Holder::Unknown),
-            (b"\xff\xfe", Holder::Unknown),
-            (b"-1", Holder::Unknown),
-            (b"2147483647", Holder::Unknown),
-            (b"99999999999999999999999999999999999999999", Holder::Unknown),
-        ];
-        for (text, expected) in cases {
-            let folder = tempfile::tempdir().unwrap();
-            let path = folder.path().join("sensor.lock");
-            fs::write(&path, text).unwrap();
-            assert_eq!(read_holder(&mut open(&path).unwrap()), expected, "{:?}", String::from_utf8_lossy(text));
-        }
-    }
 
     #[test]
     fn a_copy_of_the_open_file_does_not_outlive_the_lock() {

@@ -44,6 +44,13 @@ impl Timer {
             }
         }
     }
+
+    /// How often it expired since the last time that it was asked, without waiting.
+    pub(crate) fn expired(&self) -> u64 {
+        let mut count = [0; 8];
+        // A timer that has not expired has nothing to read.
+        rustix::io::read(self.descriptor.get_ref(), &mut count).map_or(0, |_| u64::from_ne_bytes(count))
+    }
 }
 
 fn timespec(duration: Duration) -> Timespec {

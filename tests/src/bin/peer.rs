@@ -54,20 +54,26 @@ async fn play_source() -> scl::Result<()> {
             "call" => answer(source.question.call(&message(number(1), 0)).await.map(|answer| answer.value)),
             "disconnected" => {
                 while source.readings.connected() {
-                    tokio::task::yield_now().await;
+                    source.readings.peers_changed().await;
                 }
                 say("disconnected");
             }
             "peers" => {
                 while source.readings.stats().peers as u64 != number(1) {
-                    tokio::time::sleep(Duration::from_millis(1)).await;
+                    source.readings.peers_changed().await;
                 }
                 say("peers");
             }
             // Until every gate has seen that nobody is there: what is sent from now on waits for the next one.
             "alone" => {
-                while source.readings.stats().peers + source.lossless.stats().peers + source.jobs.stats().peers > 0 {
-                    tokio::time::sleep(Duration::from_millis(1)).await;
+                while source.readings.stats().peers > 0 {
+                    source.readings.peers_changed().await;
+                }
+                while source.lossless.stats().peers > 0 {
+                    source.lossless.peers_changed().await;
+                }
+                while source.jobs.stats().peers > 0 {
+                    source.jobs.peers_changed().await;
                 }
                 say("alone");
             }
@@ -120,15 +126,7 @@ async fn play_sink() -> scl::Result<()> {
                     answer(question.reply(&doubled).await.map(|()| "answered"));
                 }
             }
-            "malformed" => {
-                while sink.readings.stats().rejected + sink.jobs.stats().rejected < count {
-                    let turn = Duration::from_millis(1);
-                    // Nothing that decodes is on its way; receiving is what counts the rest.
-                    let _nothing = tokio::time::timeout(turn, sink.readings.recv()).await;
-                    let _nothing = tokio::time::timeout(turn, sink.jobs.recv()).await;
-                }
-                say("malformed");
-            }
+            "rejected" => say(sink.jobs.stats().rejected),
             "serve" => {
                 for _ in 0..count {
                     match sink.answer.recv().await {

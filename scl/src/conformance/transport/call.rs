@@ -122,6 +122,10 @@ async fn is_answered(asker: &mut Asking, answerer: &mut Answering) -> bool {
     let answer = poll_fn(|cx| {
         if !asked && asker.poll_connected(cx).is_ready() {
             asked = asker.ask(1, Bytes::from_static(b"there?")).is_ok();
+            if !asked {
+                // The connection broke at this very moment.
+                cx.waker().wake_by_ref();
+            }
         }
         while let Poll::Ready(request) = answerer.poll(cx) {
             // A requester that gave up is none of this replier's business.

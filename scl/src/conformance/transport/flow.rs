@@ -153,6 +153,27 @@ pub async fn finds_the_peer_that_stays(transport: &dyn Transport) {
     }
 }
 
+/// A sender that is gone leaves its receiver to the next one, also a receiver that had found it before it was driven.
+pub async fn lets_go_of_who_came_early(transport: &dyn Transport) {
+    for flow in FLOWS {
+        let mut receiver = flow.receiver(transport, ENDPOINT);
+        let mut hasty = flow.sender(transport, ENDPOINT);
+        // A receiving end that listens is found by a sender that is driven only.
+        poll_fn(|cx| match (receiver.poll(cx), receiver.peers()) {
+            (Poll::Ready(message), _) => panic!("{flow:?}: received {message:?} from a sender that was never driven"),
+            (Poll::Pending, Some(0)) => Poll::Pending,
+            (Poll::Pending, _) => Poll::Ready(()),
+        })
+        .await;
+        // What the sender's end has to do for its part is done in tasks of the transport's.
+        idle(20, |cx| drop(receiver.poll(cx))).await;
+        sender_sees(&mut hasty, &mut receiver).await;
+        drop(hasty);
+        let mut sender = flow.sender(transport, ENDPOINT);
+        check_carried(flow, &mut sender, &mut receiver, &numbered(3)).await;
+    }
+}
+
 /// Sends again and again, since what is sent to a peer that is just going may be lost with it.
 async fn until_one_arrives(sender: &mut Sending, receiver: &mut Receiving) {
     poll_fn(|cx| {

@@ -138,6 +138,10 @@ impl Receiving {
         self.0.wakes()
     }
 
+    pub(super) fn peers(&self) -> Option<usize> {
+        self.0.end.peers()
+    }
+
     pub(super) fn poll(&mut self, test: &Context<'_>) -> Poll<Bytes> {
         self.0.poll(test, |end, cx| end.poll_recv(cx))
     }

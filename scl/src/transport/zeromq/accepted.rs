@@ -127,12 +127,13 @@ fn unix_inodes(table: &str, path: &Path) -> Vec<String> {
     table.lines().filter_map(inode).collect()
 }
 
-/// The established sockets on a local port: `sl local rem st tx:rx tr:tm retrnsmt uid timeout inode`, state 01.
+/// The connected sockets on a local port: `sl local rem st tx:rx tr:tm retrnsmt uid timeout inode`, state 01, or 08 when
+/// the other side has closed and this one has not.
 fn tcp_inodes(table: &str, port: u16) -> Vec<String> {
     let suffix = format!(":{port:04X}");
     let inode = |line: &str| {
         let columns: Vec<&str> = line.split_ascii_whitespace().collect();
-        let ours = columns.get(1)?.ends_with(&suffix) && *columns.get(3)? == "01";
+        let ours = columns.get(1)?.ends_with(&suffix) && matches!(*columns.get(3)?, "01" | "08");
         columns.get(9).filter(|_| ours).map(|inode| (*inode).to_owned())
     };
     table.lines().filter_map(inode).collect()
@@ -166,6 +167,24 @@ mod tests {
         assert!(accepted.any_left(1) && !accepted.untraceable);
         drop(server);
         assert!(!accepted.any_left(1));
+    }
+
+    #[test]
+    fn a_subscriber_that_has_closed_already_is_found_until_the_library_closes_its_side() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let tcp = TcpListener::bind("127.0.0.1:0").expect("bound");
+        let unix = UnixListener::bind(folder.path().join("s")).expect("bound");
+        drop(std::net::TcpStream::connect(tcp.local_addr().expect("address")).expect("connected"));
+        drop(UnixStream::connect(folder.path().join("s")).expect("connected"));
+        let mut over_tcp = Accepted::at(LocalAddress::of_tcp(&tcp));
+        let mut over_unix = Accepted::at(LocalAddress::of_unix(&unix));
+        let servers = (tcp.accept().expect("accepted"), unix.accept().expect("accepted"));
+        for accepted in [&mut over_tcp, &mut over_unix] {
+            accepted.subscribed();
+            assert!(accepted.any_left(1) && !accepted.untraceable, "{accepted:?}");
+        }
+        drop(servers);
+        assert!(!over_tcp.any_left(1) && !over_unix.any_left(1));
     }
 
     #[test]

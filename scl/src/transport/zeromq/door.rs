@@ -6,17 +6,16 @@
 //! before it says so; therefore the library has the reserve for a moment, and is quiet until somebody comes.
 
 use super::accepted::LocalAddress;
+use super::listen::Events;
 use crate::sync::AbortOnDrop;
-use futures_core::Stream;
 use rustix::io::Errno;
 use std::fs::File;
 use std::future::poll_fn;
 use std::io;
 use std::net::TcpListener;
 use std::os::unix::net::UnixListener;
-use std::pin::Pin;
 use std::task::{Context, Poll};
-use zeromq::{Listener, Socket, SocketEvent, ZmqError};
+use zeromq::{Listener, SocketEvent, ZmqError};
 
 /// A second hand on a listener that the library owns.
 #[derive(Debug)]
@@ -81,15 +80,14 @@ impl Door {
         std::iter::repeat_with(accept).take_while(|accepted| *accepted).map(u32::from).sum()
     }
 
-    /// Does so in a task, for a socket whose monitor nobody else needs.
-    pub(super) fn watch(mut self, socket: &mut impl Socket) -> AbortOnDrop {
-        let mut events = Box::pin(socket.monitor());
-        let task = tokio::spawn(poll_fn(move |cx| self.poll_events(events.as_mut(), cx)));
+    /// Does so in a task, for a socket whose events nobody else needs.
+    pub(super) fn watch(mut self, mut events: Events) -> AbortOnDrop {
+        let task = tokio::spawn(poll_fn(move |cx| self.poll_events(&mut events, cx)));
         AbortOnDrop(task.abort_handle())
     }
 
     /// Ready when the socket is gone.
-    fn poll_events(&mut self, mut events: Pin<&mut impl Stream<Item = SocketEvent>>, cx: &mut Context<'_>) -> Poll<()> {
+    fn poll_events(&mut self, events: &mut Events, cx: &mut Context<'_>) -> Poll<()> {
         while let Poll::Ready(event) = events.as_mut().poll_next(cx) {
             match event {
                 Some(event) => self.heard(&event),

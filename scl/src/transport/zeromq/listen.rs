@@ -4,15 +4,22 @@ use super::Medium;
 use super::door::Door;
 use crate::place::{self, Claim, SystemDir};
 use crate::transport::TransportError;
+use futures_core::Stream;
+use std::pin::Pin;
 use std::task::{Context, Poll, Waker};
-use zeromq::{Listener, Socket};
+use zeromq::{Listener, Socket, SocketEvent};
 
 /// A socket that listens, with what removes its endpoint again.
 pub(super) struct Listening<S> {
     pub(super) socket: S,
+    /// Everything that has happened at the listener since it was handed over.
+    pub(super) events: Events,
     pub(super) door: Door,
     pub(super) guard: Claim,
 }
+
+/// What the library's monitor tells of a socket.
+pub(super) type Events = Pin<Box<dyn Stream<Item = SocketEvent> + Send>>;
 
 /// Binds a fresh socket of the library to an endpoint.
 pub(super) fn listen<S: Socket>(
@@ -24,8 +31,11 @@ pub(super) fn listen<S: Socket>(
     let (listener, guard) = bind(place, medium, endpoint)?;
     let door = Door::of(&listener).map_err(|error| refused(error.to_string()))?;
     let mut socket = S::new();
+    // Asked for first: with several threads, a peer may be taken in before the library has returned the socket, and it
+    // is reported only to those who asked before.
+    let events = Box::pin(socket.monitor());
     adopt(&mut socket, listener).map_err(refused)?;
-    Ok(Listening { socket, door, guard })
+    Ok(Listening { socket, events, door, guard })
 }
 
 fn bind(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<(Listener, Claim), TransportError> {

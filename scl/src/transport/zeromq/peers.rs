@@ -6,9 +6,8 @@
 //! that are reported after the socket was dropped are waited for.
 
 use super::door::Door;
+use super::listen::Events;
 use crate::sync::lock;
-use futures_core::Stream;
-use std::pin::Pin;
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
@@ -27,20 +26,15 @@ pub(super) struct Peers {
 
 struct Book {
     backend: Arc<dyn MultiPeerBackend>,
-    events: Pin<Box<dyn Stream<Item = SocketEvent> + Send>>,
+    events: Events,
     accepted: Vec<PeerIdentity>,
     /// Gone with the socket, so that nobody knocks at a listener that takes nobody in.
     door: Option<Door>,
 }
 
 impl Peers {
-    pub(super) fn of(socket: &mut impl Socket, door: Door) -> Self {
-        let book = Book {
-            backend: socket.backend(),
-            events: Box::pin(socket.monitor()),
-            accepted: Vec::new(),
-            door: Some(door),
-        };
+    pub(super) fn of(socket: &impl Socket, events: Events, door: Door) -> Self {
+        let book = Book { backend: socket.backend(), events, accepted: Vec::new(), door: Some(door) };
         Self { book: Arc::new(Mutex::new(book)), runtime: Handle::try_current().ok() }
     }
 

@@ -34,10 +34,10 @@ pub(super) struct Publishing {
 
 impl Publishing {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { mut socket, door, guard } = listen::<XPubSocket>(place, medium, endpoint)?;
+        let Listening { socket, events, door, guard } = listen::<XPubSocket>(place, medium, endpoint)?;
         Ok(Self {
             accepted: Accepted::at(door.address()),
-            peers: Peers::of(&mut socket, door),
+            peers: Peers::of(&socket, events, door),
             subscriber: false,
             unlooked: 0,
             socket: Some(Box::new(socket)),

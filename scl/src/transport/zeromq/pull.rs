@@ -21,9 +21,9 @@ pub(super) struct Pulling {
 
 impl Pulling {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { mut socket, door, guard, .. } = listen::<PullSocket>(place, medium, endpoint)?;
+        let Listening { socket, events, door, guard } = listen::<PullSocket>(place, medium, endpoint)?;
         let connections = ClosesLatecomers::of(&socket);
-        let door = door.watch(&mut socket);
+        let door = door.watch(events);
         Ok(Self { messages: Messages::of(socket), malformed: 0, _connections: connections, _door: door, _guard: guard })
     }
 }

@@ -28,9 +28,9 @@ pub(super) struct Replying {
 
 impl Replying {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { mut socket, door, guard, .. } = listen::<RouterSocket>(place, medium, endpoint)?;
+        let Listening { socket, events, door, guard } = listen::<RouterSocket>(place, medium, endpoint)?;
         let connections = ClosesLatecomers::of(&socket);
-        let door = door.watch(&mut socket);
+        let door = door.watch(events);
         let (replies, requests) = socket.split();
         let replies = Arc::new(replies);
         let requests = Messages::of(requests);
