@@ -1,0 +1,110 @@
+//! Queues between components on the transport within one process: who is given room, who waits, and what is newest.
+#![allow(clippy::unwrap_used)]
+
+use scl::private::{AnyGate, Component, ComponentSpec, GateKind, GateSpec, LinkSpec, OpenError, Opener, WhenFull};
+use scl::transport::memory::Memory;
+use scl::{OpenOptions, Pub, Sub};
+use std::time::Duration;
+
+const READINGS: &str = "sensor.readings--watcher.readings.1a2b3c4d";
+
+/// It waits for `watcher`, which is optional.
+struct Sensor {
+    readings: Pub<u32>,
+}
+
+struct Watcher {
+    readings: Sub<u32>,
+}
+
+impl Component for Sensor {
+    const SPEC: &'static ComponentSpec = &component(
+        "sensor",
+        &[gate("readings", GateKind::Pub, "sensor.readings", 1, &[link("watcher", "readings", READINGS, 2, false)])],
+    );
+
+    fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
+        Ok(Self { readings: opener.publisher::<_, scl::codec::Json>(0)? })
+    }
+
+    fn gates(&self) -> Vec<&dyn AnyGate> {
+        vec![&self.readings]
+    }
+}
+
+impl Component for Watcher {
+    const SPEC: &'static ComponentSpec = &component(
+        "watcher",
+        &[gate("readings", GateKind::Sub, "", 2, &[link("sensor", "readings", READINGS, 2, true)])],
+    );
+
+    fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
+        Ok(Self { readings: opener.subscriber::<_, scl::codec::Json>(0)? })
+    }
+
+    fn gates(&self) -> Vec<&dyn AnyGate> {
+        vec![&self.readings]
+    }
+}
+
+scl::private::component_methods!(Sensor);
+scl::private::component_methods!(Watcher);
+
+const fn component(name: &'static str, gates: &'static [GateSpec]) -> ComponentSpec {
+    ComponentSpec { system: "rover", name, place: "topology.yaml:3:3", gates }
+}
+
+const fn gate(
+    name: &'static str,
+    kind: GateKind,
+    endpoint: &'static str,
+    queue: u32,
+    links: &'static [LinkSpec],
+) -> GateSpec {
+    GateSpec {
+        name,
+        kind,
+        payload: "any",
+        codec: "json",
+        place: "topology.yaml:5:5",
+        endpoint,
+        queue,
+        when_full: WhenFull::Wait,
+        backpressure: true,
+        timeout: Duration::from_secs(60),
+        links,
+    }
+}
+
+const fn link(
+    peer_component: &'static str,
+    peer_gate: &'static str,
+    endpoint: &'static str,
+    queue: u32,
+    required: bool,
+) -> LinkSpec {
+    LinkSpec { peer_component, peer_gate, endpoint, contract: "1a2b3c4d", required, queue, when_full: WhenFull::Wait }
+}
+
+#[tokio::test]
+async fn the_latest_message_is_the_newest_also_where_the_publisher_waits() {
+    let (mut sensor, mut watcher) = sensor_and_watcher().await;
+    for number in 0..5 {
+        sensor.readings.send(&number).await.unwrap();
+    }
+    assert_eq!(watcher.readings.latest().unwrap(), Some(4));
+    assert_eq!(watcher.readings.latest().unwrap(), None);
+    sensor.readings.send(&5).await.unwrap();
+    assert_eq!(watcher.readings.recv().await.unwrap(), 5);
+}
+
+/// Both, connected.
+async fn sensor_and_watcher() -> (Sensor, Watcher) {
+    let options = OpenOptions::new().transport(Memory::new());
+    let sensor = Sensor::open_with(options.clone()).await.unwrap();
+    let watcher = Watcher::open_with(options).await.unwrap();
+    while sensor.readings.stats().peers == 0 {
+        tokio::task::yield_now().await;
+    }
+    (sensor, watcher)
+}
