@@ -6,6 +6,9 @@ use scl::transport::memory::Memory;
 use scl::{OpenOptions, Pub, Sub};
 use std::time::Duration;
 
+/// How many messages the transport holds for a reader that takes none.
+const ON_THE_WAY: usize = 64;
+
 const READINGS: &str = "sensor.readings--watcher.readings.1a2b3c4d";
 
 /// It waits for `watcher`, which is optional.
@@ -96,6 +99,22 @@ async fn the_latest_message_is_the_newest_also_where_the_publisher_waits() {
     assert_eq!(watcher.readings.latest().unwrap(), None);
     sensor.readings.send(&5).await.unwrap();
     assert_eq!(watcher.readings.recv().await.unwrap(), 5);
+}
+
+#[tokio::test]
+async fn a_publisher_that_waits_goes_on_when_an_optional_reader_has_gone() {
+    let (mut sensor, watcher) = sensor_and_watcher().await;
+    let sent = (0..).take_while(|number| sensor.readings.try_send(number).is_ok()).count();
+    assert_eq!(sent, ON_THE_WAY + 2, "the last two wait in the queue");
+    let sends = tokio::spawn(async move { sensor.readings.send(&0).await });
+    tokio::task::yield_now().await;
+    assert!(!sends.is_finished(), "there is no room");
+    drop(watcher);
+    for _ in 0..10 {
+        tokio::task::yield_now().await;
+    }
+    assert!(sends.is_finished(), "nobody is there to be waited for");
+    sends.await.unwrap().unwrap();
 }
 
 /// Both, connected.

@@ -75,12 +75,17 @@ impl Outgoing {
 
     /// Ready when a message would find room, or would not have to wait for it.
     pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        let waits = self.holding.when_full == WhenFull::Wait && (self.present || self.holding.wait_for_absent);
-        if !waits || self.waiting.len() < self.holding.capacity {
+        if !self.makes_wait() {
             return Poll::Ready(());
         }
         self.sender = Some(cx.waker().clone());
         Poll::Pending
+    }
+
+    /// Whether one more message would have to wait.
+    fn makes_wait(&self) -> bool {
+        let waits = self.holding.when_full == WhenFull::Wait && (self.present || self.holding.wait_for_absent);
+        waits && self.waiting.len() >= self.holding.capacity
     }
 
     /// Whether nothing waits that the peer, if it is there, could still be given.
@@ -122,7 +127,6 @@ impl Outgoing {
 
     /// Gives the link what waits, in order, as far as it takes it.
     fn hand_over(&mut self) {
-        let full = self.waiting.len() >= self.holding.capacity;
         while self.present
             && let Some(message) = self.waiting.pop_front()
         {
@@ -141,8 +145,8 @@ impl Outgoing {
         {
             flusher.wake();
         }
-        if full
-            && self.waiting.len() < self.holding.capacity
+        // There is room, or the peer that it would wait for is an optional one that has gone.
+        if !self.makes_wait()
             && let Some(sender) = self.sender.take()
         {
             sender.wake();
