@@ -3,35 +3,56 @@
 
 use scl::private::{AnyGate, Component, ComponentSpec, GateKind, GateSpec, LinkSpec, OpenError, Opener, WhenFull};
 use scl::transport::memory::Memory;
-use scl::{OpenOptions, Pub, Sub};
+use scl::{OpenOptions, Pub, Pull, Push, Sub};
 use std::time::Duration;
 
 /// How many messages the transport holds for a reader that takes none.
 const ON_THE_WAY: usize = 64;
 
 const READINGS: &str = "sensor.readings--watcher.readings.1a2b3c4d";
+const NARROW: &str = "narrow.jobs.5e6f7a8b";
+const WIDE: &str = "wide.jobs.5e6f7a8b";
 
-/// It waits for `watcher`, which is optional.
+/// It waits for `watcher`, which is optional, and shares its jobs between `narrow` and `wide`.
 struct Sensor {
     readings: Pub<u32>,
+    jobs: Push<u32>,
 }
 
 struct Watcher {
     readings: Sub<u32>,
 }
 
+struct Narrow {
+    jobs: Pull<u32>,
+}
+
+struct Wide {
+    jobs: Pull<u32>,
+}
+
 impl Component for Sensor {
     const SPEC: &'static ComponentSpec = &component(
         "sensor",
-        &[gate("readings", GateKind::Pub, "sensor.readings", 1, &[link("watcher", "readings", READINGS, 2, false)])],
+        &[
+            gate("readings", GateKind::Pub, "sensor.readings", 1, &[link("watcher", "readings", READINGS, 2, false)]),
+            gate(
+                "jobs",
+                GateKind::Push,
+                "",
+                1,
+                &[link("narrow", "jobs", NARROW, 1, true), link("wide", "jobs", WIDE, 3, true)],
+            ),
+        ],
     );
 
     fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
-        Ok(Self { readings: opener.publisher::<_, scl::codec::Json>(0)? })
+        let readings = opener.publisher::<_, scl::codec::Json>(0)?;
+        Ok(Self { readings, jobs: opener.pusher::<_, scl::codec::Json>(1)? })
     }
 
     fn gates(&self) -> Vec<&dyn AnyGate> {
-        vec![&self.readings]
+        vec![&self.readings, &self.jobs]
     }
 }
 
@@ -50,8 +71,36 @@ impl Component for Watcher {
     }
 }
 
+impl Component for Narrow {
+    const SPEC: &'static ComponentSpec =
+        &component("narrow", &[gate("jobs", GateKind::Pull, NARROW, 1, &[link("sensor", "jobs", NARROW, 1, true)])]);
+
+    fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
+        Ok(Self { jobs: opener.puller::<_, scl::codec::Json>(0)? })
+    }
+
+    fn gates(&self) -> Vec<&dyn AnyGate> {
+        vec![&self.jobs]
+    }
+}
+
+impl Component for Wide {
+    const SPEC: &'static ComponentSpec =
+        &component("wide", &[gate("jobs", GateKind::Pull, WIDE, 3, &[link("sensor", "jobs", WIDE, 3, true)])]);
+
+    fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
+        Ok(Self { jobs: opener.puller::<_, scl::codec::Json>(0)? })
+    }
+
+    fn gates(&self) -> Vec<&dyn AnyGate> {
+        vec![&self.jobs]
+    }
+}
+
 scl::private::component_methods!(Sensor);
 scl::private::component_methods!(Watcher);
+scl::private::component_methods!(Narrow);
+scl::private::component_methods!(Wide);
 
 const fn component(name: &'static str, gates: &'static [GateSpec]) -> ComponentSpec {
     ComponentSpec { system: "rover", name, place: "topology.yaml:3:3", gates }
@@ -99,6 +148,22 @@ async fn the_latest_message_is_the_newest_also_where_the_publisher_waits() {
     assert_eq!(watcher.readings.latest().unwrap(), None);
     sensor.readings.send(&5).await.unwrap();
     assert_eq!(watcher.readings.recv().await.unwrap(), 5);
+}
+
+#[tokio::test]
+async fn a_job_goes_where_there_is_room_and_nothing_is_dropped() {
+    let options = OpenOptions::new().transport(Memory::new());
+    let mut sensor = Sensor::open_with(options.clone()).await.unwrap();
+    let sent = (0..10).filter(|number| sensor.jobs.try_send(number).is_ok()).count();
+    assert_eq!((sent, sensor.jobs.stats().dropped_oldest), (4, 0), "as many as both queues hold");
+    let mut narrow = Narrow::open_with(options.clone()).await.unwrap();
+    let mut wide = Wide::open_with(options).await.unwrap();
+    let mut jobs = vec![narrow.jobs.recv().await.unwrap()];
+    for _ in 0..3 {
+        jobs.push(wide.jobs.recv().await.unwrap());
+    }
+    jobs.sort_unstable();
+    assert_eq!(jobs, [0, 1, 2, 3]);
 }
 
 #[tokio::test]

@@ -83,9 +83,14 @@ impl Outgoing {
     }
 
     /// Whether one more message would have to wait.
-    fn makes_wait(&self) -> bool {
+    pub(crate) fn makes_wait(&self) -> bool {
         let waits = self.holding.when_full == WhenFull::Wait && (self.present || self.holding.wait_for_absent);
-        waits && self.waiting.len() >= self.holding.capacity
+        waits && !self.has_room()
+    }
+
+    /// Whether one more message would find room.
+    pub(crate) fn has_room(&self) -> bool {
+        self.waiting.len() < self.holding.capacity
     }
 
     /// Whether nothing waits that the peer, if it is there, could still be given.
