@@ -88,8 +88,16 @@ impl<T> Incoming<T> {
 
     pub(crate) fn latest(&mut self) -> Result<Option<T>, RecvError> {
         self.look()?;
-        let newest = self.inbox.pop_back();
+        let mut newest = self.inbox.pop_back();
         self.inbox.clear();
+        if self.spec.when_full == WhenFull::Wait {
+            // Such a gate takes in one message at a time, but what is passed over keeps no publisher waiting.
+            for _ in 0..TAKE_IN {
+                let Poll::Ready(newer) = self.poll_links(&mut Context::from_waker(Waker::noop())) else { break };
+                self.counts.moved(newer.frame.len());
+                newest = Some(newer);
+            }
+        }
         newest.map(|arrived| self.decode(arrived)).transpose()
     }
 

@@ -84,12 +84,22 @@ impl Outgoing {
 
     /// Ready when a message would find room, or would not have to wait for it.
     pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        let waits = self.holding.when_full == WhenFull::Wait && (self.present || self.holding.wait_for_absent);
-        if !waits || self.waiting.len() < self.holding.capacity {
+        if !self.makes_wait() {
             return Poll::Ready(());
         }
         self.sender = Some(cx.waker().clone());
         Poll::Pending
+    }
+
+    /// Whether one more message would have to wait.
+    pub(crate) fn makes_wait(&self) -> bool {
+        let waits = self.holding.when_full == WhenFull::Wait && (self.present || self.holding.wait_for_absent);
+        waits && !self.has_room()
+    }
+
+    /// Whether one more message would find room.
+    pub(crate) fn has_room(&self) -> bool {
+        self.waiting.len() < self.holding.capacity
     }
 
     /// Whether nothing waits that the peer, if it is there, could still be given.
@@ -155,8 +165,8 @@ impl Outgoing {
         {
             flusher.wake();
         }
-        // A sender that waits is woken when half of the queue is free, so that it can fill it in one go.
-        if self.waiting.len() <= self.holding.capacity / 2
+        // There is room, or the peer that it would wait for is an optional one that has gone.
+        if !self.makes_wait()
             && let Some(sender) = self.sender.take()
         {
             sender.wake();

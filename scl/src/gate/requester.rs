@@ -111,6 +111,9 @@ impl<A, B> Req<A, B> {
             }
             // The connection broke at this very moment; the next one is on its way.
             tokio::task::yield_now().await;
+            if Instant::now() >= deadline {
+                return Err(TimedOut);
+            }
         }
         self.asked += 1;
         // The library writes in a task of its own: let it, before looking for an answer.

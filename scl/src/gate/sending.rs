@@ -128,12 +128,14 @@ impl<T> Sending<T> {
         }
     }
 
-    /// The next puller that can take a message now, or else the next one.
+    /// The next puller that can take a message now, or else whose queue can, or else that declared to drop one.
     fn next_in_turn(&mut self) -> usize {
         let count = self.connections.len();
         let turn = |offset| (self.turn + offset) % count;
-        let free = (0..count).map(turn).find(|&index| lock(&self.connections[index]).is_free());
-        let chosen = free.unwrap_or(self.turn % count);
+        let next =
+            |can: fn(&Outgoing) -> bool| (0..count).map(turn).find(|&index| can(&lock(&self.connections[index])));
+        let with_room = || next(Outgoing::has_room).or_else(|| next(|connection| !connection.makes_wait()));
+        let chosen = next(Outgoing::is_free).or_else(with_room).unwrap_or(self.turn % count);
         self.turn = chosen + 1;
         chosen
     }

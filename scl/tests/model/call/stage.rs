@@ -1,0 +1,215 @@
+//! The real gates, and how a step is done to them.
+
+use super::caller::Caller;
+use super::layout::{HASTY, REQUESTERS, open_replier, open_requester};
+use super::model::{Ends, Model, Question};
+use super::step::{Case, Step};
+use crate::raised::Raised;
+use crate::trial::Outcome;
+use bytes::Bytes;
+use futures_core::Stream;
+use scl::{OpenOptions, Rep, Request};
+use std::pin::Pin;
+use std::task::{Context, Poll};
+use std::time::{Duration, Instant};
+
+/// How often whoever is woken goes on in one step: often enough for all that each can do without news.
+const TURNS: usize = 10;
+/// Over sockets, how long tasks may run until the ends have found each other; whoever has not goes on later.
+const DIALLING: Duration = Duration::from_millis(50);
+
+pub(super) struct Stage {
+    pub(super) exact: bool,
+    pub(super) model: Model,
+    options: OpenOptions,
+    replier: Option<Rep<Bytes, Bytes>>,
+    /// Raised when the replier, which waits, is woken.
+    news: Option<Raised>,
+    pub(super) callers: [Option<Caller>; REQUESTERS],
+    pub(super) taken: Vec<Taken>,
+}
+
+/// A request that has not been answered yet.
+pub(super) struct Taken {
+    pub(super) question: Question,
+    came_by: Ends,
+    request: Request<Bytes, Bytes>,
+}
+
+impl Stage {
+    pub(super) fn new(options: OpenOptions, exact: bool) -> Self {
+        Self {
+            exact,
+            model: Model::new(exact),
+            options,
+            replier: None,
+            news: None,
+            callers: [const { None }; REQUESTERS],
+            taken: Vec::new(),
+        }
+    }
+
+    pub(super) async fn play(mut self, case: &Case) -> Outcome {
+        for (step, number) in case.steps.iter().zip(1..) {
+            self.step(*step).await.map_err(|reason| format!("step {number}, {step:?}: {reason}"))?;
+        }
+        self.end().await.map_err(|reason| format!("after the last step: {reason}"))
+    }
+
+    async fn step(&mut self, step: Step) -> Outcome {
+        match step {
+            Step::ReplierAppears => self.replier_appears().await,
+            Step::ReplierVanishes => self.replier_vanishes(),
+            Step::Take(count) => self.take(count),
+            Step::Answer(which) => self.answer(which),
+            Step::Neglect(which) => self.neglect(which),
+            Step::RequesterAppears(place) => self.requester_appears(place).await,
+            Step::RequesterVanishes(place) => self.requester_vanishes(place),
+            Step::Ask(place) => self.ask(place),
+            Step::GiveUp(place) => self.give_up(place),
+            Step::Badger(place, times) => {
+                (0..times).try_for_each(|_| self.ask(place).and_then(|()| self.give_up(place)))
+            }
+            Step::TimeRunsOut => self.time_runs_out().await,
+            Step::TasksRun => self.tasks_run().await,
+        }
+    }
+
+    pub(super) async fn replier_appears(&mut self) -> Outcome {
+        if self.replier.is_none() {
+            self.replier = Some(open_replier(self.options.clone()).await.map_err(|error| error.to_string())?);
+        }
+        Ok(())
+    }
+
+    fn replier_vanishes(&mut self) -> Outcome {
+        if let Some(replier) = self.replier.take() {
+            drop(replier);
+            self.news = None;
+            self.model.replier_goes();
+        }
+        Ok(())
+    }
+
+    pub(super) fn take(&mut self, count: usize) -> Outcome {
+        for _ in 0..count {
+            let Some(replier) = &mut self.replier else { return Ok(()) };
+            let raised = Raised::default();
+            match Pin::new(replier).poll_next(&mut Context::from_waker(&raised.waker())) {
+                Poll::Ready(Some(request)) => {
+                    let request = request.map_err(|error| error.to_string())?;
+                    let (question, came_by) = self.model.arrives(request.message())?;
+                    self.taken.push(Taken { question, came_by, request });
+                    self.news = None;
+                }
+                Poll::Ready(None) => return Err("the requests have come to an end".to_owned()),
+                Poll::Pending => {
+                    self.news = Some(raised);
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn one_of_taken(&mut self, which: usize) -> Option<Taken> {
+        let count = self.taken.len();
+        (count > 0).then(|| self.taken.remove(which % count))
+    }
+
+    pub(super) fn answer(&mut self, which: usize) -> Outcome {
+        let Some(Taken { question, came_by, request }) = self.one_of_taken(which) else { return Ok(()) };
+        let taken = request.reply_now(&question.answer()).is_ok();
+        self.model.is_answered(question, came_by, taken)
+    }
+
+    fn neglect(&mut self, which: usize) -> Outcome {
+        drop(self.one_of_taken(which));
+        Ok(())
+    }
+
+    pub(super) async fn requester_appears(&mut self, place: usize) -> Outcome {
+        if self.callers[place].is_none() {
+            let gate = open_requester(place, self.options.clone()).await.map_err(|error| error.to_string())?;
+            self.callers[place] = Some(Caller::new(gate));
+        }
+        Ok(())
+    }
+
+    fn requester_vanishes(&mut self, place: usize) -> Outcome {
+        if let Some(caller) = self.callers[place].take() {
+            drop(caller);
+            self.model.requester_goes(place);
+        }
+        Ok(())
+    }
+
+    /// Asks, unless a call is in progress.
+    pub(super) fn ask(&mut self, place: usize) -> Outcome {
+        match &mut self.callers[place] {
+            Some(caller) if caller.asks().is_none() => {
+                caller.ask(self.model.asks(place));
+                self.poll_caller(place).map(drop)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn give_up(&mut self, place: usize) -> Outcome {
+        self.callers[place].iter_mut().for_each(Caller::give_up);
+        Ok(())
+    }
+
+    async fn time_runs_out(&mut self) -> Outcome {
+        let Some(caller) = &mut self.callers[HASTY] else { return Ok(()) };
+        match caller.end().await {
+            Some((question, answer)) => self.model.ends_with(question, answer),
+            None => Ok(()),
+        }
+    }
+
+    /// Lets a requester go on if it was woken; whether it was.
+    fn poll_caller(&mut self, place: usize) -> Result<bool, String> {
+        let Some(caller) = &mut self.callers[place] else { return Ok(false) };
+        let woken = caller.is_woken();
+        if let Some((question, answer)) = caller.poll_if_woken() {
+            self.model.ends_with(question, answer)?;
+        }
+        Ok(woken)
+    }
+
+    pub(super) async fn tasks_run(&mut self) -> Outcome {
+        let (started, mut turn) = (Instant::now(), 0);
+        while turn < TURNS || (!self.exact && !self.is_known() && started.elapsed() < DIALLING) {
+            tokio::task::yield_now().await;
+            for place in 0..REQUESTERS {
+                self.poll_caller(place)?;
+            }
+            turn += 1;
+        }
+        if self.exact { self.check_moved() } else { Ok(()) }
+    }
+
+    /// Whether the requesters that make no call know whether the replier is there.
+    fn is_known(&self) -> bool {
+        let there = Some(self.replier.is_some());
+        self.callers.iter().flatten().all(|caller| [None, there].contains(&caller.is_connected()))
+    }
+
+    /// After the tasks have run, in memory: who could move on has done so, or was woken to do so.
+    fn check_moved(&self) -> Outcome {
+        for caller in self.callers.iter().flatten() {
+            if caller.is_connected().is_some_and(|connected| connected != self.replier.is_some()) {
+                return Err(format!("connected: {:?}, replier: {:?}", caller.is_connected(), self.replier));
+            }
+            let Some(question) = caller.asks() else { continue };
+            if self.model.is_over(question) {
+                return Err(format!("the call of {question:?} should have ended"));
+            }
+            if !self.model.has_arrived(question) && self.news.as_ref().is_some_and(|news| !news.is_raised()) {
+                return Err(format!("{question:?} is asked, and the replier was not woken"));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,209 @@
+//! What is declared: kinds of gates, queues and what they do when they are full.
+
+use super::gates::{Receiver, Sender};
+use scl::OpenOptions;
+use scl::codec::Opaque;
+use scl::private::{
+    AnyGate, Component, ComponentSpec, GateKind, GateSpec, LinkSpec, OpenError, Opener, WhenFull, open,
+};
+use std::time::Duration;
+
+/// How many layouts there are.
+pub(super) const LAYOUTS: usize = 26;
+
+const SOURCE: &str = "source";
+const READERS: [&str; 3] = ["a", "b", "c"];
+/// Where each reader and the source meet.
+pub(super) const ENDPOINTS: [&str; 3] =
+    ["source.out--a.in.1a2b3c4d", "source.out--b.in.1a2b3c4d", "source.out--c.in.1a2b3c4d"];
+
+/// A sender and its readers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Layout {
+    pub(super) kind: GateKind,
+    pub(super) backpressure: bool,
+    readers: [Declared; 3],
+    count: usize,
+}
+
+/// A reader.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Declared {
+    pub(super) queue: u32,
+    pub(super) when_full: WhenFull,
+    pub(super) required: bool,
+}
+
+impl Layout {
+    pub(super) fn readers(&self) -> &[Declared] {
+        &self.readers[..self.count]
+    }
+}
+
+const QUEUES: [u32; 3] = [1, 3, 100];
+const WHEN_FULL: [WhenFull; 3] = [WhenFull::DropOldest, WhenFull::DropNewest, WhenFull::Wait];
+
+/// Every queue with every policy for a single reader of each kind, then mixtures.
+pub(super) const fn layout(index: usize) -> Layout {
+    use WhenFull::{DropNewest, DropOldest, Wait};
+    let (oldest, newest, wait) = (declared(3, DropOldest), declared(3, DropNewest), declared(3, Wait));
+    match index {
+        0..9 => single(GateKind::Pub, QUEUES[index / 3], WHEN_FULL[index % 3]),
+        9..18 => single(GateKind::Push, QUEUES[(index - 9) / 3], WHEN_FULL[index % 3]),
+        18 => several(GateKind::Pub, 3, [declared(1, DropOldest), newest, declared(100, DropOldest)]),
+        19 => several(GateKind::Pub, 3, [declared(100, Wait), oldest, declared(1, DropNewest)]),
+        20 => several(GateKind::Pub, 3, [optional(wait), wait, declared(1, DropOldest)]),
+        21 => several(GateKind::Pub, 2, [optional(declared(1, Wait)), oldest, oldest]),
+        22 => Layout { backpressure: false, ..several(GateKind::Pub, 2, [wait, declared(1, Wait), wait]) },
+        23 => several(GateKind::Push, 3, [declared(1, DropOldest), newest, declared(100, DropOldest)]),
+        24 => several(GateKind::Push, 2, [wait, declared(1, Wait), wait]),
+        25 => several(GateKind::Push, 3, [optional(wait), wait, declared(1, DropNewest)]),
+        _ => panic!("there is no such layout"),
+    }
+}
+
+const fn single(kind: GateKind, queue: u32, when_full: WhenFull) -> Layout {
+    several(kind, 1, [declared(queue, when_full); 3])
+}
+
+const fn several(kind: GateKind, count: usize, readers: [Declared; 3]) -> Layout {
+    Layout { kind, backpressure: true, readers, count }
+}
+
+const fn declared(queue: u32, when_full: WhenFull) -> Declared {
+    Declared { queue, when_full, required: true }
+}
+
+const fn optional(declared: Declared) -> Declared {
+    Declared { required: false, ..declared }
+}
+
+/// The component that sends. A gate keeps its component open, so only the gates are kept.
+struct Source<const LAYOUT: usize> {
+    gate: Sender,
+}
+
+struct Reader<const LAYOUT: usize, const PLACE: usize> {
+    gate: Receiver,
+}
+
+impl<const LAYOUT: usize> Source<LAYOUT> {
+    const LINKS: &'static [LinkSpec; 3] =
+        &[to_reader(layout(LAYOUT), 0), to_reader(layout(LAYOUT), 1), to_reader(layout(LAYOUT), 2)];
+    const GATE: GateSpec = GateSpec {
+        endpoint: "source.out",
+        backpressure: layout(LAYOUT).backpressure,
+        links: Self::LINKS.split_at(layout(LAYOUT).count).0,
+        ..gate("out", layout(LAYOUT).kind)
+    };
+}
+
+impl<const LAYOUT: usize> Component for Source<LAYOUT> {
+    const SPEC: &'static ComponentSpec =
+        &ComponentSpec { system: "model", name: SOURCE, place: "topology.yaml:3:3", gates: &[Self::GATE] };
+
+    fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
+        let gate = match layout(LAYOUT).kind {
+            GateKind::Push => Sender::Push(opener.pusher::<_, Opaque>(0)?),
+            _ => Sender::Pub(opener.publisher::<_, Opaque>(0)?),
+        };
+        Ok(Self { gate })
+    }
+
+    fn gates(&self) -> Vec<&dyn AnyGate> {
+        match &self.gate {
+            Sender::Pub(gate) => vec![gate],
+            Sender::Push(gate) => vec![gate],
+        }
+    }
+}
+
+impl<const LAYOUT: usize, const PLACE: usize> Reader<LAYOUT, PLACE> {
+    const DECLARED: Declared = layout(LAYOUT).readers[PLACE];
+    const LINK: LinkSpec = LinkSpec { peer_component: SOURCE, peer_gate: "out", ..to_reader(layout(LAYOUT), PLACE) };
+    const GATE: GateSpec = GateSpec {
+        endpoint: ENDPOINTS[PLACE],
+        queue: Self::DECLARED.queue,
+        when_full: Self::DECLARED.when_full,
+        links: &[Self::LINK],
+        ..gate("in", if let GateKind::Push = layout(LAYOUT).kind { GateKind::Pull } else { GateKind::Sub })
+    };
+}
+
+impl<const LAYOUT: usize, const PLACE: usize> Component for Reader<LAYOUT, PLACE> {
+    const SPEC: &'static ComponentSpec =
+        &ComponentSpec { system: "model", name: READERS[PLACE], place: "topology.yaml:6:3", gates: &[Self::GATE] };
+
+    fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
+        let gate = match layout(LAYOUT).kind {
+            GateKind::Push => Receiver::Pull(opener.puller::<_, Opaque>(0)?),
+            _ => Receiver::Sub(opener.subscriber::<_, Opaque>(0)?),
+        };
+        Ok(Self { gate })
+    }
+
+    fn gates(&self) -> Vec<&dyn AnyGate> {
+        match &self.gate {
+            Receiver::Sub(gate) => vec![gate],
+            Receiver::Pull(gate) => vec![gate],
+        }
+    }
+}
+
+const fn gate(name: &'static str, kind: GateKind) -> GateSpec {
+    GateSpec {
+        name,
+        kind,
+        payload: "bytes",
+        codec: "bytes",
+        place: "topology.yaml:5:5",
+        endpoint: "",
+        queue: 1,
+        when_full: WhenFull::DropOldest,
+        backpressure: false,
+        timeout: Duration::from_secs(60),
+        links: &[],
+    }
+}
+
+const fn to_reader(layout: Layout, place: usize) -> LinkSpec {
+    let Declared { queue, when_full, required } = layout.readers[place];
+    LinkSpec {
+        peer_component: READERS[place],
+        peer_gate: "in",
+        endpoint: ENDPOINTS[place],
+        contract: "1a2b3c4d",
+        required,
+        queue,
+        when_full,
+    }
+}
+
+/// Components are types, and the layout is a number that is drawn: each gets a line of its own.
+macro_rules! openers {
+    ($($index:literal)*) => {
+        pub(super) async fn open_sender(layout: usize, options: OpenOptions) -> Result<Sender, OpenError> {
+            match layout {
+                $($index => Ok(open::<Source<$index>>(options).await?.gate),)*
+                _ => panic!("there is no such layout"),
+            }
+        }
+
+        pub(super) async fn open_receiver(
+            layout: usize,
+            place: usize,
+            options: OpenOptions,
+        ) -> Result<Receiver, OpenError> {
+            match (layout, place) {
+                $(
+                    ($index, 0) => Ok(open::<Reader<$index, 0>>(options).await?.gate),
+                    ($index, 1) => Ok(open::<Reader<$index, 1>>(options).await?.gate),
+                    ($index, 2) => Ok(open::<Reader<$index, 2>>(options).await?.gate),
+                )*
+                _ => panic!("there is no such layout"),
+            }
+        }
+    };
+}
+
+openers!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25);

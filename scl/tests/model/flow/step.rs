@@ -1,0 +1,81 @@
+//! The steps that a case consists of. A step that needs an end that is not there does nothing.
+
+use super::layout::{LAYOUTS, layout};
+use crate::trial::list;
+use proptest::prelude::{Strategy, any, prop_oneof};
+use proptest::sample::select;
+use std::fmt;
+
+/// A layout and what happens to it.
+#[derive(Debug)]
+pub(super) struct Case {
+    pub(super) layout: usize,
+    pub(super) steps: Vec<Step>,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Step {
+    SenderAppears,
+    SenderVanishes,
+    /// It hands over what readers still take before it goes, as a program that ends does.
+    SenderFinishes,
+    /// So many messages, ending early at one that would have to wait: that one is called off, and room is waited for.
+    Send(usize),
+    TrySend(usize),
+    /// Asks to be woken when there is room.
+    WaitForRoom,
+    ReaderAppears(usize),
+    ReaderVanishes(usize),
+    /// Asks for so many messages, ending early when there is none: then it waits for it.
+    Recv(usize, usize),
+    TryRecv(usize, usize),
+    Latest(usize),
+    /// The tasks of the connections run; until then, what happened is known to nobody who was not there.
+    TasksRun,
+}
+
+pub(super) fn cases(longest: usize) -> impl Strategy<Value = Case> {
+    let steps = proptest::collection::vec(steps(), 1..longest);
+    (0..LAYOUTS, any::<bool>(), steps).prop_map(|(layout, connected, steps)| {
+        let before = if connected { CONNECTED } else { &[] };
+        Case { layout, steps: [before, &steps[..]].concat() }
+    })
+}
+
+/// What half of the cases begin with, so that the other steps meet ends that are connected.
+const CONNECTED: &[Step] =
+    &[Step::SenderAppears, Step::ReaderAppears(0), Step::ReaderAppears(1), Step::ReaderAppears(2), Step::TasksRun];
+
+fn steps() -> impl Strategy<Value = Step> {
+    let reader = || select(&[0, 1, 2][..]);
+    prop_oneof![
+        4 => any::<()>().prop_map(|()| Step::SenderAppears),
+        1 => any::<()>().prop_map(|()| Step::SenderVanishes),
+        1 => any::<()>().prop_map(|()| Step::SenderFinishes),
+        6 => amounts().prop_map(Step::Send),
+        3 => amounts().prop_map(Step::TrySend),
+        3 => any::<()>().prop_map(|()| Step::WaitForRoom),
+        5 => reader().prop_map(Step::ReaderAppears),
+        2 => reader().prop_map(Step::ReaderVanishes),
+        4 => (reader(), amounts()).prop_map(|(reader, count)| Step::Recv(reader, count)),
+        3 => (reader(), amounts()).prop_map(|(reader, count)| Step::TryRecv(reader, count)),
+        1 => reader().prop_map(Step::Latest),
+        9 => any::<()>().prop_map(|()| Step::TasksRun),
+    ]
+}
+
+/// A few, about as many as the transport in memory holds, more than that and the longest queue hold.
+fn amounts() -> impl Strategy<Value = usize> {
+    prop_oneof![6 => 1..6_usize, 1 => 60..70_usize, 1 => 150..200_usize]
+}
+
+impl fmt::Display for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let layout = layout(self.layout);
+        writeln!(f, "a `{:?}` gate with backpressure: {}", layout.kind, layout.backpressure)?;
+        for (declared, place) in layout.readers().iter().zip(0..) {
+            writeln!(f, "reader {place}: {declared:?}")?;
+        }
+        list(f, &self.steps)
+    }
+}
