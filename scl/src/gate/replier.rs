@@ -159,9 +159,7 @@ impl<A, B> Request<A, B> {
     pub fn reply_now(self, answer: &B) -> Result<(), ReplyError> {
         let WayBack { responder, encoding, gate, core } = self.way_back;
         let body = lock(&encoding).encode(answer).map_err(|source| ReplyError::Encode { gate, source })?;
-        responder.respond(body).map_err(|_gone| ReplyError::RequesterGone { gate })?;
-        core.give_turn();
-        Ok(())
+        core.with_a_turn(|| responder.respond(body)).map_err(|_gone| ReplyError::RequesterGone { gate })
     }
 }
 

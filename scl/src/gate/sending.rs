@@ -64,7 +64,7 @@ impl<T> Sending<T> {
         let core = Arc::clone(&self.core);
         let sent = core.block_on(self.send(message));
         if self.spec.kind == GateKind::Push {
-            core.give_turn();
+            core.with_a_turn(|| ());
         }
         sent.map_err(|source| SendError::Blocking { gate: self.name, source })?
     }

@@ -19,7 +19,7 @@ use zeromq::{PushSocket, SocketSend};
 /// As many as the library writes at once.
 const MOST_MESSAGES: usize = 128;
 /// Few enough to keep the file's promise about memory. A longer message goes to the library alone.
-const MOST_BYTES: usize = 64 * 1024;
+const MOST_BYTES: usize = 256 * 1024;
 
 pub(super) struct Pushing {
     line: Line<PushSocket>,
