@@ -8,6 +8,7 @@
 
 mod clock;
 mod codecs;
+mod cores;
 mod delay;
 mod fanout;
 mod histogram;
@@ -23,6 +24,7 @@ mod report;
 mod roundtrip;
 
 pub use codecs::{Codecs, measure_codecs};
+pub use cores::Cores;
 pub use delay::{Delay, measure_delay};
 pub use fanout::{Fanout, measure_fanout};
 pub use open::{Open, measure_open};

@@ -1,5 +1,6 @@
 //! The other processes of a scenario: this program again, started with a hidden word.
 
+use crate::cores::with_others;
 use crate::{delay, fanout, one_way, open, roundtrip};
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
 use std::io::{BufRead, BufReader, ErrorKind, Write};
@@ -104,7 +105,8 @@ impl OtherProcess {
             }
             [] => Command::new(program),
         };
-        let mut child = command.arg(OTHER_SIDE).args(words).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
+        command.arg(OTHER_SIDE).args(words).stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut child = with_others(|| command.spawn())??;
         let (sender, lines) = unbounded_channel();
         if let Some(output) = child.stdout.take() {
             std::thread::spawn(move || {

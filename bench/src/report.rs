@@ -65,6 +65,12 @@ impl Report {
         self.tables.push(table);
     }
 
+    /// Says where the processes ran.
+    pub fn on(mut self, cores: crate::Cores) -> Self {
+        self.notes.extend(cores.in_words().map(str::to_owned));
+        self
+    }
+
     pub(crate) fn note(&mut self, text: impl Into<String>) {
         self.notes.push(text.into());
     }

@@ -3,9 +3,9 @@
 mod limits;
 
 use crate::print::{print_err, print_out};
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use limits::{MESSAGES, STARTS, parse_seconds, within};
-use scl_bench::{Codecs, Delay, Fanout, Open, Rate, Report, Roundtrip};
+use scl_bench::{Codecs, Cores, Delay, Fanout, Open, Rate, Report, Roundtrip};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -27,9 +27,32 @@ pub(crate) struct BenchArguments {
     /// Print below each table how its times are distributed: the last percents, and a line of where they all lie.
     #[arg(long, global = true, conflicts_with = "json")]
     histogram: bool,
+    /// Where the processes run: on whatever core the operating system likes, all on one, or the two sides on one each.
+    /// Where two processes were put decides more than any library between them, so ratios are exact only on `one` or
+    /// `two`.
+    #[arg(long, global = true, value_enum, default_value_t)]
+    cores: CoresArgument,
     /// Measure next to nothing: enough to see that everything runs.
     #[arg(long, global = true, hide = true)]
     quick: bool,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum CoresArgument {
+    #[default]
+    Any,
+    One,
+    Two,
+}
+
+impl From<CoresArgument> for Cores {
+    fn from(argument: CoresArgument) -> Self {
+        match argument {
+            CoresArgument::Any => Self::Any,
+            CoresArgument::One => Self::One,
+            CoresArgument::Two => Self::Two,
+        }
+    }
 }
 
 const READING: &str = "`p50 us ratio to zeromq` is this row's median by that of the raw `zeromq` sockets: 1.10 is 10 % \
@@ -110,8 +133,10 @@ pub(crate) struct OtherSideArguments {
 }
 
 pub(crate) fn bench(arguments: &BenchArguments) -> ExitCode {
-    match measure(&arguments.scenario, arguments.quick) {
+    let cores = Cores::from(arguments.cores);
+    match cores.occupy().and_then(|()| measure(&arguments.scenario, arguments.quick)) {
         Ok(report) => {
+            let report = report.on(cores);
             print_out(&match (arguments.json, arguments.histogram) {
                 (true, _) => format!("{:#}\n", report.to_json()),
                 (false, true) => format!("{report:#}"),

@@ -249,3 +249,13 @@ fn the_hidden_word_is_not_for_use_by_hand() {
     let expected = "error: `bench-other-side rover` is not for use by hand: run `scl bench`\n";
     assert_eq!(String::from_utf8_lossy(&output.stderr), expected);
 }
+
+#[test]
+fn a_report_says_where_its_processes_ran() {
+    for (cores, expected) in [("any", false), ("one", true)] {
+        let output = bench(&["codecs", "--quick", "--json", "--cores", cores]);
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let notes = report["notes"].as_array().unwrap();
+        assert_eq!(notes.iter().any(|note| note == "all processes ran on one core"), expected, "{cores}: {notes:?}");
+    }
+}
