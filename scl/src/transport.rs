@@ -5,6 +5,7 @@
 //! when it is worth calling again.
 
 use bytes::Bytes;
+use std::collections::VecDeque;
 use std::task::{Context, Poll};
 
 #[cfg(feature = "memory")]
@@ -43,6 +44,19 @@ pub trait Outlet: Send {
     /// # Errors
     /// The message itself.
     fn offer(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes>;
+
+    /// Takes messages from the front of a queue, as many as the peer can take now; `taken` is told the length of each.
+    ///
+    /// An end that can hand over several messages for the price of one does that here.
+    fn offer_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, taken: &mut dyn FnMut(usize)) {
+        while let Some(message) = queue.pop_front() {
+            let length = message.len();
+            match self.offer(cx, message) {
+                Ok(()) => taken(length),
+                Err(message) => return queue.push_front(message),
+            }
+        }
+    }
 
     /// Whether everything that was taken is with the operating system.
     fn is_flushed(&self) -> bool;

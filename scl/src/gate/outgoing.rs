@@ -9,12 +9,18 @@ use bytes::Bytes;
 use std::collections::VecDeque;
 use std::task::{Context, Poll, Waker};
 
+/// So many messages are written one by one, each from the call that sends it. If the runtime had no turn meanwhile, more
+/// is coming: what follows is left to the connection's task, which writes many at once.
+const ONE_BY_ONE: u32 = 32;
+
 /// One connection at its sending end.
 pub(crate) struct Outgoing {
     link: Box<dyn Outlet>,
     waiting: VecDeque<Bytes>,
     holding: Holding,
     present: bool,
+    /// How many messages were written since the task had its turn.
+    in_a_row: u32,
     /// Wakes the connection's task; senders use it too, so that whatever they leave behind is picked up there.
     task: Waker,
     /// A sender that waits for room.
@@ -37,6 +43,7 @@ impl Outgoing {
             waiting: VecDeque::new(),
             holding,
             present: false,
+            in_a_row: 0,
             task: Waker::noop().clone(),
             sender: None,
             flusher: None,
@@ -64,7 +71,11 @@ impl Outgoing {
             let (gate, peer) = (self.gate, &self.peer);
             tracing::debug!(%gate, peer, "{}", if present { "connected" } else { "disconnected" });
         }
+        let waited = self.waiting.len();
         self.hand_over();
+        let together = waited - self.waiting.len();
+        // After a burst there is likely more of it to come: then one message is enough to see that.
+        self.in_a_row = if together < ONE_BY_ONE as usize { 0 } else { ONE_BY_ONE - 1 };
     }
 
     /// Takes a message without waiting; a full queue treats it as declared.
@@ -76,7 +87,10 @@ impl Outgoing {
         if !self.present && !self.holding.for_absent {
             return;
         }
-        if self.waiting.len() >= self.holding.capacity && !self.make_room() {
+        if !self.has_room() {
+            self.hand_over();
+        }
+        if !self.has_room() && !self.make_room() {
             return;
         }
         self.waiting.push_back(message);
@@ -84,6 +98,9 @@ impl Outgoing {
 
     /// Ready when a message would find room, or would not have to wait for it.
     pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        if self.makes_wait() {
+            self.hand_over();
+        }
         if !self.makes_wait() {
             return Poll::Ready(());
         }
@@ -136,28 +153,24 @@ impl Outgoing {
     }
 
     fn try_link(&mut self, message: Bytes) -> Result<(), Bytes> {
-        if !self.present || !self.waiting.is_empty() {
+        if !self.present || !self.waiting.is_empty() || self.in_a_row >= ONE_BY_ONE {
             return Err(message);
         }
         let size = message.len();
         self.link.offer(&mut Context::from_waker(&self.task), message)?;
         self.counts.moved(size);
+        self.in_a_row += 1;
+        if self.in_a_row == ONE_BY_ONE {
+            self.task.wake_by_ref();
+        }
         Ok(())
     }
 
     /// Gives the link what waits, in order, as far as it takes it.
     fn hand_over(&mut self) {
-        while self.present
-            && let Some(message) = self.waiting.pop_front()
-        {
-            let size = message.len();
-            match self.link.offer(&mut Context::from_waker(&self.task), message) {
-                Ok(()) => self.counts.moved(size),
-                Err(message) => {
-                    self.waiting.push_front(message);
-                    break;
-                }
-            }
+        if self.present && !self.waiting.is_empty() {
+            let (counts, mut cx) = (&mut self.counts, Context::from_waker(&self.task));
+            self.link.offer_all(&mut cx, &mut self.waiting, &mut |size| counts.moved(size));
         }
         self.dropping &= !self.waiting.is_empty();
         if self.is_flushed()

@@ -4,7 +4,7 @@
 //!
 //! | role | socket | what the library lacks |
 //! |---|---|---|
-//! | publish | XPUB, one a connection | a publisher is not told that a subscriber left (`accepted.rs`) |
+//! | publish | none of the library's, one a connection | see `publish.rs` |
 //! | subscribe | SUB, one a publisher | reconnecting backs off to 30 s (`line.rs`) |
 //! | push | PUSH | 100,000 messages of its own queue, a lost peer unnoticed (`push.rs`) |
 //! | pull | PULL | connections that outlive their socket (`latecomers.rs`) |
@@ -12,20 +12,21 @@
 //! | reply | ROUTER | the same, and a socket that lives as long as any unanswered request (`reply.rs`) |
 //! | all that listen | | spinning when no descriptors are left (`door.rs`) |
 
-mod accepted;
 mod dial;
 mod door;
 mod frames;
 mod latecomers;
 mod line;
 mod listen;
-mod peers;
 mod publish;
 mod pull;
 mod push;
 mod reply;
 mod request;
+mod stream;
 mod subscribe;
+mod subscriber;
+mod zmtp;
 
 use super::{Answerer, Asker, Inlet, Outlet, Transport, TransportError};
 use crate::place::SystemDir;

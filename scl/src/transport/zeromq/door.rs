@@ -1,11 +1,10 @@
 //! What a listening socket does when the program has no descriptors left.
 //!
-//! The library asks the operating system again at once, for ever: the program would spin, and whoever connects would
+//! Whoever accepts, the library or the publishing end, asks the operating system again at once, for ever: the program would spin, and whoever connects would
 //! wait in vain. So a descriptor is kept in reserve, with which those who cannot be taken are accepted and closed at
 //! once; they see that, and come again. Even with nobody left to take, the operating system asks for a descriptor
 //! before it says so; therefore the library has the reserve for a moment, and is quiet until somebody comes.
 
-use super::accepted::LocalAddress;
 use super::listen::Events;
 use crate::sync::AbortOnDrop;
 use rustix::io::Errno;
@@ -42,21 +41,21 @@ impl Door {
         Ok(Self { listener, reserve: Some(reserve()?), wanting: false })
     }
 
-    pub(super) fn address(&self) -> LocalAddress {
-        match &self.listener {
-            Listening::Unix(listener) => LocalAddress::of_unix(listener),
-            Listening::Tcp(listener) => LocalAddress::of_tcp(listener),
-        }
-    }
-
     /// To be told each event of the socket's monitor.
     pub(super) fn heard(&mut self, event: &SocketEvent) {
         if let SocketEvent::AcceptFailed(ZmqError::Network(error)) = event {
-            self.wanting |= matches!(Errno::from_io_error(error), Some(Errno::MFILE | Errno::NFILE));
+            self.refused(error);
         }
     }
 
-    /// To be called after all events were told; wakes the task when it is to be called again.
+    /// To be told why nobody could be accepted; whether that is for want of descriptors.
+    pub(super) fn refused(&mut self, error: &io::Error) -> bool {
+        let wanting = matches!(Errno::from_io_error(error), Some(Errno::MFILE | Errno::NFILE));
+        self.wanting |= wanting;
+        wanting
+    }
+
+    /// To be called after all that was told; wakes the task when it is to be called again.
     pub(super) fn keep(&mut self, cx: &Context<'_>) {
         if std::mem::take(&mut self.wanting) {
             let turned_away = self.turn_away();

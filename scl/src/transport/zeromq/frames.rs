@@ -30,12 +30,6 @@ async fn receive<S: SocketRecv + Send>(mut socket: Box<S>) -> (Box<S>, ZmqResult
     (socket, received)
 }
 
-/// Asks a socket once for a message, where it is also needed for something else. Dropping the library's future after one
-/// poll loses nothing: what was read stays in the socket.
-pub(super) fn poll_message(socket: &mut impl SocketRecv, cx: &mut Context<'_>) -> Poll<ZmqResult<ZmqMessage>> {
-    socket.recv().as_mut().poll(cx)
-}
-
 /// The message, if it is one frame, as every message of SCL is.
 pub(super) fn single_frame(message: ZmqMessage) -> Option<Bytes> {
     let mut frames = message.into_vecdeque();

@@ -38,7 +38,7 @@ pub(super) fn listen<S: Socket>(
     Ok(Listening { socket, events, door, guard })
 }
 
-fn bind(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<(Listener, Claim), TransportError> {
+pub(super) fn bind(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<(Listener, Claim), TransportError> {
     match medium {
         Medium::Ipc => {
             let bound = place::bind_ipc(place, endpoint)?;

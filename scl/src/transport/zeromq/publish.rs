@@ -1,117 +1,161 @@
-//! The publishing end of one connection: an XPUB socket of its own.
+//! The publishing end of one connection.
 //!
-//! A message is written from the caller. The library's `send` cannot be abandoned half way, so the future of a write owns
-//! the socket until its message is with the operating system; whoever comes first, the caller with the next message or
-//! the connection's task, takes the socket back. Both poll it with the task's waker.
+//! This is the one role for which the library's socket is not used. Its XPUB tells nobody that a subscriber left and
+//! then sends to nobody with success, writes each message by itself, however many wait, and closes the connection of a
+//! subscriber that sends a heartbeat. So this end accepts its subscribers itself and speaks ZMTP with them.
+//!
+//! A message is written from the caller. What waits in the connection's queue is written many messages at a time.
 
 use super::Medium;
-use super::accepted::Accepted;
-use super::frames::poll_message;
-use super::listen::{Listening, listen};
-use super::peers::Peers;
+use super::door::Door;
+use super::listen::bind;
+use super::stream::Acceptor;
+use super::subscriber::Subscriber;
+use super::zmtp::Header;
 use crate::place::{Claim, SystemDir};
 use crate::transport::{Outlet, TransportError};
-use bytes::Bytes;
+use bytes::{BufMut, Bytes, BytesMut};
+use std::collections::VecDeque;
+use std::io;
 use std::task::{Context, Poll};
-use tokio_util::sync::ReusableBoxFuture;
-use zeromq::{SocketSend, XPubSocket, ZmqMessage};
 
-/// After how many messages without a pause it is looked whether the subscriber is still there: fewer than are sent in a
-/// millisecond. In a pause the task hears of it by itself.
-const LOOK: u32 = 64;
+/// How many bytes of messages are written together at most; a longer message is written by itself.
+const TOGETHER: usize = 64 * 1024;
+/// How many connections may be there that have not said who they are; the oldest give way.
+const STRANGERS: usize = 64;
 
 pub(super) struct Publishing {
-    peers: Peers,
-    accepted: Accepted,
-    subscriber: bool,
-    /// How many messages were sent since it was looked.
-    unlooked: u32,
-    /// `None` while a message is being written; in a box, because it is moved with each message.
-    socket: Option<Box<XPubSocket>>,
-    writing: ReusableBoxFuture<'static, Box<XPubSocket>>,
+    acceptor: Acceptor,
+    door: Door,
+    subscribers: Vec<Subscriber>,
+    /// Memory for messages that are written together.
+    together: BytesMut,
     _guard: Claim,
 }
 
 impl Publishing {
     pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { socket, events, door, guard } = listen::<XPubSocket>(place, medium, endpoint)?;
-        Ok(Self {
-            accepted: Accepted::at(door.address()),
-            peers: Peers::of(&socket, events, door),
-            subscriber: false,
-            unlooked: 0,
-            socket: Some(Box::new(socket)),
-            writing: ReusableBoxFuture::new(std::future::pending()),
-            _guard: guard,
-        })
+        let refused =
+            |error: io::Error| TransportError::Refused { endpoint: endpoint.to_owned(), reason: error.to_string() };
+        let (listener, guard) = bind(place, medium, endpoint)?;
+        let door = Door::of(&listener).map_err(refused)?;
+        let acceptor = Acceptor::of(listener).map_err(refused)?;
+        Ok(Self { acceptor, door, subscribers: Vec::new(), together: BytesMut::new(), _guard: guard })
     }
 
-    /// Whether nothing is being written any more.
-    fn is_written(&mut self, cx: &mut Context<'_>) -> bool {
-        if self.socket.is_none()
-            && let Poll::Ready(socket) = self.writing.poll(cx)
-        {
-            self.socket = Some(socket);
-        }
-        self.socket.is_some()
-    }
-
-    /// Takes note of who came and who left; a socket that writes is deaf.
-    fn listen(&mut self, cx: &mut Context<'_>) {
-        let Some(socket) = &mut self.socket else { return };
-        while let Poll::Ready(heard) = poll_message(&mut **socket, cx) {
-            if heard.is_ok_and(|message| is_subscription(&message)) {
-                self.accepted.subscribed();
-                self.subscriber = self.accepted.is_anybody();
+    fn accept(&mut self, cx: &mut Context<'_>) {
+        while let Poll::Ready(accepted) = self.acceptor.poll_accept(cx) {
+            match accepted {
+                Ok(stream) => self.subscribers.push(Subscriber::of(stream)),
+                Err(error) => {
+                    tracing::debug!(%error, "a subscriber could not be accepted");
+                    if self.door.refused(&error) {
+                        // Who has not said who it is may have to come again.
+                        self.subscribers.retain(Subscriber::is_ready);
+                        break;
+                    }
+                }
             }
         }
-        self.unlooked = 0;
-        self.peers.note(cx);
-        if self.subscriber && !self.accepted.any_left(self.peers.connected()) {
-            self.subscriber = false;
-            self.accepted.forget();
-            self.peers.close();
+        self.door.keep(cx);
+        let mut strangers = self.subscribers.iter().filter(|one| !one.is_ready()).count();
+        self.subscribers.retain(|one| {
+            let gives_way = !one.is_ready() && strangers > STRANGERS;
+            strangers -= usize::from(gives_way);
+            !gives_way
+        });
+    }
+
+    /// Does something with each subscriber, and parts with those that are gone.
+    fn with_each(&mut self, mut act: impl FnMut(&mut Subscriber) -> io::Result<()>) {
+        self.subscribers.retain_mut(|subscriber| match act(subscriber) {
+            Ok(()) => true,
+            Err(error) => {
+                tracing::debug!(%error, "a subscriber left");
+                false
+            }
+        });
+    }
+
+    /// Whether anybody is there who takes messages, and everybody who does takes more.
+    fn is_free(&self) -> bool {
+        self.is_anybody() && self.is_flushed()
+    }
+
+    fn is_anybody(&self) -> bool {
+        self.subscribers.iter().any(Subscriber::is_subscribed)
+    }
+
+    /// Encodes messages from the front of a queue, as many as are written together.
+    fn gather(&mut self, queue: &VecDeque<Bytes>) -> usize {
+        self.together.reserve(TOGETHER);
+        let mut count = 0;
+        for message in queue {
+            let header = Header::of(message);
+            if self.together.len() + header.as_bytes().len() + message.len() > TOGETHER {
+                break;
+            }
+            self.together.put_slice(header.as_bytes());
+            self.together.put_slice(message);
+            count += 1;
         }
+        count
     }
 }
 
 impl Outlet for Publishing {
     fn drive(&mut self, cx: &mut Context<'_>) -> bool {
-        if self.is_written(cx) {
-            self.listen(cx);
-        }
-        self.subscriber
+        self.accept(cx);
+        self.with_each(|subscriber| subscriber.drive(cx));
+        self.is_anybody()
     }
 
     fn offer(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes> {
-        if self.socket.is_none() && self.is_written(cx) {
-            // Nobody has listened since the write began: the task does.
-            cx.waker().wake_by_ref();
+        if !self.is_free() {
+            return Err(message);
         }
-        let Some(socket) = self.socket.take_if(|_| self.subscriber) else { return Err(message) };
-        // The task budget would refuse the write of a caller that has sent much, and nobody would come back to it.
-        self.writing.set(tokio::task::unconstrained(write(socket, message)));
-        self.unlooked += 1;
-        if self.is_written(cx) && self.unlooked >= LOOK {
-            // A write that meets a broken connection succeeds like any other, and takes away what would have told of
-            // the break; the task finds out.
-            cx.waker().wake_by_ref();
+        let before = self.subscribers.len();
+        self.with_each(|subscriber| match subscriber.wants(&message) {
+            true => subscriber.write_message(cx, &message),
+            false => Ok(()),
+        });
+        if self.subscribers.len() == before {
+            return Ok(());
         }
-        Ok(())
+        // The task tells who is left; with nobody, the message waits for the next.
+        cx.waker().wake_by_ref();
+        if self.is_anybody() { Ok(()) } else { Err(message) }
+    }
+
+    fn offer_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, taken: &mut dyn FnMut(usize)) {
+        while self.is_free() && !queue.is_empty() {
+            let everybody_wants_all =
+                self.subscribers.iter().filter(|one| one.is_subscribed()).all(Subscriber::wants_all);
+            let count = if everybody_wants_all { self.gather(queue) } else { 0 };
+            if count < 2 {
+                self.together.clear();
+                let Some(message) = queue.pop_front() else { return };
+                let length = message.len();
+                match self.offer(cx, message) {
+                    Ok(()) => taken(length),
+                    Err(message) => return queue.push_front(message),
+                }
+                continue;
+            }
+            let frames = self.together.split().freeze();
+            self.with_each(|subscriber| match subscriber.is_subscribed() {
+                true => subscriber.write_frames(cx, frames.clone()),
+                false => Ok(()),
+            });
+            if !self.is_anybody() {
+                // Whoever comes next gets them.
+                return cx.waker().wake_by_ref();
+            }
+            queue.drain(..count).for_each(|message| taken(message.len()));
+        }
     }
 
     fn is_flushed(&self) -> bool {
-        self.socket.is_some()
+        self.subscribers.iter().filter(|one| one.is_subscribed()).all(Subscriber::is_written)
     }
-}
-
-async fn write(mut socket: Box<XPubSocket>, message: Bytes) -> Box<XPubSocket> {
-    if let Err(error) = socket.send(message.into()).await {
-        tracing::debug!(%error, "a message could not be written");
-    }
-    socket
-}
-
-fn is_subscription(message: &ZmqMessage) -> bool {
-    message.get(0).and_then(|frame| frame.first()) == Some(&1)
 }

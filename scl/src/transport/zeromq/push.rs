@@ -7,6 +7,7 @@
 
 use super::dial::{Dials, Probe};
 use super::line::Line;
+use super::zmtp::hello;
 use crate::place::SystemDir;
 use crate::sync::lock;
 use crate::transport::Outlet;
@@ -43,15 +44,10 @@ impl Pushing {
     }
 }
 
-/// What a PUSH socket says first (ZMTP 3.0, RFC 23): the greeting, no security, and that it is ready.
-const HELLO: &[u8] = b"\xff\0\0\0\0\0\0\0\0\x7f\x03\0NULL\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\
-    \0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\
-    \x04\x1a\x05READY\x0bSocket-Type\0\0\0\x04PUSH";
-
 /// Returns when the puller is gone.
 async fn ended(mut probe: Probe) {
     // It introduces itself, because a connection that stays silent may be closed by the puller, or never.
-    if probe.say(HELLO).await.is_ok() {
+    if probe.say(&hello("PUSH")).await.is_ok() {
         probe.ended().await;
     }
 }
