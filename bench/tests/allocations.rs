@@ -37,12 +37,12 @@ fn count() -> scl_bench::Result<()> {
     let rate = measure_rate(&rate)?.to_json();
     let mut passed = true;
     for (report, ours, raw, more) in [
-        (&roundtrip, "SCL pub/sub", "zeromq XPUB/SUB", 1.0),
-        (&roundtrip, "SCL pub/sub blocking", "zeromq XPUB/SUB", 1.0),
-        (&roundtrip, "SCL req/rep", "zeromq DEALER/ROUTER", 5.0),
-        // One more than async: the call steps aside once for the library's writer, and is polled again.
-        (&roundtrip, "SCL req/rep blocking", "zeromq DEALER/ROUTER", 6.0),
-        (&rate, "SCL pub/sub", "zeromq XPUB/SUB", 1.0),
+        (&roundtrip, "SCL pub/sub", "zeromq XPUB/SUB", 0.0),
+        (&roundtrip, "SCL pub/sub blocking", "zeromq XPUB/SUB", 0.0),
+        (&roundtrip, "SCL req/rep", "zeromq DEALER/ROUTER", 0.0),
+        (&roundtrip, "SCL req/rep blocking", "zeromq DEALER/ROUTER", 0.0),
+        (&rate, "SCL pub/sub", "zeromq XPUB/SUB", 0.0),
+        // What tells that the library has written a message, so that no more are with it than the file allows.
         (&rate, "SCL push/pull", "zeromq PUSH/PULL", 1.0),
     ] {
         let [ours_takes, raw_takes] = [ours, raw].map(|name| taken(report, name));

@@ -2,7 +2,7 @@
 //! nothing, and a good peer beside them gets everything.
 
 use scl_tests::{Place, Process, python_with_pyzmq};
-use std::io::Write;
+use std::io::{Read, Write};
 use std::os::unix::net::UnixStream;
 
 const PEER: &str = env!("CARGO_BIN_EXE_peer");
@@ -110,12 +110,46 @@ fn a_message_of_several_frames_is_passed_over_and_counted() {
 }
 
 #[test]
-fn a_subscriber_with_heartbeats_is_disconnected_and_harms_nobody() {
+fn a_subscriber_with_heartbeats_stays_connected() {
+    let place = Place::new("ipc");
+    let mut source = open(&place, "source");
+    let mut plain = strange(&place, "heartbeats");
+    source.does("peers 1", "peers");
+    // It sends one each millisecond.
+    for value in 0..200 {
+        source.does(&format!("publish {value} {}", value + 1), "published");
+        plain.says(&value.to_string());
+    }
+    plain.does("still connected?", "yes");
+}
+
+#[test]
+fn a_heartbeat_comes_back_with_what_it_carried() {
+    let place = Place::new("ipc");
+    let _source = open(&place, "source");
+    let mut subscriber = UnixStream::connect(place.socket("six", ENDPOINTS[0])).expect("connected");
+    let ready = b"\x04\x19\x05READY\x0bSocket-Type\0\0\0\x03SUB";
+    subscriber.write_all(&[&HELLO[..64], ready, b"\x04\x0b\x04PING\0\x01tick"].concat()).expect("said");
+    let mut heard = Vec::new();
+    let mut byte = [0];
+    while !heard.ends_with(b"\x04\x09\x04PONGtick") {
+        subscriber.read_exact(&mut byte).expect("an answer");
+        heard.extend(byte);
+    }
+}
+
+#[test]
+fn a_peer_that_announces_more_than_a_subscriber_says_is_disconnected() {
     let place = Place::new("ipc");
     let (mut source, mut sink) = (open(&place, "source"), open(&place, "sink"));
     source.does("ready 30000", "ready");
-    let mut plain = strange(&place, "heartbeats");
-    plain.says("disconnected");
+    let mut stranger = UnixStream::connect(place.socket("six", ENDPOINTS[0])).expect("connected");
+    let ready = b"\x04\x19\x05READY\x0bSocket-Type\0\0\0\x03SUB";
+    // 32 GiB, which ends a program that makes room for them.
+    stranger.write_all(&[&HELLO[..64], ready, b"\x02\0\0\0\x08\0\0\0\0"].concat()).expect("announced");
+    let mut heard = Vec::new();
+    // It ends, which is all that counts.
+    let _reset = stranger.read_to_end(&mut heard);
     assert_good(&mut source, &mut sink, 0);
 }
 

@@ -2,9 +2,13 @@ use bytes::{Bytes, BytesMut};
 
 use super::{Codec, DecodeError, EncodeError};
 
+/// Up to this length, in bytes, a copy into memory that is used again costs less than a second owner.
+const SHORT: usize = 512;
+
 /// Carries [`Bytes`] as they are: the codec of gates without a type.
 ///
-/// Neither sending nor receiving copies them: what arrived is handed on, so decoding never fails. Bytes have a codec of their own because
+/// Neither sending nor receiving copies them: what arrived is handed on, so decoding never fails. Only a short message is
+/// copied when it is sent, because a second owner of its memory would cost more. Bytes have a codec of their own because
 /// one implementation for them and another for all types of fixed layout would overlap in [`Raw`](super::Raw).
 #[derive(Debug)]
 pub struct Opaque;
@@ -17,8 +21,12 @@ impl Codec<Bytes> for Opaque {
         Ok(())
     }
 
-    fn to_frame(message: &Bytes, _memory: &mut BytesMut) -> Result<Bytes, EncodeError> {
-        Ok(message.clone())
+    fn to_frame(message: &Bytes, memory: &mut BytesMut) -> Result<Bytes, EncodeError> {
+        if message.len() > SHORT {
+            return Ok(message.clone());
+        }
+        Self::encode(message, memory)?;
+        Ok(memory.split().freeze())
     }
 
     fn decode(bytes: Bytes) -> Result<Bytes, DecodeError> {

@@ -80,20 +80,17 @@ impl Outgoing {
 
     /// Takes a message without waiting; a full queue treats it as declared.
     pub(crate) fn send(&mut self, message: Bytes) {
+        if !self.has_room() {
+            self.hand_over();
+        }
         let message = match self.try_link(message) {
             Ok(()) => return,
             Err(message) => message,
         };
-        if !self.present && !self.holding.for_absent {
-            return;
+        let kept = self.present || self.holding.for_absent;
+        if kept && (self.has_room() || self.make_room()) {
+            self.waiting.push_back(message);
         }
-        if !self.has_room() {
-            self.hand_over();
-        }
-        if !self.has_room() && !self.make_room() {
-            return;
-        }
-        self.waiting.push_back(message);
     }
 
     /// Ready when a message would find room, or would not have to wait for it.

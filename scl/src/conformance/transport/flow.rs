@@ -158,7 +158,8 @@ pub async fn lets_go_of_who_came_early(transport: &dyn Transport) {
     for flow in FLOWS {
         let mut receiver = flow.receiver(transport, ENDPOINT);
         let mut hasty = flow.sender(transport, ENDPOINT);
-        idle(200, |cx| assert!(receiver.poll(cx).is_pending(), "{flow:?}: a sender that was never driven has sent")).await;
+        idle(200, |cx| assert!(receiver.poll(cx).is_pending(), "{flow:?}: a sender that was never driven has sent"))
+            .await;
         sender_sees(&mut hasty, &mut receiver).await;
         drop(hasty);
         let mut sender = flow.sender(transport, ENDPOINT);

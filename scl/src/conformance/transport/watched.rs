@@ -101,7 +101,7 @@ impl Sending {
             self.present = self.watched.end.drive(&mut cx);
             self.refused = false;
         }
-        while self.present
+        if self.present
             && !self.refused
             && let Some(message) = self.queue.pop_front()
         {
@@ -112,7 +112,22 @@ impl Sending {
                 self.refused = true;
             }
         }
+        // The first message alone, the others together: both ways are there to be used by turns.
+        if self.present && !self.refused {
+            self.offer_all();
+        }
         self.present
+    }
+
+    fn offer_all(&mut self) {
+        let cx = &mut Context::from_waker(&self.watched.waker);
+        let (offered, mut lengths) = (self.queue.clone(), Vec::new());
+        self.watched.end.offer_all(cx, &mut self.queue, &mut |length| lengths.push(length));
+        let taken = offered.len() - self.queue.len();
+        assert!(offered.range(taken..).eq(&self.queue), "an offer of several changed those that it gave back");
+        let expected = offered.range(..taken).map(Bytes::len);
+        assert!(expected.eq(lengths), "an offer of several told other lengths than those of what it took");
+        self.refused = !self.queue.is_empty();
     }
 
     /// Offers a message, whether or not anybody is there; what is given back.
@@ -137,11 +152,6 @@ impl Receiving {
     pub(super) fn wakes(&self) -> usize {
         self.0.wakes()
     }
-
-    pub(super) fn peers(&self) -> Option<usize> {
-        self.0.end.peers()
-    }
-
     pub(super) fn poll(&mut self, test: &Context<'_>) -> Poll<Bytes> {
         self.0.poll(test, |end, cx| end.poll_recv(cx))
     }

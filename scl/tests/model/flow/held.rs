@@ -6,6 +6,9 @@ use crate::trial::Outcome;
 use scl::private::WhenFull;
 use std::collections::VecDeque;
 
+/// How many messages are written one by one before the connection's task is left to write what follows.
+const ONE_BY_ONE: usize = 32;
+
 pub(super) struct Held {
     declared: Declared,
     /// Whether the sender agreed to wait for this reader.
@@ -15,8 +18,11 @@ pub(super) struct Held {
     pub(super) waiting: VecDeque<Message>,
     /// The message that is being sent, until it has found its place.
     sending: Option<Message>,
-    /// Whether the transport gave that one back.
+    /// Whether the transport gave that one back, or one before it meanwhile.
     refused: bool,
+    /// How many messages the transport took since the connection's task had its turn, at once and after they waited.
+    at_once: usize,
+    after_waiting: usize,
     pub(super) sent: u64,
     pub(super) dropped_oldest: u64,
     pub(super) dropped_newest: u64,
@@ -31,6 +37,8 @@ impl Held {
             waiting: VecDeque::new(),
             sending: None,
             refused: false,
+            at_once: 0,
+            after_waiting: 0,
             sent: 0,
             dropped_oldest: 0,
             dropped_newest: 0,
@@ -55,8 +63,23 @@ impl Held {
         self.backpressure && self.declared.when_full == WhenFull::Wait && for_peer
     }
 
+    /// A message is about to be sent, to this reader or another.
+    pub(super) fn may_be_offered(&mut self) {
+        self.refused = false;
+    }
+
     pub(super) fn begins(&mut self, message: Message) {
-        (self.sending, self.refused) = (Some(message), false);
+        self.sending = Some(message);
+    }
+
+    /// The connection's task has its turn.
+    pub(super) fn has_its_turn(&mut self) {
+        (self.at_once, self.after_waiting) = (0, 0);
+    }
+
+    /// Whether so many messages follow each other that the next ones may be left to the task.
+    fn is_in_a_burst(&self) -> bool {
+        self.at_once >= ONE_BY_ONE || (self.at_once > 0 && self.after_waiting >= ONE_BY_ONE)
     }
 
     /// The message is not sent after all.
@@ -71,10 +94,15 @@ impl Held {
             return Err(format!("{message:?} was offered to the transport instead of {next:?}"));
         }
         match (taken, self.waiting.is_empty()) {
-            (false, true) => self.refused = true,
-            (false, false) => {}
-            (true, true) => self.sending = None,
-            (true, false) => drop(self.waiting.pop_front()),
+            (false, _) => self.refused = true,
+            (true, true) => {
+                self.sending = None;
+                self.at_once += 1;
+            }
+            (true, false) => {
+                self.waiting.pop_front();
+                self.after_waiting += 1;
+            }
         }
         self.sent += u64::from(taken);
         Ok(())
@@ -83,7 +111,10 @@ impl Held {
     /// The message is sent: if the transport did not take it, it waits, or one of those that wait is dropped.
     pub(super) fn ends(&mut self) -> Outcome {
         let Some(message) = self.sending.take() else { return Ok(()) };
-        if self.is_free() && !self.refused {
+        if self.present && self.is_full() && !self.refused {
+            return Err(format!("{message:?} came to a full queue, of which the reader was offered nothing"));
+        }
+        if self.is_free() && !self.refused && !self.is_in_a_burst() {
             return Err(format!("{message:?} was kept from a reader that could have been offered it"));
         }
         if self.makes_wait() {

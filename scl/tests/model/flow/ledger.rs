@@ -5,6 +5,7 @@ use super::message::Message;
 use super::model::Model;
 use bytes::Bytes;
 use scl::transport::{Answerer, Asker, Inlet, Outlet, Transport, TransportError};
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::task::{Context, Poll};
 
@@ -97,6 +98,23 @@ impl Outlet for Watched<Box<dyn Outlet>> {
             Err(reason) => model.is_no_message(self.place, reason),
         }
         taken
+    }
+
+    fn offer_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, taken: &mut dyn FnMut(usize)) {
+        let mut offered: VecDeque<Bytes> = queue.clone();
+        let mut count = 0;
+        self.end.offer_all(cx, queue, &mut |length| {
+            count += 1;
+            taken(length);
+        });
+        offered.truncate(count + 1);
+        let mut model = self.book.model();
+        for (place, frame) in offered.iter().enumerate() {
+            match Message::read(frame) {
+                Ok(message) => model.offered(self.place, message, place < count),
+                Err(reason) => model.is_no_message(self.place, reason),
+            }
+        }
     }
 
     fn is_flushed(&self) -> bool {

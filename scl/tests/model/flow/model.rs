@@ -84,6 +84,7 @@ impl Model {
 
     pub(super) fn begins(&mut self, message: Message) {
         (self.sending, self.chosen) = (Some(message), None);
+        self.connections.iter_mut().for_each(|connection| connection.held.may_be_offered());
         if !self.shares {
             self.connections.iter_mut().for_each(|connection| connection.held.begins(message));
         }
@@ -148,6 +149,7 @@ impl Model {
     pub(super) fn sender_learns(&mut self, place: usize, present: bool) {
         let connection = &mut self.connections[place];
         connection.held.present = present;
+        connection.held.has_its_turn();
         connection.way.sender_learns(present);
     }
 
