@@ -2,7 +2,7 @@
 //!
 //! The component owns a runtime. A blocking call drives it itself, so that no message crosses a thread; while the
 //! program makes no call, a thread of the component drives it, so that late peers are served and queues follow. The
-//! thread takes over only after [`IDLE`] without a call: in a loop at 1 kHz it never does. So a call that has nothing to
+//! thread takes over some [`IDLE`] after the last call: in a loop at 1 kHz it never does. So a call that has nothing to
 //! wait for gives the runtime a turn now and then, or else nobody would let a late peer in.
 
 use crate::error::{BlockingError, OpenError};
@@ -19,6 +19,8 @@ use tokio::sync::Notify;
 use tokio::task::yield_now;
 
 const IDLE: Duration = Duration::from_millis(2);
+/// How long the idle thread rests at most while calls follow each other: each time it looks costs one of them a wake-up.
+const LONGEST_REST: Duration = Duration::from_millis(16);
 /// How long calls that wait for nothing may follow each other without a turn of the runtime.
 const TURN: Duration = Duration::from_millis(1);
 
@@ -171,16 +173,19 @@ impl Shared {
     /// Returns when there was no call for a while.
     fn wait_until_idle(&self) {
         let mut rest = lock(&self.rest);
+        let (mut pause, mut seen) = (IDLE, self.last_call.get());
         while !self.ended.load(Ordering::SeqCst) {
-            let quiet = self.opened.elapsed().saturating_sub(self.last_call.get());
+            let last_call = self.last_call.get();
             let busy = self.callers.load(Ordering::SeqCst) > 0;
-            if quiet >= IDLE && !busy {
+            if !busy && self.opened.elapsed().saturating_sub(last_call) >= IDLE {
                 return;
             }
-            rest = if busy {
+            let calls_follow = std::mem::replace(&mut seen, last_call) != last_call;
+            pause = if calls_follow { LONGEST_REST.min(pause * 2) } else { IDLE };
+            rest = if busy && !calls_follow {
                 self.wait_for_end_of_call(rest)
             } else {
-                self.called.wait_timeout(rest, IDLE - quiet).unwrap_or_else(PoisonError::into_inner).0
+                self.called.wait_timeout(rest, pause).unwrap_or_else(PoisonError::into_inner).0
             };
         }
     }
