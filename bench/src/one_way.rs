@@ -47,7 +47,7 @@ const fn way(word: &'static str, name: &'static str, beside: Others) -> Way {
 /// What a receiver says of one batch, in nanoseconds.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Received {
-    /// From the first message to the last.
+    /// From the first message sent to the last received.
     pub(crate) span: u64,
     /// From sending to receiving, one a message.
     pub(crate) delays: Vec<u64>,

@@ -115,7 +115,7 @@ impl Measured {
         let received = runtime.block_on(self.lane.received())?;
         if counts {
             // At least a nanosecond, so that there is a rate even of batches too small for the clock.
-            self.paces.record((received.span / (batch as u64 - 1)).max(1));
+            self.paces.record((received.span / batch as u64).max(1));
             self.allocations += after - before;
             received.delays.iter().for_each(|delay| self.delays.record(*delay));
         }
