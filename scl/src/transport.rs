@@ -147,6 +147,15 @@ pub enum TransportError {
     /// The place where the two ends meet could not be prepared.
     #[error(transparent)]
     Place(#[from] crate::place::PlaceError),
+    /// The end must not be opened on a runtime of several threads.
+    #[error(
+        "`{endpoint}` cannot listen on an async runtime of several threads, which the `zeromq` library may bring to a halt; \
+         write `#[scl::main]`, or `#[tokio::main(flavor = \"current_thread\")]`"
+    )]
+    SeveralThreads {
+        /// The endpoint's name.
+        endpoint: String,
+    },
     /// The transport itself refused.
     #[error("the transport cannot open `{endpoint}`: {reason}")]
     Refused {

@@ -31,6 +31,7 @@ mod zmtp;
 use super::{Answerer, Asker, Inlet, Outlet, Transport, TransportError};
 use crate::place::SystemDir;
 use std::sync::Arc;
+use tokio::runtime::RuntimeFlavor;
 
 /// How the listening ends listen; connecting ends find either.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -69,6 +70,7 @@ impl Transport for ZeroMq {
     }
 
     fn pull(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError> {
+        refuse_several_threads(endpoint)?;
         Ok(Box::new(pull::Pulling::open(&self.place, self.medium, endpoint)?))
     }
 
@@ -77,6 +79,17 @@ impl Transport for ZeroMq {
     }
 
     fn reply(&self, endpoint: &str) -> Result<Box<dyn Answerer>, TransportError> {
+        refuse_several_threads(endpoint)?;
         Ok(Box::new(reply::Replying::open(&self.place, self.medium, endpoint)?))
     }
+}
+
+/// An end of the library that listens may block the threads of such a runtime for ever as peers connect; better to say so
+/// at once than to hang one day.
+fn refuse_several_threads(endpoint: &str) -> Result<(), TransportError> {
+    let here = tokio::runtime::Handle::try_current();
+    if here.is_ok_and(|runtime| runtime.runtime_flavor() != RuntimeFlavor::CurrentThread) {
+        return Err(TransportError::SeveralThreads { endpoint: endpoint.to_owned() });
+    }
+    Ok(())
 }
