@@ -36,6 +36,9 @@ impl<T> Pub<T> {
     /// It returns at once: what a peer cannot take now waits in that connection's queue and follows by itself. Only a
     /// gate with `backpressure: true` waits, for a peer with `when_full: wait` whose queue is full.
     ///
+    /// The message is written before this returns. Only in a burst, after 32 messages during which the program awaited
+    /// nothing else, those that follow are written together as soon as it does.
+    ///
     /// # Errors
     /// [`SendError::Encode`] when the codec cannot express the message; nothing was sent then.
     ///
@@ -45,7 +48,8 @@ impl<T> Pub<T> {
         self.sending.send(message).await
     }
 
-    /// [`send`](Self::send) from a program without async.
+    /// [`send`](Self::send) from a program without async. What is left of a burst is written by the next call, or some
+    /// milliseconds after the last one.
     ///
     /// # Errors
     /// Those of `send`, and [`SendError::Blocking`] inside async code, which it would bring to a halt.

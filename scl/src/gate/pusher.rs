@@ -41,7 +41,8 @@ impl<T> Push<T> {
         self.sending.send(message).await
     }
 
-    /// [`send`](Self::send) from a program without async.
+    /// [`send`](Self::send) from a program without async. The message is written before this returns, if the puller is
+    /// there and takes it.
     ///
     /// # Errors
     /// Those of `send`, and [`SendError::Blocking`] inside async code, which it would bring to a halt.
