@@ -7,7 +7,7 @@ mod script;
 
 pub use process::{HANGS, Process};
 pub use python::python_with_pyzmq;
-pub use script::{Commands, say};
+pub use script::{Commands, say, stand_still};
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -17,6 +17,13 @@ use tempfile::TempDir;
 pub struct Place {
     folder: TempDir,
     transport: &'static str,
+}
+
+/// Runs a test with listening gates that listen on Unix sockets, and on TCP.
+pub fn on_each_transport(test: impl Fn(Place)) {
+    for transport in ["ipc", "tcp"] {
+        test(Place::new(transport));
+    }
 }
 
 impl Place {

@@ -1,6 +1,6 @@
 //! `kill -9` of each kind of peer while messages flow: the others get everything, and the next program goes on.
 
-use scl_tests::{Place, Process};
+use scl_tests::{Place, Process, on_each_transport};
 
 const PEER: &str = env!("CARGO_BIN_EXE_peer");
 
@@ -8,12 +8,6 @@ fn open(place: &Place, component: &str) -> Process {
     let mut process = place.start(PEER, &[component]);
     process.says("open");
     process
-}
-
-fn on_each_transport(test: impl Fn(Place)) {
-    for transport in ["ipc", "tcp"] {
-        test(Place::new(transport));
-    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! All kinds of gates between separate processes, over Unix sockets and over TCP, whatever starts first.
 
-use scl_tests::{Place, Process};
+use scl_tests::{Place, Process, on_each_transport};
 
 const PEER: &str = env!("CARGO_BIN_EXE_peer");
 
@@ -8,12 +8,6 @@ fn open(place: &Place, component: &str) -> Process {
     let mut process = place.start(PEER, &[component]);
     process.says("open");
     process
-}
-
-fn on_each_transport(test: impl Fn(Place)) {
-    for transport in ["ipc", "tcp"] {
-        test(Place::new(transport));
-    }
 }
 
 #[test]
@@ -164,4 +158,15 @@ fn what_was_published_is_handed_over_before_a_program_ends() {
     let (status, said) = source.ends();
     assert!(status.success(), "{said:?}");
     sink.says("0..1000");
+}
+
+#[test]
+fn what_is_published_between_computations_is_not_kept_for_later() {
+    on_each_transport(|place| {
+        let (mut source, mut sink) = (open(&place, "source"), open(&place, "sink"));
+        source.does("ready 30000", "ready");
+        source.tell("compute_and_publish 0 100");
+        // The source stands still by then.
+        sink.does("receive 100", "0..100");
+    });
 }

@@ -1,7 +1,7 @@
 //! Programs without async: what they send is on its way when the call returns, and whoever comes late is served although
 //! the program never waits.
 
-use scl_tests::{Place, Process};
+use scl_tests::{Place, Process, on_each_transport};
 
 const PEER: &str = env!("CARGO_BIN_EXE_peer");
 const PLAIN: &str = env!("CARGO_BIN_EXE_plain");
@@ -10,12 +10,6 @@ fn open(place: &Place, program: &str, component: &str) -> Process {
     let mut process = place.start(program, &[component]);
     process.says("open");
     process
-}
-
-fn on_each_transport(test: impl Fn(Place)) {
-    for transport in ["ipc", "tcp"] {
-        test(Place::new(transport));
-    }
 }
 
 #[test]

@@ -8,10 +8,13 @@ use crate::transport::Outlet;
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::task::{Context, Poll, Waker};
+use std::time::{Duration, Instant};
 
-/// So many messages are written one by one, each from the call that sends it. If the runtime had no turn meanwhile, more
-/// is coming: what follows is left to the connection's task, which writes many at once.
+/// So many messages are written one by one, each from the call that sends it. If they came within [`BURST`], and the
+/// runtime had no turn meanwhile, more is coming: what follows is left to the connection's task, which writes many at once.
 const ONE_BY_ONE: u32 = 32;
+/// Also how long messages are left to the task at most while others are sent.
+const BURST: Duration = Duration::from_millis(1);
 
 /// One connection at its sending end.
 pub(crate) struct Outgoing {
@@ -19,8 +22,9 @@ pub(crate) struct Outgoing {
     waiting: VecDeque<Bytes>,
     holding: Holding,
     present: bool,
-    /// How many messages were written since the task had its turn.
+    /// How many messages were written one by one since the task had its turn, and when that began.
     in_a_row: u32,
+    began: Instant,
     /// Wakes the connection's task; senders use it too, so that whatever they leave behind is picked up there.
     task: Waker,
     /// A sender that waits for room.
@@ -44,6 +48,7 @@ impl Outgoing {
             holding,
             present: false,
             in_a_row: 0,
+            began: Instant::now(),
             task: Waker::noop().clone(),
             sender: None,
             flusher: None,
@@ -74,14 +79,21 @@ impl Outgoing {
         let waited = self.waiting.len();
         self.hand_over();
         let together = waited - self.waiting.len();
-        // After a burst there is likely more of it to come: then one message is enough to see that.
-        self.in_a_row = if together < ONE_BY_ONE as usize { 0 } else { ONE_BY_ONE - 1 };
+        self.in_a_row = 0;
+        if together >= ONE_BY_ONE as usize {
+            // There is likely more of the burst to come: then one message is enough to see that.
+            (self.in_a_row, self.began) = (ONE_BY_ONE - 1, Instant::now());
+        }
     }
 
     /// Takes a message without waiting; a full queue treats it as declared.
     pub(crate) fn send(&mut self, message: Bytes) {
-        if !self.has_room() {
+        let too_long = self.is_burst() && self.began.elapsed() >= BURST;
+        if too_long || !self.has_room() {
             self.hand_over();
+        }
+        if too_long {
+            self.in_a_row = 0;
         }
         let message = match self.try_link(message) {
             Ok(()) => return,
@@ -150,17 +162,28 @@ impl Outgoing {
     }
 
     fn try_link(&mut self, message: Bytes) -> Result<(), Bytes> {
-        if !self.present || !self.waiting.is_empty() || self.in_a_row >= ONE_BY_ONE {
+        if !self.present || !self.waiting.is_empty() || self.is_burst() {
             return Err(message);
         }
         let size = message.len();
         self.link.offer(&mut Context::from_waker(&self.task), message)?;
         self.counts.moved(size);
+        if self.in_a_row == 0 {
+            self.began = Instant::now();
+        }
         self.in_a_row += 1;
-        if self.in_a_row == ONE_BY_ONE {
+        if self.is_burst() {
             self.task.wake_by_ref();
+            if self.began.elapsed() >= BURST {
+                self.in_a_row = 0;
+            }
         }
         Ok(())
+    }
+
+    /// Whether what is sent now is left to the task.
+    fn is_burst(&self) -> bool {
+        self.in_a_row >= ONE_BY_ONE
     }
 
     /// Gives the link what waits, in order, as far as it takes it.

@@ -36,8 +36,9 @@ impl<T> Pub<T> {
     /// It returns at once: what a peer cannot take now waits in that connection's queue and follows by itself. Only a
     /// gate with `backpressure: true` waits, for a peer with `when_full: wait` whose queue is full.
     ///
-    /// The message is written before this returns. Only in a burst, after 32 messages during which the program awaited
-    /// nothing else, those that follow are written together as soon as it does.
+    /// The message is written before this returns. Only in a burst, after 32 messages within a millisecond during which the
+    /// program awaited nothing else, those that follow are written together: as soon as it does, or when it sends again
+    /// after that millisecond.
     ///
     /// # Errors
     /// [`SendError::Encode`] when the codec cannot express the message; nothing was sent then.

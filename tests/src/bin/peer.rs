@@ -1,8 +1,8 @@
 //! Plays a component of `six_kinds.yaml` as it is told: `peer source`, `peer sink` or `peer watcher`.
 
-use scl_tests::{Commands, say};
+use scl_tests::{Commands, say, stand_still};
 use std::fmt::Display;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 scl::topology!("six_kinds.yaml");
 
@@ -37,6 +37,15 @@ async fn play_source() -> scl::Result<()> {
                     source.readings.send(&message(value, number(3))).await?;
                 }
                 say("published");
+            }
+            "compute_and_publish" => {
+                for value in number(1)..number(2) {
+                    source.readings.send(&message(value, 0)).await?;
+                    // As in a loop that computes for each message, and awaits nothing but sending.
+                    let sent = Instant::now();
+                    while sent.elapsed() < Duration::from_micros(100) {}
+                }
+                stand_still();
             }
             "lossless" => {
                 for value in number(1)..number(2) {

@@ -1,7 +1,6 @@
 //! Plays a component of `six_kinds.yaml` without async, as it is told: `plain source` or `plain sink`.
 
-use rustix::process::Signal;
-use scl_tests::say;
+use scl_tests::{say, stand_still};
 use std::time::{Duration, Instant};
 
 scl::topology!("six_kinds.yaml", only = [source, sink]);
@@ -64,12 +63,4 @@ fn play_sink(mut sink: Sink) -> scl::Result<()> {
 
 fn number(value: u64) -> test::Number {
     test::Number { value, padding: Vec::new() }
-}
-
-/// As if nobody got around to this program for a long time.
-fn stand_still() {
-    let this = rustix::process::getpid();
-    if rustix::process::kill_process(this, Signal::STOP).is_err() {
-        say("cannot stop");
-    }
 }
