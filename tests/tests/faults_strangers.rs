@@ -2,14 +2,19 @@
 //! nothing, and a good peer beside them gets everything.
 
 use scl_tests::{Place, Process, python_with_pyzmq};
-use std::io::{Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::os::unix::net::UnixStream;
+use std::time::Duration;
 
 const PEER: &str = env!("CARGO_BIN_EXE_peer");
 /// What a PUSH socket says first (ZMTP 3.0, RFC 23).
 const HELLO: &[u8] = b"\xff\0\0\0\0\0\0\0\0\x7f\x03\0NULL\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\
     \0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\
     \x04\x1a\x05READY\x0bSocket-Type\0\0\0\x04PUSH";
+/// When nothing has come by then, it never will: the test fails instead of hanging.
+const HANGS: Duration = Duration::from_secs(60);
+/// What a SUB socket says after the greeting.
+const SUBSCRIBER: &[u8] = b"\x04\x19\x05READY\x0bSocket-Type\0\0\0\x03SUB";
 const ENDPOINTS: [&str; 3] = ["source.readings--sink.readings.", "sink.jobs.", "sink.answer."];
 
 fn open(place: &Place, component: &str) -> Process {
@@ -128,8 +133,8 @@ fn a_heartbeat_comes_back_with_what_it_carried() {
     let place = Place::new("ipc");
     let _source = open(&place, "source");
     let mut subscriber = UnixStream::connect(place.socket("six", ENDPOINTS[0])).expect("connected");
-    let ready = b"\x04\x19\x05READY\x0bSocket-Type\0\0\0\x03SUB";
-    subscriber.write_all(&[&HELLO[..64], ready, b"\x04\x0b\x04PING\0\x01tick"].concat()).expect("said");
+    subscriber.write_all(&[&HELLO[..64], SUBSCRIBER, b"\x04\x0b\x04PING\0\x01tick"].concat()).expect("said");
+    subscriber.set_read_timeout(Some(HANGS)).expect("a limit");
     let mut heard = Vec::new();
     let mut byte = [0];
     while !heard.ends_with(b"\x04\x09\x04PONGtick") {
@@ -144,12 +149,41 @@ fn a_peer_that_announces_more_than_a_subscriber_says_is_disconnected() {
     let (mut source, mut sink) = (open(&place, "source"), open(&place, "sink"));
     source.does("ready 30000", "ready");
     let mut stranger = UnixStream::connect(place.socket("six", ENDPOINTS[0])).expect("connected");
-    let ready = b"\x04\x19\x05READY\x0bSocket-Type\0\0\0\x03SUB";
     // 32 GiB, which ends a program that makes room for them.
-    stranger.write_all(&[&HELLO[..64], ready, b"\x02\0\0\0\x08\0\0\0\0"].concat()).expect("announced");
-    let mut heard = Vec::new();
-    // It ends, which is all that counts.
-    let _reset = stranger.read_to_end(&mut heard);
+    stranger.write_all(&[&HELLO[..64], SUBSCRIBER, b"\x02\0\0\0\x08\0\0\0\0"].concat()).expect("announced");
+    stranger.set_read_timeout(Some(HANGS)).expect("a limit");
+    let ended = stranger.read_to_end(&mut Vec::new());
+    assert!(!ended.is_err_and(|error| error.kind() == ErrorKind::WouldBlock), "it is still connected");
+    assert_good(&mut source, &mut sink, 0);
+}
+
+#[test]
+fn a_subscriber_of_some_messages_gets_no_others() {
+    let place = Place::new("ipc");
+    let mut source = open(&place, "source");
+    let mut subscriber = UnixStream::connect(place.socket("six", ENDPOINTS[0])).expect("connected");
+    subscriber.set_read_timeout(Some(HANGS)).expect("a limit");
+    // What begins like the message of the number 5.
+    subscriber.write_all(&[&HELLO[..64], SUBSCRIBER, b"\0\x03\x01\x08\x05"].concat()).expect("said");
+    source.does("peers 1", "peers");
+    source.does("publish 1 10", "published");
+    source.does("publish 5 6", "published");
+    let mut heard = [0; 64 + 28 + 8];
+    subscriber.read_exact(&mut heard).expect("the greeting and two messages");
+    assert_eq!(heard[64 + 28..], *b"\0\x02\x08\x05\0\x02\x08\x05");
+}
+
+#[test]
+fn the_oldest_of_many_silent_connections_give_way() {
+    let place = Place::new("ipc");
+    let mut source = open(&place, "source");
+    let endpoint = place.socket("six", ENDPOINTS[0]);
+    let mut silent: Vec<UnixStream> = (0..70).map(|_| UnixStream::connect(&endpoint).expect("connected")).collect();
+    silent[0].set_read_timeout(Some(HANGS)).expect("a limit");
+    let mut greeting = Vec::new();
+    silent[0].read_to_end(&mut greeting).expect("an end of the connection");
+    let mut sink = open(&place, "sink");
+    source.does("ready 30000", "ready");
     assert_good(&mut source, &mut sink, 0);
 }
 
