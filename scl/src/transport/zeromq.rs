@@ -1,10 +1,10 @@
-//! ZeroMQ, over Unix sockets or loopback TCP, by the pure-Rust `zeromq` library.
+//! ZeroMQ, over Unix sockets or loopback TCP, by the pure-Rust `zeromq` library in all roles but one.
 //!
 //! The library leaves much open that SCL promises; each file here hides what concerns its role, and says how:
 //!
 //! | role | socket | what the library lacks |
 //! |---|---|---|
-//! | publish | none of the library's, one a connection | see `publish.rs` |
+//! | publish | an end of our own, one a connection | too much for a way around it (`publish.rs`, `subscriber.rs`, `zmtp.rs`) |
 //! | subscribe | SUB, one a publisher | reconnecting backs off to 30 s (`line.rs`) |
 //! | push | PUSH | 100,000 messages of its own queue, a lost peer unnoticed (`push.rs`) |
 //! | pull | PULL | connections that outlive their socket (`latecomers.rs`) |

@@ -1,9 +1,10 @@
 //! What a listening socket does when the program has no descriptors left.
 //!
-//! Whoever accepts, the library or the publishing end, asks the operating system again at once, for ever: the program would spin, and whoever connects would
-//! wait in vain. So a descriptor is kept in reserve, with which those who cannot be taken are accepted and closed at
-//! once; they see that, and come again. Even with nobody left to take, the operating system asks for a descriptor
-//! before it says so; therefore the library has the reserve for a moment, and is quiet until somebody comes.
+//! Whoever accepts, the library or the publishing end, asks the operating system again at once, for ever: the program
+//! would spin, and whoever connects would wait in vain. So a descriptor is kept in reserve, with which those who cannot be
+//! taken are accepted and closed at once; they see that, and come again. Even with nobody left to take, the operating
+//! system asks for a descriptor before it says so; therefore whoever accepts has the reserve for a moment, and is quiet
+//! until somebody comes.
 
 use super::listen::Events;
 use crate::sync::AbortOnDrop;
