@@ -48,6 +48,14 @@ impl<S: Dials> Line<S> {
         self.current.as_mut().map_or(Poll::Pending, Poll::Ready)
     }
 
+    /// The connection, if there is one; nobody is woken for it.
+    pub(super) fn dialled(&mut self) -> Option<&mut Dialled<S>> {
+        if self.current.is_none() {
+            self.current = lock(&self.shared.slot).arrived.take();
+        }
+        self.current.as_mut()
+    }
+
     /// Gives up the socket; the task dials again.
     pub(super) fn lost(&mut self) {
         self.current = None;

@@ -69,12 +69,11 @@ impl Asker for Requesting {
 
     fn ask(&mut self, id: u64, body: Bytes) -> Result<(), Bytes> {
         let number = self.number(id);
-        let mut cx = Context::from_waker(Waker::noop());
-        let Poll::Ready(dialled) = self.line.poll_dialled(&mut cx) else { return Err(body) };
+        let Some(dialled) = self.line.dialled() else { return Err(body) };
         let frames = vec![number, Bytes::new(), body.clone()];
         let Ok(message) = ZmqMessage::try_from(frames) else { return Err(body) };
         // The library only queues here; its writer runs as a task of its own.
-        match dialled.end.requests.send(message).as_mut().poll(&mut cx) {
+        match dialled.end.requests.send(message).as_mut().poll(&mut Context::from_waker(Waker::noop())) {
             Poll::Ready(Ok(())) => Ok(()),
             Poll::Ready(Err(_)) | Poll::Pending => Err(body),
         }
