@@ -4,7 +4,7 @@ use scl_tests::{Place, Process};
 
 const PEER: &str = env!("CARGO_BIN_EXE_peer");
 const LISTING1: &str = env!("CARGO_BIN_EXE_listing1");
-const RESTARTS: u64 = 30;
+const RESTARTS: u64 = 100;
 
 fn open(place: &Place, component: &str) -> Process {
     let mut process = place.start(PEER, &[component]);
