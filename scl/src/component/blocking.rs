@@ -99,23 +99,44 @@ impl OwnedRuntime {
     /// Drives the runtime until a future is ready.
     pub(super) fn drive_until<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
         refuse_inside_async()?;
+        self.lend(|runtime| match runtime {
+            Some(runtime) => Ok(runtime.block_on(self.shared.with_a_turn(future))),
+            None => Err(BlockingError::Stopped),
+        })
+    }
+
+    /// Does something where waking a task takes no other thread, and then runs what it woke. Inside async code, where the
+    /// runtime cannot be driven, the idle thread runs that a little later.
+    pub(super) fn act<R>(&self, act: impl FnOnce() -> R) -> R {
+        if refuse_inside_async().is_err() {
+            return act();
+        }
+        self.lend(|runtime| match runtime {
+            Some(runtime) => runtime.block_on(self.shared.with_a_turn(async {
+                let done = act();
+                yield_now().await;
+                done
+            })),
+            None => act(),
+        })
+    }
+
+    /// Takes the runtime from the idle thread for a call; it is `None` only while the component is being dropped.
+    fn lend<R>(&self, call: impl FnOnce(Option<&Runtime>) -> R) -> R {
         let shared = &self.shared;
         shared.callers.fetch_add(1, Ordering::SeqCst);
         if shared.idle_drives.load(Ordering::SeqCst) {
             shared.wanted.notify_one();
         }
         let runtime = lock(&shared.runtime);
-        let ready = match &*runtime {
-            Some(runtime) => Ok(runtime.block_on(shared.with_a_turn(future))),
-            None => Err(BlockingError::Stopped),
-        };
+        let returned = call(runtime.as_ref());
         drop(runtime);
         shared.callers.fetch_sub(1, Ordering::SeqCst);
         shared.last_call.set(shared.opened.elapsed());
         if shared.awaits_end.load(Ordering::SeqCst) {
             shared.wake_idle_thread();
         }
-        ready
+        returned
     }
 }
 

@@ -76,19 +76,9 @@ impl Core {
     /// Does something, and runs what the transport leaves to tasks of its own: nobody else does between two calls of a
     /// program without async.
     pub(crate) fn with_a_turn<R>(&self, act: impl FnOnce() -> R) -> R {
-        let mut act = Some(act);
-        let mut done = None;
-        if let Some(runtime) = &self.runtime {
-            // Refused inside async code; there the component's idle thread runs the rest a little later.
-            let _refused = runtime.drive_until(async {
-                done = act.take().map(|act| act());
-                tokio::task::yield_now().await;
-            });
-        }
-        match (done, act) {
-            (Some(done), _) => done,
-            (None, Some(act)) => act(),
-            (None, None) => unreachable!("what is taken is done"),
+        match &self.runtime {
+            Some(runtime) => runtime.act(act),
+            None => act(),
         }
     }
 
