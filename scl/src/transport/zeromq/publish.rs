@@ -86,8 +86,13 @@ impl Publishing {
         self.subscribers.iter().any(Subscriber::is_subscribed)
     }
 
-    /// Encodes messages from the front of a queue, as many as are written together.
-    fn gather(&mut self, queue: &VecDeque<Bytes>) -> usize {
+    /// Encodes messages from the front of a queue, as many as are written together, if there are several and everybody
+    /// wants all of them; how many they are.
+    fn gather(&mut self, queue: &VecDeque<Bytes>) -> Option<(usize, Bytes)> {
+        let mut subscribed = self.subscribers.iter().filter(|one| one.is_subscribed());
+        if queue.len() < 2 || !subscribed.all(Subscriber::wants_all) {
+            return None;
+        }
         self.together.reserve(TOGETHER);
         let mut count = 0;
         for message in queue {
@@ -99,7 +104,8 @@ impl Publishing {
             self.together.put_slice(message);
             count += 1;
         }
-        count
+        let frames = self.together.split().freeze();
+        (count > 1).then_some((count, frames))
     }
 }
 
@@ -129,11 +135,7 @@ impl Outlet for Publishing {
 
     fn offer_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, taken: &mut dyn FnMut(usize)) {
         while self.is_free() && !queue.is_empty() {
-            let everybody_wants_all =
-                self.subscribers.iter().filter(|one| one.is_subscribed()).all(Subscriber::wants_all);
-            let count = if everybody_wants_all { self.gather(queue) } else { 0 };
-            if count < 2 {
-                self.together.clear();
+            let Some((count, frames)) = self.gather(queue) else {
                 let Some(message) = queue.pop_front() else { return };
                 let length = message.len();
                 match self.offer(cx, message) {
@@ -141,8 +143,7 @@ impl Outlet for Publishing {
                     Err(message) => return queue.push_front(message),
                 }
                 continue;
-            }
-            let frames = self.together.split().freeze();
+            };
             self.with_each(|subscriber| match subscriber.is_subscribed() {
                 true => subscriber.write_frames(cx, frames.clone()),
                 false => Ok(()),

@@ -2,8 +2,10 @@
 //!
 //! The library queues up to 100,000 messages a peer and tells nobody how many wait. But it drops a message's bytes as
 //! it writes them, so each message carries a token that counts itself out when dropped, and no more than
-//! [`MOST_MESSAGES`] or [`MOST_BYTES`] are with the library at a time. And since a PUSH socket never reads, the library would notice a lost puller only by
-//! a message that is lost with it: a second connection to the same puller, which only listens, tells in time.
+//! [`MOST_MESSAGES`] or [`MOST_BYTES`] are with the library at a time.
+//!
+//! And since a PUSH socket never reads, the library would notice a lost puller only by a message that is lost with it: a
+//! second connection to the same puller, which only listens, tells in time.
 
 use super::dial::{Dials, Probe};
 use super::line::Line;
