@@ -1,4 +1,4 @@
-//! The clock that all processes of a machine share.
+//! The monotonic clock, which all processes of a machine share.
 
 use rustix::time::{ClockId, clock_gettime};
 

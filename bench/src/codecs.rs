@@ -1,11 +1,11 @@
-//! What encoding and decoding takes, and how many bytes it makes: Table II of the paper, whose data was booleans, integers,
-//! strings and floating point numbers. XML is there for comparison only.
+//! The time that codecs take to encode and decode a record, and the size of the result: Table II of the paper, whose
+//! data was booleans, integers, strings and floating point numbers.
 
 mod record;
 mod xml;
 
-use crate::histogram::Times;
-use crate::report::{Column, Others, Report, Row, Table};
+use crate::durations::Durations;
+use crate::report::{Column, Report, Row, Table};
 use prost::Message;
 use record::{Example, FlatRecord, Record};
 use scl::bytes::{BufMut, Bytes, BytesMut};
@@ -14,83 +14,85 @@ use std::hint::black_box;
 use std::time::Instant;
 use xml::Xml;
 
-/// Messages measured together, because one alone is too short for the clock.
+/// Messages measured together, because one message is too short for the clock.
 const BATCH: usize = 100;
 
+const PROST: &str = "prost alone";
+const SERDE_JSON: &str = "serde_json alone";
 const XML: &str = "xml";
-const BESIDE_XML: Others = &[("xml", XML)];
 
-/// What [`measure_codecs`] is asked for.
+/// Options of [`measure_codecs`].
 #[derive(Debug, Clone)]
-pub struct Codecs {
-    /// How many messages each codec encodes and decodes.
+pub struct CodecsOptions {
+    /// The number of messages that each codec encodes and decodes.
     pub messages: usize,
 }
 
-/// A codec with a message, behind one face.
-struct Subject {
+/// A codec and a message, without their types.
+struct Variant {
     name: &'static str,
-    beside: Others,
-    /// Encodes into an empty buffer.
+    baselines: &'static [&'static str],
+    /// Encodes the message into an empty buffer.
     encode: Box<Encode>,
-    /// Decodes and drops the message.
+    /// Decodes a message and drops it.
     decode: Box<Decode>,
 }
 
 type Encode = dyn Fn(&mut BytesMut) -> scl::Result<()>;
 type Decode = dyn Fn(Bytes) -> scl::Result<()>;
 
-/// What came of one codec.
-struct Measured {
-    subject: Subject,
-    encoding: Times,
-    decoding: Times,
+/// A codec and what was measured of it.
+struct Measurement {
+    variant: Variant,
+    encoding: Durations,
+    decoding: Durations,
     bytes: usize,
 }
 
-/// Measures every codec on the same record, beside each other.
+/// Measures all codecs on the same record.
 ///
 /// # Errors
 ///
-/// A codec refuses the record, which none does.
-pub fn measure_codecs(options: &Codecs) -> scl::Result<Report> {
-    let mut all = Vec::new();
-    for subject in subjects() {
-        all.push(Measured { subject, encoding: Times::new()?, decoding: Times::new()?, bytes: 0 });
+/// A codec fails on the record, which does not happen.
+pub fn measure_codecs(options: &CodecsOptions) -> scl::Result<Report> {
+    let mut measurements = Vec::new();
+    for variant in variants() {
+        let [encoding, decoding] = [Durations::new()?, Durations::new()?];
+        measurements.push(Measurement { variant, encoding, decoding, bytes: 0 });
     }
     let batches = options.messages.div_ceil(BATCH).max(1);
-    // A tenth more, first, to warm up.
-    for batch in 0..batches + batches.div_ceil(10) {
-        for measured in &mut all {
-            measured.play(batch >= batches.div_ceil(10))?;
+    let warm_up = batches.div_ceil(10);
+    for batch in 0..warm_up + batches {
+        for measurement in &mut measurements {
+            measurement.run(batch >= warm_up)?;
         }
     }
     let mut report = Report::new("codecs");
-    report.add(table(&all));
-    report.note("`raw` carries the same values at fixed lengths, so it has bytes for text that is not there");
+    report.add(table(&measurements));
+    report.note("`raw` has fields of fixed size, so it contains unused bytes for longer strings");
     Ok(report)
 }
 
-fn subjects() -> Vec<Subject> {
+fn variants() -> Vec<Variant> {
     vec![
-        subject::<Raw, FlatRecord>("raw"),
-        subject::<Postcard, Record>("postcard"),
-        subject::<Protobuf, Record>("protobuf").beside(&[("library", "prost alone"), ("xml", XML)]),
+        variant::<Raw, FlatRecord>("raw", &[XML]),
+        variant::<Postcard, Record>("postcard", &[XML]),
+        variant::<Protobuf, Record>("protobuf", &[PROST, XML]),
         prost_alone(),
-        subject::<Msgpack, Record>("msgpack"),
-        subject::<Cbor, Record>("cbor"),
-        subject::<Json, Record>("json").beside(&[("library", "serde_json alone"), ("xml", XML)]),
+        variant::<Msgpack, Record>("msgpack", &[XML]),
+        variant::<Cbor, Record>("cbor", &[XML]),
+        variant::<Json, Record>("json", &[SERDE_JSON, XML]),
         serde_json_alone(),
-        subject::<Xml, Record>(XML).beside(&[]),
+        variant::<Xml, Record>(XML, &[]),
     ]
 }
 
-fn subject<C: Codec<T>, T: Example + 'static>(name: &'static str) -> Subject {
+fn variant<C: Codec<T>, T: Example + 'static>(name: &'static str, baselines: &'static [&'static str]) -> Variant {
     let message = T::example();
-    Subject {
+    Variant {
         name,
-        beside: BESIDE_XML,
-        encode: Box::new(move |into| Ok(C::encode(black_box(&message), into)?)),
+        baselines,
+        encode: Box::new(move |buffer| Ok(C::encode(black_box(&message), buffer)?)),
         decode: Box::new(|bytes| {
             black_box(C::decode(bytes)?);
             Ok(())
@@ -98,18 +100,12 @@ fn subject<C: Codec<T>, T: Example + 'static>(name: &'static str) -> Subject {
     }
 }
 
-impl Subject {
-    fn beside(self, others: Others) -> Self {
-        Self { beside: others, ..self }
-    }
-}
-
-fn prost_alone() -> Subject {
+fn prost_alone() -> Variant {
     let message = Record::example();
-    Subject {
-        name: "prost alone",
-        beside: BESIDE_XML,
-        encode: Box::new(move |into| Ok(black_box(&message).encode(into)?)),
+    Variant {
+        name: PROST,
+        baselines: &[],
+        encode: Box::new(move |buffer| Ok(black_box(&message).encode(buffer)?)),
         decode: Box::new(|bytes| {
             black_box(Record::decode(bytes)?);
             Ok(())
@@ -117,12 +113,12 @@ fn prost_alone() -> Subject {
     }
 }
 
-fn serde_json_alone() -> Subject {
+fn serde_json_alone() -> Variant {
     let message = Record::example();
-    Subject {
-        name: "serde_json alone",
-        beside: BESIDE_XML,
-        encode: Box::new(move |into| Ok(serde_json::to_writer(into.writer(), black_box(&message))?)),
+    Variant {
+        name: SERDE_JSON,
+        baselines: &[],
+        encode: Box::new(move |buffer| Ok(serde_json::to_writer(buffer.writer(), black_box(&message))?)),
         decode: Box::new(|bytes| {
             black_box(serde_json::from_slice::<Record>(&bytes)?);
             Ok(())
@@ -130,40 +126,39 @@ fn serde_json_alone() -> Subject {
     }
 }
 
-impl Measured {
-    fn play(&mut self, counts: bool) -> scl::Result<()> {
+impl Measurement {
+    fn run(&mut self, is_recorded: bool) -> scl::Result<()> {
         let mut buffer = BytesMut::new();
         let started = Instant::now();
         for _ in 0..BATCH {
             buffer.clear();
-            (self.subject.encode)(&mut buffer)?;
+            (self.variant.encode)(&mut buffer)?;
         }
-        let encoded = started.elapsed();
+        let encoding = started.elapsed();
         let bytes = buffer.freeze();
         let started = Instant::now();
         for _ in 0..BATCH {
-            (self.subject.decode)(black_box(bytes.clone()))?;
+            (self.variant.decode)(black_box(bytes.clone()))?;
         }
-        let decoded = started.elapsed();
-        if counts {
-            // In picoseconds a message, so that the histogram keeps three digits of them.
-            self.encoding.record(u64::try_from(encoded.as_nanos() * 1000 / BATCH as u128)?);
-            self.decoding.record(u64::try_from(decoded.as_nanos() * 1000 / BATCH as u128)?);
+        let decoding = started.elapsed();
+        if is_recorded {
+            // In picoseconds per message, so that the histogram keeps three digits.
+            self.encoding.record(u64::try_from(encoding.as_nanos() * 1000 / BATCH as u128)?);
+            self.decoding.record(u64::try_from(decoding.as_nanos() * 1000 / BATCH as u128)?);
             self.bytes = bytes.len();
         }
         Ok(())
     }
 }
 
-fn table(all: &[Measured]) -> Table {
+fn table(measurements: &[Measurement]) -> Table {
     let columns = [Column::compared("encode_ns"), Column::compared("decode_ns"), Column::plain("bytes")];
     let title = "encoding and decoding a record of booleans, integers, strings and floating point numbers";
     let mut table = Table::new(title, &columns);
-    for measured in all {
-        // What was recorded as picoseconds comes out in nanoseconds.
-        let [encode, decode] = [measured.encoding.quantile(0.5), measured.decoding.quantile(0.5)];
-        let row = Row::new(measured.subject.name, vec![encode, decode, measured.bytes as f64]);
-        table.add(row.beside_all(measured.subject.beside));
+    for Measurement { variant, encoding, decoding, bytes } in measurements {
+        // Recorded as picoseconds, so these are nanoseconds.
+        let [encode, decode] = [encoding.quantile(0.5), decoding.quantile(0.5)];
+        table.add(Row::new(variant.name, vec![encode, decode, *bytes as f64]).with_baselines(variant.baselines));
     }
     table
 }
@@ -173,12 +168,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_subject_reads_what_it_wrote() {
-        for subject in subjects() {
+    fn every_variant_decodes_what_it_encoded() {
+        for variant in variants() {
             let mut buffer = BytesMut::new();
-            (subject.encode)(&mut buffer).unwrap();
-            assert!(!buffer.is_empty(), "{}", subject.name);
-            (subject.decode)(buffer.freeze()).unwrap();
+            (variant.encode)(&mut buffer).unwrap();
+            assert!(!buffer.is_empty(), "{}", variant.name);
+            (variant.decode)(buffer.freeze()).unwrap();
         }
     }
 

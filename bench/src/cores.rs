@@ -1,58 +1,60 @@
-//! Which processor cores the sides of a measurement run on.
+//! Pinning the processes of a benchmark to processor cores.
 //!
-//! Where the operating system puts two processes that wait for each other decides more than any library between them:
-//! on one core a message costs a change of process, on two it may have to wake the other core. A ratio of ways that were
-//! put in different places says nothing, so both can be told where to be.
+//! Where two processes run that wait for each other matters more than the library between them: on one core a message
+//! costs a context switch, on two cores it may have to wake an idle core. Ratios between variants that ran on different
+//! cores mean nothing, so both sides can be pinned.
 
 use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
 use std::sync::OnceLock;
 
-/// Where the processes of a measurement run.
+/// The cores on which the processes of a benchmark run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Cores {
-    /// Wherever the operating system puts them, and moves them to.
+    /// The operating system places the processes, and moves them.
     #[default]
     Any,
-    /// All on one core.
+    /// All processes share one core.
     One,
-    /// This process on one core, the others on another.
+    /// The measuring process has one core, its workers share another.
     Two,
 }
 
-/// The core of the other processes, where they have another than this one.
-static OTHERS: OnceLock<usize> = OnceLock::new();
+/// The core of the workers, if it is not the core of this process.
+static WORKER_CORE: OnceLock<usize> = OnceLock::new();
 
 impl Cores {
-    /// Puts this process there, and those that it starts from now on.
+    /// Pins the calling thread, the threads it starts from now on, and the worker processes.
     ///
     /// # Errors
-    /// There are not as many cores for this process, or the operating system refuses.
-    pub fn occupy(self) -> scl::Result<()> {
-        let allowed = sched_getaffinity(None)?;
-        let mut cores = (0..CpuSet::MAX_CPU).filter(|&core| allowed.is_set(core));
-        let few = || scl::Error::message("this process has one core only: leave `--cores two` away");
+    ///
+    /// This process may not use enough cores, or the operating system refuses.
+    pub fn pin(self) -> scl::Result<()> {
         if self == Self::Any {
             return Ok(());
         }
-        let own = cores.next().ok_or_else(few)?;
+        let allowed = sched_getaffinity(None)?;
+        let mut cores = (0..CpuSet::MAX_CPU).filter(|&core| allowed.is_set(core));
+        let too_few = || scl::Error::message("this process may use one core only: omit `--cores two`");
+        let own = cores.next().ok_or_else(too_few)?;
         if self == Self::Two {
-            let _already_set = OTHERS.set(cores.next().ok_or_else(few)?);
+            let _already_set = WORKER_CORE.set(cores.next().ok_or_else(too_few)?);
         }
         Ok(sched_setaffinity(None, &only(own))?)
     }
 
-    pub(crate) fn in_words(self) -> Option<&'static str> {
+    /// A note for the report.
+    pub(crate) fn note(self) -> Option<&'static str> {
         match self {
             Self::Any => None,
             Self::One => Some("all processes ran on one core"),
-            Self::Two => Some("the measuring process ran on one core, the others on another"),
+            Self::Two => Some("the measuring process ran on one core, its workers on another"),
         }
     }
 }
 
-/// Starts something where the other processes are to be: a process inherits the place of the thread that starts it.
-pub(crate) fn with_others<R>(start: impl FnOnce() -> R) -> scl::Result<R> {
-    let Some(&core) = OTHERS.get() else { return Ok(start()) };
+/// Calls `start` on the core of the workers, because a process inherits the affinity of the thread that starts it.
+pub(crate) fn on_worker_core<R>(start: impl FnOnce() -> R) -> scl::Result<R> {
+    let Some(&core) = WORKER_CORE.get() else { return Ok(start()) };
     let own = sched_getaffinity(None)?;
     sched_setaffinity(None, &only(core))?;
     let started = start();
@@ -73,20 +75,23 @@ mod tests {
     use std::thread::spawn;
 
     /// The cores that a process started by this thread may use.
-    fn of_a_child() -> String {
+    fn cores_of_a_child() -> String {
         let status = Command::new("grep").args(["Cpus_allowed_list", "/proc/self/status"]).output().unwrap();
         String::from_utf8(status.stdout).unwrap()
     }
 
     #[test]
-    fn one_core_is_everybodys_and_two_are_one_each() {
-        // Threads of their own, because the place of a thread is not taken back.
-        let on_one = spawn(|| Cores::One.occupy().map(|()| [of_a_child(), with_others(of_a_child).unwrap()]));
-        let [own, others] = on_one.join().unwrap().unwrap();
-        assert_eq!(own, others);
-        let on_two = spawn(|| Cores::Two.occupy().map(|()| [of_a_child(), with_others(of_a_child).unwrap()]));
-        match on_two.join().unwrap() {
-            Ok([own, others]) => assert_ne!(own, others),
+    fn one_core_is_shared_and_two_are_separate() {
+        // On separate threads, because a thread stays pinned.
+        let pinned = |cores: Cores| {
+            let children =
+                move || cores.pin().map(|()| [cores_of_a_child(), on_worker_core(cores_of_a_child).unwrap()]);
+            spawn(children).join().unwrap()
+        };
+        let [own, worker] = pinned(Cores::One).unwrap();
+        assert_eq!(own, worker);
+        match pinned(Cores::Two) {
+            Ok([own, worker]) => assert_ne!(own, worker),
             Err(error) => assert!(error.to_string().contains("one core only"), "{error}"),
         }
     }

@@ -1,158 +1,169 @@
-//! One publisher and eight subscribers, one of which is stopped now and then: what the other seven notice of it.
+//! One publisher and eight subscribers, one of which is stopped from time to time: how it affects the other seven.
 
 mod components;
-mod crowd;
 mod message;
-mod sink;
+mod publisher;
+mod subscriber;
 
-pub(crate) use sink::play_sink;
+pub(crate) use subscriber::run_subscriber;
 
-use crate::histogram::Times;
-use crate::processes::{as_text, scratch_folder, start_runtime};
-use crate::report::{Column, Others, Report, Row, Table};
-use crowd::Crowd;
-use message::BYTES;
+use crate::durations::Durations;
+use crate::report::{Column, Report, Row, Table};
+use crate::runtime::start_runtime;
+use crate::scratch::ScratchFolder;
+use message::{BATCH, BYTES, PERIOD};
+use publisher::{Publisher, SUBSCRIBERS};
 use std::time::Duration;
 
-/// All subscribers; the scenario's file has as many.
-const SINKS: usize = 8;
-
-const PERIOD: Duration = Duration::from_millis(1);
-
-/// Messages before a subscriber is stopped or goes on: enough that what it does not read fills its socket, which takes
-/// some 278 of them.
-const BATCH: u32 = 1000;
-
-/// A way in one of its two phases.
-struct Phase {
+/// A way to publish: its name between the processes, in the table of late messages, and its rows in the others.
+struct Variant {
+    id: &'static str,
     name: &'static str,
-    /// Rows for delays to stand beside.
-    delays_beside: Others,
-    sends_beside: Others,
+    all_run: &'static str,
+    one_stopped: &'static str,
+    /// The rows that the delays of `all_run` and `one_stopped` are compared with.
+    baselines: [&'static [&'static str]; 2],
 }
 
-const SCL: &str = "SCL, all eight run";
-const RAW: &str = "zeromq PUB, all eight run";
-const SCL_STOPPED: &str = "SCL, one stopped";
-const RAW_STOPPED: &str = "zeromq PUB, one stopped";
+const SCL_ALL_RUN: &str = "SCL, all run";
+const ZEROMQ_ALL_RUN: &str = "zeromq PUB, all run";
+const ZEROMQ_ONE_STOPPED: &str = "zeromq PUB, one stopped";
 
-const SCL_PHASES: [Phase; 2] = [
-    Phase { name: SCL, delays_beside: &[("zeromq", RAW)], sends_beside: &[] },
-    Phase {
-        name: SCL_STOPPED,
-        delays_beside: &[("zeromq", RAW_STOPPED), ("all run", SCL)],
-        sends_beside: &[("all run", SCL)],
+const VARIANTS: [Variant; 2] = [
+    Variant {
+        id: "scl",
+        name: "SCL",
+        all_run: SCL_ALL_RUN,
+        one_stopped: "SCL, one stopped",
+        baselines: [&[ZEROMQ_ALL_RUN], &[SCL_ALL_RUN, ZEROMQ_ONE_STOPPED]],
+    },
+    Variant {
+        id: "zeromq",
+        name: "zeromq PUB",
+        all_run: ZEROMQ_ALL_RUN,
+        one_stopped: ZEROMQ_ONE_STOPPED,
+        baselines: [&[], &[ZEROMQ_ALL_RUN]],
     },
 ];
 
-const RAW_PHASES: [Phase; 2] = [
-    Phase { name: RAW, delays_beside: &[], sends_beside: &[] },
-    Phase { name: RAW_STOPPED, delays_beside: &[("all run", RAW)], sends_beside: &[("all run", RAW)] },
-];
-
-/// A way: the word for it between the processes, its name, and its phases.
-const WAYS: [(&str, &str, [Phase; 2]); 2] = [("scl", "SCL", SCL_PHASES), ("raw", "zeromq PUB", RAW_PHASES)];
-
-/// What [`measure_fanout`] is asked for.
+/// Options of [`measure_fanout`].
 #[derive(Debug, Clone)]
-pub struct Fanout {
-    /// How long each way is measured in each phase; at 1000 messages a second.
+pub struct FanoutOptions {
+    /// How long each variant is measured in each phase, at 1000 messages per second.
     pub time: Duration,
 }
 
-/// What came of a way in one phase.
-struct Measured {
-    delays: Times,
-    sends: Times,
-    /// Messages that one of the seven did not get.
-    lost: u64,
-    /// Of each time that the eighth went on: what it still got of the messages that were sent meanwhile.
-    late: Vec<usize>,
-    /// The greatest delay of those, in nanoseconds.
+/// What was measured of a variant, while all subscribers ran and while one was stopped.
+struct Measurement {
+    all_run: Phase,
+    one_stopped: Phase,
+    /// For each time that the stopped subscriber resumed: how many messages it still received.
+    late_messages: Vec<usize>,
+    /// The longest delay of those messages, in nanoseconds.
     oldest: u64,
 }
 
-/// Measures the delay to seven of eight subscribers while the eighth runs and while it is stopped, in turn.
+struct Phase {
+    delays: Durations,
+    /// The time that each send took.
+    sends: Durations,
+    /// Messages that one of the seven subscribers did not receive.
+    lost: u64,
+}
+
+/// Measures the delay to seven of eight subscribers while the eighth one runs, and while it is stopped.
 ///
 /// # Errors
 ///
 /// The folder for temporary files cannot be used, a process cannot be started, or a connection fails.
-pub fn measure_fanout(options: &Fanout) -> scl::Result<Report> {
-    let folder = scratch_folder()?;
+pub fn measure_fanout(options: &FanoutOptions) -> scl::Result<Report> {
+    let folder = ScratchFolder::new()?;
     let messages = u32::try_from(options.time.as_millis() / PERIOD.as_millis())?.max(1);
-    let mut all = Vec::new();
-    for _ in &WAYS {
-        all.push([Measured::new()?, Measured::new()?]);
-    }
-    start_runtime()?.block_on(play(as_text(folder.path())?, messages, &mut all))?;
-    Ok(report(&all))
+    let mut measurements = VARIANTS.iter().map(|_| Measurement::new()).collect::<scl::Result<Vec<_>>>()?;
+    start_runtime()?.block_on(run(folder.path(), messages, &mut measurements))?;
+    Ok(report(&measurements))
 }
 
-async fn play(folder: &str, messages: u32, all: &mut [[Measured; 2]]) -> scl::Result<()> {
-    let mut crowds = Vec::new();
-    for (word, ..) in &WAYS {
-        crowds.push(Crowd::start(word, folder).await?);
+async fn run(folder: &str, messages: u32, measurements: &mut [Measurement]) -> scl::Result<()> {
+    let mut publishers = Vec::new();
+    for variant in &VARIANTS {
+        publishers.push(Publisher::start(variant.id, folder).await?);
     }
     let batch = BATCH.min(messages);
     for _ in 0..messages.div_ceil(batch) {
-        for (crowd, [running, stopped]) in crowds.iter_mut().zip(&mut *all) {
-            crowd.play(batch, running).await?;
-            crowd.stop_one().await?;
-            crowd.play(batch, stopped).await?;
-            stopped.catch_up(&crowd.let_it_go_on().await?);
+        for (publisher, measurement) in publishers.iter_mut().zip(&mut *measurements) {
+            measurement.all_run.run(publisher, batch).await?;
+            publisher.stop_one().await?;
+            measurement.one_stopped.run(publisher, batch).await?;
+            measurement.record_late(&publisher.resume_one().await?);
         }
     }
     Ok(())
 }
 
-impl Measured {
+impl Measurement {
     fn new() -> scl::Result<Self> {
-        Ok(Self { delays: Times::new()?, sends: Times::new()?, lost: 0, late: Vec::new(), oldest: 0 })
+        Ok(Self { all_run: Phase::new()?, one_stopped: Phase::new()?, late_messages: Vec::new(), oldest: 0 })
     }
 
-    fn catch_up(&mut self, delays: &[u64]) {
-        self.late.push(delays.len());
+    fn record_late(&mut self, delays: &[u64]) {
+        self.late_messages.push(delays.len());
         self.oldest = delays.iter().copied().fold(self.oldest, u64::max);
     }
 }
 
-fn report(all: &[[Measured; 2]]) -> Report {
+impl Phase {
+    fn new() -> scl::Result<Self> {
+        Ok(Self { delays: Durations::new()?, sends: Durations::new()?, lost: 0 })
+    }
+
+    async fn run(&mut self, publisher: &mut Publisher, messages: u32) -> scl::Result<()> {
+        publisher.send_batch(messages, &mut self.sends).await?;
+        for delays in publisher.delays_of_others().await? {
+            self.lost += u64::from(messages).saturating_sub(delays.len() as u64);
+            delays.into_iter().for_each(|delay| self.delays.record(delay));
+        }
+        Ok(())
+    }
+}
+
+fn report(measurements: &[Measurement]) -> Report {
     let mut columns = vec![Column::compared("p50_us"), Column::compared("p99_us"), Column::compared("max_us")];
-    let mut sends = Table::new(format!("one send to all {SINKS}, in the publisher"), &columns);
+    let mut sends = Table::new(format!("time of one send to all {SUBSCRIBERS} subscribers"), &columns);
     columns.push(Column::plain("lost"));
-    let title = format!(
-        "delay of {BYTES} bytes at 1000 Hz from one process to {} of {SINKS} others, the eighth stopped now and then",
-        SINKS - 1
-    );
+    let running = SUBSCRIBERS - 1;
+    let title =
+        format!("delay of {BYTES} bytes at 1000 Hz to {running} subscribers, the eighth one running or stopped");
     let mut delays = Table::new(title, &columns);
-    let phases = WAYS.iter().flat_map(|(.., phases)| phases);
-    for (phase, measured) in phases.zip(all.iter().flatten()) {
-        delays.add(row(phase.name, &measured.delays, &[measured.lost as f64]).beside_all(phase.delays_beside));
-        sends.add(row(phase.name, &measured.sends, &[]).beside_all(phase.sends_beside));
+    for (variant, measurement) in VARIANTS.iter().zip(measurements) {
+        let Measurement { all_run, one_stopped, .. } = measurement;
+        let names = [variant.all_run, variant.one_stopped];
+        for ((name, phase), baselines) in names.into_iter().zip([all_run, one_stopped]).zip(variant.baselines) {
+            delays.add(row(name, &phase.delays, &[phase.lost as f64]).with_baselines(baselines));
+        }
+        sends.add(row(variant.all_run, &all_run.sends, &[]));
+        sends.add(row(variant.one_stopped, &one_stopped.sends, &[]).with_baselines(&[variant.all_run]));
     }
     let mut report = Report::new("fanout");
     report.add(delays);
     report.add(sends);
-    report.add(what_was_late(all));
-    report
-        .note("a `zeromq` PUB socket only queues what it is given, and writes to the eight later; SCL writes at once");
+    report.add(late_messages(measurements));
+    report.note("a send of `zeromq` only queues the message; a send of SCL writes to all eight sockets");
     report
 }
 
-fn what_was_late(all: &[[Measured; 2]]) -> Table {
+fn late_messages(measurements: &[Measurement]) -> Table {
     let columns = [Column::plain("messages"), Column::plain("oldest_ms")];
-    let mut table = Table::new(
-        format!("what the eighth still gets, when it goes on, of up to {BATCH} messages that it was stopped for"),
-        &columns,
-    );
-    for ((_, name, _), [_, stopped]) in WAYS.iter().zip(all) {
-        let messages = stopped.late.iter().sum::<usize>() as f64 / stopped.late.len().max(1) as f64;
-        table.add(Row::new(*name, vec![messages, stopped.oldest as f64 / 1e6]));
+    let title = format!("what the stopped subscriber receives after it resumes, of up to {BATCH} messages");
+    let mut table = Table::new(title, &columns);
+    for (variant, Measurement { late_messages, oldest, .. }) in VARIANTS.iter().zip(measurements) {
+        let mean = late_messages.iter().sum::<usize>() as f64 / late_messages.len().max(1) as f64;
+        table.add(Row::new(variant.name, vec![mean, *oldest as f64 / 1e6]));
     }
     table
 }
 
-fn row(name: &str, times: &Times, more: &[f64]) -> Row {
-    let figures = [&[times.quantile(0.5), times.quantile(0.99), times.greatest()], more].concat();
-    Row::new(name, figures).with_times(times)
+fn row(name: &str, durations: &Durations, more: &[f64]) -> Row {
+    let values = [&[durations.quantile(0.5), durations.quantile(0.99), durations.max()], more].concat();
+    Row::new(name, values).with_durations(durations)
 }

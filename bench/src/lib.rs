@@ -1,38 +1,46 @@
-//! SCL measured beside the raw parts it is made of, interleaved in one run: absolute times drift, ratios hold.
+//! Benchmarks of SCL beside raw sockets and other libraries, interleaved in one run: absolute times drift, ratios hold.
 //!
-//! Each scenario is a function that takes its options and gives a [`Report`], which prints as text or JSON. The other
-//! processes of a scenario are the calling program itself, started with [`OTHER_SIDE`] as its first argument; such a
-//! program hands the remaining arguments to [`play_other_side`].
+//! Each benchmark is a function that takes its options and returns a [`Report`], which prints as text or JSON. Its
+//! worker processes are the calling program itself, started with [`WORKER_COMMAND`] as the first argument; the program
+//! passes the remaining arguments to [`run_worker`].
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod allocations;
 mod clock;
 mod codecs;
 mod cores;
 mod delay;
+mod durations;
 mod fanout;
-mod histogram;
-mod lengths;
+mod fresh;
 #[cfg(feature = "libzmq")]
 mod libzmq;
+mod message_size;
 mod one_way;
 mod open;
-mod processes;
 mod rate;
 mod raw;
 mod report;
+mod restart;
+mod roles;
 mod roundtrip;
+mod runtime;
+mod scratch;
+mod unix;
+mod worker;
 
-pub use codecs::{Codecs, measure_codecs};
+pub use allocations::{AllocationCounter, measure_allocations};
+pub use codecs::{CodecsOptions, measure_codecs};
 pub use cores::Cores;
-pub use delay::{Delay, measure_delay};
-pub use fanout::{Fanout, measure_fanout};
-pub use open::{Open, measure_open};
-pub use processes::{OTHER_SIDE, play_other_side};
-pub use rate::{Rate, measure_rate};
+pub use delay::{DelayOptions, measure_delay};
+pub use fanout::{FanoutOptions, measure_fanout};
+pub use fresh::{FreshOptions, measure_fresh};
+pub use open::{OpenOptions, measure_open};
+pub use rate::{RateOptions, measure_rate};
 pub use report::Report;
-pub use roundtrip::{Roundtrip, measure_roundtrip};
+pub use restart::{RestartOptions, measure_restart};
+pub use roles::run_worker;
+pub use roundtrip::{RoundtripOptions, measure_roundtrip};
 pub use scl::{Error, Result};
-
-/// Says how often this process has allocated memory so far; from a counting allocator of the calling program.
-pub type AllocationCount = fn() -> u64;
+pub use worker::WORKER_COMMAND;

@@ -1,47 +1,69 @@
-//! Sockets of libzmq, the C++ library, for the ways that stand beside ours.
+//! Sockets of libzmq, the C++ library.
 
-use crate::raw::RawPlace;
-use zmq2::{Context, SUB, Socket, SocketType, XPUB};
+mod lossless_publisher;
 
-/// How long the two sides may take to find each other, in milliseconds.
-const PATIENCE: i32 = 10_000;
+pub(crate) use lossless_publisher::start_lossless_publisher;
 
-impl RawPlace {
+use crate::raw::SocketPaths;
+use zmq2::{Context, SUB, Socket, SocketType};
+
+/// How long a receive may take while two processes connect, in milliseconds.
+const CONNECT_TIMEOUT: i32 = 10_000;
+
+/// How many messages a socket queues.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum HighWaterMark {
+    /// libzmq's default of 1000.
+    Default,
+    /// As many as fit into memory.
+    Unlimited,
+}
+
+impl SocketPaths {
     /// A socket that listens.
-    pub(crate) fn bind_libzmq(&self, context: &Context, kind: SocketType, end: &str) -> scl::Result<Socket> {
-        let socket = patient(context, kind)?;
-        socket.bind(&self.zeromq(end))?;
-        Ok(socket)
+    pub(crate) fn bind_libzmq(
+        &self,
+        context: &Context,
+        socket: &str,
+        kind: SocketType,
+        mark: HighWaterMark,
+    ) -> scl::Result<Socket> {
+        let bound = new_socket(context, kind, mark)?;
+        bound.bind(&self.endpoint(socket))?;
+        Ok(bound)
     }
 
-    /// A socket that dials.
-    pub(crate) fn connect_libzmq(&self, context: &Context, kind: SocketType, end: &str) -> scl::Result<Socket> {
-        let socket = patient(context, kind)?;
-        socket.connect(&self.zeromq(end))?;
-        Ok(socket)
-    }
-
-    /// A publisher that keeps whatever a subscriber cannot take yet. By default it would drop messages beyond 1000.
-    pub(crate) fn publish_libzmq(&self, context: &Context, end: &str) -> scl::Result<Socket> {
-        let socket = patient(context, XPUB)?;
-        socket.set_sndhwm(0)?;
-        socket.bind(&self.zeromq(end))?;
-        Ok(socket)
-    }
-
-    /// A subscriber of everything.
-    pub(crate) fn subscribe_libzmq(&self, context: &Context, end: &str) -> scl::Result<Socket> {
-        let socket = patient(context, SUB)?;
-        socket.set_rcvhwm(0)?;
-        socket.connect(&self.zeromq(end))?;
-        socket.set_subscribe(b"")?;
-        Ok(socket)
+    /// A socket that connects, and subscribes to everything if it is a SUB socket.
+    pub(crate) fn connect_libzmq(
+        &self,
+        context: &Context,
+        socket: &str,
+        kind: SocketType,
+        mark: HighWaterMark,
+    ) -> scl::Result<Socket> {
+        let connected = new_socket(context, kind, mark)?;
+        connected.connect(&self.endpoint(socket))?;
+        if kind == SUB {
+            connected.set_subscribe(b"")?;
+        }
+        Ok(connected)
     }
 }
 
-fn patient(context: &Context, kind: SocketType) -> scl::Result<Socket> {
+/// A socket that gives up a receive after [`CONNECT_TIMEOUT`].
+pub(crate) fn new_socket(context: &Context, kind: SocketType, mark: HighWaterMark) -> scl::Result<Socket> {
     let socket = context.socket(kind)?;
-    socket.set_rcvtimeo(PATIENCE)?;
+    socket.set_rcvtimeo(CONNECT_TIMEOUT)?;
     socket.set_linger(0)?;
+    if mark == HighWaterMark::Unlimited {
+        socket.set_sndhwm(0)?;
+        socket.set_rcvhwm(0)?;
+    }
+    Ok(socket)
+}
+
+/// Lets a receive wait forever, because other variants have their turn between two batches.
+pub(crate) fn without_timeout(socket: Socket) -> scl::Result<Socket> {
+    socket.set_rcvtimeo(-1)?;
     Ok(socket)
 }

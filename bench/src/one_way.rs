@@ -1,136 +1,103 @@
-//! Messages from one process to another, in one direction: what the scenarios `rate` and `delay` are made of.
+//! Messages in one direction, from this process to a worker: the basis of the benchmarks `rate` and `delay`.
 //!
-//! Each message starts with the time at which it was sent. The receiver answers each batch with a line: how long it took
-//! from its first message to its last, and how long each message was under way, in nanoseconds.
+//! Each message starts with the time at which it, or its batch, is sent. The receiver reports each batch in one line.
 
+mod batch_report;
 mod components;
+mod message;
 mod receiver;
 mod sender;
 
-pub(crate) use receiver::play_receiver;
+pub(crate) use batch_report::BatchReport;
+pub(crate) use message::MIN_SIZE;
+pub(crate) use receiver::run_receiver;
 
-use crate::processes::OtherProcess;
-use crate::report::Others;
-use scl::bytes::{BufMut, Bytes, BytesMut};
+use crate::worker::Worker;
+use message::Message;
 use scl::time::interval;
 use sender::Sender;
 use std::time::Duration;
 use tokio::runtime::Runtime;
 
-/// The shortest message: its time.
-pub(crate) const SHORTEST: usize = 8;
-
-/// A way from one process to another; `word` names it between them.
-#[derive(Debug, PartialEq)]
-pub(crate) struct Way {
-    pub(crate) word: &'static str,
+/// A way to send messages: its name between the processes, and in the report.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Variant {
+    pub(crate) id: &'static str,
     pub(crate) name: &'static str,
-    pub(crate) beside: Others,
 }
 
-pub(crate) const SCL_PUBLISH: Way =
-    way("scl-publish", "SCL pub/sub", &[("zeromq", "zeromq XPUB/SUB"), ("libzmq", "libzmq XPUB/SUB")]);
-pub(crate) const RAW_PUBLISH: Way = way("raw-publish", "zeromq XPUB/SUB", &[("libzmq", "libzmq XPUB/SUB")]);
-#[cfg(feature = "libzmq")]
-pub(crate) const LIBZMQ_PUBLISH: Way = way("libzmq-publish", "libzmq XPUB/SUB", &[("zeromq", "zeromq XPUB/SUB")]);
-pub(crate) const SCL_PUSH: Way =
-    way("scl-push", "SCL push/pull", &[("zeromq", "zeromq PUSH/PULL"), ("libzmq", "libzmq PUSH/PULL")]);
-pub(crate) const RAW_PUSH: Way = way("raw-push", "zeromq PUSH/PULL", &[("libzmq", "libzmq PUSH/PULL")]);
-#[cfg(feature = "libzmq")]
-pub(crate) const LIBZMQ_PUSH: Way = way("libzmq-push", "libzmq PUSH/PULL", &[("zeromq", "zeromq PUSH/PULL")]);
-pub(crate) const UNIX: Way = way("unix", "Unix socket, tokio", &[]);
+pub(crate) const SCL_PUB: Variant = Variant { id: "scl-pub", name: "SCL pub/sub" };
+pub(crate) const SCL_PUB_BLOCKING: Variant = Variant { id: "scl-pub-blocking", name: "SCL pub/sub (blocking)" };
+pub(crate) const SCL_PUSH: Variant = Variant { id: "scl-push", name: "SCL push/pull" };
+pub(crate) const SCL_PUSH_BLOCKING: Variant = Variant { id: "scl-push-blocking", name: "SCL push/pull (blocking)" };
+pub(crate) const ZEROMQ_PUB: Variant = Variant { id: "zeromq-pub", name: "zeromq XPUB/SUB" };
+pub(crate) const ZEROMQ_PUSH: Variant = Variant { id: "zeromq-push", name: "zeromq PUSH/PULL" };
+pub(crate) const LIBZMQ_NODROP: Variant = Variant { id: "libzmq-nodrop", name: "libzmq XPUB_NODROP" };
+pub(crate) const LIBZMQ_PUB: Variant = Variant { id: "libzmq-pub", name: "libzmq XPUB (no limit)" };
+pub(crate) const LIBZMQ_PUSH: Variant = Variant { id: "libzmq-push", name: "libzmq PUSH" };
+pub(crate) const LIBZMQ_PUSH_UNLIMITED: Variant =
+    Variant { id: "libzmq-push-unlimited", name: "libzmq PUSH (no limit)" };
+pub(crate) const UNIX: Variant = Variant { id: "unix", name: "Unix socket (tokio)" };
 
-const fn way(word: &'static str, name: &'static str, beside: Others) -> Way {
-    Way { word, name, beside }
+/// What a receiver reports about a batch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Timing {
+    /// The time of the whole batch. Its messages are all the same, and nothing is done for each of them.
+    Batch,
+    /// Also the delay of each message.
+    EachMessage,
 }
 
-/// What a receiver says of one batch, in nanoseconds.
-#[derive(Debug, PartialEq)]
-pub(crate) struct Received {
-    /// From the first message sent to the last received.
-    pub(crate) span: u64,
-    /// From sending to receiving, one a message.
-    pub(crate) delays: Vec<u64>,
-}
-
-/// A way in use, with the process that receives.
-pub(crate) struct Lane {
+/// The sending end of a variant, and the process that receives.
+pub(crate) struct Channel {
     sender: Sender,
-    receiver: OtherProcess,
+    receiver: Worker,
     bytes: usize,
     batch: usize,
 }
 
-impl Lane {
-    /// Starts the receiver for batches of so many messages of so many bytes, at least [`SHORTEST`].
-    pub(crate) fn open(runtime: &Runtime, way: &Way, folder: &str, bytes: usize, batch: usize) -> scl::Result<Self> {
-        let words = ["one-way", way.word, folder, &bytes.to_string(), &batch.to_string()];
-        let (sender, receiver) = runtime.block_on(Sender::start(way.word, folder, &words))?;
+impl Channel {
+    /// Starts the receiver and connects to it. Messages have at least [`MIN_SIZE`] bytes.
+    pub(crate) fn open(
+        runtime: &Runtime,
+        variant: Variant,
+        folder: &str,
+        bytes: usize,
+        batch: usize,
+        timing: Timing,
+    ) -> scl::Result<Self> {
+        let arguments = ["one-way", variant.id, folder, &bytes.to_string(), &batch.to_string(), timing.id()];
+        let (sender, receiver) = Sender::start(runtime, variant.id, folder, &arguments, bytes, batch)?;
         Ok(Self { sender, receiver, bytes, batch })
     }
 
-    /// Sends one batch as fast as it goes.
-    pub(crate) async fn send_batch(&mut self) -> scl::Result<()> {
+    /// Sends one batch as fast as possible.
+    pub(crate) fn send_batch(&mut self, runtime: &Runtime) -> scl::Result<()> {
+        self.sender.send_batch(runtime, &Message::new(self.bytes), self.batch)
+    }
+
+    /// Sends one batch, one message per period. Not for blocking variants.
+    pub(crate) async fn send_periodically(&mut self, period: Duration) -> scl::Result<()> {
+        let mut interval = interval(period)?;
         for _ in 0..self.batch {
-            self.sender.send(message(self.bytes)).await?;
+            interval.tick().await?;
+            self.sender.send(&Message::new(self.bytes)).await?;
         }
         Ok(())
     }
 
-    /// Sends one batch, a message each period.
-    pub(crate) async fn send_steadily(&mut self, period: Duration) -> scl::Result<()> {
-        let mut tick = interval(period)?;
-        for _ in 0..self.batch {
-            tick.tick().await;
-            self.sender.send(message(self.bytes)).await?;
+    /// Waits until the whole batch has arrived.
+    pub(crate) async fn batch_report(&mut self) -> scl::Result<BatchReport> {
+        BatchReport::parse(&self.receiver.next_line().await?)
+    }
+}
+
+impl Timing {
+    /// The name between the processes.
+    fn id(self) -> &'static str {
+        match self {
+            Self::Batch => "batch",
+            Self::EachMessage => "each-message",
         }
-        Ok(())
-    }
-
-    /// Waits until the batch has arrived as a whole.
-    pub(crate) async fn received(&mut self) -> scl::Result<Received> {
-        Received::parse(&self.receiver.line().await?)
-    }
-}
-
-impl Received {
-    pub(crate) fn parse(line: &str) -> scl::Result<Self> {
-        let mut numbers = line.split_ascii_whitespace().map(str::parse);
-        let span = numbers.next().unwrap_or(Ok(0))?;
-        Ok(Self { span, delays: numbers.collect::<Result<_, _>>()? })
-    }
-
-    pub(crate) fn to_line(&self) -> String {
-        let delays = self.delays.iter().map(u64::to_string);
-        std::iter::once(self.span.to_string()).chain(delays).collect::<Vec<_>>().join(" ")
-    }
-}
-
-/// A message that carries the time.
-fn message(bytes: usize) -> Bytes {
-    let mut message = BytesMut::zeroed(bytes.max(SHORTEST));
-    (&mut message[..SHORTEST]).put_u64(crate::clock::now());
-    message.freeze()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_a_receiver_says_is_read_back() {
-        for received in [Received { span: 7, delays: vec![] }, Received { span: 7, delays: vec![1, 2] }] {
-            assert_eq!(Received::parse(&received.to_line()).unwrap(), received);
-        }
-        assert!(Received::parse("7 x").is_err());
-    }
-
-    #[test]
-    fn a_message_is_as_long_as_wanted_and_carries_the_time() {
-        let before = crate::clock::now();
-        let message = message(20);
-        assert_eq!(message.len(), 20);
-        let sent = u64::from_be_bytes(message[..SHORTEST].try_into().unwrap());
-        assert!((before..=crate::clock::now()).contains(&sent));
     }
 }

@@ -1,42 +1,44 @@
-//! What a component of ten gates costs before it says anything: time to open, memory, wake-ups.
+//! The cost of a component with ten gates before it exchanges messages: time to open, memory, wake-ups.
 
 mod components;
 mod footprint;
 mod station;
 
-pub(crate) use station::play;
+pub(crate) use station::run_station;
 
-use crate::histogram::Times;
-use crate::processes::{OtherProcess, as_text, scratch_folder, start_runtime};
-use crate::report::{Column, Others, Report, Row, Table};
+use crate::durations::Durations;
+use crate::report::{Column, Report, Row, Table};
+use crate::runtime::start_runtime;
+use crate::scratch::ScratchFolder;
+use crate::worker::Worker;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tokio::runtime::Runtime;
 
-/// What [`measure_open`] is asked for.
+/// Options of [`measure_open`].
 #[derive(Debug, Clone)]
-pub struct Open {
+pub struct OpenOptions {
     /// How often each kind of process is started.
     pub starts: usize,
-    /// How long each kind is watched while it is idle; the same time before that is for coming to rest.
+    /// How long each kind of process is observed while idle, after the same time to settle.
     pub idle: Duration,
 }
 
-/// A process that is started and watched.
-struct Kind {
-    word: &'static str,
+/// What a process opens.
+struct Variant {
+    id: &'static str,
     name: &'static str,
-    beside: Others,
+    baselines: &'static [&'static str],
     with_neighbour: bool,
 }
 
-const RAW: &str = "10 zeromq sockets";
+const ZEROMQ: &str = "10 zeromq sockets";
 
-const KINDS: [Kind; 4] = [
-    Kind { word: "station", name: "SCL, 10 gates, alone", beside: &[("zeromq", RAW)], with_neighbour: false },
-    Kind { word: "station", name: "SCL, 10 gates, connected", beside: &[("zeromq", RAW)], with_neighbour: true },
-    Kind { word: "sockets", name: RAW, beside: &[], with_neighbour: false },
-    Kind { word: "nothing", name: "async runtime only", beside: &[], with_neighbour: false },
+const VARIANTS: [Variant; 4] = [
+    Variant { id: "station", name: "SCL, 10 gates, alone", baselines: &[ZEROMQ], with_neighbour: false },
+    Variant { id: "station", name: "SCL, 10 gates, connected", baselines: &[ZEROMQ], with_neighbour: true },
+    Variant { id: "sockets", name: ZEROMQ, baselines: &[], with_neighbour: false },
+    Variant { id: "nothing", name: "async runtime only", baselines: &[], with_neighbour: false },
 ];
 
 const COLUMNS: [Column; 4] = [
@@ -46,47 +48,48 @@ const COLUMNS: [Column; 4] = [
     Column::plain("wakeups_per_s"),
 ];
 
-/// What came of one kind.
-struct Measured {
-    opening: Times,
+/// What was measured of a variant.
+struct Measurement {
+    opening: Durations,
     memory: f64,
     wakeups: f64,
 }
 
-/// Starts processes that open a component of ten gates, beside others that open raw sockets, and watches them.
+/// Starts processes that open a component with ten gates, and processes that open raw sockets, and observes them.
 ///
 /// # Errors
 ///
 /// The folder for temporary files cannot be used, a process cannot be started, or `/proc` cannot be read.
-pub fn measure_open(options: &Open) -> scl::Result<Report> {
+pub fn measure_open(options: &OpenOptions) -> scl::Result<Report> {
     let runtime = start_runtime()?;
-    let mut all = Vec::new();
-    for _ in &KINDS {
-        all.push(Measured { opening: Times::new()?, memory: 0.0, wakeups: 0.0 });
+    let mut measurements = Vec::new();
+    for _ in &VARIANTS {
+        measurements.push(Measurement { opening: Durations::new()?, memory: 0.0, wakeups: 0.0 });
     }
     let starts = options.starts.max(1);
     for start in 1..=starts {
-        for (kind, measured) in KINDS.iter().zip(&mut all) {
+        for (variant, measurement) in VARIANTS.iter().zip(&mut measurements) {
             let idle = (start == starts).then_some(options.idle);
-            measured.play(&runtime, kind, idle)?;
+            measurement.run(&runtime, variant, idle)?;
         }
     }
     let mut report = Report::new("open");
-    report.add(table(&all));
-    report.note("memory is all that is resident, the program's own code included");
-    report.note("of the `zeromq` sockets alone, the five that listen are bound and nothing is connected");
+    report.add(table(&measurements));
+    report.note("memory is the resident memory, including the program's code");
+    report.note("of the `zeromq` sockets, the five that listen are bound and none is connected");
     Ok(report)
 }
 
-impl Measured {
-    fn play(&mut self, runtime: &Runtime, kind: &Kind, idle: Option<Duration>) -> scl::Result<()> {
-        let folder = scratch_folder()?;
-        let folder = as_text(folder.path())?;
-        let ready = if kind.with_neighbour { "connected" } else { "alone" };
-        let mut process = OtherProcess::start(&["open", kind.word, folder, ready])?;
-        self.opening.record(runtime.block_on(process.line())?.parse()?);
-        let _neighbour = kind.with_neighbour.then(|| OtherProcess::start(&["open", "neighbour", folder, ready]));
-        let _rests = runtime.block_on(process.line())?;
+impl Measurement {
+    /// Starts a process once, and observes it for a while if `idle` is given.
+    fn run(&mut self, runtime: &Runtime, variant: &Variant, idle: Option<Duration>) -> scl::Result<()> {
+        let folder = ScratchFolder::new()?;
+        let ready = if variant.with_neighbour { "connected" } else { "alone" };
+        let mut process = Worker::start(&["open", variant.id, folder.path(), ready])?;
+        self.opening.record(runtime.block_on(process.next_line())?.parse()?);
+        let start_neighbour = || Worker::start(&["open", "neighbour", folder.path(), ready]);
+        let _neighbour = variant.with_neighbour.then(start_neighbour).transpose()?;
+        let _idle = runtime.block_on(process.next_line())?;
         if let Some(idle) = idle {
             sleep(idle);
             let (before, started) = (footprint::context_switches(process.id())?, Instant::now());
@@ -99,12 +102,11 @@ impl Measured {
     }
 }
 
-fn table(all: &[Measured]) -> Table {
+fn table(measurements: &[Measurement]) -> Table {
     let mut table = Table::new("a process with a component of ten gates", &COLUMNS);
-    for (kind, measured) in KINDS.iter().zip(all) {
-        let opening = &measured.opening;
-        let figures = vec![opening.quantile(0.5), opening.greatest(), measured.memory, measured.wakeups];
-        table.add(Row::new(kind.name, figures).beside_all(kind.beside).with_times(opening));
+    for (variant, Measurement { opening, memory, wakeups }) in VARIANTS.iter().zip(measurements) {
+        let values = vec![opening.quantile(0.5), opening.max(), *memory, *wakeups];
+        table.add(Row::new(variant.name, values).with_baselines(variant.baselines).with_durations(opening));
     }
     table
 }

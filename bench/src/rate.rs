@@ -1,145 +1,146 @@
-//! How many messages a second go from one process to another, with nothing lost.
+//! The number of messages per second from one process to another, without losing any.
 
-use crate::AllocationCount;
-use crate::histogram::Times;
-use crate::lengths::check_lengths;
-use crate::one_way::{self, Lane, SHORTEST, Way};
-use crate::processes::{as_text, scratch_folder, start_runtime};
+use crate::message_size::check_message_sizes;
+use crate::one_way::{
+    Channel, LIBZMQ_NODROP, LIBZMQ_PUB, LIBZMQ_PUSH, LIBZMQ_PUSH_UNLIMITED, MIN_SIZE, SCL_PUB, SCL_PUB_BLOCKING,
+    SCL_PUSH, SCL_PUSH_BLOCKING, Timing, UNIX, Variant, ZEROMQ_PUB, ZEROMQ_PUSH,
+};
 use crate::report::{Column, Report, Row, Table};
+use crate::runtime::start_runtime;
+use crate::scratch::ScratchFolder;
 use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
 
-/// Batches of each way at least, after one that only warms up.
-const BATCHES: usize = 10;
+/// The minimum number of batches of each variant, after one for warm-up.
+const MIN_BATCHES: usize = 10;
 
-/// The greatest batch in bytes: libzmq without a high-water mark may hold all of it in memory.
-const BATCH_BYTES: usize = 32 << 20;
+/// The largest batch in bytes: libzmq without a limit may keep a whole batch in memory.
+const MAX_BATCH_BYTES: usize = 32 << 20;
 
-const WAYS: &[&Way] = &[
-    &one_way::SCL_PUBLISH,
-    &one_way::RAW_PUBLISH,
+/// Bytes that each variant sends at most, so that long messages do not take minutes.
+const MAX_BYTES: usize = 4 << 30;
+
+const PUB_BASELINES: &[Variant] = &[LIBZMQ_NODROP, LIBZMQ_PUB, ZEROMQ_PUB];
+const PUSH_BASELINES: &[Variant] = &[LIBZMQ_PUSH, LIBZMQ_PUSH_UNLIMITED, ZEROMQ_PUSH];
+
+/// All variants, with the variants they are compared with.
+const VARIANTS: &[(Variant, &[Variant])] = &[
+    (SCL_PUB, PUB_BASELINES),
+    (SCL_PUB_BLOCKING, PUB_BASELINES),
+    (ZEROMQ_PUB, &[]),
     #[cfg(feature = "libzmq")]
-    &one_way::LIBZMQ_PUBLISH,
-    &one_way::SCL_PUSH,
-    &one_way::RAW_PUSH,
+    (LIBZMQ_NODROP, &[]),
     #[cfg(feature = "libzmq")]
-    &one_way::LIBZMQ_PUSH,
-    &one_way::UNIX,
+    (LIBZMQ_PUB, &[]),
+    (SCL_PUSH, PUSH_BASELINES),
+    (SCL_PUSH_BLOCKING, PUSH_BASELINES),
+    (ZEROMQ_PUSH, &[]),
+    #[cfg(feature = "libzmq")]
+    (LIBZMQ_PUSH, &[]),
+    #[cfg(feature = "libzmq")]
+    (LIBZMQ_PUSH_UNLIMITED, &[]),
+    (UNIX, &[]),
 ];
 
-/// How many messages are sent together, and how often.
+/// Options of [`measure_rate`].
+#[derive(Debug, Clone)]
+pub struct RateOptions {
+    /// The message sizes in bytes, one table each; within [`RateOptions::BYTES`].
+    pub bytes: Vec<usize>,
+    /// The number of messages for each variant and size; at most 4 GiB are sent.
+    pub messages: usize,
+}
+
+impl RateOptions {
+    /// The supported message sizes: 8 bytes are for the time, and up to 1000 messages wait in memory.
+    pub const BYTES: RangeInclusive<usize> = MIN_SIZE..=1 << 20;
+}
+
+/// How the messages of a run are divided.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Batches {
     size: usize,
-    number: usize,
+    count: usize,
 }
 
-/// What [`measure_rate`] is asked for.
-#[derive(Debug, Clone)]
-pub struct Rate {
-    /// The lengths of the messages, in bytes, one table each; within [`Rate::BYTES`].
-    pub bytes: Vec<usize>,
-    /// How many messages of each length go each way.
-    pub messages: usize,
-    /// Adds how many allocations of this process a sent message takes.
-    pub allocations: Option<AllocationCount>,
+/// A variant with its two processes, and what was measured of it.
+struct Measurement {
+    variant: Variant,
+    baselines: &'static [Variant],
+    channel: Channel,
+    /// The messages per second of each batch.
+    rates: Vec<f64>,
 }
 
-impl Rate {
-    /// The lengths that messages may have: each carries its time, 8 bytes, and 1000 of them may wait in memory.
-    pub const BYTES: RangeInclusive<usize> = SHORTEST..=1 << 20;
-}
-
-/// A way in use and what came of it.
-struct Measured {
-    way: &'static Way,
-    lane: Lane,
-    /// Of each batch: nanoseconds a message.
-    paces: Times,
-    delays: Times,
-    allocations: u64,
-}
-
-/// Measures the rate of messages for every way, beside each other.
+/// Measures the rate of messages of all variants.
 ///
 /// # Errors
 ///
-/// A length outside [`Rate::BYTES`]; the folder for temporary files cannot be used, a process cannot be started, or a
-/// connection fails.
-pub fn measure_rate(options: &Rate) -> scl::Result<Report> {
-    check_lengths(&options.bytes, Rate::BYTES)?;
+/// A size is outside [`RateOptions::BYTES`], the folder for temporary files cannot be used, a process cannot be
+/// started, or a connection fails.
+pub fn measure_rate(options: &RateOptions) -> scl::Result<Report> {
+    check_message_sizes(&options.bytes, RateOptions::BYTES)?;
     let mut report = Report::new("rate");
     let runtime = start_runtime()?;
     for &bytes in &options.bytes {
-        report.add(measure_length(&runtime, bytes, options)?);
+        report.add(measure_size(&runtime, bytes, options.messages)?);
     }
+    report.note_rounds();
     Ok(report)
 }
 
-fn measure_length(runtime: &Runtime, bytes: usize, options: &Rate) -> scl::Result<Table> {
-    let folder = scratch_folder()?;
-    let batches = Batches::of(options.messages, bytes);
-    let mut all = Vec::new();
-    for way in WAYS {
-        let lane = Lane::open(runtime, way, as_text(folder.path())?, bytes, batches.size)?;
-        all.push(Measured { way, lane, paces: Times::new()?, delays: Times::new()?, allocations: 0 });
+fn measure_size(runtime: &Runtime, bytes: usize, messages: usize) -> scl::Result<Table> {
+    let folder = ScratchFolder::new()?;
+    let batches = Batches::new(messages, bytes);
+    let mut measurements = Vec::new();
+    for &(variant, baselines) in VARIANTS {
+        let channel = Channel::open(runtime, variant, folder.path(), bytes, batches.size, Timing::Batch)?;
+        measurements.push(Measurement { variant, baselines, channel, rates: Vec::new() });
     }
-    for round in 0..=batches.number {
-        for measured in &mut all {
-            measured.play(runtime, batches.size, round > 0, options.allocations)?;
+    // The first batch is warm-up.
+    for batch in 0..=batches.count {
+        for measurement in &mut measurements {
+            measurement.run(runtime, batches.size, batch > 0)?;
         }
     }
-    Ok(table(bytes, batches, &all, options.allocations.is_some()))
+    Ok(table(bytes, &measurements))
 }
 
 impl Batches {
-    fn of(messages: usize, bytes: usize) -> Self {
-        // A rate takes two messages at least.
-        let size = (messages / BATCHES).min(BATCH_BYTES / bytes).max(2);
-        Self { size, number: (messages / size).max(BATCHES) }
+    fn new(messages: usize, bytes: usize) -> Self {
+        let messages = messages.min(MAX_BYTES / bytes);
+        // A rate takes at least two messages.
+        let size = (messages / MIN_BATCHES).min(MAX_BATCH_BYTES / bytes).max(2);
+        Self { size, count: (messages / size).max(MIN_BATCHES) }
     }
 }
 
-impl Measured {
-    fn play(
-        &mut self,
-        runtime: &Runtime,
-        batch: usize,
-        counts: bool,
-        allocations: Option<AllocationCount>,
-    ) -> scl::Result<()> {
-        let allocated = || allocations.map_or(0, |count| count());
-        let before = allocated();
-        runtime.block_on(self.lane.send_batch())?;
-        let after = allocated();
-        let received = runtime.block_on(self.lane.received())?;
-        if counts {
-            // At least a nanosecond, so that there is a rate even of batches too small for the clock.
-            self.paces.record((received.span / batch as u64).max(1));
-            self.allocations += after - before;
-            received.delays.iter().for_each(|delay| self.delays.record(*delay));
+impl Measurement {
+    fn run(&mut self, runtime: &Runtime, batch: usize, is_recorded: bool) -> scl::Result<()> {
+        self.channel.send_batch(runtime)?;
+        let report = runtime.block_on(self.channel.batch_report())?;
+        if is_recorded {
+            // At least a nanosecond, so that there is a rate even if the clock did not advance.
+            self.rates.push(batch as f64 * 1e9 / report.span.max(1) as f64);
         }
         Ok(())
     }
+
+    fn median_rate(&self) -> f64 {
+        let mut rates = self.rates.clone();
+        rates.sort_unstable_by(f64::total_cmp);
+        rates[rates.len() / 2]
+    }
 }
 
-fn table(bytes: usize, batches: Batches, all: &[Measured], counted: bool) -> Table {
-    let mut columns = vec![Column::compared("messages_per_s"), Column::plain("delay_p50_us")];
-    if counted {
-        columns.push(Column::plain("allocations"));
-    }
-    let title = format!(
-        "{bytes} bytes from one process to another as fast as they go, none lost (median of {})",
-        batches.number
-    );
+fn table(bytes: usize, measurements: &[Measurement]) -> Table {
+    let columns = [Column::compared("messages_per_s")];
+    let title = format!("rate of {bytes} bytes from one process to another, none lost (median of all batches)");
     let mut table = Table::new(title, &columns);
-    for measured in all {
-        let mut figures = vec![1e6 / measured.paces.quantile(0.5), measured.delays.quantile(0.5)];
-        if counted {
-            figures.push(measured.allocations as f64 / (batches.size * batches.number) as f64);
-        }
-        let row = Row::new(measured.way.name, figures).beside_all(measured.way.beside);
-        table.add(row.with_times(&measured.delays));
+    for measurement in measurements {
+        let baselines: Vec<&str> = measurement.baselines.iter().map(|baseline| baseline.name).collect();
+        let row = Row::new(measurement.variant.name, vec![measurement.median_rate()]).with_baselines(&baselines);
+        table.add(row.with_rounds(&measurement.rates));
     }
     table
 }
@@ -150,18 +151,18 @@ mod tests {
 
     #[test]
     fn batches_of_long_messages_are_small() {
-        for (messages, bytes, size, number) in
-            [(500_000, 20, 50_000, 10), (50, 20, 5, 10), (1, 8, 2, 10), (500_000, 1 << 20, 32, 15_625)]
+        for (messages, bytes, size, count) in
+            [(500_000, 20, 50_000, 10), (50, 20, 5, 10), (1, 8, 2, 10), (500_000, 1 << 20, 32, 128)]
         {
-            assert_eq!(Batches::of(messages, bytes), Batches { size, number }, "{messages} of {bytes} bytes");
+            assert_eq!(Batches::new(messages, bytes), Batches { size, count }, "{messages} of {bytes} bytes");
         }
     }
 
     #[test]
-    fn lengths_outside_the_range_are_refused() {
-        for refused in [7, (1 << 20) + 1] {
-            let error = measure_rate(&Rate { bytes: vec![20, refused], messages: 2, allocations: None }).unwrap_err();
-            assert_eq!(error.to_string(), format!("a message has from 8 to 1048576 bytes, not {refused}"));
+    fn sizes_outside_the_range_are_rejected() {
+        for rejected in [7, (1 << 20) + 1] {
+            let error = measure_rate(&RateOptions { bytes: vec![20, rejected], messages: 2 }).unwrap_err();
+            assert_eq!(error.to_string(), format!("a message has 8 to 1048576 bytes, not {rejected}"));
         }
     }
 }

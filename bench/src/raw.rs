@@ -1,81 +1,46 @@
-//! The raw parts: sockets of the `zeromq` library and of the operating system, without SCL.
+//! Sockets without SCL: their addresses, and sockets of the `zeromq` crate.
 
 use scl::bytes::Bytes;
-use std::io::{Read, Write};
-use std::os::unix::net::UnixStream as StdUnixStream;
 use std::path::{Path, PathBuf};
-use tokio::io::{AsyncReadExt, AsyncWriteExt};
-use tokio::net::UnixStream;
 use zeromq::{Socket, SubSocket, XPubSocket, ZmqMessage};
 
-/// Where the raw sockets of a scenario lie.
+/// The paths of the raw sockets of one variant of a benchmark.
 #[derive(Debug, Clone)]
-pub(crate) struct RawPlace(PathBuf);
+pub(crate) struct SocketPaths(PathBuf);
 
-impl RawPlace {
-    /// A place of its own for each `name` in a scenario's folder.
+impl SocketPaths {
+    /// Paths that start with `name`, in a benchmark's scratch folder.
     pub(crate) fn new(folder: &str, name: &str) -> Self {
         Self(Path::new(folder).join("raw").join(name))
     }
 
-    pub(crate) fn socket(&self, end: &str) -> PathBuf {
-        self.0.with_extension(end)
+    /// The path of one of the variant's sockets.
+    pub(crate) fn path(&self, socket: &str) -> PathBuf {
+        self.0.with_extension(socket)
     }
 
-    pub(crate) fn zeromq(&self, end: &str) -> String {
-        format!("ipc://{}", self.socket(end).display())
+    /// [`path`](Self::path) as a ZeroMQ endpoint.
+    pub(crate) fn endpoint(&self, socket: &str) -> String {
+        format!("ipc://{}", self.path(socket).display())
     }
 
-    pub(crate) async fn publish(&self, end: &str) -> scl::Result<XPubSocket> {
-        let mut socket = XPubSocket::new();
-        socket.bind(&self.zeromq(end)).await?;
-        Ok(socket)
+    /// An XPUB socket of `zeromq`, which shows when a subscriber has connected.
+    pub(crate) async fn bind_xpub(&self, socket: &str) -> scl::Result<XPubSocket> {
+        let mut xpub = XPubSocket::new();
+        xpub.bind(&self.endpoint(socket)).await?;
+        Ok(xpub)
     }
 
-    pub(crate) async fn subscribe(&self, end: &str) -> scl::Result<SubSocket> {
-        let mut socket = SubSocket::new();
-        socket.connect(&self.zeromq(end)).await?;
-        socket.subscribe("").await?;
-        Ok(socket)
+    /// A SUB socket of `zeromq` that subscribes to everything.
+    pub(crate) async fn connect_sub(&self, socket: &str) -> scl::Result<SubSocket> {
+        let mut sub = SubSocket::new();
+        sub.connect(&self.endpoint(socket)).await?;
+        sub.subscribe("").await?;
+        Ok(sub)
     }
 }
 
-/// A request as a REQ socket would send it.
-pub(crate) fn question(payload: &Bytes) -> ZmqMessage {
-    let mut question = ZmqMessage::from(Bytes::new());
-    question.push_back(payload.clone());
-    question
-}
-
-/// The only frame of a message.
-pub(crate) fn only_frame(message: ZmqMessage) -> Bytes {
+/// The first frame of a message.
+pub(crate) fn first_frame(message: ZmqMessage) -> Bytes {
     message.into_vecdeque().pop_front().unwrap_or_default()
-}
-
-/// A message of known length there and back, or back and there.
-pub(crate) async fn exchange(stream: &mut UnixStream, payload: &[u8], answer: &mut [u8]) -> std::io::Result<()> {
-    stream.write_all(payload).await?;
-    stream.read_exact(answer).await?;
-    Ok(())
-}
-
-pub(crate) async fn send_back(mut stream: UnixStream, bytes: usize) -> scl::Result<()> {
-    let mut message = vec![0; bytes];
-    loop {
-        stream.read_exact(&mut message).await?;
-        stream.write_all(&message).await?;
-    }
-}
-
-pub(crate) fn exchange_blocking(stream: &mut StdUnixStream, payload: &[u8], answer: &mut [u8]) -> std::io::Result<()> {
-    stream.write_all(payload)?;
-    stream.read_exact(answer)
-}
-
-pub(crate) fn send_back_blocking(mut stream: StdUnixStream, bytes: usize) -> scl::Result<()> {
-    let mut message = vec![0; bytes];
-    loop {
-        stream.read_exact(&mut message)?;
-        stream.write_all(&message)?;
-    }
 }

@@ -1,23 +1,25 @@
-//! What was measured, as a table for people and as JSON for programs.
+//! The results of a benchmark, as tables for people and as JSON for programs.
 
-mod grid;
-mod spread;
+mod distribution;
+mod ratio;
 mod text;
+mod text_table;
 
-use crate::histogram::Times;
+use crate::durations::Durations;
+use ratio::{Ratio, ratio};
 use serde_json::{Map, Value, json};
 
-/// What one scenario measured.
+/// The results of one benchmark.
 ///
-/// Printed with `{}` it is tables; with `{:#}` each table of times is followed by how they are distributed.
+/// `{}` prints tables; `{:#}` also prints the distribution of the durations below each table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    scenario: &'static str,
+    benchmark: &'static str,
     tables: Vec<Table>,
     notes: Vec<String>,
 }
 
-/// Rows measured in one run.
+/// Rows that were measured in one run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Table {
     title: String,
@@ -25,38 +27,31 @@ pub(crate) struct Table {
     rows: Vec<Row>,
 }
 
-/// A figure: its name in JSON, its unit included, and above a column of text; both from `p50_us`.
+/// A column of values. Its name is the key in JSON, ends with the unit, and is the heading if printed as text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Column {
     name: &'static str,
-    /// Whether rows are divided by the rows they stand beside.
+    /// Whether rows are compared with their baselines by this value.
     compared: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Row {
     name: String,
-    beside: Vec<Beside>,
-    /// One a column.
-    figures: Vec<f64>,
-    times: Option<Times>,
+    /// The names of the rows it is compared with.
+    baselines: Vec<String>,
+    /// One per column.
+    values: Vec<f64>,
+    /// The value of the first compared column in each round, if it was measured in rounds.
+    rounds: Vec<f64>,
+    durations: Option<Durations>,
 }
-
-/// Another row that a row is compared with, and the word for it above the ratios.
-#[derive(Debug, Clone, PartialEq)]
-struct Beside {
-    label: &'static str,
-    row: String,
-}
-
-/// Labels and names of the rows to compare with, as constants.
-pub(crate) type Others = &'static [(&'static str, &'static str)];
 
 impl Report {
-    pub(crate) fn new(scenario: &'static str) -> Self {
-        let mut report = Self { scenario, tables: Vec::new(), notes: Vec::new() };
+    pub(crate) fn new(benchmark: &'static str) -> Self {
+        let mut report = Self { benchmark, tables: Vec::new(), notes: Vec::new() };
         if cfg!(debug_assertions) {
-            report.note("this program was built without optimisation: build it with `--release` for figures");
+            report.note("this program was built without optimisation; build it with `--release`");
         }
         report
     }
@@ -65,24 +60,30 @@ impl Report {
         self.tables.push(table);
     }
 
-    /// Says where the processes ran.
-    pub fn on(mut self, cores: crate::Cores) -> Self {
-        self.notes.extend(cores.in_words().map(str::to_owned));
-        self
-    }
-
     pub(crate) fn note(&mut self, text: impl Into<String>) {
         self.notes.push(text.into());
     }
 
-    /// One object: `scenario`, `tables` (each with `title` and `rows`) and `notes`.
+    /// Explains ratios of rows that were measured in rounds.
+    pub(crate) fn note_rounds(&mut self) {
+        self.note("ratios with quartiles are medians of the ratios within each round of the run");
+    }
+
+    /// Adds a note about where the processes ran.
+    pub fn with_cores(mut self, cores: crate::Cores) -> Self {
+        self.notes.extend(cores.note().map(str::to_owned));
+        self
+    }
+
+    /// One object: `benchmark`, `tables` (each with `title` and `rows`) and `notes`.
     ///
-    /// A row has its `name`, its figures by names that end in their unit (`p50_us`), and where there is something to
-    /// compare with, `ratios`: by the name of each other row, the ratios of this row's figures to that row's. Times
-    /// also have their `distribution`, pairs of a part of all times and the microseconds that it does not exceed.
+    /// A row has its `name` and its values under names that end with their unit (`p50_us`). `ratios`, if any, maps the
+    /// name of each baseline to the ratios of the row's values to the baseline's; a ratio from several rounds also has
+    /// its quartiles (`p50_us_quartiles`). `distribution`, if any, has pairs of a fraction of all durations and the
+    /// microseconds that this fraction does not exceed.
     pub fn to_json(&self) -> Value {
         let tables: Vec<Value> = self.tables.iter().map(Table::to_json).collect();
-        json!({ "scenario": self.scenario, "tables": tables, "notes": self.notes })
+        json!({ "benchmark": self.benchmark, "tables": tables, "notes": self.notes })
     }
 }
 
@@ -95,16 +96,20 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// The rows that a row stands beside. What was not measured this time is left out.
-    fn others<'a>(&'a self, row: &'a Row) -> impl Iterator<Item = (&'static str, &'a Row)> {
-        let find = |beside: &Beside| self.rows.iter().find(|other| other.name == beside.row);
-        row.beside.iter().filter_map(move |beside| Some((beside.label, find(beside)?)))
+    /// The baselines of a row, without those that were not measured.
+    fn baselines<'a>(&'a self, row: &'a Row) -> impl Iterator<Item = &'a Row> {
+        row.baselines.iter().filter_map(|name| self.rows.iter().find(|other| other.name == *name))
     }
 
-    /// The ratio of a row to another one, where the column has one.
-    fn ratio(&self, row: &Row, other: &Row, column: usize) -> Option<f64> {
-        let ratio = row.figures.get(column)? / other.figures.get(column)?;
-        (self.columns.get(column)?.compared && ratio.is_finite()).then_some(ratio)
+    /// The ratios of a row to a baseline, one per compared column.
+    fn ratios(&self, row: &Row, baseline: &Row) -> Vec<(Column, Option<Ratio>)> {
+        let compared = self.columns.iter().enumerate().filter(|(_, column)| column.compared);
+        let ratio_of = |(position, (index, column)): (usize, (usize, &Column))| {
+            let [value, base] = [row, baseline].map(|row| row.values.get(index).copied().unwrap_or(f64::NAN));
+            let rounds = [row, baseline].map(|row| if position == 0 { &row.rounds[..] } else { &[] });
+            (*column, ratio(value, base, rounds))
+        };
+        compared.enumerate().map(ratio_of).collect()
     }
 
     fn to_json(&self) -> Value {
@@ -115,36 +120,42 @@ impl Table {
     fn row_to_json(&self, row: &Row) -> Value {
         let mut object = Map::new();
         object.insert("name".to_owned(), json!(row.name));
-        for (column, figure) in self.columns.iter().zip(&row.figures) {
-            object.insert(column.name.to_owned(), json!(figure));
+        for (column, value) in self.columns.iter().zip(&row.values) {
+            object.insert(column.name.to_owned(), json!(value));
         }
-        let ratios: Map<String, Value> =
-            self.others(row).map(|(_, other)| (other.name.clone(), self.ratios_to_json(row, other))).collect();
+        let ratios: Map<String, Value> = self
+            .baselines(row)
+            .map(|baseline| (baseline.name.clone(), ratios_to_json(&self.ratios(row, baseline))))
+            .collect();
         if !ratios.is_empty() {
             object.insert("ratios".to_owned(), Value::Object(ratios));
         }
-        if let Some(times) = &row.times {
-            object.insert("distribution".to_owned(), json!(times.distribution()));
+        if let Some(durations) = &row.durations {
+            object.insert("distribution".to_owned(), json!(durations.cumulative()));
         }
         Value::Object(object)
     }
+}
 
-    fn ratios_to_json(&self, row: &Row, other: &Row) -> Value {
-        let ratios = self.columns.iter().enumerate().filter_map(|(index, column)| {
-            let ratio = self.ratio(row, other, index)?;
-            Some((column.name.to_owned(), json!(ratio)))
-        });
-        Value::Object(ratios.collect())
+fn ratios_to_json(ratios: &[(Column, Option<Ratio>)]) -> Value {
+    let mut object = Map::new();
+    for (column, ratio) in ratios {
+        let Some(ratio) = ratio else { continue };
+        object.insert(column.name.to_owned(), json!(ratio.value));
+        if let Some(quartiles) = ratio.quartiles {
+            object.insert(format!("{}_quartiles", column.name), json!(quartiles));
+        }
     }
+    Value::Object(object)
 }
 
 impl Column {
-    /// A figure on its own.
+    /// A column that is not compared.
     pub(crate) const fn plain(name: &'static str) -> Self {
         Self { name, compared: false }
     }
 
-    /// A figure that is also given as ratios.
+    /// A column by which rows are compared with their baselines.
     pub(crate) const fn compared(name: &'static str) -> Self {
         Self { name, compared: true }
     }
@@ -155,22 +166,23 @@ impl Column {
 }
 
 impl Row {
-    pub(crate) fn new(name: impl Into<String>, figures: Vec<f64>) -> Self {
-        Self { name: name.into(), beside: Vec::new(), figures, times: None }
+    pub(crate) fn new(name: impl Into<String>, values: Vec<f64>) -> Self {
+        Self { name: name.into(), baselines: Vec::new(), values, rounds: Vec::new(), durations: None }
     }
 
-    /// Names a row that this one is compared with.
-    pub(crate) fn beside(mut self, label: &'static str, row: impl Into<String>) -> Self {
-        self.beside.push(Beside { label, row: row.into() });
+    /// Adds rows to compare this one with. Rows that are not in the table are ignored.
+    pub(crate) fn with_baselines(mut self, names: &[impl AsRef<str>]) -> Self {
+        self.baselines.extend(names.iter().map(|name| name.as_ref().to_owned()));
         self
     }
 
-    pub(crate) fn beside_all(self, others: Others) -> Self {
-        others.iter().fold(self, |row, (label, other)| row.beside(label, *other))
+    /// The value of the first compared column in each round.
+    pub(crate) fn with_rounds(self, rounds: &[f64]) -> Self {
+        Self { rounds: rounds.to_vec(), ..self }
     }
 
-    pub(crate) fn with_times(self, times: &Times) -> Self {
-        Self { times: Some(times.clone()), ..self }
+    pub(crate) fn with_durations(self, durations: &Durations) -> Self {
+        Self { durations: Some(durations.clone()), ..self }
     }
 }
 
@@ -179,19 +191,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn json_names_each_figure_and_what_it_is_compared_with() {
+    fn json_names_every_value_and_baseline() {
         let mut table = Table::new("speed", &[Column::compared("p50_us"), Column::plain("bytes")]);
-        table.add(Row::new("ours", vec![3.0, 20.0]).beside_all(&[("raw", "raw"), ("other", "not measured")]));
+        table.add(Row::new("ours", vec![3.0, 20.0]).with_baselines(&["raw", "not measured"]));
         table.add(Row::new("raw", vec![2.5, 20.0]));
-        let report = Report { scenario: "example", tables: vec![table], notes: vec!["nothing else ran".to_owned()] };
+        table.add(Row::new("rounds", vec![2.0, 20.0]).with_baselines(&["same rounds"]).with_rounds(&[2.0]));
+        table.add(Row::new("same rounds", vec![2.0, 20.0]).with_rounds(&[1.0]));
+        let report = Report { benchmark: "example", tables: vec![table], notes: vec!["idle machine".to_owned()] };
         let rows = json!([
             { "name": "ours", "p50_us": 3.0, "bytes": 20.0, "ratios": { "raw": { "p50_us": 1.2 } } },
             { "name": "raw", "p50_us": 2.5, "bytes": 20.0 },
+            {
+                "name": "rounds",
+                "p50_us": 2.0,
+                "bytes": 20.0,
+                "ratios": { "same rounds": { "p50_us": 2.0, "p50_us_quartiles": [2.0, 2.0] } },
+            },
+            { "name": "same rounds", "p50_us": 2.0, "bytes": 20.0 },
         ]);
         let expected = json!({
-            "scenario": "example",
+            "benchmark": "example",
             "tables": [{ "title": "speed", "rows": rows }],
-            "notes": ["nothing else ran"],
+            "notes": ["idle machine"],
         });
         assert_eq!(report.to_json(), expected);
     }

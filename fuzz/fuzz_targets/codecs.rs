@@ -1,4 +1,4 @@
-//! Any frame is read by every codec without a panic and without memory that does not befit it.
+//! Every codec reads any frame without a panic, and without reserving more memory than the frame justifies.
 #![no_main]
 
 use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};

@@ -1,4 +1,4 @@
-//! Any model, also one that no text gives, is checked without a panic.
+//! Any model is checked without a panic, even one that no text describes.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| scl_fuzz::model_to_topology(data));

@@ -1,4 +1,4 @@
-//! Whatever lies in the runtime folder, a component opens there or says what is in its way.
+//! Whatever the runtime folder contains, a component opens there or says what prevents it.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| scl_tests::fuzz::runtime_folder(data));

@@ -10,7 +10,7 @@ use scl_topology::check::{Facts, check};
 use scl_topology::diagnostic::{Diagnostics, render, render_headless, to_json};
 use scl_topology::model::Model;
 use scl_topology::parse::parse;
-use scl_topology::resolve::{LONGEST_PATH, contract, endpoint, gate_endpoint};
+use scl_topology::resolve::{LONGEST_PATH, contract, endpoint, gate_endpoint, tap_endpoint};
 use scl_topology::source::Sources;
 use scl_topology::topology::Topology;
 
@@ -60,7 +60,7 @@ fn resolve(topology: &Topology) {
     let root = "/run/user/4294967295/scl/".len() + topology.system().len() + 1;
     let connections = topology.connections().map(|(id, _)| endpoint(topology, id));
     let gates = topology.components().flat_map(|(_, component)| component.gates());
-    let own = gates.filter_map(|&gate| gate_endpoint(topology, gate));
+    let own = gates.flat_map(|&gate| [gate_endpoint(topology, gate), tap_endpoint(topology, gate)]).flatten();
     for name in connections.chain(own) {
         assert!(root + name.len() <= LONGEST_PATH, "{name}");
     }

@@ -7,7 +7,7 @@ use scl_topology::source::{FileId, Sources, Span, Spanned};
 const NAMES: [&str; 8] = ["a", "b", "c", "a_peer", "set-point", "setPoint", "type", "1st"];
 const KINDS: [&str; 8] = ["pub", "sub", "req", "rep", "push", "pull", "", "teapot"];
 const TYPES: [&str; 6] = ["T", "U", "nav.T", "A -> B", "B -> A", "Vec<u8>"];
-const OPTIONS: [(&str, &str); 10] = [
+const OPTIONS: [(&str, &str); 12] = [
     ("doc", "text"),
     ("codec", "json"),
     ("codec", "jsn"),
@@ -15,6 +15,8 @@ const OPTIONS: [(&str, &str); 10] = [
     ("queue", "0"),
     ("when_full", "wait"),
     ("backpressure", "true"),
+    ("max_size", "8MiB"),
+    ("max_size", "0B"),
     ("timeout", "500ms"),
     ("share", "true"),
     ("unconnected", "ok"),

@@ -1,38 +1,40 @@
-//! `scl bench`: SCL beside its raw parts on this machine.
+//! `scl bench`: SCL beside raw sockets and other libraries, on this machine.
 
 mod limits;
 
 use crate::print::{print_err, print_out};
 use clap::{Args, Subcommand, ValueEnum};
-use limits::{MESSAGES, STARTS, parse_seconds, within};
-use scl_bench::{Codecs, Cores, Delay, Fanout, Open, Rate, Report, Roundtrip};
+use limits::{MESSAGES, REPETITIONS, STARTS, parse_seconds, within};
+use scl_bench::{
+    CodecsOptions, Cores, DelayOptions, FanoutOptions, FreshOptions, OpenOptions, RateOptions, Report, RestartOptions,
+    RoundtripOptions,
+};
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// The hidden word with which a scenario starts its other processes.
-pub(crate) const OTHER_SIDE_WORD: &str = scl_bench::OTHER_SIDE;
+/// The hidden command with which a benchmark starts its worker processes.
+pub(crate) const WORKER_COMMAND: &str = scl_bench::WORKER_COMMAND;
 
-/// Measure SCL on this machine, beside the raw sockets and libraries that it is made of.
+/// Measure SCL on this machine, beside raw sockets and other libraries.
 ///
-/// Every scenario runs SCL and its raw parts in turn within one run, so that whatever else the machine does falls on
-/// all of them alike. Times and rates depend on the machine; the ratios to the raw parts hold.
+/// Every benchmark runs SCL and its baselines in turn within one run, so that other load on the machine affects all of
+/// them alike. Times and rates depend on the machine; the ratios hold.
 #[derive(Args)]
 #[command(after_help = READING, after_long_help = format!("{READING}\n\n{EXAMPLES}"))]
 pub(crate) struct BenchArguments {
     #[command(subcommand)]
-    scenario: Scenario,
+    benchmark: Benchmark,
     /// Print one JSON object instead of tables.
     #[arg(long, global = true)]
     json: bool,
-    /// Print below each table how its times are distributed: the last percents, and a line of where they all lie.
+    /// Print the distribution of the durations below each table.
     #[arg(long, global = true, conflicts_with = "json")]
     histogram: bool,
-    /// Where the processes run: on whatever core the operating system likes, all on one, or the two sides on one each.
-    /// Where two processes were put decides more than any library between them, so ratios are exact only on `one` or
-    /// `two`.
+    /// Where the processes run: placed by the operating system, all on one core, or the two sides on a core each.
+    /// Placement matters more than the library, so compare only runs on `one` or `two`.
     #[arg(long, global = true, value_enum, default_value_t)]
     cores: CoresArgument,
-    /// Measure next to nothing: enough to see that everything runs.
+    /// Measure next to nothing, to test that everything runs.
     #[arg(long, global = true, hide = true)]
     quick: bool,
 }
@@ -55,88 +57,112 @@ impl From<CoresArgument> for Cores {
     }
 }
 
-const READING: &str = "`p50 us ratio to zeromq` is this row's median by that of the raw `zeromq` sockets: 1.10 is 10 % \
-slower, 0.50 takes half the time. Of a rate, more is better. `docs/bench.md` explains every table.";
+/// Message sizes by default, in bytes.
+const SIZES: [usize; 3] = [20, 1024, 65536];
+
+const READING: &str = "A line `SCL pub/sub to libzmq XPUB/SUB` has the first one's value divided by the second one's: \
+1.10 is 10 % more, 0.50 is half. Quartiles tell how much the ratio varies during the run. `docs/bench.md` explains \
+every table.";
 
 const EXAMPLES: &str = "Examples:
-  scl bench roundtrip --bytes 20 --histogram
-  scl bench rate --json > rate.json
-  sudo scl bench delay --seconds 60";
+  scl bench roundtrip --bytes 20 --cores one
+  scl bench rate --cores two --json > rate.json
+  sudo scl bench delay --seconds 60 --histogram";
 
 #[derive(Subcommand)]
-enum Scenario {
-    /// The time of a message to another process and back, by publishing and by asking, async and blocking.
+enum Benchmark {
+    /// The time of a message to another process and back: pub/sub and req/rep, async and blocking.
     ///
-    /// Beside it: sockets of `zeromq` of the same kinds, plain Unix sockets, and libzmq where this program was built
-    /// with its feature `libzmq`.
+    /// Baselines: Unix sockets (tokio and blocking), the same patterns of `zeromq`, and of libzmq if this program was
+    /// built with its feature `libzmq`.
     Roundtrip {
-        /// The lengths of the messages, in bytes; a table each.
-        #[arg(long, value_delimiter = ',', default_values_t = [20, 1024, 65536], value_parser = within(Roundtrip::BYTES))]
+        /// The message sizes in bytes, one table each.
+        #[arg(long, value_delimiter = ',', default_values_t = SIZES, value_parser = within(RoundtripOptions::BYTES))]
         bytes: Vec<usize>,
-        /// How many messages of each length go each way.
+        /// The number of round trips for each size and line; at most 4 GiB are sent.
         #[arg(long, default_value_t = 20_000, value_parser = within(MESSAGES))]
         messages: usize,
     },
-    /// Messages a second from one process to another, none lost, published and pushed.
+    /// Messages per second from one process to another, none lost: pub/sub and push/pull, async and blocking.
     ///
-    /// Beside it: sockets of `zeromq` of the same kinds, a Unix socket, and libzmq where this program was built with
-    /// its feature `libzmq`.
+    /// Baselines: the same patterns of `zeromq`, a Unix socket, and of libzmq, with bounded and unbounded queues, if
+    /// this program was built with its feature `libzmq`.
     Rate {
-        /// The lengths of the messages, in bytes; a table each.
-        #[arg(long, value_delimiter = ',', default_values_t = [20, 1024], value_parser = within(Rate::BYTES))]
+        /// The message sizes in bytes, one table each.
+        #[arg(long, value_delimiter = ',', default_values_t = SIZES, value_parser = within(RateOptions::BYTES))]
         bytes: Vec<usize>,
-        /// How many messages of each length go each way.
+        /// The number of messages for each size and line; at most 4 GiB are sent.
         #[arg(long, default_value_t = 500_000, value_parser = within(MESSAGES))]
         messages: usize,
     },
-    /// The delay of 20 bytes at 1000 Hz: idle, under load, and with real-time priority where that is permitted.
+    /// The age of the first value that a subscriber with `queue: 1` receives after a pause.
     ///
-    /// The load is made by this program: a thread a core that computes, and one that writes to the disk. Real-time
-    /// priority is taken with `chrt -f 80`, which needs root or the limit `rtprio`. Beside it: `zeromq` and a Unix
-    /// socket.
+    /// Baselines: a SUB socket of `zeromq`, and one of libzmq with ZMQ_CONFLATE if this program was built with its
+    /// feature `libzmq`.
+    Fresh {
+        /// How often each subscriber pauses.
+        #[arg(long, default_value_t = 10, value_parser = within(REPETITIONS))]
+        repetitions: usize,
+        /// How long a subscriber does not receive.
+        #[arg(long, default_value_t = 2.0, value_parser = parse_seconds)]
+        pause: f64,
+    },
+    /// The time until messages flow again after one side was killed and restarted, for all six roles.
+    ///
+    /// Baselines: a process that connects to a Unix socket, `zeromq`, and libzmq if this program was built with its
+    /// feature `libzmq`.
+    Restart {
+        /// How often each side is restarted.
+        #[arg(long, default_value_t = 30, value_parser = within(REPETITIONS))]
+        restarts: usize,
+    },
+    /// The delay of 20 bytes at 1000 Hz: idle, under load, and with real-time priority if permitted.
+    ///
+    /// The load is one thread per core that computes, and one that writes to the disk. Real-time priority is set by
+    /// `chrt -f 80`, which needs root or the limit `rtprio`. Baselines: `zeromq` and a Unix socket.
     Delay {
-        /// How long each way is measured in each situation.
+        /// How long each line is measured.
         #[arg(long, default_value_t = 5.0, value_parser = parse_seconds)]
         seconds: f64,
     },
-    /// The delay from one process to eight at 1000 Hz, while all of them run and while one of them is stopped.
+    /// The delay from one publisher to eight subscribers at 1000 Hz, while all run and while one is stopped.
     ///
-    /// Measured at the other seven. Beside it: one PUB socket of `zeromq` that all eight share.
+    /// Measured at the other seven. Baseline: a PUB socket of `zeromq` for all eight.
     Fanout {
-        /// How long each way is measured in each situation.
+        /// How long each line is measured.
         #[arg(long, default_value_t = 5.0, value_parser = parse_seconds)]
         seconds: f64,
     },
-    /// The time to encode and decode a record, and its length, for every codec.
+    /// The time to encode and decode a record, and its size, for every codec.
     ///
-    /// Beside it: the libraries `prost` and `serde_json` without SCL, and XML, which SCL does not offer.
+    /// Baselines: the libraries `prost` and `serde_json` without SCL, and XML, which SCL does not support.
     Codecs {
-        /// How many records each codec encodes and decodes.
+        /// The number of records that each codec encodes and decodes.
         #[arg(long, default_value_t = 100_000, value_parser = within(MESSAGES))]
         messages: usize,
     },
-    /// The time to open a component of ten gates, its memory, and how often it wakes up when idle.
+    /// The time to open a component with ten gates, its memory, and its wake-ups per second when idle.
     ///
-    /// Beside it: ten sockets of `zeromq`, and a process with nothing but the async runtime.
+    /// Baselines: ten sockets of `zeromq`, and a process with nothing but the async runtime.
     Open {
-        /// How often it is started.
+        /// How often each process is started.
         #[arg(long, default_value_t = 30, value_parser = within(STARTS))]
         starts: usize,
     },
 }
 
-/// What the other processes of a scenario are told.
+/// The arguments of a worker process.
 #[derive(Args)]
-pub(crate) struct OtherSideArguments {
+pub(crate) struct WorkerArguments {
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
-    words: Vec<String>,
+    arguments: Vec<String>,
 }
 
 pub(crate) fn bench(arguments: &BenchArguments) -> ExitCode {
     let cores = Cores::from(arguments.cores);
-    match cores.occupy().and_then(|()| measure(&arguments.scenario, arguments.quick)) {
+    match cores.pin().and_then(|()| measure(&arguments.benchmark, arguments.quick)) {
         Ok(report) => {
-            let report = report.on(cores);
+            let report = report.with_cores(cores);
             print_out(&match (arguments.json, arguments.histogram) {
                 (true, _) => format!("{:#}\n", report.to_json()),
                 (false, true) => format!("{report:#}"),
@@ -148,31 +174,33 @@ pub(crate) fn bench(arguments: &BenchArguments) -> ExitCode {
     }
 }
 
-pub(crate) fn play_other_side(arguments: &OtherSideArguments) -> ExitCode {
-    match scl_bench::play_other_side(&arguments.words) {
+pub(crate) fn run_worker(arguments: &WorkerArguments) -> ExitCode {
+    match scl_bench::run_worker(&arguments.arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => failed(&error),
     }
 }
 
-fn measure(scenario: &Scenario, quick: bool) -> scl_bench::Result<Report> {
-    let few = |messages: usize| if quick { messages.min(50) } else { messages };
+fn measure(benchmark: &Benchmark, quick: bool) -> scl_bench::Result<Report> {
+    let few = |number: usize, max: usize| if quick { number.min(max) } else { number };
     let short = |seconds: f64| Duration::from_secs_f64(if quick { seconds.min(0.05) } else { seconds });
-    match scenario {
-        Scenario::Roundtrip { bytes, messages } => scl_bench::measure_roundtrip(&Roundtrip {
-            bytes: bytes.clone(),
-            messages: few(*messages),
-            allocations: None,
-        }),
-        Scenario::Rate { bytes, messages } => {
-            scl_bench::measure_rate(&Rate { bytes: bytes.clone(), messages: few(*messages), allocations: None })
+    match benchmark {
+        Benchmark::Roundtrip { bytes, messages } => {
+            scl_bench::measure_roundtrip(&RoundtripOptions { bytes: bytes.clone(), messages: few(*messages, 50) })
         }
-        Scenario::Delay { seconds } => scl_bench::measure_delay(&Delay { time: short(*seconds) }),
-        Scenario::Fanout { seconds } => scl_bench::measure_fanout(&Fanout { time: short(*seconds) }),
-        Scenario::Codecs { messages } => scl_bench::measure_codecs(&Codecs { messages: few(*messages) }),
-        Scenario::Open { starts } => {
+        Benchmark::Rate { bytes, messages } => {
+            scl_bench::measure_rate(&RateOptions { bytes: bytes.clone(), messages: few(*messages, 50) })
+        }
+        Benchmark::Fresh { repetitions, pause } => {
+            scl_bench::measure_fresh(&FreshOptions { repetitions: few(*repetitions, 2), pause: short(*pause) })
+        }
+        Benchmark::Restart { restarts } => scl_bench::measure_restart(&RestartOptions { restarts: few(*restarts, 1) }),
+        Benchmark::Delay { seconds } => scl_bench::measure_delay(&DelayOptions { time: short(*seconds) }),
+        Benchmark::Fanout { seconds } => scl_bench::measure_fanout(&FanoutOptions { time: short(*seconds) }),
+        Benchmark::Codecs { messages } => scl_bench::measure_codecs(&CodecsOptions { messages: few(*messages, 50) }),
+        Benchmark::Open { starts } => {
             let idle = Duration::from_millis(if quick { 50 } else { 1000 });
-            scl_bench::measure_open(&Open { starts: if quick { 1 } else { *starts }, idle })
+            scl_bench::measure_open(&OpenOptions { starts: few(*starts, 1), idle })
         }
     }
 }

@@ -28,8 +28,8 @@ struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     Bench(bench::BenchArguments),
-    #[command(name = bench::OTHER_SIDE_WORD, hide = true)]
-    BenchOtherSide(bench::OtherSideArguments),
+    #[command(name = bench::WORKER_COMMAND, hide = true)]
+    BenchWorker(bench::WorkerArguments),
     Check(check::CheckArguments),
     Completions(completions::CompletionsArguments),
     Diff(diff::DiffArguments),
@@ -46,7 +46,7 @@ enum Command {
 fn main() -> ExitCode {
     match CommandLine::parse().command {
         Command::Bench(arguments) => bench::bench(&arguments),
-        Command::BenchOtherSide(arguments) => bench::play_other_side(&arguments),
+        Command::BenchWorker(arguments) => bench::run_worker(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         Command::Diff(arguments) => diff::diff(&arguments),

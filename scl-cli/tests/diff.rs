@@ -92,6 +92,21 @@ fn a_queue_concerns_its_senders() {
 }
 
 #[test]
+fn the_longest_message_of_a_gate_concerns_its_peers() {
+    check(
+        &[("{rep: A -> B}", "{rep: A -> B, max_size: 1024KiB}")],
+        1,
+        expect![[r#"
+        ~ gate `controller.commands`: max_size 64MiB -> 1MiB
+
+        to rebuild:
+          controller: gate `commands` differs
+          panel: connection `panel.commands -> controller.commands` differs
+    "#]],
+    );
+}
+
+#[test]
 fn a_component_comes_and_another_goes() {
     let logger =
         "  - name: logger\n    gates:\n      - input: sub\nconnections:\n  - [sensor.measurements, logger.input]";

@@ -66,6 +66,22 @@ fn the_schema_has_the_keys_of_the_checker() {
     }
 }
 
+/// The schema of the option `max_size` of a kind, if it has one.
+fn max_size(kind: &str) -> Value {
+    let schema = schema(&System::of_files(&[]), &[]);
+    let gates = &schema["properties"]["components"]["items"]["properties"]["gates"]["items"]["additionalProperties"];
+    let gate = gates["anyOf"].as_array().unwrap().iter().find(|gate| gate["title"] == format!("{kind} gate")).unwrap();
+    gate["properties"]["max_size"].clone()
+}
+
+#[test]
+fn receiving_gates_have_a_largest_size() {
+    assert_eq!(KINDS.map(|kind| !max_size(kind).is_null()), [false, true, true, true, false, true]);
+    assert_eq!((&max_size("sub")["default"], &max_size("rep")["type"]), (&json!("64MiB"), &json!("string")));
+    let told = max_size("pull")["description"].as_str().unwrap().to_owned();
+    assert!(told.contains("`KiB`") && told.contains("at most 1GiB"), "{told}");
+}
+
 #[test]
 fn everything_has_a_description() {
     fn look(schema: &Value, place: &str) {
@@ -133,6 +149,10 @@ fn the_yaml_language_server_validates_and_completes() {
     server.open(&document("good.yaml"), "yaml", ROVER);
     assert_eq!(server.diagnostics(&document("good.yaml")), Vec::<Value>::new());
 
+    let sized = ROVER.replace("queue: 1", "queue: 1, max_size: 512KiB").replace("A -> B", "A -> B, max_size: 8 MiB");
+    server.open(&document("sized.yaml"), "yaml", &sized);
+    assert_eq!(server.diagnostics(&document("sized.yaml")), Vec::<Value>::new());
+
     let wrong =
         ROVER.replace("queue: 1", "queue: 0").replace("doc: Readings.", "timeout: 1s").replace("rep:", "reply:");
     server.open(&document("wrong.yaml"), "yaml", &wrong);
@@ -140,6 +160,14 @@ fn the_yaml_language_server_validates_and_completes() {
     let mut lines: Vec<_> = found.iter().map(|it| it["range"]["start"]["line"].as_u64().unwrap()).collect();
     lines.dedup();
     assert_eq!(lines, [5, 8, 9], "{found:#?}");
+
+    for size in ["65536", "8MB", "1.5MiB"] {
+        let wrong = ROVER.replace("queue: 1", &format!("max_size: {size}"));
+        let name = document(&format!("size_{size}.yaml"));
+        server.open(&name, "yaml", &wrong);
+        let found = server.diagnostics(&name);
+        assert!(found.iter().any(|it| it["range"]["start"]["line"] == 8), "{size}: {found:#?}");
+    }
 
     let typing = ROVER.replace("- [sensor.measurements, controller.sensor]", "- [sensor.measurements, ]\n  - ");
     server.open(&document("typing.yaml"), "yaml", &typing);

@@ -19,6 +19,8 @@ mod tests;
 mod unreadable;
 
 pub use request::{LookedIn, Request};
+#[cfg(feature = "protobuf")]
+pub use schemas::Descriptors;
 pub use schemas::Schemas;
 
 use scl_topology::check::{Facts, check};

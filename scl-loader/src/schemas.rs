@@ -5,12 +5,16 @@ mod broken;
 #[cfg(feature = "protobuf")]
 mod compile;
 #[cfg(feature = "protobuf")]
+mod descriptors;
+#[cfg(feature = "protobuf")]
 mod disk;
 #[cfg(not(feature = "protobuf"))]
 mod switched_off;
 
 #[cfg(feature = "protobuf")]
 pub(crate) use compile::compile;
+#[cfg(feature = "protobuf")]
+pub use descriptors::Descriptors;
 #[cfg(not(feature = "protobuf"))]
 pub(crate) use switched_off::compile;
 

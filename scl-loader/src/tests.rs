@@ -181,6 +181,9 @@ fn schemas_need_their_feature() {
 #[cfg(feature = "protobuf")]
 mod schemas {
     use super::*;
+    use prost::Message;
+    use prost_types::FileDescriptorSet;
+    use std::collections::BTreeSet;
 
     const PROTO: &str = "syntax = \"proto3\";\npackage rover;\nmessage Measurement { double data = 1; }\n";
 
@@ -281,5 +284,56 @@ mod schemas {
         ];
         let folder = folder(&files.each_ref().map(|(name, text)| (*name, text.as_str())));
         assert_eq!(errors(&load_from(&folder, "t.yaml")), ["SCL0406"; 3]);
+    }
+
+    /// What a program embeds for a gate that carries `message`, from the schemas `a.proto` and `other.proto`.
+    fn embedded(message: &str, base: &str) -> crate::Descriptors {
+        let a = "syntax = \"proto3\";\npackage a;\nimport \"base.proto\";\nimport \"google/protobuf/timestamp.proto\";\n\
+                 // A comment.\nmessage Outer { message Inner { base.Pose pose = 1; } google.protobuf.Timestamp at = 1; }\n";
+        let other = "syntax = \"proto3\";\nmessage Other { double x = 1; }\n";
+        let yaml = typed("[other.proto, a.proto]", message);
+        let folder = folder(&[("t.yaml", &yaml), ("a.proto", a), ("base.proto", base), ("other.proto", other)]);
+        let loaded = load_from(&folder, "t.yaml");
+        assert_eq!(rendered(&loaded), "");
+        loaded.schemas.unwrap().descriptors_of(&[message].into()).unwrap()
+    }
+
+    const BASE: &str = "syntax = \"proto3\";\npackage base;\nmessage Pose { double x = 1; }\n";
+
+    #[test]
+    fn a_program_embeds_the_files_of_its_messages_and_their_imports() {
+        let names = |message: &str| {
+            let set = FileDescriptorSet::decode(embedded(message, BASE).bytes.as_slice()).unwrap();
+            assert!(set.file.iter().all(|file| file.source_code_info.is_none()));
+            set.file.into_iter().map(|file| file.name.unwrap()).collect::<Vec<_>>()
+        };
+        let with_imports = ["base.proto", "google/protobuf/timestamp.proto", "a.proto"];
+        assert_eq!(names("a.Outer"), with_imports);
+        assert_eq!(names("a.Outer.Inner"), with_imports);
+        assert_eq!(names("base.Pose"), ["base.proto"]);
+        assert_eq!(names("Other"), ["other.proto"]);
+    }
+
+    #[test]
+    fn embedded_descriptors_change_with_what_they_describe_only() {
+        let same = embedded("a.Outer", BASE);
+        assert_eq!(embedded("a.Outer", BASE), same);
+        assert_eq!(embedded("a.Outer", &BASE.replace("double", "// In metres.\n double")), same);
+        assert_eq!(embedded("a.Outer.Inner", BASE).hash, same.hash);
+        assert_ne!(embedded("a.Outer", &BASE.replace("double x", "float x")).hash, same.hash);
+        assert_ne!(embedded("a.Outer", &BASE.replace("x = 1", "y = 1")).hash, same.hash);
+        assert!(
+            same.hash.chars().all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit()),
+            "{}",
+            same.hash
+        );
+    }
+
+    #[test]
+    fn no_message_needs_no_descriptors() {
+        let folder = folder(&[("t.yaml", &typed("[rover.proto]", "rover.Measurement")), ("rover.proto", PROTO)]);
+        let schemas = load_from(&folder, "t.yaml").schemas.unwrap();
+        assert_eq!(schemas.descriptors_of(&BTreeSet::new()), None);
+        assert_eq!(schemas.descriptors_of(&["rover.Unknown"].into()), None);
     }
 }

@@ -1,14 +1,15 @@
-//! What stands between the brackets of `topology!( )`.
+//! The arguments of `topology!(..)`.
 
 use proc_macro2::{Span, TokenStream, TokenTree};
 use scl_topology::diagnostic::Diagnostic;
+use scl_topology::size::{self, SizeError};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Ident, LitStr, Token, bracketed};
 
-/// The arguments, understood.
+/// The parsed arguments.
 pub(crate) struct Arguments {
-    /// `$crate` of the crate `scl`, however the user calls it.
+    /// `$crate` of the crate `scl`, under whatever name the user depends on it.
     pub(crate) krate: TokenTree,
     /// The path of the topology file.
     pub(crate) path: LitStr,
@@ -18,16 +19,16 @@ pub(crate) struct Arguments {
     pub(crate) max_size: Option<u64>,
 }
 
-/// Arguments that make no sense: what to say, and where.
+/// Arguments that cannot be parsed: the diagnostic and its span.
 pub(crate) struct BadArguments {
     pub(crate) problem: Box<Diagnostic>,
     pub(crate) span: Span,
 }
 
 impl Arguments {
-    /// Reads the tokens that the wrapper in `scl` hands on: `$crate`, a comma, then the user's.
+    /// Parses the tokens from the wrapper macro in `scl`: `$crate`, a comma, then the user's tokens.
     pub(crate) fn parse(input: TokenStream) -> Result<Self, BadArguments> {
-        syn::parse2(input).map_err(|error| BadArguments { problem: Box::new(in_our_words(&error)), span: error.span() })
+        syn::parse2(input).map_err(|error| BadArguments { problem: Box::new(diagnose(&error)), span: error.span() })
     }
 }
 
@@ -60,13 +61,13 @@ fn parse_path(input: ParseStream<'_>) -> syn::Result<LitStr> {
 impl Arguments {
     fn parse_option(&mut self, input: ParseStream<'_>) -> syn::Result<()> {
         let name: Ident = input.parse().map_err(|error| syn::Error::new(error.span(), "expected an option"))?;
-        let is_twice = match name.to_string().as_str() {
+        let is_repeated = match name.to_string().as_str() {
             "only" => self.only.replace(parse_only(input)?).is_some(),
             "max_size" => self.max_size.replace(parse_max_size(input)?).is_some(),
             other => return Err(syn::Error::new(name.span(), format!("unknown option `{other}`"))),
         };
-        if is_twice {
-            return Err(syn::Error::new(name.span(), format!("the option `{name}` is written twice")));
+        if is_repeated {
+            return Err(syn::Error::new(name.span(), format!("the option `{name}` is given twice")));
         }
         Ok(())
     }
@@ -81,25 +82,22 @@ fn parse_only(input: ParseStream<'_>) -> syn::Result<Vec<Ident>> {
 
 fn parse_max_size(input: ParseStream<'_>) -> syn::Result<u64> {
     input.parse::<Token![=]>()?;
-    let size: LitStr = input.parse()?;
-    parse_size(&size.value()).ok_or_else(|| {
-        syn::Error::new(size.span(), format!("`{}` is no size; write for example `8MiB` or `512KiB`", size.value()))
-    })
+    let literal: LitStr = input.parse()?;
+    let text = literal.value();
+    size::parse(&text).map_err(|error| syn::Error::new(literal.span(), bad_size(&text, error)))
 }
 
-fn parse_size(text: &str) -> Option<u64> {
-    let (digits, unit) = text.split_at(text.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(text.len()));
-    let factor: u64 = match unit.trim() {
-        "" | "B" => 1,
-        "KiB" => 1 << 10,
-        "MiB" => 1 << 20,
-        "GiB" => 1 << 30,
-        _ => return None,
-    };
-    digits.parse::<u64>().ok()?.checked_mul(factor)
+fn bad_size(text: &str, error: SizeError) -> String {
+    match error {
+        SizeError::Malformed => match size::suggestions(text).as_slice() {
+            [] => format!("`{text}` is not a size; write a whole number and a unit, for example `8MiB`"),
+            likely => format!("`{text}` is not a size; write `{}`", likely.join("` or `")),
+        },
+        SizeError::Negative | SizeError::TooLarge => format!("the size `{text}` is out of range"),
+    }
 }
 
-fn in_our_words(error: &syn::Error) -> Diagnostic {
+fn diagnose(error: &syn::Error) -> Diagnostic {
     Diagnostic::fileless("SCL0005", error.to_string())
         .help("write `scl::topology!(\"topology.yaml\")`")
         .note("the options are `only = [sensor, controller]` and `max_size = \"8MiB\"`")
@@ -111,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn good_arguments_are_understood() {
+    fn good_arguments_are_parsed() {
         let input = r#"scl, "a.yaml", only = [sensor, controller], max_size = "8MiB","#;
         let Ok(arguments) = Arguments::parse(input.parse().unwrap()) else { panic!("refused") };
         assert_eq!(arguments.path.value(), "a.yaml");
@@ -130,12 +128,15 @@ mod tests {
             (r#"scl, 7"#, NOT_ONE_LITERAL),
             (r#"scl, """#, "the path of the topology file is empty"),
             (r#"scl, "a", nly = [b]"#, "unknown option `nly`"),
-            (r#"scl, "a", only = [b], only = [c]"#, "the option `only` is written twice"),
-            (r#"scl, "a", max_size = "8 MB""#, "`8 MB` is no size; write for example `8MiB` or `512KiB`"),
+            (r#"scl, "a", only = [b], only = [c]"#, "the option `only` is given twice"),
+            (r#"scl, "a", max_size = "8 MB""#, "`8 MB` is not a size; write `8MiB`"),
+            (r#"scl, "a", max_size = "65536""#, "`65536` is not a size; write `65536B` or `64KiB`"),
             (
-                r#"scl, "a", max_size = "99999999999GiB""#,
-                "`99999999999GiB` is no size; write for example `8MiB` or `512KiB`",
+                r#"scl, "a", max_size = "huge""#,
+                "`huge` is not a size; write a whole number and a unit, for example `8MiB`",
             ),
+            (r#"scl, "a", max_size = "99999999999GiB""#, "the size `99999999999GiB` is out of range"),
+            (r#"scl, "a", max_size = "-1B""#, "the size `-1B` is out of range"),
         ];
         for (input, message) in cases {
             let Err(bad) = Arguments::parse(input.parse().unwrap()) else { panic!("accepted {input}") };

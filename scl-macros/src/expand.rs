@@ -1,27 +1,31 @@
-//! The pipeline of `topology!`: a path becomes structs, or compile errors and as many structs as can be read.
+//! The pipeline of `topology!`: from a path to structs, or to compile errors and the structs that could be read.
 
-mod assertions;
-mod call;
+mod assemble;
+mod codec_traits;
 mod component;
+mod context;
 mod counterpart;
 mod docs;
-mod excerpt;
 mod file_spans;
+mod gate_types;
+mod kinds;
 mod names;
 mod problems;
+mod rustc_notes;
 mod schemas;
 mod skeleton;
 mod spec;
 mod tracking;
+mod type_agreement;
 mod types;
 
 use crate::arguments::{Arguments, BadArguments};
 use crate::locate::{self, Surroundings};
-use call::Call;
+use context::Context;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// Expands one call of the macro.
+/// Expands one invocation of the macro.
 pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -> TokenStream {
     let arguments = match Arguments::parse(input) {
         Ok(arguments) => arguments,
@@ -30,14 +34,14 @@ pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -
     let request = locate::locate(&arguments, surroundings);
     let mut loaded = scl_loader::load(&request);
     loaded.diagnostics.extend(locate::check_path(&arguments, &request, surroundings));
-    let call = Call::new(&arguments, &loaded);
+    let context = Context::new(&arguments, &loaded);
 
-    let problems = problems::expand_problems(&call);
+    let problems = problems::expand_problems(&context);
     let components = match &loaded.topology {
-        Some(topology) => component::expand_components(&call, topology),
-        None => skeleton::expand_skeleton(&call),
+        Some(topology) => component::expand_components(&context, topology),
+        None => skeleton::expand_skeleton(&context),
     };
-    let schemas = schemas::expand_schemas(&call);
+    let messages = schemas::expand_modules(&context);
     let tracking = tracking::expand_tracking(&loaded.files_read, surroundings);
-    quote! { #problems #components #schemas #tracking }
+    quote! { #problems #components #messages #tracking }
 }

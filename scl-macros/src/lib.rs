@@ -1,7 +1,7 @@
-//! The macros of SCL. Use them through the crate `scl`, which also brings what the generated code needs.
+//! The macros of SCL. Use them through the crate `scl`, which also provides what the generated code needs.
 //!
-//! This crate holds no rule: what is wrong with a topology, `scl-topology` finds and words; here it only becomes compile
-//! errors, and a topology without errors becomes structs.
+//! This crate contains no rules about topologies: `scl-topology` finds and words every problem. Here, problems become
+//! compile errors, and a topology without errors becomes structs.
 #![cfg_attr(feature = "nightly", feature(proc_macro_expand, proc_macro_span))]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
@@ -14,7 +14,7 @@ mod tests;
 
 use proc_macro::{TokenStream, TokenTree};
 
-/// What `scl::topology!` calls, with `$crate` as its first token.
+/// The implementation of `scl::topology!`, which passes `$crate` as the first token.
 #[doc(hidden)]
 #[proc_macro]
 pub fn __topology(input: TokenStream) -> TokenStream {
@@ -32,25 +32,41 @@ pub fn __topology(input: TokenStream) -> TokenStream {
 /// }
 /// ```
 ///
-/// The component is opened before the function runs. `async fn` runs on a current-thread runtime, `fn` on the plain main
-/// thread. An error that the function returns is printed with its causes, and the program ends with exit code 1. SIGTERM
-/// and SIGINT end an async program at its next `.await`, another one by an error of its next blocking call; both count as
-/// a clean end, exit code 0, and what connected peers still take is handed over.
+/// The component is opened before the function runs. `async fn` runs on a current-thread runtime, `fn` on the plain
+/// main thread.
+///
+/// | the function | exit code |
+/// |---|---|
+/// | returns, and no messages are left after 1 s | 0 |
+/// | returns, but messages are left | 1; the error names peers and counts |
+/// | returns an error | 1; the error is printed with its causes |
+/// | is stopped by SIGTERM or SIGINT | 0 |
+/// | is still running `SCL_STOP_WITHIN` after the signal | 128 + the number of the signal |
+/// | receives a second signal | 128 + its number |
+/// | panics | 101 |
+///
+/// Messages count as left if the peer is running or the connection has `when_full: wait`. For a peer that is not running
+/// there is only a warning.
+///
+/// SIGTERM and SIGINT stop an async program at its next `.await`, which drops the function's future, and another one at
+/// its next call to a gate, which fails. What connected peers still receive is flushed. A program that has something to
+/// do before it ends calls `scl::stop_requested()`, and then decides itself when to return.
 ///
 /// | environment | meaning |
 /// |---|---|
-/// | `SCL_LOG=debug` | how much is logged to standard error, unless the program has a log of its own: `error`, `warn` (default), `info`, `debug`, `trace` |
+/// | `SCL_LOG=debug` | log level: `off`, `error`, `warn` (default), `info`, `debug`, `trace` |
+/// | `SCL_STOP_WITHIN=500ms` | how long the program may take to end after a signal, default `3s` |
 /// | `SCL_SCHED=fifo:80` | real-time priority, 1 to 99 |
-/// | `SCL_CPU=1` | the one processor to run on; with either, memory is locked |
+/// | `SCL_CPU=1` | the processor to run on; with this or `SCL_SCHED`, memory is locked |
 /// | `SCL_RUNTIME_DIR`, `SCL_SYSTEM`, `SCL_TRANSPORT` | as for `OpenOptions` |
 ///
-/// Without the right to real-time priority the program warns and goes on.
+/// Without the privilege for real-time priority, the program logs a warning and continues.
 #[proc_macro_attribute]
 pub fn main(arguments: TokenStream, item: TokenStream) -> TokenStream {
     main_attribute::expand_main(arguments.into(), item.into()).into()
 }
 
-/// The source file with the path literal; unknown to some tools, rust-analyzer among them.
+/// The source file that contains the path literal; `None` in some tools, for example rust-analyzer.
 fn source_file(input: &TokenStream) -> Option<std::path::PathBuf> {
     let literal = input.clone().into_iter().find(|token| matches!(token, TokenTree::Literal(_)))?;
     literal.span().local_file()

@@ -1,12 +1,12 @@
-//! `#[scl::main]`.
+//! `#[scl::main]`: from a function that takes a component to the `main` of a program.
 
 use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{FnArg, ItemFn, PatType, Safety, Type};
 
-/// Expands the attribute. What is wrong becomes compile errors, all of them, and the function stays, so that an editor
-/// keeps completing inside it.
+/// Expands the attribute. All mistakes become compile errors, and the function is kept, so that an editor keeps completing
+/// inside it.
 pub(crate) fn expand_main(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let function: ItemFn = match syn::parse2(item.clone()) {
         Ok(function) => function,
@@ -38,7 +38,7 @@ fn expand_function(function: &ItemFn, component: &Type) -> TokenStream {
     }
 }
 
-/// Keeps the body where an editor sees it, and a `main`, so that its lack is not reported as well.
+/// Keeps the function for the editor, and adds a `main` so that rustc does not report a missing one as well.
 fn expand_broken(function: &ItemFn, problems: &[TokenStream]) -> TokenStream {
     if function.sig.ident != "main" {
         return quote! { #(#problems)* #function };
@@ -69,23 +69,23 @@ fn check(arguments: &TokenStream, function: &ItemFn) -> Vec<TokenStream> {
     let qualifiers =
         [signature.constness.as_ref().map(Spanned::span), safety, signature.abi.as_ref().map(Spanned::span)];
     if let Some(qualifier) = qualifiers.into_iter().flatten().next() {
-        report(qualifier, "`main` is `async fn` or `fn`, nothing else");
+        report(qualifier, "`main` must be a plain `fn` or `async fn`");
     }
     check_inputs(function, &mut report);
     problems
 }
 
 fn check_inputs(function: &ItemFn, report: &mut impl FnMut(Span, &str)) {
-    const EXAMPLE: &str = "write for example `async fn main(mut sensor: Sensor)`";
+    const EXAMPLE: &str = "for example `async fn main(mut sensor: Sensor)`";
     let inputs = &function.sig.inputs;
     if let Some(receiver) = inputs.iter().find(|input| matches!(input, FnArg::Receiver(_))) {
         report(receiver.span(), &format!("`main` takes a component, not `self`\n  = help: {EXAMPLE}"));
     } else if inputs.is_empty() {
-        let message = format!("`main` takes the component that this program plays\n  = help: {EXAMPLE}");
+        let message = format!("`main` takes the component that this program runs\n  = help: {EXAMPLE}");
         report(function.sig.paren_token.span.join(), &message);
     } else if let Some(second) = inputs.iter().nth(1) {
-        let message = "`main` takes one component: a program plays one component\n  \
-                       = help: to play several, open the others with `open()`";
+        let message = "`main` takes one component\n  \
+                       = help: to run several in one program, open the others with `open()`";
         report(second.span(), message);
     } else if let Some(FnArg::Typed(PatType { ty, .. })) = inputs.first()
         && !matches!(**ty, Type::Path(_))
@@ -136,13 +136,13 @@ mod tests {
     #[test]
     fn each_mistake_is_named() {
         let cases = [
-            ("", "async fn main() {}", "takes the component that this program plays"),
-            ("", "async fn main(a: Sensor, b: Actuator) {}", "a program plays one component"),
+            ("", "async fn main() {}", "takes the component that this program runs"),
+            ("", "async fn main(a: Sensor, b: Actuator) {}", "takes one component"),
             ("", "async fn main(self) {}", "not `self`"),
             ("", "async fn main<T>(a: T) {}", "cannot be generic"),
             ("", "async fn start(a: Sensor) {}", "not on `start`"),
             ("", "fn main(a: &Sensor) {}", "by value"),
-            ("", "unsafe fn main(a: Sensor) {}", "nothing else"),
+            ("", "unsafe fn main(a: Sensor) {}", "plain `fn`"),
             ("", "struct Sensor;", "goes on a function"),
             ("flavor = 1", "async fn main(a: Sensor) {}", "takes no arguments"),
         ];

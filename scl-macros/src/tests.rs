@@ -1,10 +1,12 @@
-//! What whole calls expand to.
+//! Expansions of whole invocations.
 
 mod mutations;
+#[cfg(feature = "protobuf")]
+mod schemas;
+mod spec;
 
 use crate::expand::expand_topology;
 use crate::locate::Surroundings;
-use expect_test::expect;
 use proc_macro2::TokenStream;
 use std::fs;
 use tempfile::TempDir;
@@ -18,14 +20,14 @@ fn folder(files: &[(&str, &str)]) -> TempDir {
     folder
 }
 
-/// Expands `topology!("t.yaml")` with more arguments, called in a folder with these files.
+/// Expands `topology!("t.yaml")` with more arguments, invoked in a folder with these files.
 fn expand_with(files: &[(&str, &str)], more: &str) -> TokenStream {
     let folder = folder(files);
     let surroundings = Surroundings {
         source_file: Some("main.rs".into()),
         package: Some(folder.path().into()),
         workspace: None,
-        working: folder.path().into(),
+        working_dir: folder.path().into(),
     };
     expand_topology(format!("scl, \"t.yaml\" {more}").parse().unwrap(), &surroundings)
 }
@@ -39,7 +41,7 @@ fn parsed(tokens: &TokenStream) -> syn::File {
     syn::parse2(tokens.clone()).unwrap_or_else(|error| panic!("{error}:\n{tokens}"))
 }
 
-/// The names of the structs, each with its fields, but for those of unit tests.
+/// The names of the structs with their gates, without the counterparts.
 fn structs(file: &syn::File) -> Vec<String> {
     structs_if(file, |item| !is_for_tests(item))
 }
@@ -54,8 +56,10 @@ fn structs_if(file: &syn::File, wanted: fn(&syn::ItemStruct) -> bool) -> Vec<Str
         _ => None,
     });
     let described = structs.map(|item| {
-        let fields: Vec<String> =
+        let mut fields: Vec<String> =
             item.fields.iter().filter_map(|field| Some(field.ident.as_ref()?.to_string())).collect();
+        // Fields are dropped in order, and a gate must not outlive what the last one refers to.
+        assert_eq!(fields.pop().as_deref(), Some("__scl"), "{}", item.ident);
         format!("{} {}", item.ident, fields.join(" "))
     });
     described.collect()
@@ -63,14 +67,6 @@ fn structs_if(file: &syn::File, wanted: fn(&syn::ItemStruct) -> bool) -> Vec<Str
 
 fn errors(tokens: &TokenStream) -> usize {
     tokens.to_string().matches("compile_error").count()
-}
-
-/// One item or field a line, so that the text can be read and compared.
-fn in_lines(tokens: &TokenStream) -> String {
-    let text = tokens.to_string();
-    [("{ ", "{\n"), ("; ", ";\n"), ("} ", "}\n"), (", pub ", ",\npub "), ("] pub", "]\npub"), ("] const", "]\nconst")]
-        .iter()
-        .fold(text, |text, (from, to)| text.replace(from, to))
 }
 
 const LISTING_1: &str = "\
@@ -146,6 +142,8 @@ fn broken_files_keep_the_structs_that_can_be_read() {
             1,
             "A r#type",
         ),
+        // The field that every struct has anyway.
+        ("components:\n  - name: a\n    gates:\n      - __scl: pub\n      - x: pub\n", 1, "A x"),
     ];
     for (yaml, at_least, expected) in cases {
         let tokens = expand(yaml);
@@ -172,76 +170,6 @@ fn twenty_errors_are_shown_and_the_rest_is_counted() {
 }
 
 #[test]
-fn one_small_component_in_full() {
-    let yaml = "\
-components:
-  - name: sensor
-    doc: Reads the unit.
-    gates:
-      - measurements: {pub: rover.Measurement, doc: One reading per period.}
-  - name: controller
-    gates:
-      - sensor: {sub: rover.Measurement, queue: 1}
-connections:
-  - [sensor.measurements, controller.sensor]
-";
-    let tokens = expand_with(&[("t.yaml", yaml)], ", only = [sensor]");
-    let text = in_lines(&tokens);
-    let (text, tracking) = text.split_once("const _ : & [u8]").unwrap();
-    assert!(tracking.contains("include_bytes"), "{tracking}");
-    expect![[r##"
-        # [doc = "Reads the unit.\n\n| gate | kind | type | peers |\n|---|---|---|---|\n| `measurements` | `pub` | `rover.Measurement` | `controller.sensor` |\n\nThe component `sensor` of `t`, declared at `t.yaml:2:11`."] # [allow (dead_code , non_camel_case_types , non_snake_case)]
-        pub struct Sensor {
-        # [doc = "`pub`: publishes `rover.Measurement` to `controller.sensor`.\n\nOne reading per period.\n\nDeclared at `t.yaml:5:9`."]
-        pub measurements : scl :: private :: Pub < rover :: Measurement > }
-        # [cfg (test)] # [doc = "The other ends of all gates of `sensor`, for its unit tests."] # [allow (dead_code , non_camel_case_types , non_snake_case)]
-        pub struct SensorPeer {
-        # [doc = "The other end of `sensor.measurements`."]
-        pub measurements : scl :: private :: Sub < rover :: Measurement > }
-        # [allow (dead_code , non_camel_case_types , non_snake_case , clippy :: all , clippy :: pedantic)]
-        const _ : () = {
-        # [diagnostic :: on_unimplemented (message = "[SCL0606] `{Self}` is used as a message, but the codec `protobuf` does not carry it" , label = "gate `sensor.measurements` sends `rover::Measurement`" , note = "derive `prost::Message` for it, or name a `.proto` file in `schemas:`" , note = "the gate is declared here\n --> t.yaml:5:9\n  |\n5 |       - measurements: {{pub: rover.Measurement, doc: One reading per period.}}\n  |         ^^^^^^^^^^^^")] trait RoverMeasurementCarriedByProtobuf_0 < > : :: core :: marker :: Sized {
-        fn publisher (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Pub < Self > , scl :: private :: OpenError > ;
-        fn subscriber (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Sub < Self > , scl :: private :: OpenError > ;
-        }
-        # [diagnostic :: do_not_recommend] impl < Message : 'static , > RoverMeasurementCarriedByProtobuf_0 < > for Message where scl :: private :: codec :: Protobuf : scl :: private :: Codec < Message > , {
-        fn publisher (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Pub < Self > , scl :: private :: OpenError > {
-        __opener . publisher :: < Message , scl :: private :: codec :: Protobuf > (__index) }
-        fn subscriber (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Sub < Self > , scl :: private :: OpenError > {
-        __opener . subscriber :: < Message , scl :: private :: codec :: Protobuf > (__index) }
-        }
-        impl scl :: private :: Component for Sensor {
-        const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
-        system : "t" , name : "sensor" , place : "t.yaml:2:11" , gates : & [scl :: private :: GateSpec {
-        name : "measurements" , kind : scl :: private :: GateKind :: Pub , payload : "rover.Measurement" , codec : "protobuf" , place : "t.yaml:5:9" , endpoint : "sensor.measurements.tap" , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , backpressure : false , timeout : scl :: private :: Duration :: new (1u64 , 0u32) , links : & [scl :: private :: LinkSpec {
-        peer_component : "controller" , peer_gate : "sensor" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 1u32 , when_full : scl :: private :: WhenFull :: DropOldest , }] , }] }
-        ;
-        fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
-        :: core :: result :: Result :: Ok (Self {
-        measurements : RoverMeasurementCarriedByProtobuf_0 :: publisher (__opener , 0usize) ? }) }
-        fn gates (& self) -> :: std :: vec :: Vec < & dyn scl :: private :: AnyGate > {
-        :: std :: vec :: Vec :: from ([& self . measurements as & dyn scl :: private :: AnyGate]) }
-        }
-        scl :: private :: component_methods ! (Sensor) ;
-        # [cfg (test)] impl scl :: private :: Component for SensorPeer {
-        const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
-        system : "t" , name : "sensor's peers" , place : "" , gates : & [scl :: private :: GateSpec {
-        name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , place : "t.yaml:5:9" , endpoint : "sensor.measurements.peer" , queue : :: core :: primitive :: u32 :: MAX , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: from_secs (10) , links : & [scl :: private :: LinkSpec {
-        peer_component : "sensor" , peer_gate : "measurements" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "" , required : true , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , }] , }] }
-        ;
-        fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
-        :: core :: result :: Result :: Ok (Self {
-        measurements : RoverMeasurementCarriedByProtobuf_0 :: subscriber (__opener , 0usize) ? }) }
-        fn gates (& self) -> :: std :: vec :: Vec < & dyn scl :: private :: AnyGate > {
-        :: std :: vec :: Vec :: from ([& self . measurements as & dyn scl :: private :: AnyGate]) }
-        }
-        # [cfg (test)] scl :: private :: component_test_methods ! (Sensor , SensorPeer) ;
-        }
-        ;
-    "##]].assert_eq(text);
-}
-
-#[test]
 fn types_that_may_be_aliases_are_compared_by_rustc() {
     let yaml = LISTING_1
         .replace("measurements: pub", "measurements: {pub: nav.Pose}")
@@ -254,54 +182,7 @@ fn types_that_may_be_aliases_are_compared_by_rustc() {
     assert!(!alone.contains("SameTypeAs"), "{alone}");
 }
 
-#[cfg(feature = "protobuf")]
-mod schemas {
-    use super::*;
-
-    const YAML: &str = "\
-schemas: [a.proto]
-components:
-  - name: sensor
-    gates:
-      - pose: {pub: a.b.IMUPose.Axis, unconnected: ok}
-";
-    const PROTO: &str = "\
-syntax = \"proto3\";
-package a.b;
-message IMUPose { message Axis { double x = 1; } Axis axis = 1; }
-";
-
-    #[test]
-    fn packages_become_modules_that_import_prost_by_its_crate() {
-        let tokens = expand_with(&[("t.yaml", YAML), ("a.proto", PROTO)], "");
-        assert_eq!(errors(&tokens), 0, "{tokens}");
-        let text = tokens.to_string();
-        parsed(&tokens);
-        assert!(text.contains("pub pose : scl :: private :: Pub < a :: b :: imu_pose :: Axis >"), "{text}");
-        assert!(text.contains("pub mod a { use scl :: private :: prost as scl_private_prost"), "{text}");
-        assert!(!text.contains(":: prost ::"), "{text}");
-        assert_eq!(text.matches("include_bytes").count(), 2, "{text}");
-    }
-
-    #[test]
-    fn a_wrong_schema_leaves_the_gates() {
-        let tokens = expand_with(&[("t.yaml", YAML), ("a.proto", "message")], "");
-        assert_eq!(errors(&tokens), 1, "{tokens}");
-        assert_eq!(structs(&parsed(&tokens)), ["Sensor pose"]);
-        assert!(tokens.to_string().contains("Pub < __scl_unknown_t_yaml >"), "{tokens}");
-    }
-
-    #[test]
-    fn messages_without_a_package_stand_beside_the_components() {
-        let yaml = YAML.replace("a.b.IMUPose.Axis", "IMUPose");
-        let tokens = expand_with(&[("t.yaml", &yaml), ("a.proto", &PROTO.replace("package a.b;", ""))], "");
-        assert_eq!(errors(&tokens), 0, "{tokens}");
-        parsed(&tokens);
-        assert!(tokens.to_string().contains("pub use __scl_messages_t_yaml :: *"), "{tokens}");
-    }
-}
-
-/// The time is printed, not judged: `cargo test -p scl-macros many -- --nocapture`.
+/// Prints the time: `cargo test -p scl-macros many -- --nocapture`.
 #[test]
 fn many_components_expand() {
     for count in [40, 1_000] {
@@ -314,7 +195,7 @@ fn many_components_expand() {
     }
 }
 
-/// Components that each publish to the one before, and have a gate to spare.
+/// A ring of components: each publishes to the one before it, and has an unconnected gate.
 fn ring(count: usize) -> String {
     let component = |at: usize| {
         let next = (at + 1) % count;

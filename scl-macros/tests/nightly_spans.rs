@@ -1,5 +1,5 @@
-//! With the feature `nightly`, rustc marks problems in the topology file itself. Each file is compiled by a nightly
-//! compiler in a crate of its own; where there is no such compiler, a line on standard error says so.
+//! With the feature `nightly`, rustc reports problems at their positions in the topology file. Each file is compiled by a
+//! nightly compiler in a crate of its own. Without a nightly compiler, the test says so on standard error.
 #![allow(clippy::unwrap_used)]
 
 use serde_json::Value;
@@ -31,11 +31,11 @@ components:
 
 const MANIFEST: &str = "[package]\nname = \"spans\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n";
 
-/// As the wrapper in `scl` makes it.
-const CALL: &str = "scl_macros::__topology! { crate, \"topology.yaml\" }\n";
+/// What the wrapper macro in `scl` expands to.
+const INVOCATION: &str = "scl_macros::__topology! { crate, \"topology.yaml\" }\n";
 
 #[test]
-fn problems_are_marked_in_the_topology_file() {
+fn problems_are_reported_in_the_topology_file() {
     if !has_nightly() {
         // Written past the test's captured output.
         writeln!(std::io::stderr(), "skipped: no nightly toolchain, `rustup toolchain install nightly`").unwrap();
@@ -72,9 +72,9 @@ fn marks(path: &str, text: &str) -> Vec<String> {
     let manifest = format!("{MANIFEST}scl-macros = {{ path = {here:?}, features = [\"nightly\"] }}\n");
     fs::create_dir(krate.path().join("src")).unwrap();
     fs::write(krate.path().join("Cargo.toml"), manifest).unwrap();
-    fs::write(krate.path().join("src/lib.rs"), CALL).unwrap();
+    fs::write(krate.path().join("src/lib.rs"), INVOCATION).unwrap();
     fs::write(krate.path().join(path), text).unwrap();
-    // The versions that the workspace has, so that nothing is looked up.
+    // Use the versions of the workspace, so that cargo needs no network.
     fs::copy(here.join("../Cargo.lock"), krate.path().join("Cargo.lock")).unwrap();
     let built = Command::new("rustup")
         .args(["run", "nightly", "cargo", "check", "--offline", "--message-format=json", "--target-dir"])
@@ -89,13 +89,13 @@ fn marks(path: &str, text: &str) -> Vec<String> {
     marks
 }
 
-/// Of a problem of ours; the crate has others, because there is no runtime.
+/// Describes an error of SCL. The crate has other errors, because it has no runtime.
 fn mark(message: &Value) -> Option<String> {
     let text = message["message"]["message"].as_str()?;
     let code = &text[text.find("[SCL")? + 1..][..7];
     let span = message["message"]["spans"].as_array()?.iter().find(|span| span["is_primary"] == true)?;
     let file = span["file_name"].as_str()?;
-    // A file outside of the source folder has its absolute path.
+    // Files outside of the source folder have absolute paths.
     let file = if file.starts_with('/') { &file[file.rfind('/')?..] } else { file };
     Some(format!("{code} {file} {}:{}-{}", span["line_start"], span["column_start"], span["column_end"]))
 }

@@ -50,7 +50,6 @@ mod together;
 mod unconnected;
 mod unknown_component;
 mod unknown_gate;
-mod wording;
 
 use crate::catalogue::Rule;
 use crate::diagnostic::Diagnostics;

@@ -9,7 +9,7 @@ mod control;
 mod fields;
 mod gate;
 mod name;
-mod option;
+pub(crate) mod option;
 mod pitfall;
 mod sections;
 mod shape;

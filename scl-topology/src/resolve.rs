@@ -4,13 +4,14 @@
 //! socket, so programs that were built from different contracts never meet. Names of gates, options and other parts of
 //! the file do not change it.
 
-use crate::topology::{Codec, ConnectionId, Gate, GateId, GateKind, Payload, Topology};
+use crate::fingerprint;
+use crate::topology::{ConnectionId, Gate, GateId, GateKind, Payload, Topology};
 
 /// The longest path of a socket, in bytes, without the final zero (`sun_path` of Linux).
 pub const LONGEST_PATH: usize = 107;
 
 /// The characters of a contract.
-pub const CONTRACT_LENGTH: usize = 8;
+pub const CONTRACT_LENGTH: usize = fingerprint::SHORT_LENGTH;
 
 /// The end of the name of a tap.
 pub(crate) const TAP: &str = ".tap";
@@ -33,7 +34,7 @@ pub fn gate_contract(topology: &Topology, gate: GateId) -> String {
         GateKind::Push | GateKind::Pull => "push/pull",
     };
     let [first, second] = type_texts(gate);
-    fingerprint([pattern, first, second, codec_text(gate.codec())])
+    fingerprint::short([pattern, first, second, gate.codec().word()])
 }
 
 /// The name of a connection's socket in the folder of its system.
@@ -43,7 +44,7 @@ pub fn gate_contract(topology: &Topology, gate: GateId) -> String {
 /// after the last dot. For `req` and `push` it is the socket of the gate at the other end, see [`gate_endpoint`].
 pub fn endpoint(topology: &Topology, connection: ConnectionId) -> String {
     let link = topology.connection(connection);
-    if let Some(own) = shared_endpoint(topology, link.sink()) {
+    if let Some(own) = gate_endpoint(topology, link.sink()) {
         return own;
     }
     let pair = format!("{}--{}", topology.gate_path(link.source()), topology.gate_path(link.sink()));
@@ -56,21 +57,19 @@ pub(crate) fn connection_room(system: &str) -> usize {
     LONGEST_PATH.saturating_sub(folder_length(system) + 1 + CONTRACT_LENGTH)
 }
 
-/// The name of the socket that belongs to a gate as a whole.
-///
-/// `rep` and `pull` gates listen at `<component>.<gate>.<contract>`, a `pub` gate lets tools listen at its tap
-/// `<component>.<gate>.tap`; the other gates have none. No contract is `tap`, and no file of a component ends so, which
-/// leaves gates free to be called `lock` or `json`.
+/// The name of the socket at which a `rep` or `pull` gate listens for all its peers: `<component>.<gate>.<contract>`.
+/// The other kinds have none.
 pub fn gate_endpoint(topology: &Topology, gate: GateId) -> Option<String> {
-    match topology.gate(gate).kind() {
-        GateKind::Pub => Some(format!("{}{TAP}", topology.gate_path(gate))),
-        _ => shared_endpoint(topology, gate),
-    }
+    let listens = matches!(topology.gate(gate).kind(), GateKind::Rep | GateKind::Pull);
+    listens.then(|| format!("{}.{}", topology.gate_path(gate), gate_contract(topology, gate)))
 }
 
-fn shared_endpoint(topology: &Topology, gate: GateId) -> Option<String> {
-    matches!(topology.gate(gate).kind(), GateKind::Rep | GateKind::Pull)
-        .then(|| format!("{}.{}", topology.gate_path(gate), gate_contract(topology, gate)))
+/// The name of the socket at which tools observe a `pub`, `rep` or `pull` gate: `<component>.<gate>.tap`. The other
+/// kinds have none.
+///
+/// No contract is `tap`, and no other file of a component has this ending, so gates may be called `lock` or `json`.
+pub fn tap_endpoint(topology: &Topology, gate: GateId) -> Option<String> {
+    topology.gate(gate).kind().listens().then(|| format!("{}{TAP}", topology.gate_path(gate)))
 }
 
 /// The longest usual folder of a system, with a slash at its end.
@@ -88,7 +87,7 @@ pub(crate) fn shortened(pair: &str, room: usize) -> String {
         return pair.to_owned();
     }
     let kept = room.saturating_sub(1 + CONTRACT_LENGTH);
-    format!("{}~{}", pair.get(..kept).unwrap_or(""), fingerprint([pair]))
+    format!("{}~{}", pair.get(..kept).unwrap_or(""), fingerprint::short([pair]))
 }
 
 fn type_texts(gate: &Gate) -> [&str; 2] {
@@ -97,35 +96,6 @@ fn type_texts(gate: &Gate) -> [&str; 2] {
         Payload::Message(name) => [name.dotted(), ""],
         Payload::Exchange { request, reply } => [request.dotted(), reply.dotted()],
     }
-}
-
-fn codec_text(codec: &Codec) -> &str {
-    match codec {
-        Codec::Protobuf => "protobuf",
-        Codec::Json => "json",
-        Codec::Cbor => "cbor",
-        Codec::Msgpack => "msgpack",
-        Codec::Postcard => "postcard",
-        Codec::Raw => "raw",
-        Codec::Path(path) => path,
-    }
-}
-
-/// Forty bits of FNV-1a (64 bits) over the parts, as eight characters. Written out here because programs of different
-/// versions and languages must agree on it for ever.
-pub(crate) fn fingerprint<'a>(parts: impl IntoIterator<Item = &'a str>) -> String {
-    const ALPHABET: &[u8; 32] = b"abcdefghijklmnopqrstuvwxyz234567";
-    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
-    for part in parts {
-        // The zero after each part keeps `ab`, `c` and `a`, `bc` apart.
-        for byte in part.bytes().chain([0]) {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-    }
-    // The upper half of the product has met every byte; the lower one folds in what it lacks.
-    let folded = hash ^ (hash >> 40);
-    let letter = |at: usize| char::from(ALPHABET[(folded >> (5 * at)) as usize % 32]);
-    (0..CONTRACT_LENGTH).map(letter).collect()
 }
 
 #[cfg(test)]
@@ -178,9 +148,11 @@ connections:
     #[test]
     fn gates_have_their_own_sockets_by_kind() {
         let topology = topology(FILE);
-        let gates = topology.components().flat_map(|(_, component)| component.gates());
-        let own: Vec<_> = gates.filter_map(|&gate| gate_endpoint(&topology, gate)).collect();
-        assert_eq!(own, ["sensor.fix.tap", "pilot.jobs.26t2nsae", "pilot.orders.yrvcf33f"]);
+        let gates = || topology.components().flat_map(|(_, component)| component.gates());
+        let own: Vec<_> = gates().filter_map(|&gate| gate_endpoint(&topology, gate)).collect();
+        assert_eq!(own, ["pilot.jobs.26t2nsae", "pilot.orders.yrvcf33f"]);
+        let taps: Vec<_> = gates().filter_map(|&gate| tap_endpoint(&topology, gate)).collect();
+        assert_eq!(taps, ["sensor.fix.tap", "pilot.jobs.tap", "pilot.orders.tap"]);
     }
 
     #[test]
@@ -226,12 +198,5 @@ connections:
         assert!(names[0].starts_with("sensor.fix--") && names[0].contains('~'), "{names:?}");
         assert_ne!(names[0], names[3]);
         assert_eq!(names[0].rsplit('.').next(), endpoints(FILE)[0].rsplit('.').next());
-    }
-
-    #[test]
-    fn the_hash_never_changes() {
-        assert_eq!(fingerprint([""; 0]), "znutocs4");
-        assert_eq!(fingerprint(["ab", "c"]), "cmzg4j5f");
-        assert_ne!(fingerprint(["ab", "c"]), fingerprint(["a", "bc"]));
     }
 }

@@ -1,7 +1,15 @@
 //! The checked topology: indices instead of names, no error left. Only [`check`](crate::check) makes one.
 
+mod codec;
+mod kind;
+mod options;
+
+pub use codec::Codec;
+pub use kind::GateKind;
+pub use options::{GateOptions, WhenFull};
+
 use crate::source::Span;
-use std::time::Duration;
+use std::fmt;
 
 /// The index of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -14,58 +22,6 @@ pub struct GateId(pub(crate) u32);
 /// The index of a connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ConnectionId(pub(crate) u32);
-
-/// What a gate does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum GateKind {
-    /// Sends to any number of subscribers.
-    Pub,
-    /// Receives from one or several publishers.
-    Sub,
-    /// Asks one replier.
-    Req,
-    /// Answers any number of requesters.
-    Rep,
-    /// Hands work to a puller.
-    Push,
-    /// Takes work from any number of pushers.
-    Pull,
-}
-
-impl GateKind {
-    /// All kinds, in the order in which messages list them.
-    pub const ALL: [GateKind; 6] =
-        [GateKind::Pub, GateKind::Sub, GateKind::Req, GateKind::Rep, GateKind::Push, GateKind::Pull];
-
-    /// The word in the file.
-    pub fn word(self) -> &'static str {
-        match self {
-            GateKind::Pub => "pub",
-            GateKind::Sub => "sub",
-            GateKind::Req => "req",
-            GateKind::Rep => "rep",
-            GateKind::Push => "push",
-            GateKind::Pull => "pull",
-        }
-    }
-
-    /// The kind that sits at the other end.
-    pub fn opposite(self) -> GateKind {
-        match self {
-            GateKind::Pub => GateKind::Sub,
-            GateKind::Sub => GateKind::Pub,
-            GateKind::Req => GateKind::Rep,
-            GateKind::Rep => GateKind::Req,
-            GateKind::Push => GateKind::Pull,
-            GateKind::Pull => GateKind::Push,
-        }
-    }
-
-    /// Whether messages start here: `pub`, `push` and `req`.
-    pub fn is_source(self) -> bool {
-        matches!(self, GateKind::Pub | GateKind::Push | GateKind::Req)
-    }
-}
 
 /// A dotted message type name as written, for example `rover.Measurement`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -102,51 +58,15 @@ pub enum Payload {
     },
 }
 
-/// How messages become bytes.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum Codec {
-    /// `protobuf`, the default of typed gates.
-    Protobuf,
-    /// `json`.
-    Json,
-    /// `cbor`.
-    Cbor,
-    /// `msgpack`.
-    Msgpack,
-    /// `postcard`.
-    Postcard,
-    /// `raw`: fixed layout; also the codec of gates without a type.
-    Raw,
-    /// A codec of the user's own, by its Rust path, for example `my_crate::Flat`.
-    Path(String),
-}
-
-/// What a full queue does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum WhenFull {
-    /// The oldest waiting message is dropped.
-    DropOldest,
-    /// The new message is dropped.
-    DropNewest,
-    /// The sender waits, if it allows that.
-    Wait,
-}
-
-/// The options of a gate, defaults filled in.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct GateOptions {
-    /// `queue`: how many messages may wait for this gate. Default 100.
-    pub queue: u32,
-    /// `when_full`. Default `drop_oldest`.
-    pub when_full: WhenFull,
-    /// `backpressure`. Default false.
-    pub backpressure: bool,
-    /// `timeout` of a call. Default 1 s.
-    pub timeout: Duration,
-    /// `share`. Default false.
-    pub share: bool,
-    /// `unconnected: ok`. Default false.
-    pub unconnected_ok: bool,
+/// As in the file: `rover.Measurement`, `rover.Command -> rover.Status`, or `bytes`.
+impl fmt::Display for Payload {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Payload::Bytes => out.write_str("bytes"),
+            Payload::Message(name) => out.write_str(name.dotted()),
+            Payload::Exchange { request, reply } => write!(out, "{} -> {}", request.dotted(), reply.dotted()),
+        }
+    }
 }
 
 /// A checked component.

@@ -1,10 +1,10 @@
-//! What SCL relies on, as tests that any transport and any codec can be put to.
+//! Tests of what SCL relies on, for any transport and any codec.
 //!
-//! Each guarantee is a function that panics, with a text that says what was expected, when it does not hold. The
-//! transports and codecs of this crate pass the same functions. Nothing here measures time; what never happens is
-//! given up after [`PATIENCE`], so that a test ends with a text instead of hanging.
+//! Each guarantee is a function that panics if it does not hold and says what was expected. The transports and codecs
+//! of this crate pass the same functions. Nothing here measures time; what does not happen within [`PATIENCE`] is
+//! reported as a failure, so that a test never hangs.
 //!
-//! | what | all of it | one by one |
+//! | for | all guarantees | single ones |
 //! |---|---|---|
 //! | a transport | [`transport_conformance!`](crate::transport_conformance) | [`transport`] |
 //! | a codec | [`codec::all`] | [`codec`] |
@@ -15,66 +15,58 @@ pub mod transport;
 use std::time::Duration;
 use tokio::runtime::Builder;
 
-/// How long a guarantee may take before it counts as not kept: 60 s, where the slowest takes about one.
+/// How long a guarantee may take until it counts as broken: 60 s, where the slowest takes about one.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Runs a test on a current-thread runtime, and again on one with two threads.
+/// Runs a test on a current-thread runtime, and again on one with two worker threads.
 ///
 /// # Panics
 /// When the test does, or is not done after [`PATIENCE`].
 pub fn run<F: Future<Output = ()>>(guarantee: &str, test: impl Fn() -> F) {
-    run_on_one_thread(guarantee, &test);
-    run_on(Builder::new_multi_thread().worker_threads(2), guarantee, &test);
-}
-
-/// Runs a test on a current-thread runtime alone.
-///
-/// # Panics
-/// When the test does, or is not done after [`PATIENCE`].
-pub fn run_on_one_thread<F: Future<Output = ()>>(guarantee: &str, test: impl Fn() -> F) {
     run_on(&mut Builder::new_current_thread(), guarantee, &test);
+    run_on(Builder::new_multi_thread().worker_threads(2), guarantee, &test);
 }
 
 fn run_on<F: Future<Output = ()>>(builder: &mut Builder, guarantee: &str, test: &impl Fn() -> F) {
     let built = builder.enable_all().build();
-    let runtime = built.unwrap_or_else(|error| panic!("no runtime to test with: {error}"));
+    let runtime = built.unwrap_or_else(|error| panic!("cannot create a runtime for the test: {error}"));
     let done = runtime.block_on(async { tokio::time::timeout(PATIENCE, test()).await });
-    assert!(done.is_ok(), "`{guarantee}` waits in vain on {runtime:?}");
+    assert!(done.is_ok(), "`{guarantee}` is not done after {PATIENCE:?} on {runtime:?}");
 }
 
 /// Makes a `#[test]` of each guarantee in [`conformance::transport`](crate::conformance::transport).
 ///
-/// The expression makes a fresh place for each test: a [`Transport`](crate::transport::Transport), and a value that is
-/// dropped after the test, such as its folder.
+/// The expression is evaluated for each test. It returns a [`Transport`](crate::transport::Transport) without any ends,
+/// and a value that is dropped after the test, such as the folder of its sockets.
 ///
 /// ```
 /// mod memory {
 ///     scl::transport_conformance!((scl::transport::memory::Memory::new(), ()));
 /// }
 /// ```
-///
-/// A transport that is not made for runtimes of several threads says `one_thread` before the expression.
 #[macro_export]
 macro_rules! transport_conformance {
     ($fresh:expr) => {
-        $crate::transport_conformance! { @all run $fresh }
-    };
-    (one_thread $fresh:expr) => {
-        $crate::transport_conformance! { @all run_on_one_thread $fresh }
-    };
-    (@all $run:ident $fresh:expr) => {
-        $crate::transport_conformance! { @tests $run $fresh;
-            keeps_order carries_every_size gives_back_what_nobody_takes reports_a_late_peer serves_the_next_receiver
-            serves_the_next_sender stops_and_resumes serves_every_pusher keeps_what_is_flushed frees_its_endpoint
-            finds_the_peer_that_stays lets_go_of_who_came_early stays_quiet_when_idle
-            answers_who_asked_in_any_order numbers_old_answers carries_requests_of_every_size
-            gives_back_what_nobody_answers tells_of_a_lost_replier finds_the_replier_that_stays survives_a_lost_requester
+        $crate::transport_conformance! { @tests $fresh;
+            keeps_order carries_every_size never_delivers_an_oversized_message delivers_what_was_written
+            serves_every_pusher
+            waits_for_a_late_peer yields_each_peer_once serves_the_next_receiver serves_the_next_sender
+            reconnects_after_a_dropped_link frees_its_endpoint finds_the_peer_that_stays releases_an_idle_connection
+            counts_peers connects_only_if_the_check_passes
+            stops_and_resumes keeps_subscribers_independent acknowledges_what_was_taken stays_quiet_when_idle
+            returns_the_newest_message catches_up_with_a_busy_sender catches_up_without_a_runtime
+            delivers_when_detached accepts_peers_when_detached delivers_after_its_runtime_has_ended
+            replies_when_detached
+            moves_between_threads moves_requests_between_threads
+            answers_in_any_order keeps_request_numbers carries_requests_of_every_size
+            never_delivers_an_oversized_request refuses_requests_without_a_replier reports_a_lost_replier
+            finds_the_replier_that_stays survives_a_lost_requester delivers_written_replies
         }
     };
-    (@tests $run:ident $fresh:expr; $($guarantee:ident)*) => {$(
+    (@tests $fresh:expr; $($guarantee:ident)*) => {$(
         #[test]
         fn $guarantee() {
-            $crate::conformance::$run(stringify!($guarantee), || async {
+            $crate::conformance::run(stringify!($guarantee), || async {
                 let (transport, _kept) = $fresh;
                 $crate::conformance::transport::$guarantee(&transport).await;
             });

@@ -1,7 +1,14 @@
-//! What can go wrong, one type an operation. Every text names the component, the gate and the peer, and says what to do.
+//! Errors, one type per operation. Every text names the component, the gate and the peer, and says what to do.
+
+mod names;
+mod not_flushed;
+
+pub(crate) use names::Missing;
+pub use names::{GateName, PeerName, Peers};
+pub use not_flushed::{NotFlushed, Unflushed};
 
 use crate::codec::{DecodeError, EncodeError};
-use crate::gate::{GateName, Peers};
+use crate::time::Rounded;
 use crate::transport::TransportError;
 use std::fmt;
 use std::time::Duration;
@@ -10,23 +17,23 @@ use thiserror::Error;
 /// The result of a program's main function: any error, with its causes.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
-/// Any error, with its causes; every error type turns into it with `?`.
+/// Any error, with its causes; `?` converts every error type into it.
 ///
-/// It implements no `std::error::Error` itself, because that would forbid the conversion from every error.
+/// It does not implement `std::error::Error` itself, because that would rule out the conversion from every error type.
 pub struct Error(Box<dyn std::error::Error + Send + Sync>);
 
 impl Error {
-    /// An error that is only a text.
+    /// Creates an error from a text.
     pub fn message(text: impl Into<String>) -> Self {
         Self(text.into().into())
     }
 
-    /// The error inside.
+    /// Returns the error inside.
     pub fn inner(&self) -> &(dyn std::error::Error + Send + Sync + 'static) {
         &*self.0
     }
 
-    /// Whether it says that the program was told to stop, which is no failure.
+    /// Returns true if it reports that a stop was requested, which is not a failure.
     pub fn is_stop(&self) -> bool {
         let mut cause: Option<&(dyn std::error::Error + 'static)> = Some(&*self.0);
         while let Some(error) = cause {
@@ -51,7 +58,7 @@ impl fmt::Display for Error {
     }
 }
 
-/// The error and its causes, one a line.
+/// The error and its causes, one per line.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.0)?;
@@ -68,77 +75,83 @@ impl fmt::Debug for Error {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OpenError {
-    /// The runtime folder, the component's lock or its announcement.
-    #[error("component `{component}` cannot be opened: {source}")]
-    Place {
+    /// The component could not be registered in the runtime folder.
+    #[error("component `{component}` cannot be opened")]
+    RuntimeDir {
         /// The component.
         component: &'static str,
-        /// What is wrong there, and what to do.
-        source: crate::place::PlaceError,
+        /// The problem, and what to do.
+        source: crate::runtime_dir::RuntimeDirError,
     },
     /// A gate's connection could not be set up.
-    #[error("gate `{gate}` cannot be opened: {source}")]
+    #[error("gate `{gate}` cannot be opened")]
     Gate {
         /// The gate.
         gate: GateName,
         /// Why.
         source: TransportError,
     },
-    /// The operating system gave no timer for a gate's `timeout`.
-    #[error("gate `{gate}` cannot be opened: no timer for its timeout: {source}")]
+    /// The operating system refused a timer for the gate's `timeout`.
+    #[error("gate `{gate}` cannot be opened: the operating system refused a timer")]
     Timer {
         /// The gate.
         gate: GateName,
-        /// What the operating system said.
+        /// The operating system's error.
         source: std::io::Error,
     },
-    /// An asynchronous open outside of a tokio runtime.
+    /// `open` was called outside a tokio runtime.
     #[error(
-        "component `{component}` is opened outside of a tokio runtime; \
+        "component `{component}` was opened outside a tokio runtime; \
          write `#[scl::main]` on `async fn main`, or use `open_blocking`"
     )]
     NoRuntime {
         /// The component.
         component: &'static str,
     },
-    /// The operating system gave no runtime to a program without async.
-    #[error("component `{component}` cannot start its runtime: {source}")]
+    /// The operating system refused a runtime for a program without async.
+    #[error("component `{component}` cannot start its runtime")]
     Runtime {
         /// The component.
         component: &'static str,
-        /// What the operating system said.
+        /// The operating system's error.
         source: std::io::Error,
     },
     /// The `scl` crate was built without any transport.
     #[error(
-        "component `{component}` has no transport: switch on the feature `zeromq` of the crate `scl`, or choose one with `OpenOptions::transport`"
+        "component `{component}` has no transport: enable the feature `zeromq` of the crate `scl`, or choose one with `OpenOptions::transport`"
     )]
     NoTransport {
         /// The component.
         component: &'static str,
     },
-    /// An environment variable that has no such value.
-    #[error("`{variable}={value}` is not understood; write one of: {expected}")]
+    /// An environment variable has a value that it cannot have.
+    #[error("`{variable}={value}` is not understood; expected {expected}")]
     Environment {
         /// The variable.
         variable: &'static str,
         /// Its value.
         value: String,
-        /// What it may be.
+        /// The values it may have.
         expected: &'static str,
     },
 }
 
-/// A call from a program without async could not wait.
+/// A call could not be made, or had to stop waiting.
 #[derive(Debug, Error, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BlockingError {
-    /// Called from async code, which it would bring to a halt.
-    #[error("a blocking call inside async code would stop all of it; use the async call with `.await`")]
+    /// A blocking call inside async code, which would block every task on its thread.
+    #[error("a blocking call inside async code would block its thread; use the async call with `.await`")]
     InsideAsync,
-    /// SIGTERM or SIGINT came while `#[scl::main]` ran the program.
-    #[error("the program was told to stop")]
+    /// The program was asked to stop, by SIGTERM or SIGINT.
+    #[error("stop requested")]
     Stopped,
+    /// The calling process is a forked child of the one that opened the component.
+    #[error("the component was opened before a `fork` and belongs to the parent process; open it in one process only")]
+    Forked,
+    /// The async runtime on which the component was opened has ended.
+    #[error("the async runtime on which the component was opened has ended; keep it running while the gates are used")]
+    RuntimeEnded,
 }
 
 /// A message was not sent.
@@ -146,15 +159,29 @@ pub enum BlockingError {
 #[non_exhaustive]
 pub enum SendError {
     /// The codec cannot express the message.
-    #[error("gate `{gate}` cannot send this message: {source}")]
+    #[error("gate `{gate}` cannot encode this message")]
     Encode {
         /// The gate.
         gate: GateName,
         /// Why.
         source: EncodeError,
     },
-    /// The blocking call could not wait.
-    #[error("gate `{gate}` did not send: {source}")]
+    /// The message is longer than a peer accepts. It was sent to no peer.
+    #[error(
+        "gate `{gate}` cannot send a message of {size} bytes: {peer} accepts at most {limit}; raise its `max_size`"
+    )]
+    TooLong {
+        /// The gate.
+        gate: GateName,
+        /// The peer that accepts the shortest messages.
+        peer: PeerName,
+        /// Length of the encoded message, in bytes.
+        size: u64,
+        /// The peer's `max_size`, in bytes.
+        limit: u64,
+    },
+    /// The call could not be made, or had to stop waiting.
+    #[error("gate `{gate}` did not send the message")]
     Blocking {
         /// The gate.
         gate: GateName,
@@ -168,14 +195,14 @@ pub enum SendError {
 #[non_exhaustive]
 pub enum TrySendError {
     /// A peer with `when_full: wait` would make this gate wait.
-    #[error("gate `{gate}` would have to wait: the queue of {peers} is full; send later, or use `send`")]
+    #[error("gate `{gate}` would have to wait: the queue of {peer} is full; send later, or use `send`")]
     Full {
         /// The gate.
         gate: GateName,
-        /// Its peers.
-        peers: Peers,
+        /// The peer whose queue is full.
+        peer: PeerName,
     },
-    /// What `send` can run into as well.
+    /// An error of `send`.
     #[error(transparent)]
     Send(#[from] SendError),
 }
@@ -184,18 +211,18 @@ pub enum TrySendError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RecvError {
-    /// A message came that the codec cannot read. The next call goes on with the next message.
-    #[error("gate `{gate}` received something from {peers} that is no message: {source}")]
+    /// The codec cannot read a message. The next call returns the next message.
+    #[error("gate `{gate}` received an undecodable message from {peers}")]
     Decode {
         /// The gate.
         gate: GateName,
-        /// Who sent it, or, at a gate that listens for several, who may have.
+        /// The sender; for a gate with several peers, the possible senders.
         peers: Peers,
         /// Why it cannot be read; it names the codec.
         source: DecodeError,
     },
-    /// The blocking call could not wait.
-    #[error("gate `{gate}` did not receive: {source}")]
+    /// The call could not be made, or had to stop waiting.
+    #[error("gate `{gate}` did not receive")]
     Blocking {
         /// The gate.
         gate: GateName,
@@ -208,8 +235,8 @@ pub enum RecvError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RecvTimeoutError {
-    /// Nothing came.
-    #[error("gate `{gate}` received nothing from {peers} within {waited:?}")]
+    /// No message arrived.
+    #[error("gate `{gate}` received nothing from {peers} within {}{}", Rounded(*waited), because(reason))]
     Timeout {
         /// The gate.
         gate: GateName,
@@ -217,26 +244,42 @@ pub enum RecvTimeoutError {
         peers: Peers,
         /// How long it waited.
         waited: Duration,
+        /// Why peers are not connected, if any is missing.
+        reason: Option<String>,
     },
-    /// What every receiving call can run into.
+    /// An error of every receiving call.
     #[error(transparent)]
     Recv(#[from] RecvError),
 }
 
-/// A request got no answer.
+/// A request got no reply.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CallError {
     /// The codec cannot express the request.
-    #[error("gate `{gate}` cannot send this request: {source}")]
+    #[error("gate `{gate}` cannot encode this request")]
     Encode {
         /// The gate.
         gate: GateName,
         /// Why.
         source: EncodeError,
     },
-    /// No answer came in time. A late one is discarded.
-    #[error("gate `{gate}` got no answer from {peers} within {waited:?}{}", if *connected { "" } else { ": it is not running" })]
+    /// The request is longer than the replier accepts. It was not sent.
+    #[error(
+        "gate `{gate}` cannot send a request of {size} bytes: {peer} accepts at most {limit}; raise its `max_size`"
+    )]
+    TooLong {
+        /// The gate.
+        gate: GateName,
+        /// The replier.
+        peer: PeerName,
+        /// Length of the encoded request, in bytes.
+        size: u64,
+        /// The replier's `max_size`, in bytes.
+        limit: u64,
+    },
+    /// No reply arrived in time. A late one is discarded.
+    #[error("gate `{gate}` got no reply from {peers} within {}{}", Rounded(*waited), because(reason))]
     Timeout {
         /// The gate.
         gate: GateName,
@@ -246,17 +289,19 @@ pub enum CallError {
         waited: Duration,
         /// Whether the replier was connected at the end.
         connected: bool,
+        /// Why the replier is not connected, if it is missing.
+        reason: Option<String>,
     },
-    /// The replier went away after it was asked; whether it acted on the request is not known.
-    #[error("gate `{gate}` got no answer: {peers} went away after it was asked; the next call waits for its return")]
+    /// The replier disconnected after the request was sent; whether it acted on the request is unknown.
+    #[error("gate `{gate}` got no reply: {peers} disconnected after the request was sent; the next call reconnects")]
     PeerLost {
         /// The gate.
         gate: GateName,
         /// The replier.
         peers: Peers,
     },
-    /// An answer came that the codec cannot read.
-    #[error("gate `{gate}` received something from {peers} that is no answer: {source}")]
+    /// The codec cannot read the reply.
+    #[error("gate `{gate}` received an undecodable reply from {peers}")]
     Decode {
         /// The gate.
         gate: GateName,
@@ -265,8 +310,8 @@ pub enum CallError {
         /// Why it cannot be read; it names the codec.
         source: DecodeError,
     },
-    /// The blocking call could not wait.
-    #[error("gate `{gate}` did not ask: {source}")]
+    /// The call could not be made, or had to stop waiting.
+    #[error("gate `{gate}` did not send the request")]
     Blocking {
         /// The gate.
         gate: GateName,
@@ -275,58 +320,88 @@ pub enum CallError {
     },
 }
 
-/// An answer was not sent.
+/// A reply was not sent.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReplyError {
-    /// The codec cannot express the answer.
-    #[error("gate `{gate}` cannot send this answer: {source}")]
+    /// The codec cannot express the reply.
+    #[error("gate `{gate}` cannot encode this reply")]
     Encode {
         /// The gate.
         gate: GateName,
         /// Why.
         source: EncodeError,
     },
-    /// Whoever asked is not connected any more.
-    #[error("gate `{gate}` cannot answer: the requester is gone")]
+    /// The reply is longer than a requester accepts.
+    #[error("gate `{gate}` cannot send a reply of {size} bytes: {peer} accepts at most {limit}; raise its `max_size`")]
+    TooLong {
+        /// The gate.
+        gate: GateName,
+        /// The requester that accepts the shortest replies.
+        peer: PeerName,
+        /// Length of the encoded reply, in bytes.
+        size: u64,
+        /// The requester's `max_size`, in bytes.
+        limit: u64,
+    },
+    /// The requester has disconnected.
+    #[error("gate `{gate}` cannot reply: the requester has disconnected")]
     RequesterGone {
         /// The gate.
         gate: GateName,
     },
+    /// The call could not be made.
+    #[error("gate `{gate}` did not reply")]
+    Blocking {
+        /// The gate.
+        gate: GateName,
+        /// Why.
+        source: BlockingError,
+    },
 }
 
-/// Not all required peers were there in time.
+/// Not all required peers connected in time.
 #[derive(Debug, Error)]
-#[error("component `{component}` waited {waited:?} in vain for {}", Missing(missing))]
+#[non_exhaustive]
+#[error("component `{component}` is not ready after {}: {}", Rounded(*waited), listed(missing))]
 pub struct NotReady {
     /// The component that waited.
     pub component: &'static str,
-    /// The gates that wait, with the peers they wait for: `("setpoint", "controller.actuator")`.
-    pub missing: Vec<(&'static str, String)>,
+    /// The peers that are missing.
+    pub missing: Vec<MissingPeer>,
     /// How long it waited.
     pub waited: Duration,
 }
 
-struct Missing<'a>(&'a [(&'static str, String)]);
+/// A required peer that is not connected.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct MissingPeer {
+    /// The gate that waits for it.
+    pub gate: &'static str,
+    /// The peer.
+    pub peer: PeerName,
+    /// Why it is missing, as a sentence: `` `sensor.measurements` is not running ``.
+    pub reason: String,
+}
 
-impl fmt::Display for Missing<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, (gate, peer)) in self.0.iter().enumerate() {
-            let separator = if index == 0 { "" } else { ", " };
-            write!(f, "{separator}`{peer}` (at gate `{gate}`)")?;
-        }
-        Ok(())
+impl MissingPeer {
+    pub(crate) fn new(gate: &'static str, peer: PeerName, reason: String) -> Self {
+        Self { gate, peer, reason }
     }
 }
 
-/// A component was closed before its peers had taken everything.
-#[derive(Debug, Error)]
-#[error("component `{component}` was closed with {waiting} messages that its peers did not take within {waited:?}")]
-pub struct NotFlushed {
-    /// The component.
-    pub component: &'static str,
-    /// How many messages were given up.
-    pub waiting: usize,
-    /// How long it waited.
-    pub waited: Duration,
+impl fmt::Display for MissingPeer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} (gate `{}`)", self.reason, self.gate)
+    }
+}
+
+/// Why something did not arrive, as the end of a sentence.
+fn because(reason: &Option<String>) -> String {
+    reason.as_ref().map_or_else(String::new, |reason| format!(": {reason}"))
+}
+
+fn listed(items: &[impl fmt::Display]) -> String {
+    items.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }

@@ -42,7 +42,7 @@
 //!             command = c.commands.recv() => {
 //!                 let command = command?;
 //!                 target_speed = command.target_speed;
-//!                 command.reply(&rover::Status { accepted: true }).await?;
+//!                 command.reply(&rover::Status { accepted: true })?;
 //!             }
 //!         }
 //!     }
@@ -54,14 +54,14 @@
 //! | [`Pub`], [`Push`] | `send` | `send_blocking` | `try_send` |
 //! | [`Sub`], [`Pull`] | `recv` | `recv_blocking`, `recv_timeout` | `try_recv`, `latest` |
 //! | [`Req`] | `call` | `call_blocking` | |
-//! | [`Rep`] | `recv`, then [`Request::reply`] | `recv_blocking`, `reply_now` | `try_recv` |
+//! | [`Rep`] | `recv`, then [`Request::reply`] | `recv_blocking` | `try_recv` |
 //!
 //! Programs may start in any order, restart, and be killed: messages wait in the sending program, up to the receiving
 //! gate's `queue`, and connections come back by themselves.
 //!
 //! # Where programs meet
 //!
-//! In the runtime folder, see [`place`], under names that the topology fixes. What is said there is plain ZeroMQ, so a
+//! In the runtime folder, see [`runtime_dir`], under names that the topology fixes. What is said there is plain ZeroMQ, so a
 //! program in any language can take a component's place.
 //!
 //! # Features
@@ -72,6 +72,7 @@
 //! | `json`, `raw` (default), `cbor`, `msgpack`, `postcard` | a codec each |
 //! | `zeromq` (default) | the transport between programs |
 //! | `memory` (default) | the transport within a program, for unit tests of components |
+//! | `logging` (default) | [`main`](macro@main) logs to standard error; switch it off if the program has a log of its own |
 //! | `nightly` | the macro's problems shown in the YAML file itself; needs a nightly compiler |
 //! | `conformance` | the tests that transports and codecs are put to, for those of your own |
 #![deny(missing_docs)]
@@ -81,24 +82,35 @@ pub mod codec;
 mod component;
 #[cfg(feature = "conformance")]
 pub mod conformance;
+mod environment;
 mod error;
 mod gate;
-pub mod place;
+mod log;
+mod medium;
+mod options;
 #[doc(hidden)]
 pub mod private;
+mod process_mark;
+mod registration;
+pub mod runtime_dir;
 pub mod spec;
+mod state;
+mod stop;
 mod sync;
 pub mod time;
 pub mod transport;
 
 pub use bytes;
-pub use component::{Component, OpenOptions};
+pub use component::Component;
 pub use error::{
-    BlockingError, CallError, Error, NotFlushed, NotReady, OpenError, RecvError, RecvTimeoutError, ReplyError, Result,
-    SendError, TrySendError,
+    BlockingError, CallError, Error, GateName, MissingPeer, NotFlushed, NotReady, OpenError, PeerName, Peers,
+    RecvError, RecvTimeoutError, ReplyError, Result, SendError, TrySendError, Unflushed,
 };
-pub use gate::{AnyGate, GateName, GateStats, Peers, Pub, Pull, Push, Rep, Req, Request, Sub};
+pub use gate::{AnyGate, GateStats, PeerStats, Pub, Pull, Push, Rep, Req, Request, Sub};
+pub use medium::Medium;
+pub use options::OpenOptions;
 pub use scl_macros::main;
+pub use stop::{is_stop_requested, stop_requested, stop_requested_blocking};
 
 /// Turns a topology file into one struct for each of its components, with a field for each gate.
 ///

@@ -1,15 +1,15 @@
-//! What generated code names. No promise is made about it to anyone else.
+//! What generated code names. It carries no promise of stability.
 
 pub use crate::__component_methods as component_methods;
 pub use crate::__component_test_methods as component_test_methods;
 pub use crate::codec::{self, Codec};
 pub use crate::component::{
-    Component, Core, Idle, Opener, Outcome, block_on, close, close_blocking, open, open_blocking, ready, run_async,
-    run_blocking,
+    Component, ComponentHandle, Opener, Outcome, block_on, close, close_blocking, open, open_blocking, ready,
+    run_async, run_blocking,
 };
 pub use crate::error::OpenError;
 pub use crate::gate::{AnyGate, Pub, Pull, Push, Rep, Req, Sub};
-pub use crate::spec::{ComponentSpec, GateKind, GateSpec, LinkSpec, WhenFull};
+pub use crate::spec::{ComponentSpec, GateKind, GateSpec, LinkSpec, Schema, WhenFull};
 #[cfg(feature = "memory")]
 pub use crate::transport::memory::Memory;
 pub use bytes::Bytes;

@@ -10,9 +10,20 @@ pub struct ComponentSpec {
     /// The component's name, as in the file.
     pub name: &'static str,
     /// Where it is declared: `topology.yaml:4:11`.
-    pub place: &'static str,
+    pub declared_at: &'static str,
     /// Its gates, in file order.
     pub gates: &'static [GateSpec],
+    /// The messages it uses, if the topology names `schemas`.
+    pub schema: Option<Schema>,
+}
+
+/// The protobuf messages that a component uses.
+#[derive(Debug, Clone, Copy)]
+pub struct Schema {
+    /// A hash of `descriptors`: the name of the file `<hash>.schema` in the system's folder.
+    pub hash: &'static str,
+    /// A serialized `google.protobuf.FileDescriptorSet`.
+    pub descriptors: &'static [u8],
 }
 
 /// What a gate does.
@@ -55,9 +66,15 @@ pub struct GateSpec {
     /// The codec as in the file.
     pub codec: &'static str,
     /// Where it is declared: `topology.yaml:6:9`.
-    pub place: &'static str,
-    /// The endpoint that belongs to the gate as a whole: bound by `rep` and `pull`; the tap of `pub`; else empty.
+    pub declared_at: &'static str,
+    /// The endpoint that the gate as a whole listens at (`rep` and `pull`), else empty.
     pub endpoint: &'static str,
+    /// The endpoint where tools observe the gate (`pub`, `rep` and `pull`), else empty.
+    pub tap: &'static str,
+    /// A short hash of pattern, type and codec.
+    pub contract: &'static str,
+    /// The longest message that the gate accepts, in bytes.
+    pub max_size: u64,
     /// The gate's own queue, in messages (`sub` and `pull`).
     pub queue: u32,
     /// What the gate's own queue does when it is full (`sub` and `pull`).
@@ -87,4 +104,6 @@ pub struct LinkSpec {
     pub queue: u32,
     /// What happens when it is full.
     pub when_full: WhenFull,
+    /// The longest message that the peer accepts from this gate, in bytes.
+    pub max_size: u64,
 }

@@ -1,24 +1,38 @@
-//! Periods exact to the operating system's clock.
+//! Periodic timers that are exact to the operating system's clock.
 
+mod clock;
+mod rounded;
 mod timer;
 mod watchdog;
 
+pub(crate) use rounded::Rounded;
 pub(crate) use watchdog::Watchdog;
 
 use std::future::poll_fn;
 use std::io;
 use std::time::Duration;
 use timer::Timer;
+use tokio::time::Instant;
 
-/// A steady beat. The runtime's own timer rounds to milliseconds; this one is the operating system's (timerfd).
+/// A periodic timer. The runtime's own timers round to milliseconds; this one uses the operating system's (timerfd).
+///
+/// Made by [`interval`].
 #[derive(Debug)]
 pub struct Interval {
-    timer: Timer,
-    /// Beats that are due but not yet reported.
-    due: u64,
+    period: Duration,
+    schedule: Schedule,
 }
 
-/// A beat every `period`, the first after one period.
+/// Which clock counts the ticks.
+#[derive(Debug)]
+enum Schedule {
+    /// The operating system's, with the ticks that have expired but were not returned yet.
+    System { timer: Timer, due: u64 },
+    /// Tokio's paused clock in a test, with the time of the next tick.
+    Paused { next: Instant },
+}
+
+/// Makes a timer that ticks every `period`, for the first time after one period.
 ///
 /// ```
 /// # #[tokio::main(flavor = "current_thread")]
@@ -26,13 +40,19 @@ pub struct Interval {
 /// use std::time::Duration;
 ///
 /// let mut tick = scl::time::interval(Duration::from_micros(500))?;
-/// tick.tick().await;
+/// tick.tick().await?;
 /// # Ok(())
 /// # }
 /// ```
 ///
+/// # Tests
+///
+/// While tokio's clock is paused, as in `#[tokio::test(start_paused = true)]`, the timer follows that clock: a thousand
+/// ticks take no time. Tokio rounds up to milliseconds there, so the ticks of a shorter period come several at a time.
+/// The clock is looked up in each call; when it was paused or resumed in between, the timer starts again.
+///
 /// # Errors
-/// A period of zero, no descriptor left, or no tokio runtime.
+/// The period is zero, there is no tokio runtime, or the process has no file descriptor left.
 pub fn interval(period: Duration) -> io::Result<Interval> {
     if period.is_zero() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "the period of an interval must not be zero"));
@@ -40,59 +60,68 @@ pub fn interval(period: Duration) -> io::Result<Interval> {
     if tokio::runtime::Handle::try_current().is_err() {
         return Err(io::Error::other("an interval needs a tokio runtime: write `#[scl::main]` on `async fn main`"));
     }
-    let timer = Timer::new()?;
-    timer.set(period, period)?;
-    Ok(Interval { timer, due: 0 })
+    Ok(Interval { period, schedule: Schedule::start(period, clock::is_paused())? })
 }
 
 impl Interval {
-    /// Waits for the next beat. Beats that were missed come at once, one by one, so that their number stays right.
+    /// Waits for the next tick. Missed ticks are returned at once, one by one, so that their number stays right.
+    ///
+    /// # Errors
+    /// The timer has failed, for example because its runtime has ended. There will be no more ticks.
     ///
     /// # Cancel safety
-    /// Cancel safe: a beat is reported once.
-    pub async fn tick(&mut self) {
-        while self.due == 0 {
-            match poll_fn(|cx| self.timer.poll_expired(cx)).await {
-                Ok(beats) => self.due = beats,
-                // Only if the descriptor was closed by somebody else: then there are no more beats.
-                Err(_) => std::future::pending().await,
+    /// Cancel safe: each tick is returned once.
+    pub async fn tick(&mut self) -> io::Result<()> {
+        self.follow_clock()?;
+        match &mut self.schedule {
+            Schedule::System { timer, due } => {
+                while *due == 0 {
+                    *due = poll_fn(|cx| timer.poll_expired(cx)).await?;
+                }
+                *due -= 1;
+            }
+            Schedule::Paused { next } => {
+                tokio::time::sleep_until(*next).await;
+                *next += self.period;
             }
         }
-        self.due -= 1;
+        Ok(())
     }
 
-    /// Forgets the beats that were missed up to now; how many there were. The next [`tick`](Self::tick) waits for the next
-    /// beat.
+    /// Skips the ticks missed so far and returns their number. The next [`tick`](Self::tick) then waits for a new one.
     pub fn skip_missed(&mut self) -> u64 {
-        std::mem::take(&mut self.due) + self.timer.expired()
+        match &mut self.schedule {
+            Schedule::System { timer, due } => std::mem::take(due) + timer.expired(),
+            Schedule::Paused { next } => {
+                let now = Instant::now();
+                let Some(late) = now.checked_duration_since(*next) else { return 0 };
+                let (late, period) = (late.as_nanos(), self.period.as_nanos());
+                let since_last = u64::try_from(late % period).unwrap_or(u64::MAX);
+                *next = now + self.period.saturating_sub(Duration::from_nanos(since_last));
+                u64::try_from(late / period).map_or(u64::MAX, |missed| missed.saturating_add(1))
+            }
+        }
+    }
+
+    fn follow_clock(&mut self) -> io::Result<()> {
+        let paused = clock::is_paused();
+        if paused != matches!(self.schedule, Schedule::Paused { .. }) {
+            self.schedule = Schedule::start(self.period, paused)?;
+        }
+        Ok(())
+    }
+}
+
+impl Schedule {
+    fn start(period: Duration, paused: bool) -> io::Result<Self> {
+        if paused {
+            return Ok(Self::Paused { next: Instant::now() + period });
+        }
+        let timer = Timer::new()?;
+        timer.set(period, period)?;
+        Ok(Self::System { timer, due: 0 })
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::time::Instant;
-
-    #[tokio::test]
-    async fn missed_beats_are_counted_and_can_be_forgotten() {
-        const PERIOD: Duration = Duration::from_millis(2);
-        let beats_since = |start: Instant| start.elapsed().as_nanos() / PERIOD.as_nanos();
-        let before = Instant::now();
-        let mut tick = interval(PERIOD).unwrap();
-        let after = Instant::now();
-        tick.tick().await;
-        while beats_since(after) < 10 {}
-        tick.tick().await;
-        let at_least = beats_since(after);
-        let beats = 2 + u128::from(tick.skip_missed());
-        assert!((at_least..=beats_since(before)).contains(&beats), "{beats} beats, not {at_least} or a few more");
-        tick.tick().await;
-        assert!(beats_since(before) > beats, "a beat came before its time, or twice");
-    }
-
-    #[tokio::test]
-    async fn a_period_of_zero_is_refused() {
-        let error = interval(Duration::ZERO).unwrap_err();
-        assert_eq!(error.to_string(), "the period of an interval must not be zero");
-    }
-}
+mod tests;

@@ -1,167 +1,354 @@
-//! How messages travel: roles over opaque frames, without a word about types or codecs.
+//! Transports: message patterns over opaque frames. A transport knows neither types nor codecs.
 //!
-//! A transport makes the two ends of connections; the gates own queues, policies and codecs. Whoever implements
-//! [`Transport`] gives an end for each role, in which every call returns at once and says through the task's waker
+//! A transport opens the two ends of each connection; gates own queues, policies and codecs. An implementation of
+//! [`Transport`] provides one end per role. Every call on an end returns at once and uses the task's waker to report
 //! when it is worth calling again.
 
 use bytes::Bytes;
+use std::borrow::Cow;
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::task::{Context, Poll};
+use std::time::Duration;
 
 #[cfg(feature = "memory")]
 pub mod memory;
 #[cfg(feature = "zeromq")]
 pub mod zeromq;
 
-/// Makes the ends of connections. Endpoints are names inside the system's folder, for example
-/// `sensor.measurements--controller.sensor.k3v9qd2m`.
+/// Opens the ends of connections.
 ///
-/// Its methods are called inside a tokio runtime.
+/// Its methods are called inside a tokio runtime of any kind.
 pub trait Transport: Send + Sync + 'static {
-    /// The publishing end of one connection; it is the end that listens.
-    fn publish(&self, endpoint: &str) -> Result<Box<dyn Outlet>, TransportError>;
-    /// The subscribing end of one connection.
-    fn subscribe(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError>;
-    /// A pushing end.
-    fn push(&self, endpoint: &str) -> Result<Box<dyn Outlet>, TransportError>;
-    /// The pulling end, which listens for any number of pushers.
-    fn pull(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError>;
-    /// A requesting end.
-    fn request(&self, endpoint: &str) -> Result<Box<dyn Asker>, TransportError>;
-    /// The replying end, which listens for any number of requesters.
-    fn reply(&self, endpoint: &str) -> Result<Box<dyn Answerer>, TransportError>;
-}
-
-/// An end that sends: of `pub` one a connection, of `push` one a puller.
-pub trait Outlet: Send {
-    /// Moves on what happens without being asked (accepting, reconnecting, writing what was taken before) and says
-    /// whether a peer is there that takes messages. Wakes the task when there is more to do, and when a message that
-    /// was refused may be offered again.
-    fn drive(&mut self, cx: &mut Context<'_>) -> bool;
-
-    /// Takes the message for the peer, or gives it back: no peer is there, or it cannot take one now.
+    /// Opens the publishing end of one connection. This end listens.
     ///
     /// # Errors
-    /// The message itself.
-    fn offer(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes>;
+    /// The endpoint cannot be opened.
+    fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError>;
 
-    /// Takes messages from the front of a queue, as many as the peer can take now; `taken` is told the length of each.
+    /// Opens the subscribing end of one connection.
     ///
-    /// An end that can hand over several messages for the price of one does that here.
-    fn offer_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, taken: &mut dyn FnMut(usize)) {
+    /// # Errors
+    /// The endpoint cannot be opened.
+    fn subscribe(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError>;
+
+    /// Opens a pushing end, which connects to one puller.
+    ///
+    /// # Errors
+    /// The endpoint cannot be opened.
+    fn push(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError>;
+
+    /// Opens a pulling end, which listens for any number of pushers.
+    ///
+    /// # Errors
+    /// The endpoint cannot be opened.
+    fn pull(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError>;
+
+    /// Opens a requesting end, which connects to one replier.
+    ///
+    /// # Errors
+    /// The endpoint cannot be opened.
+    fn request(&self, endpoint: &Endpoint) -> Result<Box<dyn Requester>, TransportError>;
+
+    /// Opens a replying end, which listens for any number of requesters.
+    ///
+    /// # Errors
+    /// The endpoint cannot be opened.
+    fn reply(&self, endpoint: &Endpoint) -> Result<Box<dyn Replier>, TransportError>;
+
+    /// Opens a tap, where tools listen to a gate. A transport without taps returns `None`, which is the default.
+    ///
+    /// # Errors
+    /// The endpoint cannot be opened.
+    fn tap(&self, endpoint: &Endpoint) -> Result<Option<Box<dyn Tap>>, TransportError> {
+        let _no_taps = endpoint;
+        Ok(None)
+    }
+}
+
+/// Decides whether an end may connect to the peer that is listening now. An error says why not.
+pub type PeerCheck = Arc<dyn Fn() -> Result<(), String> + Send + Sync>;
+
+/// A meeting point of two ends, and the limits of the end being opened.
+#[derive(Clone)]
+#[non_exhaustive]
+pub struct Endpoint {
+    /// Its name inside the system's folder, for example `sensor.measurements--controller.sensor.k3v9qd2m`.
+    pub name: Cow<'static, str>,
+    /// The longest message that this end accepts, in bytes. A peer that announces a longer one is disconnected before
+    /// memory is reserved. Default: 64 MiB.
+    pub max_size: usize,
+    /// Whether only the newest message matters to this receiving end, as with `queue: 1`. It then keeps few messages in
+    /// flight, so that [`Receiver::poll_caught_up`] can tell exactly whether the sender has a newer one.
+    pub newest_only: bool,
+    /// Called by a connecting end each time before it connects; an error keeps it from connecting.
+    pub check: Option<PeerCheck>,
+}
+
+impl Endpoint {
+    /// The default limit of a message: 64 MiB.
+    pub const MAX_SIZE: usize = 64 << 20;
+
+    /// An endpoint with default limits.
+    pub fn new(name: impl Into<Cow<'static, str>>) -> Self {
+        Self { name: name.into(), max_size: Self::MAX_SIZE, newest_only: false, check: None }
+    }
+}
+
+impl std::fmt::Debug for Endpoint {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Endpoint").field("name", &self.name).field("max_size", &self.max_size).finish_non_exhaustive()
+    }
+}
+
+/// A sending end: the listening end of a `pub` connection, or a connecting `push` end.
+pub trait Sender: Send {
+    /// Accepts peers or connects to one, and returns the next that is ready to receive.
+    ///
+    /// A connecting end connects again once the link it returned before has been dropped; call this again after
+    /// dropping one.
+    fn poll_peer(&mut self, cx: &mut Context<'_>) -> Poll<Peer>;
+
+    /// Why this end does not connect to the peer that is listening, if its [`Endpoint::check`] refused it.
+    fn refusal(&self) -> Option<String> {
+        None
+    }
+
+    /// Prepares for calls without a runtime: from now on every call asks the operating system directly and registers no
+    /// waker.
+    fn detach(&mut self) {}
+}
+
+/// A peer that has connected to a [`Sender`].
+pub struct Peer {
+    /// Who it is.
+    pub kind: PeerKind,
+    /// The connection to it.
+    pub link: Box<dyn Link>,
+}
+
+/// Who has connected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PeerKind {
+    /// The component at the other end of the connection. A newer one replaces an older one.
+    Component,
+    /// A program that speaks the transport's protocol without SCL, such as a plain ZeroMQ subscriber.
+    Foreign,
+}
+
+/// A live connection from a [`Sender`] to one peer. Dropping it disconnects.
+pub trait Link: Send {
+    /// Handles what the peer has sent, and continues writing.
+    ///
+    /// Wakes the task when there is more to do, and when a message that was refused may be sent now. The gate then
+    /// calls this again, and after it [`send_all`](Self::send_all) with its queue in the same turn, even if the queue
+    /// is empty.
+    ///
+    /// # Errors
+    /// The peer is gone, or violated the protocol.
+    fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Disconnected>;
+
+    /// Sends `message`, or returns it if the peer cannot take it now.
+    ///
+    /// # Errors
+    /// The message itself. If the peer is gone, the task is woken and the next [`drive`](Self::drive) fails.
+    fn send(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes>;
+
+    /// Sends messages from the front of a queue, as many as the peer can take now; calls `sent` with the length of
+    /// each.
+    ///
+    /// Implementations that can write several messages at once do that here. When it returns with an empty queue,
+    /// nothing newer is waiting for this peer: a link may rely on that to answer a receiver that wants to know whether
+    /// it has [caught up](Receiver::poll_caught_up).
+    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, sent: &mut dyn FnMut(usize)) {
         while let Some(message) = queue.pop_front() {
             let length = message.len();
-            match self.offer(cx, message) {
-                Ok(()) => taken(length),
+            match self.send(cx, message) {
+                Ok(()) => sent(length),
                 Err(message) => return queue.push_front(message),
             }
         }
     }
 
-    /// Whether everything that was taken is with the operating system.
-    fn is_flushed(&self) -> bool;
+    /// Returns true if everything sent has been handed to the operating system.
+    fn is_written(&self) -> bool;
+
+    /// Number of messages sent that the peer has not acknowledged yet: 0 for a peer that does not acknowledge.
+    fn unacknowledged(&self) -> u64 {
+        0
+    }
+
+    /// Asks the peer to acknowledge everything sent so far. The task is woken when the answer arrives.
+    fn request_acknowledgement(&mut self, cx: &mut Context<'_>) {
+        let _acknowledges_nothing = cx;
+    }
+
+    /// Prepares for calls without a runtime, as [`Sender::detach`] does. The connection is about to be closed, so
+    /// messages are sent without regard to the peer's window.
+    fn detach(&mut self) {}
 }
 
-/// An end that receives: of `sub` one a publisher, of `pull` one a gate.
-pub trait Inlet: Send {
-    /// The next message. Reconnects by itself; what is no message of one frame is counted and passed over.
+/// The peer of a [`Link`] is gone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Disconnected;
+
+/// The listening end of a tap. Observers come and go; none of them ever delays the gate.
+pub trait Tap: Send {
+    /// Accepts observers and continues writing. Returns true if at least one is connected; only then is it worth
+    /// calling [`observe`](Self::observe).
+    fn drive(&mut self, cx: &mut Context<'_>) -> bool;
+
+    /// Sends a message of two frames, `payload` and `meta`, to each observer, or drops it for those that read slowly.
+    fn observe(&mut self, cx: &mut Context<'_>, payload: &Bytes, meta: &[u8]);
+
+    /// Number of messages dropped so far because an observer reads slowly, each observer counted.
+    fn dropped(&self) -> u64;
+}
+
+/// A receiving end: `sub` has one per publisher, `pull` one per gate.
+pub trait Receiver: Send {
+    /// Returns the next message. Reconnects by itself. Messages that do not consist of exactly one frame are counted
+    /// and skipped.
     fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Bytes>;
 
-    /// How many peers are connected, as far as this end can know: a listening end says `None`.
-    fn peers(&self) -> Option<usize>;
+    /// Number of connected peers: for a listening end, those that have completed the handshake.
+    fn peers(&self) -> usize;
 
-    /// How many frames were passed over because they were no message of one frame.
+    /// Number of messages skipped because they did not consist of exactly one frame.
     fn malformed(&self) -> u64 {
         0
     }
+
+    /// Ready when the sender has nothing newer than what [`poll_recv`](Self::poll_recv) returned. Asks the sender if it
+    /// may hold messages back; call it after `poll_recv` returned `Pending`, and `poll_recv` again after it is ready.
+    fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        let _cannot_be_behind = cx;
+        Poll::Ready(())
+    }
+
+    /// Fetches what has arrived from the operating system without help from a runtime, so that the next `poll_recv`
+    /// returns it. For an end with [`Endpoint::newest_only`], waits up to `within` for what the sender holds back.
+    fn catch_up(&mut self, within: Duration) {
+        let _always_caught_up = within;
+    }
+
+    /// Waits on the calling thread, without a runtime, until something has arrived, at most `within`; the next poll
+    /// handles it. Returns false if nothing has, or at once if this end cannot wait so: that is the default.
+    fn wait(&mut self, within: Duration) -> bool {
+        let _cannot = within;
+        false
+    }
+
+    /// Why this end does not connect to the peer that is listening, if its [`Endpoint::check`] refused it.
+    fn refusal(&self) -> Option<String> {
+        None
+    }
 }
 
-/// What comes back to an [`Asker`].
+/// What comes back to a [`Requester`].
 #[derive(Debug)]
 pub enum Answer {
-    /// A reply and the number of the request it belongs to; it may be an old one.
+    /// A reply and the number of the request it belongs to, which may be an old one.
     Reply {
-        /// The number given to [`Asker::ask`].
+        /// The number given to [`Requester::request`].
         id: u64,
         /// The reply.
         body: Bytes,
     },
-    /// The peer went away; what was asked will not be answered.
+    /// The connection broke; requests sent over it will not be answered.
     Lost,
 }
 
-/// An end that asks.
-pub trait Asker: Send {
-    /// Ready when the replier is there and can be asked. What came back before, to earlier requests, may be discarded.
+/// A requesting end.
+pub trait Requester: Send {
+    /// Ready when the replier is connected. Reconnects by itself. Replies to earlier requests are discarded.
     fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<()>;
 
     /// Sends a request under a number; its reply carries the number back.
     ///
     /// # Errors
-    /// The body, if the replier is not there.
-    fn ask(&mut self, id: u64, body: Bytes) -> Result<(), Bytes>;
+    /// The body, if the replier is not connected.
+    fn request(&mut self, cx: &mut Context<'_>, id: u64, body: Bytes) -> Result<(), Bytes>;
 
-    /// Whether the replier is there, as far as is known without looking.
+    /// Returns true if the replier is connected, as far as is known without asking.
     fn is_connected(&self) -> bool;
 
-    /// The next thing that comes back.
+    /// Returns the next reply, or reports that the connection broke.
     fn poll_answer(&mut self, cx: &mut Context<'_>) -> Poll<Answer>;
-}
 
-/// A request with the way back to whoever sent it.
-pub struct Asked {
-    /// The request.
-    pub body: Bytes,
-    /// Takes the reply.
-    pub responder: Box<dyn Responder>,
-}
+    /// Waits on the calling thread, without a runtime, until something has arrived, at most `within`; the next poll
+    /// handles it. Returns false if nothing has, or at once if this end cannot wait so: that is the default.
+    fn wait(&mut self, within: Duration) -> bool {
+        let _cannot = within;
+        false
+    }
 
-/// The way back to one requester.
-pub trait Responder: Send + Sync {
-    /// Hands the reply to the transport.
-    ///
-    /// # Errors
-    /// The requester is gone.
-    fn respond(self: Box<Self>, body: Bytes) -> Result<(), RequesterGone>;
-}
-
-/// The requester went away before it was answered.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct RequesterGone;
-
-/// An end that answers.
-pub trait Answerer: Send {
-    /// The next request. What is no request of one frame is counted and passed over.
-    fn poll_asked(&mut self, cx: &mut Context<'_>) -> Poll<Asked>;
-
-    /// How many messages were passed over because they were no request of one frame.
-    fn malformed(&self) -> u64 {
-        0
+    /// Why this end does not connect to the peer that is listening, if its [`Endpoint::check`] refused it.
+    fn refusal(&self) -> Option<String> {
+        None
     }
 }
 
-/// An end could not be made.
+/// A request that has arrived, with the way back to its requester.
+pub struct IncomingRequest {
+    /// The request.
+    pub body: Bytes,
+    /// What [`ReplyPath::reply`] needs to address the requester.
+    pub envelope: Bytes,
+    /// The connection to the requester.
+    pub path: Arc<dyn ReplyPath>,
+}
+
+/// The connection back to a requester.
+pub trait ReplyPath: Send + Sync {
+    /// Sends a reply.
+    ///
+    /// # Errors
+    /// The requester has disconnected, or the replying end was dropped.
+    fn reply(&self, envelope: &Bytes, body: Bytes) -> Result<(), RequesterGone>;
+}
+
+/// The requester disconnected before it was answered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RequesterGone;
+
+/// A replying end.
+pub trait Replier: Send {
+    /// Returns the next request, and continues writing replies. Requests that do not consist of exactly one frame are
+    /// counted and skipped.
+    ///
+    /// An implementation reads at most a bounded number of requests ahead.
+    fn poll_request(&mut self, cx: &mut Context<'_>) -> Poll<IncomingRequest>;
+
+    /// Accepts requesters and continues writing replies without returning a request. Returns true if everything sent
+    /// has been handed to the operating system.
+    fn drive(&mut self, cx: &mut Context<'_>) -> bool;
+
+    /// Number of connected requesters.
+    fn peers(&self) -> usize;
+
+    /// Number of messages skipped because they were not a request of one frame.
+    fn malformed(&self) -> u64 {
+        0
+    }
+
+    /// Prepares for calls without a runtime, as [`Sender::detach`] does.
+    fn detach(&mut self) {}
+}
+
+/// An end could not be opened.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TransportError {
-    /// The place where the two ends meet could not be prepared.
+    /// The endpoint could not be created in the runtime folder.
     #[error(transparent)]
-    Place(#[from] crate::place::PlaceError),
-    /// The end must not be opened on a runtime of several threads.
-    #[error(
-        "`{endpoint}` cannot listen on an async runtime of several threads, which the `zeromq` library may bring to a halt; \
-         write `#[scl::main]`, or `#[tokio::main(flavor = \"current_thread\")]`"
-    )]
-    SeveralThreads {
-        /// The endpoint's name.
-        endpoint: String,
-    },
-    /// The transport itself refused.
+    RuntimeDir(#[from] crate::runtime_dir::RuntimeDirError),
+    /// The transport refused.
     #[error("the transport cannot open `{endpoint}`: {reason}")]
     Refused {
         /// The endpoint's name.
         endpoint: String,
-        /// What it said.
+        /// The reason it gave.
         reason: String,
     },
 }

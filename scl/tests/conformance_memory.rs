@@ -1,3 +1,3 @@
-//! The transport within one process keeps every guarantee.
+//! The memory transport keeps every guarantee.
 
 scl::transport_conformance!((scl::transport::memory::Memory::new(), ()));

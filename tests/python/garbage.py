@@ -5,7 +5,7 @@ import sys
 
 import zmq
 
-endpoint = glob.glob(f"{sys.argv[1]}/sink.answer.*")[0]
+endpoint = glob.glob(f"{sys.argv[1]}/sink.answer.????????")[0]
 commands = zmq.Context().socket(zmq.DEALER)
 commands.connect(f"ipc://{endpoint}")
 commands.send_multipart([b"", b"\xff\xff\xff"])

@@ -10,7 +10,7 @@ context = zmq.Context()
 
 
 def endpoint(start):
-    return "ipc://" + glob.glob(f"{folder}/{start}*")[0]
+    return "ipc://" + glob.glob(f"{folder}/{start}????????")[0]
 
 
 if what == "multipart":

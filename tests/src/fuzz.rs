@@ -1,4 +1,4 @@
-//! What is done with bytes that come from outside: by the fuzz targets, and by the tests with generated input.
+//! What the fuzz targets do with their input, and the tests with generated input.
 
 mod codecs;
 mod end;
@@ -10,6 +10,6 @@ mod runtime_folder;
 mod zmtp;
 
 pub use codecs::{codecs, frames_of_every_codec};
-pub use frames::frames;
+pub use frames::{decoder, frames};
 pub use generator::Generator;
 pub use runtime_folder::runtime_folder;

@@ -1,158 +1,198 @@
-//! A program under test: told what to do through its input, watched through its output.
+//! A program under test: controlled through its input, observed through its output.
 
+use crate::wait_until;
 use rustix::process::{Pid, Signal};
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Read, Write};
+use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
-use std::sync::mpsc::{self, Receiver};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
-/// When a line has not come by then, it never will: the test fails instead of hanging.
-pub const HANGS: Duration = Duration::from_secs(60);
+/// How long a test waits for an expected event. Only a test that would hang otherwise ever reaches this limit.
+pub const HANG_LIMIT: Duration = Duration::from_secs(60);
 
 /// A running program; killed when dropped.
 pub struct Process {
     name: String,
     child: Child,
     input: Option<ChildStdin>,
-    lines: Receiver<String>,
+    output: Lines,
+    log: Lines,
+}
+
+/// How a program ended, and what it printed that no test has read yet.
+#[derive(Debug)]
+pub struct Exit {
+    /// Its exit status.
+    pub status: ExitStatus,
+    /// The rest of its standard output.
+    pub output: Vec<String>,
+    /// The rest of its standard error.
+    pub log: Vec<String>,
 }
 
 impl Process {
-    /// Starts a program with its output and errors as one stream of lines.
+    /// Starts a program.
     pub fn start(program: impl AsRef<OsStr>, arguments: &[&str], environment: &[(&str, &OsStr)]) -> Self {
-        let mut child = Command::new(&program)
-            .args(arguments)
-            .envs(environment.iter().copied())
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap_or_else(|error| panic!("{} does not start: {error}", program.as_ref().display()));
-        let (sender, lines) = mpsc::channel();
-        let outputs: [Option<Box<dyn Read + Send>>; 2] =
-            [child.stdout.take().map(|out| Box::new(out) as _), child.stderr.take().map(|err| Box::new(err) as _)];
-        for output in outputs.into_iter().flatten() {
-            let sender = sender.clone();
-            thread::spawn(move || {
-                for line in BufReader::new(output).lines().map_while(Result::ok) {
-                    let _nobody_listens = sender.send(line);
-                }
-            });
-        }
-        let name = arguments.join(" ");
-        Self { name, input: child.stdin.take(), child, lines }
+        let mut command = Command::new(&program);
+        command.args(arguments).envs(environment.iter().copied());
+        Self::spawn(command)
     }
 
-    /// The process number.
+    /// Starts a program that needs more than arguments and environment.
+    pub fn spawn(mut command: Command) -> Self {
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap_or_else(|error| panic!("{command:?} does not start: {error}"));
+        let arguments: Vec<_> = command.get_args().map(OsStr::to_string_lossy).collect();
+        Self {
+            name: arguments.join(" "),
+            input: child.stdin.take(),
+            output: Lines::of(child.stdout.take()),
+            log: Lines::of(child.stderr.take()),
+            child,
+        }
+    }
+
+    /// The process id.
     pub fn id(&self) -> u32 {
         self.child.id()
     }
 
-    /// What `/proc` says of it after its name: state, parent, and so on, as `man 5 proc` counts from 3.
-    fn stat(&self) -> Vec<String> {
-        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.id())).expect("a running process");
-        let (_name, rest) = stat.rsplit_once(')').expect("a name in brackets");
-        rest.split_whitespace().map(str::to_owned).collect()
-    }
-
-    /// How often its first thread has gone to sleep by itself, until something happened.
-    pub fn sleeps(&self) -> u64 {
-        self.status("voluntary_ctxt_switches").parse().expect("a number")
-    }
-
-    /// How the operating system schedules it: 0 is the usual way, 1 is first in, first out.
-    pub fn policy(&self) -> String {
-        self.stat()[38].clone()
-    }
-
-    /// Its real-time priority; 0 is none.
-    pub fn priority(&self) -> String {
-        self.stat()[37].clone()
-    }
-
-    /// A line of `/proc/PID/status`, without its name.
-    pub fn status(&self, name: &str) -> String {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", self.id())).expect("a running process");
-        let line = status.lines().find_map(|line| line.strip_prefix(name)).expect("a known line");
-        line.trim_start_matches(':').trim().to_owned()
-    }
-
-    /// How many descriptors it has open.
-    pub fn descriptors(&self) -> usize {
-        std::fs::read_dir(format!("/proc/{}/fd", self.id())).expect("a running process").count()
-    }
-
-    /// Stops it as Ctrl-Z does, and waits until it stands still.
-    pub fn stop(&self) {
-        self.signal(Signal::STOP);
-        while self.stat()[0] != "T" {
-            thread::yield_now();
-        }
-    }
-
-    /// Lets it go on after [`stop`](Self::stop).
-    pub fn go_on(&self) {
-        self.signal(Signal::CONT);
-    }
-
-    fn signal(&self, signal: Signal) {
-        let id = Pid::from_raw(self.id().cast_signed()).expect("a process number");
-        rustix::process::kill_process(id, signal).expect("a running process");
-    }
-
-    /// Tells the program what to do.
+    /// Gives the program a command.
     pub fn tell(&mut self, command: &str) {
         let input = self.input.as_mut().expect("the program's input is open");
         writeln!(input, "{command}").unwrap_or_else(|error| panic!("`{}` takes no commands: {error}", self.name));
     }
 
-    /// The next line of output.
-    pub fn line(&mut self) -> String {
-        match self.lines.recv_timeout(HANGS) {
+    /// The next line of standard output.
+    #[track_caller]
+    pub fn next_line(&mut self) -> String {
+        match self.output.next() {
             Ok(line) => line,
-            Err(mpsc::RecvTimeoutError::Timeout) => panic!("`{}` says nothing any more", self.name),
-            Err(mpsc::RecvTimeoutError::Disconnected) => panic!("`{}` ended: {:?}", self.name, self.child.wait()),
+            Err(RecvTimeoutError::Timeout) => {
+                panic!("`{}` prints nothing; its log: {:#?}", self.name, self.log.so_far())
+            }
+            Err(RecvTimeoutError::Disconnected) => {
+                let log = self.log.rest().0;
+                panic!("`{}` ended: {:?}; its log: {log:#?}", self.name, self.child.wait())
+            }
         }
     }
 
-    /// Asserts what the next line is.
-    pub fn says(&mut self, expected: &str) {
-        let line = self.line();
+    /// The next line of standard output, if it has been printed already.
+    pub fn try_next_line(&mut self) -> Option<String> {
+        self.output.0.try_recv().ok()
+    }
+
+    /// Asserts what the next line of standard output is.
+    #[track_caller]
+    pub fn expect(&mut self, expected: &str) {
+        let line = self.next_line();
         assert_eq!(line, expected, "from `{}`", self.name);
     }
 
-    /// Tells the program something and asserts its answer.
-    pub fn does(&mut self, command: &str, expected: &str) {
+    /// Gives the program a command and asserts the answer.
+    #[track_caller]
+    pub fn ask(&mut self, command: &str, expected: &str) {
         self.tell(command);
-        self.says(expected);
+        let line = self.next_line();
+        assert_eq!(line, expected, "from `{}` after `{command}`", self.name);
     }
 
-    /// Reads lines up to one that contains a text, and returns that.
-    pub fn says_sometime(&mut self, text: &str) -> String {
+    /// Reads standard output up to a line that contains a text, and returns that line.
+    #[track_caller]
+    pub fn expect_containing(&mut self, text: &str) -> String {
         loop {
-            let line = self.line();
+            let line = self.next_line();
             if line.contains(text) {
                 return line;
             }
         }
     }
 
-    /// Waits for its end; what it said last.
-    pub fn ends(mut self) -> (ExitStatus, Vec<String>) {
-        drop(self.input.take());
-        let mut said = Vec::new();
-        while let Ok(line) = self.lines.recv_timeout(HANGS) {
-            said.push(line);
+    /// Reads standard error up to a line that contains a text, and returns that line.
+    #[track_caller]
+    pub fn expect_log(&mut self, text: &str) -> String {
+        let mut seen = Vec::new();
+        loop {
+            match self.log.next() {
+                Ok(line) if line.contains(text) => return line,
+                Ok(line) => seen.push(line),
+                Err(error) => panic!("`{}` does not log `{text}` ({error}), but: {seen:#?}", self.name),
+            }
         }
-        (self.child.wait().expect("an exit status"), said)
     }
 
-    /// Ends it as `kill -9` does, and waits until it is gone.
+    /// Closes the program's input and waits for its end.
+    ///
+    /// # Panics
+    /// If the program does not end.
+    #[track_caller]
+    pub fn wait_for_exit(mut self) -> Exit {
+        drop(self.input.take());
+        let (output, log) = (self.output.rest(), self.log.rest());
+        assert!(output.1 && log.1, "`{}` does not end: {:#?}, {:#?}", self.name, output.0, log.0);
+        Exit { status: self.child.wait().expect("an exit status"), output: output.0, log: log.0 }
+    }
+
+    /// Sends a signal.
+    pub fn signal(&self, signal: Signal) {
+        let id = Pid::from_raw(self.id().cast_signed()).expect("a process id");
+        rustix::process::kill_process(id, signal).expect("a running process");
+    }
+
+    /// Stops the program as Ctrl-Z does (SIGSTOP), and waits until it has stopped.
+    pub fn pause(&self) {
+        self.signal(Signal::STOP);
+        self.wait_until_stopped();
+    }
+
+    /// Waits until the program has stopped itself.
+    pub fn wait_until_stopped(&self) {
+        wait_until("the program has stopped", || self.stat()[0] == "T");
+    }
+
+    /// Resumes the program after [`pause`](Self::pause).
+    pub fn resume(&self) {
+        self.signal(Signal::CONT);
+    }
+
+    /// Kills the program (SIGKILL) and waits until it is gone.
     pub fn kill(mut self) {
         self.child.kill().expect("killed");
         self.child.wait().expect("gone");
+    }
+
+    /// Kills the program and returns what it printed that no test has read yet.
+    pub fn kill_and_read(mut self) -> Vec<String> {
+        self.child.kill().expect("killed");
+        self.output.rest().0
+    }
+
+    /// Whether the program is still running.
+    pub fn is_running(&mut self) -> bool {
+        self.child.try_wait().expect("a status").is_none()
+    }
+
+    /// The fields of `/proc/PID/stat` after the name: state, parent, and so on, as `man 5 proc` counts from 3.
+    pub(crate) fn stat(&self) -> Vec<String> {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.id())).expect("a running process");
+        let (_name, rest) = stat.rsplit_once(')').expect("a name in brackets");
+        rest.split_whitespace().map(str::to_owned).collect()
+    }
+}
+
+impl Exit {
+    /// The exit code as a shell shows it: 128 plus the signal's number for a program ended by a signal.
+    pub fn code(&self) -> i32 {
+        self.status.code().or_else(|| self.status.signal().map(|signal| 128 + signal)).unwrap_or(-1)
+    }
+
+    /// Everything it printed that no test has read yet, for texts that may appear in either stream.
+    pub fn text(&self) -> String {
+        [&self.output[..], &self.log[..]].concat().join("\n")
     }
 }
 
@@ -161,5 +201,41 @@ impl Drop for Process {
         // It may have ended by itself.
         let _ended = self.child.kill();
         let _status = self.child.wait();
+    }
+}
+
+/// The lines of one output stream, read by a thread so that the program never waits for the test.
+struct Lines(Receiver<String>);
+
+impl Lines {
+    fn of(stream: Option<impl Read + Send + 'static>) -> Self {
+        let (sender, lines) = mpsc::channel();
+        if let Some(stream) = stream {
+            thread::spawn(move || {
+                for line in BufReader::new(stream).lines().map_while(Result::ok) {
+                    let _test_has_ended = sender.send(line);
+                }
+            });
+        }
+        Self(lines)
+    }
+
+    fn next(&self) -> Result<String, RecvTimeoutError> {
+        self.0.recv_timeout(HANG_LIMIT)
+    }
+
+    /// The lines up to the end of the stream, and whether the end has come within the time limit.
+    fn rest(&self) -> (Vec<String>, bool) {
+        let mut lines = Vec::new();
+        loop {
+            match self.next() {
+                Ok(line) => lines.push(line),
+                Err(error) => return (lines, error == RecvTimeoutError::Disconnected),
+            }
+        }
+    }
+
+    fn so_far(&self) -> Vec<String> {
+        self.0.try_iter().collect()
     }
 }

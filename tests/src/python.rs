@@ -1,13 +1,20 @@
-//! A Python with pyzmq, a second and independent implementation of ZeroMQ (over libzmq).
+//! A Python with pyzmq, which brings libzmq: an independent implementation of ZeroMQ.
 
+use crate::Process;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
+/// Starts a script of the folder `python`.
+pub fn start_python(script: &str, arguments: &[&str]) -> Process {
+    let path = format!("{}/python/{script}", env!("CARGO_MANIFEST_DIR"));
+    Process::start(python_with_pyzmq(), &[&[path.as_str()], arguments].concat(), &[])
+}
+
 /// A Python interpreter that can `import zmq`, installed into the build folder once.
 ///
 /// # Panics
-/// When there is no Python 3 or no package index; the text says what to install.
+/// If there is no Python 3 or no package index; the text says what to install.
 pub fn python_with_pyzmq() -> &'static Path {
     static PYTHON: OnceLock<PathBuf> = OnceLock::new();
     PYTHON.get_or_init(|| {
@@ -26,9 +33,9 @@ fn can_import_zmq(python: &Path) -> bool {
     Command::new(python).args(["-c", "import zmq"]).output().is_ok_and(|output| output.status.success())
 }
 
-fn run(command: &mut Command, what_to_do: &str) {
-    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}; {what_to_do}"));
-    assert!(output.status.success(), "{what_to_do}\n{}", String::from_utf8_lossy(&output.stderr));
+fn run(command: &mut Command, advice: &str) {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}; {advice}"));
+    assert!(output.status.success(), "{advice}\n{}", String::from_utf8_lossy(&output.stderr));
 }
 
 /// The folder of the test programs themselves, for example `target/debug`.

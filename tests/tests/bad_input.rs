@@ -1,73 +1,125 @@
-//! What a program meets at run time that should not be: each mistake is said, and what is sound goes on.
+//! Bad input at every listening and every dialling end of a program.
+//!
+//! Each attack hits all ends of the twin `left`. During and after it, `left` stays idle and its memory bounded, and then
+//! exchanges messages of every kind with a good peer.
 
-use scl_tests::{Place, Process, python_with_pyzmq};
-use std::os::unix::fs::PermissionsExt;
-use std::path::PathBuf;
+mod attacks;
+mod end;
+mod witness;
 
-const PEER: &str = env!("CARGO_BIN_EXE_peer");
+use end::End;
+use witness::{withstands, withstands_with_descriptors};
 
 #[test]
-fn a_second_program_for_a_component_is_told_who_plays_it() {
-    let place = Place::new("ipc");
-    let mut first = place.start(PEER, &["sink"]);
-    first.says("open");
-    let (status, said) = place.start(PEER, &["sink"]).ends();
-    assert!(!status.success());
-    let said = said.join("\n");
-    assert!(said.contains("component `sink` cannot be opened"), "{said}");
-    assert!(said.contains(&first.id().to_string()), "{said}");
+fn random_bytes_before_a_greeting() {
+    withstands(attacks::random_bytes);
 }
 
 #[test]
-fn a_runtime_folder_that_others_may_write_to_is_refused() {
-    let place = Place::new("ipc");
-    std::fs::set_permissions(place.runtime_dir(), PermissionsExt::from_mode(0o777)).expect("opened to all");
-    let (status, said) = place.start(PEER, &["sink"]).ends();
-    assert!(!status.success());
-    let said = said.join("\n");
-    assert!(said.contains(&*place.runtime_dir().to_string_lossy()), "{said}");
+fn random_bytes_after_a_handshake() {
+    withstands(attacks::random_bytes_after_a_handshake);
 }
 
 #[test]
-fn a_runtime_folder_too_deep_for_a_socket_is_refused() {
-    let place = Place::new("ipc");
-    let deep = place.runtime_dir().join("d".repeat(90));
-    let environment = [("SCL_RUNTIME_DIR", deep.as_os_str())];
-    let (status, said) = Process::start(PEER, &["sink"], &environment).ends();
-    assert!(!status.success());
-    let said = said.join("\n");
-    assert!(said.contains("107"), "{said}");
+fn random_small_frames_after_a_handshake() {
+    withstands(attacks::random_small_frames);
 }
 
 #[test]
-fn a_transport_that_does_not_exist_is_refused() {
-    let place = Place::new("udp");
-    let (status, said) = place.start(PEER, &["sink"]).ends();
-    assert!(!status.success());
-    assert_eq!(said, ["failed: `SCL_TRANSPORT=udp` is not understood; write one of: `ipc`, `tcp`"]);
+fn greetings_that_arrive_byte_by_byte() {
+    withstands(attacks::slow_greeting);
 }
 
 #[test]
-fn a_message_that_does_not_decode_names_gate_peer_and_codec_and_the_next_is_received() {
-    let place = Place::new("ipc");
-    // The sink shows the plain publisher where it would look for the source.
-    let mut sink = place.start(PEER, &["sink"]);
-    sink.says("open");
-    let mut source = place.start(PEER, &["source"]);
-    source.says("open");
-    let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("python/garbage.py");
-    let folder = place.runtime_dir().join("six");
-    let arguments = [script.to_str().expect("a path in UTF-8"), folder.to_str().expect("a path in UTF-8")];
-    source.does("ready 30000", "ready");
-    sink.tell("serve 2");
-    let mut plain = Process::start(python_with_pyzmq(), &arguments, &[]);
-    let said = sink.line();
-    assert!(
-        said.starts_with("error: gate `sink.answer` received something from `source.question` that is no message: "),
-        "{said}"
-    );
-    assert!(said.contains("protobuf"), "{said}");
-    sink.says("served");
-    plain.says(r"b'\x08\n'");
-    assert!(plain.ends().0.success());
+fn greetings_that_stop_half_way() {
+    withstands(attacks::half_a_greeting);
+}
+
+#[test]
+fn everything_in_one_write() {
+    withstands(attacks::everything_at_once);
+}
+
+#[test]
+fn frames_from_16_gib_to_2_to_the_64() {
+    withstands(attacks::enormous_frames);
+}
+
+#[test]
+fn enormous_frames_in_place_of_ready() {
+    withstands(attacks::enormous_ready);
+}
+
+#[test]
+fn one_byte_more_than_the_limit() {
+    withstands(attacks::one_byte_too_long);
+}
+
+#[test]
+fn a_frame_that_never_ends() {
+    withstands(attacks::unfinished_frame);
+}
+
+#[test]
+fn a_message_that_never_ends() {
+    withstands(attacks::endless_message);
+}
+
+#[test]
+fn malformed_ready_commands() {
+    withstands(attacks::malformed_ready);
+}
+
+#[test]
+fn malformed_and_unknown_commands() {
+    withstands(attacks::odd_commands);
+}
+
+#[test]
+fn thousands_of_peers_that_break_off_after_the_handshake() {
+    withstands(attacks::breaking_off);
+}
+
+#[test]
+fn heartbeats_whose_answers_are_read() {
+    withstands(attacks::heartbeats);
+}
+
+#[test]
+fn heartbeats_whose_answers_are_not_read() {
+    withstands(attacks::heartbeats_without_reading);
+}
+
+#[test]
+fn other_protocols() {
+    withstands(attacks::other_protocols_and_versions);
+}
+
+#[test]
+fn wrong_mechanisms_and_socket_types() {
+    withstands(attacks::wrong_mechanisms_and_types);
+}
+
+#[test]
+fn a_million_subscriptions() {
+    withstands(attacks::a_million_subscriptions);
+}
+
+#[test]
+fn an_impostor_that_misuses_the_extension() {
+    withstands(attacks::misused_extension);
+}
+
+#[test]
+fn ten_thousand_silent_connections() {
+    withstands_with_descriptors(256, false, |end| {
+        attacks::silent_connections(end, if end.name == End::CROWDED { 10_000 } else { 500 })
+    });
+}
+
+#[test]
+fn ten_thousand_silent_connections_after_a_handshake() {
+    withstands_with_descriptors(256, true, |end| {
+        attacks::silent_connections_after_a_handshake(end, if end.name == End::CROWDED { 10_000 } else { 500 })
+    });
 }

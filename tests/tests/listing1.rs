@@ -1,35 +1,53 @@
-//! The paper's Listing 1, byte for byte: four untyped programs, over Unix sockets and TCP, and a plain ZeroMQ program
-//! in the place of one of them.
+//! The paper's Listing 1, byte for byte: four programs over Unix sockets and TCP, in every start order, and a plain
+//! ZeroMQ program in the place of one of them.
 
-use scl_tests::{Place, Process, python_with_pyzmq};
-use std::path::PathBuf;
+use crate::programs::LISTING1;
+use scl_tests::{Process, System, on_each_medium, start_python};
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_listing1");
+const COMPONENTS: [&str; 4] = ["sensor", "actuator", "controller", "user_interface"];
 
 #[test]
 fn four_programs_talk() {
-    for transport in ["ipc", "tcp"] {
-        let place = Place::new(transport);
-        let mut actuator = place.start(PROGRAM, &["actuator"]);
-        let mut user_interface = place.start(PROGRAM, &["user_interface"]);
-        let _controller = place.start(PROGRAM, &["controller"]);
-        let mut sensor = place.start(PROGRAM, &["sensor"]);
-        sensor.says("sent");
-        actuator.says("set to b\"measured\"");
-        user_interface.says("status b\"done\", event b\"faster\"");
-        assert!(user_interface.ends().0.success());
+    on_each_medium(|system| {
+        let mut actuator = system.start(LISTING1, &["actuator"]);
+        let mut user_interface = system.start(LISTING1, &["user_interface"]);
+        let _controller = system.start(LISTING1, &["controller"]);
+        let mut sensor = system.start(LISTING1, &["sensor"]);
+        sensor.expect("sent");
+        actuator.expect("set to b\"measured\"");
+        user_interface.expect("status b\"done\", event b\"faster\"");
+        assert!(user_interface.wait_for_exit().status.success());
+    });
+}
+
+#[test]
+fn four_programs_talk_in_every_start_order() {
+    for order in permutations() {
+        let system = System::new();
+        let mut started: Vec<(usize, Process)> =
+            order.iter().map(|&index| (index, system.start(LISTING1, &[COMPONENTS[index]]))).collect();
+        started.sort_by_key(|(index, _)| *index);
+        started[0].1.expect("sent");
+        started[1].1.expect("set to b\"measured\"");
+        started[3].1.expect("status b\"done\", event b\"faster\"");
     }
 }
 
 #[test]
 fn a_plain_zeromq_program_plays_the_user_interface() {
-    let place = Place::new("ipc");
-    let _controller = place.start(PROGRAM, &["controller"]);
-    let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("python/user_interface.py");
-    let folder = place.runtime_dir().join("listing1");
-    let arguments = [script.to_str().expect("a path in UTF-8"), folder.to_str().expect("a path in UTF-8")];
-    let mut plain = Process::start(python_with_pyzmq(), &arguments, &[]);
-    plain.says("b'done'");
-    plain.says("b'faster'");
-    assert!(plain.ends().0.success());
+    let system = System::new();
+    let _controller = system.start(LISTING1, &["controller"]);
+    let folder = system.runtime_dir().join("listing1");
+    let mut plain = start_python("user_interface.py", &[folder.to_str().expect("a path in UTF-8")]);
+    plain.expect("b'done'");
+    plain.expect("b'faster'");
+    assert!(plain.wait_for_exit().status.success());
+}
+
+/// All 24 permutations of four.
+fn permutations() -> Vec<[usize; 4]> {
+    let all = (0..256).map(|code| [code / 64, code / 16 % 4, code / 4 % 4, code % 4]);
+    let permutations: Vec<[usize; 4]> = all.filter(|order| (0..4).all(|index| order.contains(&index))).collect();
+    assert_eq!(permutations.len(), 24);
+    permutations
 }

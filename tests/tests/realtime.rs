@@ -1,55 +1,50 @@
-//! Real-time priority, a processor of its own and locked memory, as the environment of `#[scl::main]` asks for them.
+//! Real-time priority, a processor of its own and locked memory, requested through the environment of `#[scl::main]`.
 
-use scl_tests::{Place, Process};
+use crate::programs::STEADY;
+use scl_tests::{Process, System};
 
-const STEADY: &str = env!("CARGO_BIN_EXE_steady");
-const WISHES: [(&str, &str); 2] = [("SCL_SCHED", "fifo:80"), ("SCL_CPU", "0")];
+const REQUESTED: [(&str, &str); 2] = [("SCL_SCHED", "fifo:80"), ("SCL_CPU", "0")];
 /// Bits of `CapEff` in `/proc/PID/status`.
 const CAP_IPC_LOCK: u64 = 14;
 const CAP_SYS_NICE: u64 = 23;
 
-/// What the test may do itself decides which of the two it can see; each is asserted.
+/// Which of the two outcomes is asserted depends on the privileges of the test.
 #[test]
-fn a_program_that_may_have_real_time_priority_has_it() {
-    let place = Place::new("ipc");
-    let mut steady = place.start_with(STEADY, &[], &WISHES);
-    steady.says_sometime("open");
+fn a_privileged_program_gets_real_time_priority() {
+    let mut steady = System::new().start_with(STEADY, &[], &REQUESTED);
+    steady.expect("open");
     assert_eq!(steady.status("Cpus_allowed_list"), "0");
-    if may(&steady, CAP_SYS_NICE) {
-        assert_eq!((steady.policy().as_str(), steady.priority().as_str()), ("1", "80"));
+    if has_capability(&steady, CAP_SYS_NICE) {
+        assert_eq!((&*steady.scheduling_policy(), &*steady.realtime_priority()), ("1", "80"));
     } else {
-        assert_eq!(steady.policy(), "0");
+        assert_eq!(steady.scheduling_policy(), "0");
     }
     let locked = steady.status("VmLck") != "0 kB";
-    assert!(locked || !may(&steady, CAP_IPC_LOCK), "{}", steady.status("VmLck"));
+    assert!(locked || !has_capability(&steady, CAP_IPC_LOCK), "{}", steady.status("VmLck"));
 }
 
 #[test]
-fn a_program_that_may_not_warns_and_goes_on() {
-    let place = Place::new("ipc");
+fn a_program_without_privileges_warns_and_continues() {
     let limits = "ulimit -r 0; ulimit -l 64";
-    let drop_rights = "setpriv --bounding-set=-all --inh-caps=-all --ambient-caps=-all";
-    let script = format!("{limits}; exec {drop_rights} {STEADY}");
-    let mut steady = place.start_with("bash", &["-c", &script], &WISHES);
-    // Warnings and output are two streams, so their order is open.
-    let mut said = [steady.line(), steady.line(), steady.line()];
-    said.sort_by_key(|line| (line != "open", line.contains("memory")));
-    let [open, priority, memory] = said;
-    assert_eq!(open, "open");
-    assert!(priority.contains("`SCL_SCHED=fifo:80` has no effect") && priority.contains("cap_sys_nice"), "{priority}");
-    assert!(memory.contains("cannot be locked") && memory.contains("cap_ipc_lock"), "{memory}");
-    assert_eq!(steady.policy(), "0");
+    let drop_privileges = "setpriv --bounding-set=-all --inh-caps=-all --ambient-caps=-all";
+    let script = format!("{limits}; exec {drop_privileges} {STEADY}");
+    let mut steady = System::new().start_with("bash", &["-c", &script], &REQUESTED);
+    steady.expect("open");
+    let priority = steady.expect_log("SCL_SCHED=fifo:80");
+    assert!(priority.contains("cap_sys_nice"), "{priority}");
+    let memory = steady.expect_log("memory");
+    assert!(memory.contains("cap_ipc_lock"), "{memory}");
+    assert_eq!(steady.scheduling_policy(), "0");
 }
 
 #[test]
-fn a_wish_that_says_nothing_is_an_error() {
-    let place = Place::new("ipc");
-    let (status, said) = place.start_with(STEADY, &[], &[("SCL_SCHED", "fast")]).ends();
-    assert!(!status.success());
-    assert_eq!(said, ["error: `SCL_SCHED=fast` is not understood; write one of: `fifo:1` to `fifo:99`"]);
+fn a_request_that_makes_no_sense_is_an_error() {
+    let exit = System::new().start_with(STEADY, &[], &[("SCL_SCHED", "fast")]).wait_for_exit();
+    assert_eq!(exit.code(), 1, "{exit:?}");
+    assert!(exit.text().contains("`SCL_SCHED=fast`") && exit.text().contains("`fifo:1`"), "{exit:?}");
 }
 
-fn may(process: &Process, capability: u64) -> bool {
+fn has_capability(process: &Process, capability: u64) -> bool {
     let effective = u64::from_str_radix(&process.status("CapEff"), 16).expect("a number");
     effective >> capability & 1 == 1
 }

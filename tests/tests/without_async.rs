@@ -1,26 +1,18 @@
-//! Programs without async: what they send is on its way when the call returns, and whoever comes late is served although
-//! the program never waits.
+//! Programs without async: a message is on its way when the call returns, and late peers are served although the program
+//! never waits.
 
-use scl_tests::{Place, Process, on_each_transport};
-
-const PEER: &str = env!("CARGO_BIN_EXE_peer");
-const PLAIN: &str = env!("CARGO_BIN_EXE_plain");
-
-fn open(place: &Place, program: &str, component: &str) -> Process {
-    let mut process = place.start(program, &[component]);
-    process.says("open");
-    process
-}
+use crate::programs::{PEER, PLAIN, open_with};
+use scl_tests::on_each_medium;
 
 #[test]
-fn a_publisher_that_never_waits_serves_who_comes_late() {
-    on_each_transport(|place| {
-        let mut source = open(&place, PLAIN, "source");
-        source.tell("publish_for_ever");
+fn a_publisher_that_never_waits_serves_late_subscribers() {
+    on_each_medium(|system| {
+        let mut source = open_with(&system, PLAIN, "source");
+        source.tell("publish_forever");
         for _ in 0..3 {
-            let mut sink = open(&place, PEER, "sink");
+            let mut sink = open_with(&system, PEER, "sink");
             sink.tell("receive 1000");
-            let received = sink.line();
+            let received = sink.next_line();
             assert!(!received.contains("error"), "{received}");
             sink.kill();
         }
@@ -28,34 +20,35 @@ fn a_publisher_that_never_waits_serves_who_comes_late() {
 }
 
 #[test]
-fn what_is_pushed_is_on_its_way_when_the_call_returns() {
-    on_each_transport(|place| {
-        let mut source = open(&place, PLAIN, "source");
-        let mut sink = open(&place, PEER, "sink");
-        source.does("ready", "ready");
+fn a_pushed_message_is_on_its_way_when_the_call_returns() {
+    on_each_medium(|system| {
+        let mut source = open_with(&system, PLAIN, "source");
+        let mut sink = open_with(&system, PEER, "sink");
+        source.ask("ready", "ready");
         source.tell("push_and_stop");
-        sink.does("pull 1", "7..8");
+        source.wait_until_stopped();
+        sink.ask("pull 1", "7..8");
     });
 }
 
 #[test]
 fn a_reply_is_on_its_way_when_the_call_returns() {
-    on_each_transport(|place| {
-        let mut source = open(&place, PEER, "source");
-        let _sink = open(&place, PLAIN, "sink");
-        source.does("call 4", "8");
+    on_each_medium(|system| {
+        let mut source = open_with(&system, PEER, "source");
+        let _sink = open_with(&system, PLAIN, "sink");
+        source.ask("call 4", "8");
     });
 }
 
 #[test]
-fn closing_hands_over_everything() {
-    on_each_transport(|place| {
-        let mut source = open(&place, PLAIN, "source");
-        let mut sink = open(&place, PEER, "sink");
-        source.does("ready", "ready");
+fn closing_hands_over_what_was_pushed() {
+    on_each_medium(|system| {
+        let mut source = open_with(&system, PLAIN, "source");
+        let mut sink = open_with(&system, PEER, "sink");
+        source.ask("ready", "ready");
         source.tell("push_and_close");
-        sink.does("pull 1000", "0..1000");
-        let (status, said) = source.ends();
-        assert!(status.success(), "{said:?}");
+        sink.ask("pull 1000", "0..1000");
+        let exit = source.wait_for_exit();
+        assert!(exit.status.success(), "{exit:?}");
     });
 }

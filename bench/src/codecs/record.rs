@@ -1,4 +1,4 @@
-//! The record that codecs are measured on.
+//! The record that codecs encode and decode.
 
 use serde::{Deserialize, Serialize};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
@@ -8,7 +8,7 @@ pub(super) trait Example {
     fn example() -> Self;
 }
 
-/// A reading of a satellite receiver.
+/// A fix of a satellite navigation receiver.
 #[derive(Clone, PartialEq, prost::Message, Serialize, Deserialize)]
 pub(super) struct Record {
     #[prost(bool, tag = "1")]
@@ -31,7 +31,7 @@ pub(super) struct Record {
     height: f32,
 }
 
-/// The same at fixed lengths, the widest first so that there is no room between the fields.
+/// The same with fields of fixed size, the widest first so that no padding is needed.
 #[derive(Debug, Clone, Default, PartialEq, FromBytes, IntoBytes, KnownLayout, Immutable)]
 #[repr(C)]
 pub(super) struct FlatRecord {

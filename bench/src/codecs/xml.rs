@@ -1,4 +1,4 @@
-//! XML, which SCL does not offer: the paper compares with it.
+//! XML, which SCL does not support; the paper compares with it.
 
 use super::record::Record;
 use scl::bytes::{Bytes, BytesMut};
@@ -13,13 +13,13 @@ impl Codec<Record> for Xml {
 
     fn encode(message: &Record, into: &mut BytesMut) -> Result<(), EncodeError> {
         let text = quick_xml::se::to_string(message);
-        let text = text.map_err(|error| EncodeError::new(NAME, "it has no form in xml").caused_by(error))?;
+        let text = text.map_err(|error| EncodeError::new(NAME, "it cannot be written as xml").caused_by(error))?;
         into.extend_from_slice(text.as_bytes());
         Ok(())
     }
 
     fn decode(bytes: Bytes) -> Result<Record, DecodeError> {
         quick_xml::de::from_reader(&bytes[..])
-            .map_err(|error| DecodeError::new(NAME, "the bytes are no record in xml").caused_by(error))
+            .map_err(|error| DecodeError::new(NAME, "the bytes are not a record in xml").caused_by(error))
     }
 }

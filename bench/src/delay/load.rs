@@ -1,4 +1,4 @@
-//! Work that keeps the machine busy: a thread a core that computes, and one that writes a file.
+//! Load on the machine: one thread per core that computes, and one that writes a file.
 
 use std::fs::File;
 use std::hint::black_box;
@@ -7,51 +7,51 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 
-/// What is written to the file before it starts again from its beginning, in bytes.
-const WRITTEN: usize = 1 << 20;
+/// Bytes that are written to the file before it is overwritten from its start.
+const FILE_SIZE: usize = 1 << 20;
 
-/// The work; it ends when dropped.
+/// The running threads; dropping it ends them.
 pub(super) struct Load {
-    ended: Arc<AtomicBool>,
+    is_ended: Arc<AtomicBool>,
     threads: Vec<JoinHandle<()>>,
 }
 
 impl Load {
     pub(super) fn start() -> scl::Result<Self> {
         let file = tempfile::tempfile()?;
-        let mut load = Self { ended: Arc::default(), threads: Vec::new() };
+        let mut load = Self { is_ended: Arc::default(), threads: Vec::new() };
         for _ in 0..thread::available_parallelism()?.get() {
-            let ended = Arc::clone(&load.ended);
-            load.threads.push(thread::Builder::new().spawn(move || compute(&ended))?);
+            let is_ended = Arc::clone(&load.is_ended);
+            load.threads.push(thread::Builder::new().spawn(move || compute(&is_ended))?);
         }
-        let ended = Arc::clone(&load.ended);
-        load.threads.push(thread::Builder::new().spawn(move || write(&ended, file))?);
+        let is_ended = Arc::clone(&load.is_ended);
+        load.threads.push(thread::Builder::new().spawn(move || write(&is_ended, file))?);
         Ok(load)
     }
 }
 
 impl Drop for Load {
     fn drop(&mut self) {
-        self.ended.store(true, Ordering::Relaxed);
+        self.is_ended.store(true, Ordering::Relaxed);
         for thread in self.threads.drain(..) {
-            // A thread that panicked does not work any more either.
+            // A thread that panicked has ended as well.
             let _ended = thread.join();
         }
     }
 }
 
-fn compute(ended: &AtomicBool) {
+fn compute(is_ended: &AtomicBool) {
     let mut value = 1_u64;
-    while !ended.load(Ordering::Relaxed) {
+    while !is_ended.load(Ordering::Relaxed) {
         value = black_box(value.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1));
     }
 }
 
-fn write(ended: &AtomicBool, mut file: File) {
-    let block = vec![7; WRITTEN];
-    while !ended.load(Ordering::Relaxed) {
-        // A full disk takes the load away from the disk only; the computing goes on.
+fn write(is_ended: &AtomicBool, mut file: File) {
+    let block = vec![7; FILE_SIZE];
+    while !is_ended.load(Ordering::Relaxed) {
         let written = file.rewind().and_then(|()| file.write_all(&block)).and_then(|()| file.sync_data());
+        // A full disk only removes the load on the disk; the other threads go on.
         if written.is_err() {
             return;
         }

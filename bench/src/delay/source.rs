@@ -1,24 +1,28 @@
-//! The process that sends. It starts the receivers itself, so that they have its priority.
+//! The process that sends. It starts the receivers itself, so that they inherit its priority.
 
-use super::{BYTES, PERIOD, WAYS};
-use crate::one_way::Lane;
-use crate::processes::{say, start_runtime, wrong_words};
+use super::{BYTES, PERIOD, VARIANTS};
+use crate::one_way::{Channel, Timing};
+use crate::runtime::start_runtime;
+use crate::worker::{print_line, unknown_arguments};
 
-/// Sends batches of so many messages on each way in turn, so many times; says what the receivers say.
-pub(crate) fn play_source(words: &[&str]) -> scl::Result<()> {
-    let [folder, batch, rounds] = words else { return Err(wrong_words(words)) };
+/// Sends batches on each variant in turn, and prints the report of each batch. The arguments are the scratch folder,
+/// the size of a batch and the number of rounds.
+pub(crate) fn run_source(arguments: &[&str]) -> scl::Result<()> {
+    let [folder, batch, rounds] = arguments else { return Err(unknown_arguments(arguments)) };
     let (batch, rounds): (usize, usize) = (batch.parse()?, rounds.parse()?);
     let runtime = start_runtime()?;
-    let lanes = WAYS.iter().map(|way| Lane::open(&runtime, way, folder, BYTES, batch));
-    let mut lanes = lanes.collect::<scl::Result<Vec<Lane>>>()?;
+    let mut channels = Vec::new();
+    for variant in VARIANTS {
+        channels.push(Channel::open(&runtime, variant, folder, BYTES, batch, Timing::EachMessage)?);
+    }
     runtime.block_on(async {
-        // The first round only warms up.
+        // The first round is warm-up.
         for round in 0..=rounds {
-            for lane in &mut lanes {
-                lane.send_steadily(PERIOD).await?;
-                let received = lane.received().await?;
+            for channel in &mut channels {
+                channel.send_periodically(PERIOD).await?;
+                let report = channel.batch_report().await?;
                 if round > 0 {
-                    say(&received.to_line())?;
+                    print_line(&report.to_line())?;
                 }
             }
         }

@@ -1,3 +1,3 @@
-//! The nine components of this scenario.
+//! The components of this benchmark.
 
 scl::topology!("fanout.yaml");

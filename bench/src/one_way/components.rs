@@ -1,3 +1,3 @@
-//! The two components of these scenarios.
+//! The components of these benchmarks.
 
 scl::topology!("one_way.yaml");

@@ -1,98 +1,159 @@
-//! The side that receives.
+//! The receiving side.
 
 use super::components::Sink;
-use super::{Received, SHORTEST};
+use super::message::sent_time;
+use super::{BatchReport, Timing};
 use crate::clock::now;
-use crate::processes::{say, start_runtime, wrong_words};
-use crate::raw::{RawPlace, only_frame};
-use scl::bytes::{Buf, Bytes, BytesMut};
-use tokio::io::AsyncReadExt;
+use crate::raw::{SocketPaths, first_frame};
+use crate::runtime::start_runtime;
+use crate::unix::{FrameBuffer, PREFIX};
+use crate::worker::{print_line, unknown_arguments};
 use tokio::net::UnixStream;
+use tokio::runtime::Runtime;
 use zeromq::{PullSocket, Socket, SocketRecv, SubSocket};
 
-/// Receives for ever on the way that the words name, with the scenario's folder, the messages' length and the size of a
-/// batch.
-pub(crate) fn play_receiver(words: &[&str]) -> scl::Result<()> {
-    let [word, folder, bytes, batch] = words else { return Err(wrong_words(words)) };
+/// Receives batches forever. The arguments are the variant's id, the scratch folder, the message size, the size of a
+/// batch, and the timing.
+pub(crate) fn run_receiver(arguments: &[&str]) -> scl::Result<()> {
+    let [id, folder, bytes, batch, timing] = arguments else { return Err(unknown_arguments(arguments)) };
     let (bytes, batch) = (bytes.parse()?, batch.parse()?);
-    start_runtime()?.block_on(async {
-        let mut receiver = Receiver::open(word, folder, bytes).await?;
-        loop {
-            say(&receiver.receive_batch(batch).await?.to_line())?;
-        }
-    })
+    let has_delays = *timing == Timing::EachMessage.id();
+    let runtime = start_runtime()?;
+    let mut receiver = Receiver::open(&runtime, id, folder, bytes)?;
+    loop {
+        let mut batch = Batch::new(batch, has_delays);
+        receiver.receive_batch(&runtime, &mut batch)?;
+        print_line(&batch.report().to_line())?;
+    }
 }
 
-/// The receiving end of a way.
+/// The receiving end of a variant.
 enum Receiver {
-    SclPublish(Sink),
+    SclPub(Sink),
+    SclPubBlocking(Sink),
     SclPush(Sink),
-    RawPublish(SubSocket),
-    RawPush(PullSocket),
+    SclPushBlocking(Sink),
+    ZeromqPub(SubSocket),
+    ZeromqPush(PullSocket),
     #[cfg(feature = "libzmq")]
     Libzmq(zmq2::Socket),
-    Unix(UnixStream, BytesMut),
+    Unix(UnixStream, FrameBuffer),
+}
+
+/// The messages of a batch so far.
+struct Batch {
+    missing: usize,
+    /// When the first message was sent, rather than received: a sender that queues everything before it writes is not
+    /// faster than one that writes at once.
+    first_sent: Option<u64>,
+    delays: Option<Vec<u64>>,
 }
 
 impl Receiver {
-    async fn open(word: &str, folder: &str, bytes: usize) -> scl::Result<Self> {
-        let place = RawPlace::new(folder, word);
-        let open_sink = || Sink::open_with(scl::OpenOptions::new().runtime_dir(folder).system(word));
-        Ok(match word {
-            "scl-publish" => Self::SclPublish(open_sink().await?),
-            "scl-push" => Self::SclPush(open_sink().await?),
-            "raw-publish" => Self::RawPublish(place.subscribe("stream").await?),
-            "raw-push" => {
-                let mut socket = PullSocket::new();
-                socket.bind(&place.zeromq("stream")).await?;
-                say("ready")?;
-                Self::RawPush(socket)
-            }
-            #[cfg(feature = "libzmq")]
-            "libzmq-publish" => Self::Libzmq(endless(place.subscribe_libzmq(&zmq2::Context::new(), "stream")?)?),
-            #[cfg(feature = "libzmq")]
-            "libzmq-push" => Self::Libzmq(endless(place.bind_libzmq(&zmq2::Context::new(), zmq2::PULL, "stream")?)?),
-            "unix" => {
-                Self::Unix(UnixStream::connect(place.socket("stream")).await?, BytesMut::zeroed(bytes.max(SHORTEST)))
-            }
-            other => return Err(wrong_words(&[other])),
-        })
-    }
-
-    async fn receive_batch(&mut self, batch: usize) -> scl::Result<Received> {
-        let mut delays = Vec::with_capacity(batch);
-        let (mut first, mut last) = (0, 0);
-        for index in 0..batch {
-            let sent = self.receive().await?.try_get_u64()?;
-            last = now();
-            if index == 0 {
-                // A sender that takes in everything before it writes anything is not faster than one that writes at once.
-                first = sent;
-            }
-            delays.push(last.saturating_sub(sent));
+    fn open(runtime: &Runtime, id: &str, folder: &str, bytes: usize) -> scl::Result<Self> {
+        let paths = SocketPaths::new(folder, id);
+        let options = scl::OpenOptions::new().runtime_dir(folder).system(id);
+        match id {
+            "scl-pub-blocking" => return Ok(Self::SclPubBlocking(Sink::open_blocking_with(options)?)),
+            "scl-push-blocking" => return Ok(Self::SclPushBlocking(Sink::open_blocking_with(options)?)),
+            _ => {}
         }
-        Ok(Received { span: last.saturating_sub(first), delays })
+        runtime.block_on(async {
+            Ok(match id {
+                "scl-pub" => Self::SclPub(Sink::open_with(options).await?),
+                "scl-push" => Self::SclPush(Sink::open_with(options).await?),
+                "zeromq-pub" => Self::ZeromqPub(paths.connect_sub("stream").await?),
+                "zeromq-push" => {
+                    let mut socket = PullSocket::new();
+                    socket.bind(&paths.endpoint("stream")).await?;
+                    print_line("listening")?;
+                    Self::ZeromqPush(socket)
+                }
+                #[cfg(feature = "libzmq")]
+                "libzmq-nodrop" | "libzmq-pub" | "libzmq-push" | "libzmq-push-unlimited" => {
+                    Self::Libzmq(connect_libzmq(&paths, id)?)
+                }
+                "unix" => Self::Unix(UnixStream::connect(paths.path("stream")).await?, FrameBuffer::new(bytes)),
+                other => return Err(unknown_arguments(&[other])),
+            })
+        })
     }
 
-    async fn receive(&mut self) -> scl::Result<Bytes> {
-        Ok(match self {
-            Self::SclPublish(sink) => sink.stream.recv().await?,
-            Self::SclPush(sink) => sink.jobs.recv().await?,
-            Self::RawPublish(socket) => only_frame(socket.recv().await?),
-            Self::RawPush(socket) => only_frame(socket.recv().await?),
-            #[cfg(feature = "libzmq")]
-            Self::Libzmq(socket) => socket.recv_bytes(0)?.into(),
-            Self::Unix(stream, buffer) => {
-                stream.read_exact(buffer).await?;
-                Bytes::copy_from_slice(buffer)
+    fn receive_batch(&mut self, runtime: &Runtime, batch: &mut Batch) -> scl::Result<()> {
+        match self {
+            Self::SclPubBlocking(sink) => {
+                while !batch.is_complete() {
+                    batch.add(&sink.stream.recv_blocking()?)?;
+                }
+                Ok(())
             }
-        })
+            Self::SclPushBlocking(sink) => {
+                while !batch.is_complete() {
+                    batch.add(&sink.jobs.recv_blocking()?)?;
+                }
+                Ok(())
+            }
+            _ => runtime.block_on(async {
+                while !batch.is_complete() {
+                    self.receive(batch).await?;
+                }
+                Ok(())
+            }),
+        }
+    }
+
+    async fn receive(&mut self, batch: &mut Batch) -> scl::Result<()> {
+        match self {
+            Self::SclPub(sink) => batch.add(&sink.stream.recv().await?),
+            Self::SclPush(sink) => batch.add(&sink.jobs.recv().await?),
+            Self::ZeromqPub(socket) => batch.add(&first_frame(socket.recv().await?)),
+            Self::ZeromqPush(socket) => batch.add(&first_frame(socket.recv().await?)),
+            #[cfg(feature = "libzmq")]
+            Self::Libzmq(socket) => batch.add(&socket.recv_msg(0)?),
+            Self::Unix(stream, frames) => batch.add(&frames.read(stream).await?[PREFIX..]),
+            Self::SclPubBlocking(_) | Self::SclPushBlocking(_) => {
+                Err(scl::Error::message("this variant receives whole batches only"))
+            }
+        }
     }
 }
 
-/// Waits for a message as long as it takes: between two batches others have their turn.
+impl Batch {
+    fn new(size: usize, has_delays: bool) -> Self {
+        Self { missing: size, first_sent: None, delays: has_delays.then(|| Vec::with_capacity(size)) }
+    }
+
+    fn is_complete(&self) -> bool {
+        self.missing == 0
+    }
+
+    fn add(&mut self, message: &[u8]) -> scl::Result<()> {
+        self.missing -= 1;
+        if self.first_sent.is_none() {
+            self.first_sent = Some(sent_time(message)?);
+        }
+        if let Some(delays) = &mut self.delays {
+            delays.push(now().saturating_sub(sent_time(message)?));
+        }
+        Ok(())
+    }
+
+    /// The report of a batch whose last message has just arrived.
+    fn report(self) -> BatchReport {
+        let now = now();
+        let span = now.saturating_sub(self.first_sent.unwrap_or(now));
+        BatchReport { span, delays: self.delays.unwrap_or_default() }
+    }
+}
+
 #[cfg(feature = "libzmq")]
-fn endless(socket: zmq2::Socket) -> scl::Result<zmq2::Socket> {
-    socket.set_rcvtimeo(-1)?;
-    Ok(socket)
+fn connect_libzmq(paths: &SocketPaths, id: &str) -> scl::Result<zmq2::Socket> {
+    use crate::libzmq::{HighWaterMark, without_timeout};
+    let (kind, mark) = match id {
+        "libzmq-nodrop" => (zmq2::SUB, HighWaterMark::Default),
+        "libzmq-pub" => (zmq2::SUB, HighWaterMark::Unlimited),
+        "libzmq-push" => (zmq2::PULL, HighWaterMark::Default),
+        _ => (zmq2::PULL, HighWaterMark::Unlimited),
+    };
+    without_timeout(paths.connect_libzmq(&zmq2::Context::new(), "stream", kind, mark)?)
 }

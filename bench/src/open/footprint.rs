@@ -1,28 +1,28 @@
-//! What a process takes, read from the operating system.
+//! Memory and wake-ups of a process, read from `/proc`.
 
 use std::fs;
 
-/// The memory of a process that is resident, in KiB.
+/// The resident memory of a process, in KiB.
 pub(super) fn resident_kib(process: u32) -> scl::Result<u64> {
     field(&fs::read_to_string(format!("/proc/{process}/status"))?, "VmRSS")
 }
 
-/// How often the threads of a process have been given a processor so far.
+/// The number of context switches of all threads of a process so far.
 pub(super) fn context_switches(process: u32) -> scl::Result<u64> {
     let mut switches = 0;
     for thread in fs::read_dir(format!("/proc/{process}/task"))? {
-        // A thread that has ended since the folder was read counts no more.
+        // A thread may have ended since the folder was listed.
         let Ok(status) = fs::read_to_string(thread?.path().join("status")) else { continue };
         switches += field(&status, "voluntary_ctxt_switches")? + field(&status, "nonvoluntary_ctxt_switches")?;
     }
     Ok(switches)
 }
 
-/// The number of a line `name:  number unit`.
+/// The number in a line `name:  number unit`.
 fn field(status: &str, name: &str) -> scl::Result<u64> {
     let value = status.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':'));
     let number = value.and_then(|value| value.split_ascii_whitespace().next());
-    let missing = || scl::Error::message(format!("the operating system does not tell `{name}` of a process"));
+    let missing = || scl::Error::message(format!("the status of a process has no field `{name}`"));
     Ok(number.ok_or_else(missing)?.parse()?)
 }
 
@@ -31,15 +31,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fields_are_found_by_their_whole_name() {
+    fn fields_are_found_by_their_full_name() {
         let status = "VmRSS:\t    5120 kB\nvoluntary_ctxt_switches:\t7\nnonvoluntary_ctxt_switches:\t3\n";
         for (name, expected) in [("VmRSS", 5120), ("voluntary_ctxt_switches", 7), ("nonvoluntary_ctxt_switches", 3)] {
             assert_eq!(field(status, name).unwrap(), expected);
         }
-        assert_eq!(
-            field(status, "VmHWM").unwrap_err().to_string(),
-            "the operating system does not tell `VmHWM` of a process"
-        );
+        assert_eq!(field(status, "VmHWM").unwrap_err().to_string(), "the status of a process has no field `VmHWM`");
     }
 
     #[test]

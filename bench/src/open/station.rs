@@ -1,63 +1,65 @@
-//! The processes that are watched.
+//! The processes that are observed.
 
 use super::components::{Neighbour, Station};
-use crate::processes::{say, start_runtime, wrong_words};
-use crate::raw::RawPlace;
+use crate::raw::SocketPaths;
+use crate::runtime::start_runtime;
+use crate::worker::{print_line, unknown_arguments};
 use std::future::pending;
 use std::time::{Duration, Instant};
 use zeromq::{DealerSocket, PullSocket, PushSocket, RouterSocket, Socket, SubSocket};
 
-const PATIENCE: Duration = Duration::from_secs(10);
+const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// Opens what the words name in a folder, says how long that took in nanoseconds, and rests.
-pub(crate) fn play(words: &[&str]) -> scl::Result<()> {
-    let [word, folder, ready] = words else { return Err(wrong_words(words)) };
+/// Opens something, prints how long that took in nanoseconds, and idles. The arguments are what to open, the scratch
+/// folder, and whether to wait for the neighbour.
+pub(crate) fn run_station(arguments: &[&str]) -> scl::Result<()> {
+    let [id, folder, ready] = arguments else { return Err(unknown_arguments(arguments)) };
     let options = scl::OpenOptions::new().runtime_dir(*folder).system("open");
     start_runtime()?.block_on(async {
         let started = Instant::now();
-        match *word {
+        match *id {
             "station" => {
                 let station = Station::open_with(options).await?;
-                say_time(started)?;
+                print_elapsed(started)?;
                 if *ready == "connected" {
-                    station.ready(PATIENCE).await?;
+                    station.ready(CONNECT_TIMEOUT).await?;
                 }
-                rest(station).await
+                idle(station).await
             }
-            "neighbour" => rest(Neighbour::open_with(options).await?).await,
+            "neighbour" => idle(Neighbour::open_with(options).await?).await,
             "sockets" => {
-                let sockets = open_sockets(&RawPlace::new(folder, "socket")).await?;
-                say_time(started)?;
-                rest(sockets).await
+                let sockets = open_sockets(&SocketPaths::new(folder, "socket")).await?;
+                print_elapsed(started)?;
+                idle(sockets).await
             }
             "nothing" => {
-                say_time(started)?;
-                rest(()).await
+                print_elapsed(started)?;
+                idle(()).await
             }
-            _ => Err(wrong_words(words)),
+            _ => Err(unknown_arguments(arguments)),
         }
     })
 }
 
-fn say_time(started: Instant) -> scl::Result<()> {
-    say(&started.elapsed().as_nanos().to_string())
+fn print_elapsed(started: Instant) -> scl::Result<()> {
+    print_line(&started.elapsed().as_nanos().to_string())
 }
 
 /// Keeps what was opened until the process ends.
-async fn rest<T>(kept: T) -> scl::Result<()> {
-    say("rests")?;
+async fn idle<T>(opened: T) -> scl::Result<()> {
+    print_line("idle")?;
     pending::<()>().await;
-    drop(kept);
+    drop(opened);
     Ok(())
 }
 
-/// The sockets that ten such gates need at least: the ends that listen are bound.
-async fn open_sockets(place: &RawPlace) -> scl::Result<impl Sized + use<>> {
+/// The fewest sockets that ten such gates need. Those of the listening gates are bound.
+async fn open_sockets(paths: &SocketPaths) -> scl::Result<impl Sized + use<>> {
     let mut router = RouterSocket::new();
     let mut pull = PullSocket::new();
-    let publishing = (place.publish("a").await?, place.publish("b").await?, place.publish("c").await?);
-    router.bind(&place.zeromq("d")).await?;
-    pull.bind(&place.zeromq("e")).await?;
+    let publishers = (paths.bind_xpub("a").await?, paths.bind_xpub("b").await?, paths.bind_xpub("c").await?);
+    router.bind(&paths.endpoint("d")).await?;
+    pull.bind(&paths.endpoint("e")).await?;
     let connecting = ([SubSocket::new(), SubSocket::new(), SubSocket::new()], DealerSocket::new(), PushSocket::new());
-    Ok((publishing, router, pull, connecting))
+    Ok((publishers, router, pull, connecting))
 }

@@ -1,3 +1,3 @@
-//! The two components of this scenario.
+//! The components of this benchmark.
 
 scl::topology!("roundtrip.yaml");

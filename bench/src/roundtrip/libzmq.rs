@@ -1,56 +1,56 @@
-//! The ways over libzmq, the C++ library, each on a plain thread as its users have it.
+//! The variants over libzmq, on plain threads as its users have them.
 
-use crate::processes::OtherProcess;
-use crate::raw::RawPlace;
-use zmq2::{Context, REP, REQ, Socket};
+use crate::libzmq::{HighWaterMark, without_timeout};
+use crate::raw::SocketPaths;
+use crate::worker::Worker;
+use zmq2::{Context, REP, REQ, SUB, Socket, XPUB};
 
-/// What sends there and what brings back; the same socket for requests.
-pub(super) enum Ball {
-    Publish { there: Socket, back: Socket },
-    Call(Socket),
+const MARK: HighWaterMark = HighWaterMark::Default;
+
+/// The sockets of the side that measures.
+pub(super) enum Client {
+    Pub { ping: Socket, pong: Socket },
+    Req(Socket),
 }
 
-impl Ball {
-    pub(super) fn start(word: &str, folder: &str, wall: &[&str]) -> scl::Result<(Self, OtherProcess)> {
-        let (context, place) = (Context::new(), RawPlace::new(folder, word));
-        if word == "libzmq-call-blocking" {
-            let socket = place.bind_libzmq(&context, REQ, "question")?;
-            return Ok((Self::Call(socket), OtherProcess::start(wall)?));
+impl Client {
+    pub(super) fn start(id: &str, folder: &str, echo: &[&str]) -> scl::Result<(Self, Worker)> {
+        let (context, paths) = (Context::new(), SocketPaths::new(folder, id));
+        if id == "libzmq-req-blocking" {
+            let request = paths.bind_libzmq(&context, "request", REQ, MARK)?;
+            return Ok((Self::Req(request), Worker::start(echo)?));
         }
-        let there = place.publish_libzmq(&context, "there")?;
-        let wall = OtherProcess::start(wall)?;
-        let back = place.subscribe_libzmq(&context, "back")?;
-        // The wall's subscription.
-        there.recv_bytes(0)?;
-        Ok((Self::Publish { there, back }, wall))
+        let ping = paths.bind_libzmq(&context, "ping", XPUB, MARK)?;
+        let echo = Worker::start(echo)?;
+        let pong = paths.connect_libzmq(&context, "pong", SUB, MARK)?;
+        let _subscription = ping.recv_bytes(0)?;
+        Ok((Self::Pub { ping, pong }, echo))
     }
 
     pub(super) fn exchange(&mut self, payload: &[u8]) -> scl::Result<()> {
-        let (there, back) = match self {
-            Self::Publish { there, back } => (&*there, &*back),
-            Self::Call(socket) => (&*socket, &*socket),
+        let (sender, receiver) = match self {
+            Self::Pub { ping, pong } => (&*ping, &*pong),
+            Self::Req(request) => (&*request, &*request),
         };
-        there.send(payload, 0)?;
-        back.recv_bytes(0)?;
+        sender.send(payload, 0)?;
+        receiver.recv_bytes(0)?;
         Ok(())
     }
 }
 
-pub(super) fn send_back_published(place: &RawPlace) -> scl::Result<()> {
+pub(super) fn echo_published(paths: &SocketPaths) -> scl::Result<()> {
     let context = Context::new();
-    let back = place.publish_libzmq(&context, "back")?;
-    let there = place.subscribe_libzmq(&context, "there")?;
-    // The ball's subscription.
-    back.recv_bytes(0)?;
-    there.set_rcvtimeo(-1)?;
+    let pong = paths.bind_libzmq(&context, "pong", XPUB, MARK)?;
+    let ping = paths.connect_libzmq(&context, "ping", SUB, MARK)?;
+    let _subscription = pong.recv_bytes(0)?;
+    let ping = without_timeout(ping)?;
     loop {
-        back.send(there.recv_bytes(0)?, 0)?;
+        pong.send(ping.recv_bytes(0)?, 0)?;
     }
 }
 
-pub(super) fn send_back_asked(place: &RawPlace) -> scl::Result<()> {
-    let socket = place.connect_libzmq(&Context::new(), REP, "question")?;
-    socket.set_rcvtimeo(-1)?;
+pub(super) fn echo_requests(paths: &SocketPaths) -> scl::Result<()> {
+    let socket = without_timeout(paths.connect_libzmq(&Context::new(), "request", REP, MARK)?)?;
     loop {
         socket.send(socket.recv_bytes(0)?, 0)?;
     }

@@ -1,15 +1,17 @@
-//! What the options of `scl bench` accept. A refusal says what to write instead.
+//! The values that the options of `scl bench` accept. An error says what to write instead.
 
 use crate::duration::parse_duration;
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
-/// Ten million messages keep some 800 MB of times for a moment.
+/// Ten million messages briefly take 800 MB for their times.
 pub(super) const MESSAGES: RangeInclusive<usize> = 1..=10_000_000;
+
+pub(super) const REPETITIONS: RangeInclusive<usize> = 1..=10_000;
 
 pub(super) const STARTS: RangeInclusive<usize> = 1..=10_000;
 
-/// Reads a whole number within a range.
+/// Parses a whole number within a range.
 pub(super) fn within(range: RangeInclusive<usize>) -> impl Fn(&str) -> Result<usize, String> + Clone {
     move |text| match text.trim().parse() {
         Ok(number) if range.contains(&number) => Ok(number),
@@ -17,13 +19,13 @@ pub(super) fn within(range: RangeInclusive<usize>) -> impl Fn(&str) -> Result<us
     }
 }
 
-/// `5`, `0.5`, or with a unit as elsewhere, `5s`.
+/// Parses `5` or `0.5`, or a number with a unit, `5s`.
 pub(super) fn parse_seconds(text: &str) -> Result<f64, String> {
     let with_unit = if text.ends_with(|c: char| c.is_ascii_digit()) { format!("{text}s") } else { text.to_owned() };
-    let wanted = || "write a time from 0.001 to 3600 seconds, like `5` or `500ms`".to_owned();
-    let time = parse_duration(&with_unit).map_err(|_| wanted())?;
+    let expected = || "write a time from 0.001 to 3600 seconds, like `5` or `500ms`".to_owned();
+    let time = parse_duration(&with_unit).map_err(|_| expected())?;
     if time < Duration::from_millis(1) || time > Duration::from_secs(3600) {
-        return Err(wanted());
+        return Err(expected());
     }
     Ok(time.as_secs_f64())
 }
@@ -33,7 +35,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn seconds_need_no_unit() {
+    fn seconds_may_have_a_unit() {
         for (text, seconds) in [("5", 5.0), ("0.5", 0.5), ("250ms", 0.25), ("1h", 3600.0)] {
             assert_eq!(parse_seconds(text), Ok(seconds), "{text}");
         }
@@ -44,7 +46,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_keep_to_their_range() {
+    fn numbers_must_be_in_their_range() {
         let parse = within(8..=1024);
         for (text, number) in [("8", 8), ("1024", 1024), (" 20", 20)] {
             assert_eq!(parse(text), Ok(number), "{text}");

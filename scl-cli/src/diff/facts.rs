@@ -1,9 +1,8 @@
 //! What there is to say about the parts of a topology, as pairs of key and value.
 
 use scl_topology::resolve::{contract, endpoint};
-use scl_topology::topology::{
-    Codec, Component, ConnectionId, Gate, GateKind, GateOptions, Payload, Topology, WhenFull,
-};
+use scl_topology::size;
+use scl_topology::topology::{Component, ConnectionId, Gate, GateKind, GateOptions, Topology};
 
 /// A key of the topology file, or a word for what follows from it, and its value.
 pub(super) type Fact = (&'static str, String);
@@ -29,8 +28,8 @@ pub(super) fn compiled_gate_facts(gate: &Gate) -> Vec<Fact> {
     let GateOptions { timeout, backpressure, .. } = gate.options();
     let mut facts = vec![
         ("kind", gate.kind().word().to_owned()),
-        ("type", payload(gate.payload())),
-        ("codec", codec(gate.codec()).to_owned()),
+        ("type", gate.payload().to_string()),
+        ("codec", gate.codec().word().to_owned()),
     ];
     // Options that the kind does not have would differ only because the kind does.
     match gate.kind() {
@@ -38,6 +37,9 @@ pub(super) fn compiled_gate_facts(gate: &Gate) -> Vec<Fact> {
         GateKind::Pub | GateKind::Push => facts.push(("backpressure", backpressure.to_string())),
         GateKind::Req => facts.push(("timeout", format!("{timeout:?}"))),
         GateKind::Rep => {}
+    }
+    if !matches!(gate.kind(), GateKind::Pub | GateKind::Push) {
+        facts.push(size_fact(gate.options()));
     }
     facts
 }
@@ -49,38 +51,18 @@ pub(super) fn connection_facts(topology: &Topology, id: ConnectionId) -> Vec<Fac
 
 /// The queue of a receiving gate, which its senders keep.
 pub(super) fn queue_facts(options: &GateOptions) -> [Fact; 2] {
-    let when_full = match options.when_full {
-        WhenFull::DropOldest => "drop_oldest",
-        WhenFull::DropNewest => "drop_newest",
-        WhenFull::Wait => "wait",
-    };
-    [("queue", options.queue.to_string()), ("when_full", when_full.to_owned())]
+    [("queue", options.queue.to_string()), ("when_full", options.when_full.word().to_owned())]
+}
+
+/// The longest message that a gate accepts, which its peers know.
+pub(super) fn size_fact(options: &GateOptions) -> Fact {
+    ("max_size", size::text(options.max_size))
 }
 
 /// `sensor.measurements -> controller.sensor`: two gates are connected at most once, so it is a name.
 pub(super) fn connection_name(topology: &Topology, id: ConnectionId) -> String {
     let connection = topology.connection(id);
     format!("{} -> {}", topology.gate_path(connection.source()), topology.gate_path(connection.sink()))
-}
-
-fn payload(payload: &Payload) -> String {
-    match payload {
-        Payload::Bytes => "bytes".to_owned(),
-        Payload::Message(name) => name.dotted().to_owned(),
-        Payload::Exchange { request, reply } => format!("{} -> {}", request.dotted(), reply.dotted()),
-    }
-}
-
-fn codec(codec: &Codec) -> &str {
-    match codec {
-        Codec::Protobuf => "protobuf",
-        Codec::Json => "json",
-        Codec::Cbor => "cbor",
-        Codec::Msgpack => "msgpack",
-        Codec::Postcard => "postcard",
-        Codec::Raw => "raw",
-        Codec::Path(path) => path,
-    }
 }
 
 fn doc(doc: Option<&str>) -> String {

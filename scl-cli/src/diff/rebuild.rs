@@ -1,7 +1,7 @@
 //! Which components must be rebuilt: those of which something differs that is compiled into them.
 
 use super::Side;
-use super::facts::{Fact, compiled_gate_facts, connection_facts, connection_name, queue_facts};
+use super::facts::{Fact, compiled_gate_facts, connection_facts, connection_name, queue_facts, size_fact};
 use scl_topology::topology::{Component, GateId, Topology};
 
 /// A component and why it must be rebuilt.
@@ -46,10 +46,13 @@ fn links(topology: &Topology, gate: GateId) -> Compiled {
     connections
         .map(|&id| {
             let connection = topology.connection(id);
-            let peer = topology.component(topology.gate(connection.peer_of(gate)).component());
+            let peer_gate = topology.gate(connection.peer_of(gate));
+            let peer = topology.component(peer_gate.component());
             let mut facts = connection_facts(topology, id);
             // The sender keeps the queue of the receiver.
             facts.extend(queue_facts(topology.gate(connection.sink()).options()));
+            // The sender refuses what the peer does not accept.
+            facts.push(size_fact(peer_gate.options()));
             facts.push(("optional", peer.optional().to_string()));
             (format!("connection `{}`", connection_name(topology, id)), facts)
         })

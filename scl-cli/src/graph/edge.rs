@@ -16,8 +16,7 @@ pub(crate) fn edge_of(topology: &Topology, connection: &Connection) -> Edge {
     let source = topology.gate(connection.source());
     let types = match source.payload() {
         Payload::Bytes => String::new(),
-        Payload::Message(message) => message.dotted().to_owned(),
-        Payload::Exchange { request, reply } => format!("{} -> {}", request.dotted(), reply.dotted()),
+        typed => typed.to_string(),
     };
     Edge { types, answered: source.kind() == GateKind::Req }
 }

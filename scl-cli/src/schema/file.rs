@@ -2,6 +2,7 @@
 
 use super::gate::gate_schema;
 use super::names::{NAME, Names};
+use scl_topology::topology::Codec;
 use serde_json::{Value, json};
 
 /// The whole schema.
@@ -39,8 +40,9 @@ pub(super) fn file_schema(names: &Names) -> Value {
 
 /// A codec of the framework, or a Rust path to one of the user's own.
 pub(super) fn codec_schema(description: &str) -> Value {
-    let known = ["protobuf", "json", "cbor", "msgpack", "postcard", "raw"];
-    let words = [
+    let known = Codec::BUILT_IN;
+    let known = known.each_ref().map(Codec::word);
+    let words: [&str; Codec::BUILT_IN.len()] = [
         "Messages of a schema, or any prost type.",
         "Any serde type, as text.",
         "Any serde type, binary.",

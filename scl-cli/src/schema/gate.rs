@@ -2,7 +2,8 @@
 
 use super::file::codec_schema;
 use super::names::{NAME, Names};
-use scl_topology::topology::GateKind;
+use scl_topology::size;
+use scl_topology::topology::{GateKind, GateOptions, WhenFull};
 use serde_json::{Map, Value, json};
 
 /// A gate: `name: kind`, or `name: {kind: type, option: value}`.
@@ -65,6 +66,9 @@ fn options(kind: GateKind) -> Vec<(&'static str, Value)> {
         ("codec", codec_schema("How messages become bytes. Default: the codec of the file.")),
         ("unconnected", words(&["ok"], "`ok`: this gate is meant to have no peer, so nothing warns.")),
     ];
+    if !matches!(kind, GateKind::Pub | GateKind::Push) {
+        options.push(("max_size", size_schema()));
+    }
     match kind {
         GateKind::Sub | GateKind::Pull => options.extend(queue_options()),
         GateKind::Pub => options.push(("backpressure", backpressure())),
@@ -96,11 +100,25 @@ fn queue_options() -> [(&'static str, Value); 2] {
         (
             "when_full",
             words(
-                &["drop_oldest", "drop_newest", "wait"],
+                &WhenFull::WORDS,
                 "What a full queue does; `wait` needs `backpressure: true` at the sender. Default: `drop_oldest`.",
             ),
         ),
     ]
+}
+
+fn size_schema() -> Value {
+    let units = size::UNITS.map(|(unit, _)| unit).join("|");
+    let largest = size::text(GateOptions::LARGEST_MAX_SIZE);
+    json!({
+        "type": "string",
+        "pattern": format!("^[0-9]+ *({units})$"),
+        "default": size::text(GateOptions::default().max_size),
+        "description": format!(
+            "The longest message that this gate accepts: a whole number and a unit ({}), at most {largest}.",
+            size::UNITS.map(|(unit, _)| format!("`{unit}`")).join(", ")
+        ),
+    })
 }
 
 fn backpressure() -> Value {

@@ -1,6 +1,6 @@
-//! Diagnostics become compile errors and warnings, at the path literal or, where rustc can, in the topology file.
+//! Diagnostics as compile errors and warnings, at the path literal or, if rustc can, in the topology file.
 
-use super::call::Call;
+use super::context::{Context, names_component};
 use super::file_spans::FileSpans;
 use super::names::identifier;
 use proc_macro2::{Span, TokenStream};
@@ -10,61 +10,61 @@ use scl_topology::source::Sources;
 use scl_topology::suggest::similar;
 use syn::Ident;
 
-/// Every error and every warning, up to the limit that all tools share; lints never.
-pub(super) fn expand_problems(call: &Call<'_>) -> TokenStream {
-    let mut problems: Vec<Diagnostic> = call.loaded.diagnostics.clone();
+/// Every error and warning, up to the limit that all tools share. Lints are not shown.
+pub(super) fn expand_problems(context: &Context<'_>) -> TokenStream {
+    let mut problems: Vec<Diagnostic> = context.loaded.diagnostics.clone();
     problems.retain(|problem| problem.severity != Severity::Lint);
-    problems.extend(unknown_wishes(call));
-    let problems = limit(problems, &call.path);
+    problems.extend(unknown_components(context));
+    let problems = limit(problems, &context.path);
     let (errors, warnings): (Vec<_>, Vec<_>) = problems.iter().partition(|problem| problem.severity == Severity::Error);
-    let spans = FileSpans::of(call);
-    let text = |problem: &&Diagnostic| render_headless(problem, &call.loaded.sources);
-    let mut errors = errors.iter().map(|problem| compile_error(&text(problem), spans.span(call, problem)));
-    let first = errors.next().map(|first| unknown_type(call, first));
-    let warnings = warnings.iter().map(|problem| warning(&text(problem), spans.span(call, problem)));
+    let spans = FileSpans::of(context);
+    let text = |problem: &&Diagnostic| render_headless(problem, &context.loaded.sources);
+    let mut errors = errors.iter().map(|problem| compile_error(&text(problem), spans.span(context, problem)));
+    let first = errors.next().map(|first| expand_unknown_type(context, first));
+    let warnings = warnings.iter().map(|problem| warning(&text(problem), spans.span(context, problem)));
     quote! { #first #(#errors)* #(#warnings)* }
 }
 
-/// The only error of a call whose arguments make no sense.
+/// The only error of an invocation whose arguments cannot be read.
 pub(super) fn expand_bad_arguments(problem: &Diagnostic, span: Span) -> TokenStream {
     let text = render_headless(problem, &Sources::new());
     compile_error(&text, span)
 }
 
-/// The name of the type that stands for what a broken file does not tell.
-pub(super) fn unknown_type_name(call: &Call<'_>) -> Ident {
-    let stem: String =
-        call.path.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
-    identifier(&format!("__scl_unknown_{stem}"), call.span).unwrap_or_else(|| format_ident!("__scl_unknown"))
+/// The name of the unknown type: the type of everything that cannot be read from a broken file.
+pub(super) fn unknown_type_name(context: &Context<'_>) -> Ident {
+    let name = format!("__scl_unknown_{}", context.path_as_identifier());
+    identifier(&name, context.span).unwrap_or_else(|| format_ident!("__scl_unknown"))
 }
 
-/// The first error is reported from inside a type, the length of an array, that is then wrong in a way of which rustc has
-/// told already: whatever a program does with a gate of that type is no further error.
-fn unknown_type(call: &Call<'_>, first: TokenStream) -> TokenStream {
-    let name = unknown_type_name(call);
-    quote_spanned! { call.span =>
+/// Reports the first error from inside the unknown type, as the length of an array. The type is then erroneous in a way
+/// that rustc has already reported, so using a gate of that type causes no further errors.
+fn expand_unknown_type(context: &Context<'_>, first: TokenStream) -> TokenStream {
+    let name = unknown_type_name(context);
+    quote_spanned! { context.span =>
         #[doc(hidden)]
         #[allow(dead_code, non_camel_case_types)]
         type #name = [(); #first];
     }
 }
 
-/// A component that `only` asks for must be there, unless the file is too broken to tell.
-fn unknown_wishes(call: &Call<'_>) -> Vec<Diagnostic> {
-    if call.loaded.topology.is_none() {
+/// Components that `only` names and that do not exist. Nothing is reported for a broken file, which may declare them.
+fn unknown_components(context: &Context<'_>) -> Vec<Diagnostic> {
+    if context.loaded.topology.is_none() {
         return Vec::new();
     }
-    let components = &call.loaded.model.components;
-    let is_there = |wanted: &Ident| components.iter().any(|it| super::call::names_component(wanted, &it.name.value));
-    let unknown = call.only.unwrap_or_default().iter().filter(|wanted| !is_there(wanted));
-    unknown.map(|wanted| unknown_wish(call, &wanted.to_string())).collect()
+    let components = &context.loaded.model.components;
+    let exists = |wanted: &Ident| components.iter().any(|component| names_component(wanted, &component.name.value));
+    let unknown = context.only.unwrap_or_default().iter().filter(|wanted| !exists(wanted));
+    unknown.map(|wanted| unknown_component(context, &wanted.to_string())).collect()
 }
 
-fn unknown_wish(call: &Call<'_>, wanted: &str) -> Diagnostic {
-    let names: Vec<&str> = call.loaded.model.components.iter().map(|component| component.name.value.as_str()).collect();
+fn unknown_component(context: &Context<'_>, wanted: &str) -> Diagnostic {
+    let components = context.loaded.model.components.iter();
+    let names: Vec<&str> = components.map(|component| component.name.value.as_str()).collect();
     let mut problem = Diagnostic::fileless(
         "SCL0501",
-        format!("`only` names the component `{wanted}`, which is not in `{}`", call.path),
+        format!("`only` names the component `{wanted}`, which is not in `{}`", context.path),
     );
     if let Some(near) = similar(wanted, names.iter().copied()).first() {
         problem = problem.help(format!("did you mean `{near}`?"));
@@ -76,7 +76,7 @@ fn compile_error(text: &str, span: Span) -> TokenStream {
     quote_spanned! { span => ::core::compile_error! { #text } }
 }
 
-/// Stable Rust lets a macro warn only through something deprecated.
+/// On stable Rust, a macro can emit a warning only as the deprecation note of an item that it uses.
 fn warning(text: &str, span: Span) -> TokenStream {
     quote_spanned! { span =>
         const _: () = {

@@ -1,4 +1,7 @@
-//! Message types: from `rover.Measurement` in the file to a path in Rust.
+//! Message types: the Rust path of a type such as `rover.Measurement` in the file.
+
+#[cfg(feature = "protobuf")]
+mod rust_paths;
 
 use super::names::identifier;
 use proc_macro2::{Span, TokenStream};
@@ -6,11 +9,11 @@ use quote::quote;
 use scl_loader::Loaded;
 use std::collections::HashMap;
 
-/// How the types of the file are called in Rust.
+/// How the file's message types are named in Rust.
 pub(super) enum MessageTypes {
-    /// No `schemas:`: the dotted name is the path, looked up where the macro is called.
+    /// The file has no `schemas:`. The dotted name is the path, resolved where the macro is invoked.
     Written,
-    /// From the compiled schemas: full name to path segments.
+    /// From the compiled schemas: full protobuf name to path segments.
     #[cfg_attr(not(feature = "protobuf"), allow(dead_code))]
     Generated(HashMap<String, Vec<String>>),
     /// The schemas did not compile, so no type is known.
@@ -18,17 +21,17 @@ pub(super) enum MessageTypes {
 }
 
 impl MessageTypes {
-    /// Those of a loaded file.
+    /// The message types of a loaded file.
     pub(super) fn of(loaded: &Loaded) -> Self {
         match &loaded.schemas {
             #[cfg(feature = "protobuf")]
-            Some(schemas) => Self::Generated(super::schemas::rust_paths(schemas)),
+            Some(schemas) => Self::Generated(rust_paths::rust_paths(schemas)),
             _ if loaded.model.schemas.is_empty() => Self::Written,
             _ => Self::Unknown,
         }
     }
 
-    /// The path of a type, or `None` if there can be none of this name.
+    /// The path of a type, or `None` if Rust cannot name it.
     pub(super) fn path(&self, dotted: &str, span: Span) -> Option<TokenStream> {
         let segments: Vec<&str> = match self {
             Self::Written => dotted.split('.').map(str::trim).collect(),
@@ -39,7 +42,7 @@ impl MessageTypes {
         Some(quote!(#(#segments)::*))
     }
 
-    /// The path as messages write it: `rover::Measurement`.
+    /// The path as messages show it: `rover::Measurement`.
     pub(super) fn shown(&self, dotted: &str) -> String {
         match self {
             Self::Generated(paths) => {
@@ -50,7 +53,7 @@ impl MessageTypes {
     }
 }
 
-/// `crate`, `self` and `super` may start a path, so they are no names but segments.
+/// `crate`, `self` and `super` are not identifiers, but a path may start with them.
 fn segment(name: &str, span: Span) -> Option<syn::Ident> {
     match name {
         "crate" | "self" | "super" => Some(syn::Ident::new(name, span)),

@@ -1,4 +1,4 @@
-//! Sound files with one word or mark deleted, doubled or misspelt: whatever comes of them is Rust.
+//! Valid files with one token deleted, doubled or misspelt: the expansion is always valid Rust.
 
 use super::{errors, expand, parsed, structs};
 use std::ops::Range;
@@ -9,17 +9,18 @@ const FILES: [&str; 3] = [
     include_str!("../../../scl-topology/tests/files/system.yaml"),
 ];
 
-/// Each takes some milliseconds. With a prime number every kind of mutation comes up; 1 tries all.
+/// Every how many mutants one is tested, because each takes some milliseconds. A prime number reaches every kind of
+/// mutation; 1 tests all.
 const STEP: usize = 11;
 
 #[test]
 fn every_mutation_expands_to_rust() {
     let (mut accepted, mut refused) = (0, 0);
     for text in FILES.map(without_schemas) {
-        assert_eq!(errors(&expand(&text)), 0, "a sound file:\n{text}");
+        assert_eq!(errors(&expand(&text)), 0, "a valid file:\n{text}");
         let all = tokens(&text).into_iter().flat_map(|token| mutants(&text, &token));
         for mutant in all.step_by(STEP) {
-            let is_accepted = judge(&mutant);
+            let is_accepted = is_accepted(&mutant);
             *(if is_accepted { &mut accepted } else { &mut refused }) += 1;
         }
     }
@@ -27,24 +28,24 @@ fn every_mutation_expands_to_rust() {
     assert!(accepted > 20 && refused > 150, "{accepted} accepted, {refused} refused");
 }
 
-/// Types are then taken from Rust, so that the test is the same without the feature `protobuf`.
+/// Without schemas, the types come from Rust code, so the test needs no feature.
 fn without_schemas(text: &str) -> String {
     text.split_inclusive('\n').filter(|line| !line.starts_with("schemas:")).collect()
 }
 
-/// Whether the checker accepts a file. Its expansion is a Rust file, and either it has errors or all of its components
-/// can be opened.
-fn judge(mutant: &str) -> bool {
+/// Returns true if the checker accepts a file. The expansion must parse as Rust, and must either contain an error or open
+/// every component.
+fn is_accepted(mutant: &str) -> bool {
     let tokens = expand(mutant);
     let file = parsed(&tokens);
     let text = tokens.to_string();
     let is_accepted = !text.contains("compile_error");
     assert!(!is_accepted || !text.contains("unreachable ! ()"), "a skeleton without an error:\n{mutant}");
-    assert!(!is_accepted || !structs(&file).is_empty(), "nothing, without an error:\n{mutant}");
+    assert!(!is_accepted || !structs(&file).is_empty(), "no struct and no error:\n{mutant}");
     is_accepted
 }
 
-/// Words and single marks.
+/// The ranges of words and of single other characters.
 fn tokens(text: &str) -> Vec<Range<usize>> {
     let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
     let mut tokens: Vec<Range<usize>> = Vec::new();
@@ -66,7 +67,7 @@ fn mutants(text: &str, token: &Range<usize>) -> Vec<String> {
     let mut mutants = vec![with(""), with(&format!("{word}{word}"))];
     if word.len() > 1 {
         mutants.push(with(&word[..word.len() - 1]));
-        // A keyword of Rust wherever a name may stand.
+        // A Rust keyword in place of a name.
         mutants.push(with("type"));
     }
     mutants

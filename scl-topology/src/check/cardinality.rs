@@ -2,11 +2,11 @@
 //! repliers. SCL0513: a pusher with several pullers that does not say that they share the work.
 
 use super::draft::Draft;
-use super::wording::listed;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::GateKind;
+use crate::wording::listed;
 
 /// SCL0511.
 pub(crate) const SEVERAL_PUBLISHERS: Rule = Rule {

@@ -1,6 +1,5 @@
 //! SCL0608: the two ends write and read bytes in different ways.
 
-use super::codec_name::word;
 use super::draft::Draft;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
@@ -44,7 +43,7 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
         if a.value == b.value {
             continue;
         }
-        let (a_word, b_word) = (word(&a.value), word(&b.value));
+        let (a_word, b_word) = (a.value.word(), b.value.word());
         let label = match draft.gates[source].kind {
             Some(GateKind::Req) => format!("the request is `{a_word}`, `{b_word}` is understood"),
             _ => format!("`{a_word}` is sent, `{b_word}` is expected"),

@@ -1,13 +1,13 @@
 //! SCL0407: a word that is no codec. Sets the codecs that gates name themselves.
 
 use super::draft::Draft;
-use super::wording::either;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::topology::Codec;
+use crate::wording::either;
 
 /// SCL0407.
 pub(crate) const RULE: Rule = Rule {
@@ -30,8 +30,6 @@ pub(crate) const RULE: Rule = Rule {
 ",
     },
 };
-
-const NAMES: [&str; 6] = ["protobuf", "json", "cbor", "msgpack", "postcard", "raw"];
 
 /// What people write for a codec.
 const SYNONYMS: [(&str, &str); 6] = [
@@ -62,30 +60,9 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) -> Codec 
     })
 }
 
-/// The word of the file for a codec.
-pub(super) fn word(codec: &Codec) -> &str {
-    match codec {
-        Codec::Protobuf => "protobuf",
-        Codec::Json => "json",
-        Codec::Cbor => "cbor",
-        Codec::Msgpack => "msgpack",
-        Codec::Postcard => "postcard",
-        Codec::Raw => "raw",
-        Codec::Path(path) => path,
-    }
-}
-
 fn codec_of(word: &str) -> Option<Codec> {
-    Some(match word {
-        "protobuf" => Codec::Protobuf,
-        "json" => Codec::Json,
-        "cbor" => Codec::Cbor,
-        "msgpack" => Codec::Msgpack,
-        "postcard" => Codec::Postcard,
-        "raw" => Codec::Raw,
-        path if is_rust_path(path) => Codec::Path(path.to_owned()),
-        _ => return None,
-    })
+    let built_in = Codec::BUILT_IN.into_iter().find(|codec| codec.word() == word);
+    built_in.or_else(|| is_rust_path(word).then(|| Codec::Path(word.to_owned())))
 }
 
 fn is_rust_path(text: &str) -> bool {
@@ -101,7 +78,7 @@ fn report(written: &Spanned<String>) -> Diagnostic {
     let found = RULE.at(headline, written.span, "");
     let lower = written.value.to_lowercase();
     let synonym = SYNONYMS.iter().find(|(other, _)| *other == lower).map(|(_, name)| vec![*name]);
-    let meant = synonym.unwrap_or_else(|| similar(&written.value, NAMES));
+    let meant = synonym.unwrap_or_else(|| similar(&written.value, Codec::BUILT_IN.iter().map(Codec::word)));
     let found = if meant.is_empty() { found } else { found.help(format!("did you mean {}?", either(&meant))) };
     let found = if written.value.contains('.') {
         found.help(format!("a codec of your own is named by its Rust path: `{}`", written.value.replace('.', "::")))

@@ -1,12 +1,12 @@
 //! SCL0503: an end that is not `component.gate`. Finds the gates of all other ends, and hands on what it cannot find.
 
 use super::draft::Draft;
-use super::wording::{either, listed};
 use super::{unknown_component, unknown_gate};
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Spanned;
+use crate::wording::{either, listed};
 
 /// SCL0503.
 pub(crate) const RULE: Rule = Rule {
@@ -111,7 +111,7 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
         return RULE.at(headline, text.span, "which gate?").note(format!(
             "gates of `{}`: {}",
             text.value,
-            super::wording::shortened(&gates)
+            crate::wording::shortened(&gates)
         ));
     }
     let (label, help) = oddity(&text.value);

@@ -4,9 +4,8 @@
 
 use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use crate::source::{Sources, Span, Spanned};
-use crate::topology::{Codec, GateKind, GateOptions, Payload, WhenFull};
+use crate::topology::{Codec, GateKind, GateOptions, Payload};
 use std::collections::HashMap;
-use std::time::Duration;
 
 /// How many unknown names are compared with all others.
 const MOST_SEARCHES: usize = 200;
@@ -176,7 +175,7 @@ impl<'m> DraftGate<'m> {
             payload_from: None,
             codec: None,
             codec_broken: false,
-            options: default_options(),
+            options: GateOptions::default(),
             duplicate,
             named: false,
         }
@@ -201,15 +200,4 @@ fn sorted_names(model: &Model) -> Vec<&str> {
     names.sort_unstable();
     names.dedup();
     names
-}
-
-fn default_options() -> GateOptions {
-    GateOptions {
-        queue: 100,
-        when_full: WhenFull::DropOldest,
-        backpressure: false,
-        timeout: Duration::from_secs(1),
-        share: false,
-        unconnected_ok: false,
-    }
 }

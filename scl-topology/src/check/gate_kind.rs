@@ -69,7 +69,7 @@ fn report(word: &Spanned<String>) -> Diagnostic {
     let found = match suggest::kind(&word.value).as_slice() {
         [] => found,
         [one] => found.help(format!("the kind is called `{one}`")),
-        several => found.help(format!("did you mean {}?", super::wording::either(several))),
+        several => found.help(format!("did you mean {}?", crate::wording::either(several))),
     };
     found.note(KINDS)
 }

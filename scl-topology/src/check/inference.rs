@@ -2,11 +2,11 @@
 //! finds the connections on which neither end has a type.
 
 use super::draft::Draft;
-use super::wording::example_type;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::{GateKind, Payload};
+use crate::wording::example_type;
 use std::collections::VecDeque;
 
 /// SCL0402.

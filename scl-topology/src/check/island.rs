@@ -1,10 +1,10 @@
 //! SCL0706, a lint: groups of components without a connection between them, which may be two systems in one file.
 
 use super::draft::Draft;
-use super::wording::listed;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::wording::listed;
 use std::collections::BTreeMap;
 
 /// SCL0706.

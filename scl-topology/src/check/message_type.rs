@@ -2,11 +2,11 @@
 //! if it alone differs from all its peers.
 
 use super::draft::Draft;
-use super::wording::listed;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::{GateKind, Payload, TypeName};
+use crate::wording::listed;
 use std::collections::BTreeMap;
 
 /// SCL0601.

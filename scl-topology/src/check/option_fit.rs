@@ -1,11 +1,12 @@
 //! SCL0408: an option on a kind of gate that has no use for it.
 
-use super::wording::listed;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
 use crate::model::OptionModel;
+use crate::parse::option;
 use crate::topology::GateKind;
+use crate::wording::all_of;
 
 use GateKind::{Pub, Pull, Push, Rep, Req, Sub};
 
@@ -14,8 +15,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0408",
     severity: Severity::Error,
     title: "option does not fit the kind",
-    explanation: "The option exists, but not for this kind of gate: a queue belongs to the receiving end, a timeout to \
-                  the asking one. Move it to the other end, or remove it.",
+    explanation: "The option exists, but not for this kind of gate: `queue` and `max_size` belong to the receiving end, \
+                  `timeout` to the asking one. Move it to the other end, or remove it.",
     examples: Examples::Topology {
         bad: "components:
   - name: ui
@@ -29,15 +30,6 @@ pub(crate) const RULE: Rule = Rule {
 ",
     },
 };
-
-/// Options that only some kinds have. The others are for all.
-const KINDS: [(&str, &[GateKind]); 5] = [
-    ("queue", &[Sub, Pull]),
-    ("when_full", &[Sub, Pull]),
-    ("backpressure", &[Pub, Push]),
-    ("timeout", &[Req]),
-    ("share", &[Push]),
-];
 
 pub(super) fn check(kind: Option<GateKind>, option: &OptionModel, problems: &mut Diagnostics) {
     let key = option.key.value.as_str();
@@ -55,12 +47,8 @@ pub(super) fn check(kind: Option<GateKind>, option: &OptionModel, problems: &mut
 /// Why a kind has no such option, if it has none.
 pub(super) fn misfit(kind: Option<GateKind>, key: &str) -> Option<String> {
     let kind = kind.filter(|&kind| !fits(kind, key))?;
-    let (_, kinds) = KINDS.iter().find(|(other, _)| *other == key)?;
-    let words: Vec<&str> = kinds.iter().map(|kind| kind.word()).collect();
-    let belongs = match words.as_slice() {
-        [only] => format!("`{key}` is for `{only}`"),
-        _ => format!("`{key}` is for {}", listed(words).replace(", ", " and ")),
-    };
+    let words: Vec<&str> = option::rule(key)?.kinds.iter().map(|kind| kind.word()).collect();
+    let belongs = format!("`{key}` is for {}", all_of(&words));
     Some(match reason(kind, key) {
         Some(reason) => format!("{reason}; {belongs}"),
         None => belongs,
@@ -68,7 +56,7 @@ pub(super) fn misfit(kind: Option<GateKind>, key: &str) -> Option<String> {
 }
 
 fn fits(kind: GateKind, key: &str) -> bool {
-    KINDS.iter().all(|(other, kinds)| *other != key || kinds.contains(&kind))
+    option::rule(key).is_none_or(|rule| rule.kinds.contains(&kind))
 }
 
 fn reason(kind: GateKind, key: &str) -> Option<&'static str> {
@@ -77,6 +65,7 @@ fn reason(kind: GateKind, key: &str) -> Option<&'static str> {
             Some("`req` and `rep` take turns, so there is never more than one message waiting")
         }
         (Pub | Push, "queue" | "when_full") => Some("each receiver says how many messages may wait for it"),
+        (Pub | Push, "max_size") => Some("each receiving gate sets its own limit"),
         (Sub | Pull, "backpressure") => Some("a receiver asks for it with `when_full: wait`"),
         (Rep, "timeout") => Some("each requester says how long it waits"),
         (Pub, "share") => Some("every subscriber gets every message"),
@@ -109,7 +98,8 @@ mod tests {
 
     #[test]
     fn each_option_has_its_kinds() {
-        let options = ["queue: 1", "when_full: wait", "backpressure: true", "timeout: 1s", "share: true"];
+        let options =
+            ["queue: 1", "when_full: wait", "backpressure: true", "max_size: 8MiB", "timeout: 1s", "share: true"];
         let kinds = ["pub: T", "sub: T", "req: A -> B", "rep: A -> B", "push: T", "pull: T"];
         let mut told = String::new();
         for (option, kind) in options.iter().flat_map(|option| kinds.map(|kind| (option, kind))) {
@@ -132,6 +122,8 @@ mod tests {
             SCL0408 option `backpressure` is not available on a `req` gate [remove it]
             SCL0408 option `backpressure` is not available on a `rep` gate [remove it]
             SCL0408 option `backpressure` is not available on a `pull` gate [remove it | or write it at the `push` end of the connection]
+            SCL0408 option `max_size` is not available on a `pub` gate [remove it | or write it at the `sub` end of the connection]
+            SCL0408 option `max_size` is not available on a `push` gate [remove it | or write it at the `pull` end of the connection]
             SCL0408 option `timeout` is not available on a `pub` gate [remove it]
             SCL0408 option `timeout` is not available on a `sub` gate [remove it]
             SCL0408 option `timeout` is not available on a `rep` gate [remove it | or write it at the `req` end of the connection]

@@ -6,6 +6,7 @@ use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::OptionModel;
+use crate::size::{self, SizeError};
 use crate::topology::{GateKind, GateOptions, WhenFull};
 use std::time::Duration;
 
@@ -15,7 +16,8 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Error,
     title: "option value out of range",
     explanation: "The value is outside of what can work: a queue has 1 to 1,000,000 messages, a timeout is more than \
-                  nothing and at most a day. Correct it, or leave it out to get the default.",
+                  nothing and at most a day, `max_size` is 1B to 1GiB, because a message is held in memory as a whole. \
+                  Correct it, or leave it out to get the default.",
     examples: Examples::Topology {
         bad: "components:
   - name: sensor
@@ -50,7 +52,8 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
 /// What the value must be, and what to do.
 struct Range {
     rule: String,
-    help: &'static str,
+    help: String,
+    reason: Option<&'static str>,
 }
 
 /// Takes a value over. The parser has seen to its shape; only its range is in question.
@@ -58,14 +61,9 @@ fn read(option: &OptionModel, options: &mut GateOptions) -> Result<(), Range> {
     let value = option.value.value.as_str();
     match option.key.value.as_str() {
         "queue" => options.queue = queue(value)?,
+        "max_size" => options.max_size = max_size(value)?,
         "timeout" => options.timeout = timeout(value)?,
-        "when_full" => {
-            options.when_full = match value {
-                "wait" => WhenFull::Wait,
-                "drop_newest" => WhenFull::DropNewest,
-                _ => WhenFull::DropOldest,
-            }
-        }
+        "when_full" => options.when_full = when_full(value),
         "backpressure" => options.backpressure = value == "true",
         "share" => options.share = value == "true",
         "unconnected" => options.unconnected_ok = value == "ok",
@@ -75,7 +73,7 @@ fn read(option: &OptionModel, options: &mut GateOptions) -> Result<(), Range> {
 }
 
 fn queue(text: &str) -> Result<u32, Range> {
-    let range = |rule: String| Range { rule, help: "leave it out to get the default, 100" };
+    let range = |rule: String| Range { rule, help: default("100"), reason: None };
     let digits = text.strip_prefix('+').unwrap_or(text);
     if text.starts_with('-') || digits.bytes().all(|digit| digit == b'0') {
         return Err(range("at least 1".to_owned()));
@@ -87,7 +85,7 @@ fn queue(text: &str) -> Result<u32, Range> {
 }
 
 fn timeout(text: &str) -> Result<Duration, Range> {
-    let range = |rule: &str| Range { rule: rule.to_owned(), help: "leave it out to get the default, 1s" };
+    let range = |rule: &str| Range { rule: rule.to_owned(), help: default("1s"), reason: None };
     let unit = text.find(|letter: char| letter.is_ascii_alphabetic()).unwrap_or(text.len());
     let number: f64 = text[..unit].trim().parse().unwrap_or(0.0);
     let seconds = match &text[unit..] {
@@ -105,9 +103,38 @@ fn timeout(text: &str) -> Result<Duration, Range> {
     }
 }
 
+/// A word that the parser has refused stands for the default.
+fn when_full(word: &str) -> WhenFull {
+    WhenFull::ALL.into_iter().find(|known| known.word() == word).unwrap_or(GateOptions::default().when_full)
+}
+
+fn max_size(text: &str) -> Result<u64, Range> {
+    let range = |rule: String, reason| {
+        let help = default(&size::text(GateOptions::default().max_size));
+        Range { rule, help, reason: Some(reason) }
+    };
+    match size::parse(text) {
+        Ok(bytes @ 1..=GateOptions::LARGEST_MAX_SIZE) => Ok(bytes),
+        Ok(0) | Err(SizeError::Negative | SizeError::Malformed) => {
+            Err(range("at least 1B".to_owned(), "a gate with this limit would accept empty messages only"))
+        }
+        Ok(_) | Err(SizeError::TooLarge) => {
+            let rule = format!("at most {}", size::text(GateOptions::LARGEST_MAX_SIZE));
+            Err(range(rule, "a message is held in memory as a whole; send larger data in several messages"))
+        }
+    }
+}
+
+fn default(value: &str) -> String {
+    format!("leave it out to get the default, {value}")
+}
+
 fn report(kind: Option<GateKind>, option: &OptionModel, range: Range) -> Diagnostic {
     let headline = format!("`{}` must be {}", option.key.value, range.rule);
-    let found = RULE.at(headline, option.value.span, "").help(range.help);
+    let mut found = RULE.at(headline, option.value.span, "").help(range.help);
+    if let Some(reason) = range.reason {
+        found = found.note(reason);
+    }
     // Who mends the value should not have to come back for the place.
     match option_fit::misfit(kind, &option.key.value) {
         Some(rule) => found.note(rule),
@@ -146,6 +173,12 @@ mod tests {
             "sub: T, queue: 1000000",
             "sub: T, queue: 1000001",
             "sub: T, queue: 99999999999999999999",
+            "rep: A -> B, max_size: 1B",
+            "rep: A -> B, max_size: 0B",
+            "pull: T, max_size: -1MiB",
+            "req: A -> B, max_size: 1024MiB",
+            "sub: T, max_size: 1025MiB",
+            "sub: T, max_size: 99999999999999999999GiB",
             "req: A -> B, timeout: 0s",
             "req: A -> B, timeout: 1us",
             "req: A -> B, timeout: -1s",
@@ -161,6 +194,12 @@ mod tests {
             sub: T, queue: 1000000: 
             sub: T, queue: 1000001: SCL0409 `queue` must be at most 1000000 [leave it out to get the default, 100]
             sub: T, queue: 99999999999999999999: SCL0409 `queue` must be at most 1000000 [leave it out to get the default, 100]
+            rep: A -> B, max_size: 1B: 
+            rep: A -> B, max_size: 0B: SCL0409 `max_size` must be at least 1B [leave it out to get the default, 64MiB]
+            pull: T, max_size: -1MiB: SCL0409 `max_size` must be at least 1B [leave it out to get the default, 64MiB]
+            req: A -> B, max_size: 1024MiB: 
+            sub: T, max_size: 1025MiB: SCL0409 `max_size` must be at most 1GiB [leave it out to get the default, 64MiB]
+            sub: T, max_size: 99999999999999999999GiB: SCL0409 `max_size` must be at most 1GiB [leave it out to get the default, 64MiB]
             req: A -> B, timeout: 0s: SCL0409 `timeout` must be more than 0 [leave it out to get the default, 1s]
             req: A -> B, timeout: 1us: 
             req: A -> B, timeout: -1s: SCL0409 `timeout` must be more than 0 [leave it out to get the default, 1s]

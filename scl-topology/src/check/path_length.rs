@@ -36,12 +36,7 @@ const LONGEST_NAME: usize = 64;
 
 pub(super) fn check(draft: &Draft<'_>, system: &str, problems: &mut Diagnostics) {
     for (at, gate) in draft.gates.iter().enumerate() {
-        let ending = match gate.kind {
-            Some(GateKind::Pub) => TAP.to_owned(),
-            // Which contract it is does not matter for the length.
-            Some(GateKind::Rep | GateKind::Pull) => format!(".{}", "*".repeat(CONTRACT_LENGTH)),
-            _ => continue,
-        };
+        let Some(ending) = gate.kind.and_then(longest_ending) else { continue };
         let names = [draft.component_name(at), &gate.model.name.value];
         if gate.duplicate || names.iter().any(|name| name.len() > LONGEST_NAME || !is_well_formed(name)) {
             continue;
@@ -51,6 +46,14 @@ pub(super) fn check(draft: &Draft<'_>, system: &str, problems: &mut Diagnostics)
             problems.push(report(draft, at, format!("{}{}{ending}", longest_folder(system), draft.path(at))));
         }
     }
+}
+
+/// The end of the longest socket name that belongs to one gate of this kind; `sub`, `req` and `push` have no socket.
+fn longest_ending(kind: GateKind) -> Option<String> {
+    let tap = kind.listens().then(|| TAP.to_owned());
+    // Which contract it is does not matter for the length.
+    let all_peers = matches!(kind, GateKind::Rep | GateKind::Pull).then(|| format!(".{}", "*".repeat(CONTRACT_LENGTH)));
+    tap.into_iter().chain(all_peers).max_by_key(String::len)
 }
 
 fn report(draft: &Draft<'_>, gate: usize, path: String) -> Diagnostic {
@@ -68,8 +71,24 @@ fn report(draft: &Draft<'_>, gate: usize, path: String) -> Diagnostic {
 #[cfg(test)]
 mod tests {
     use super::RULE;
-    use crate::check::testing::rule_example;
+    use crate::check::testing::{advice, rule_example};
     use expect_test::expect;
+
+    #[test]
+    fn each_socket_of_a_gate_fits_or_is_refused() {
+        // In the system `topology`, 73 bytes are left for component, dot, gate and ending.
+        let judged = |kind: &str, length: usize| {
+            let name = "g".repeat(length);
+            let yaml = format!(
+                "components:\n  - name: {}\n    gates:\n      - {name}: {{{kind}, unconnected: ok}}\n",
+                "c".repeat(20)
+            );
+            advice(&yaml).contains("SCL0801")
+        };
+        let longest = |kind: &str| (1..=64).rev().find(|&length| !judged(kind, length));
+        let kinds = ["pub: T", "rep: A -> B", "pull: T", "sub: T", "req: A -> B", "push: T"];
+        assert_eq!(kinds.map(longest), [Some(48), Some(43), Some(43), Some(64), Some(64), Some(64)]);
+    }
 
     #[test]
     fn socket_path_too_long() {

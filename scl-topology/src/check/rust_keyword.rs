@@ -93,7 +93,7 @@ fn unusable(name: &Spanned<String>) -> Diagnostic {
     HARD_KEYWORD
         .at(headline, name.span, "")
         .help("choose another name")
-        .note(format!("the others: {}", super::wording::listed(others)))
+        .note(format!("the others: {}", crate::wording::listed(others)))
 }
 
 fn escaped(component: &str, name: &Spanned<String>) -> Diagnostic {

@@ -1,13 +1,13 @@
 //! SCL0405: a type that none of the `schemas` declares. Without schemas the compiler looks types up instead.
 
 use super::draft::Draft;
-use super::wording::{either, listed};
 use super::{Facts, SchemaMessages};
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::suggest::{same_parts, similar};
 use crate::topology::{Payload, TypeName};
+use crate::wording::{either, listed};
 use std::collections::HashSet;
 
 /// SCL0405.

@@ -2,8 +2,8 @@
 
 use super::Facts;
 use super::named::is_allowed;
+use crate::fingerprint;
 use crate::model::Model;
-use crate::resolve::fingerprint;
 
 /// A file's name is not chosen to become a part of socket paths, so a long one is cut.
 const LONGEST_DEFAULT: usize = 24;
@@ -20,7 +20,7 @@ pub(super) fn system_name(model: &Model, facts: &Facts) -> String {
         length if length <= LONGEST_DEFAULT => name.to_owned(),
         // The fingerprint keeps apart files whose names begin alike.
         _ => {
-            let mark = fingerprint([name]);
+            let mark = fingerprint::short([name]);
             format!("{}-{mark}", &name[..LONGEST_DEFAULT - mark.len() - 1])
         }
     }

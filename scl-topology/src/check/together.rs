@@ -100,7 +100,7 @@ components:
     optional: true
     gates:
       - sensor: {sub: rover.Measurement, queue: 10, when_full: wait}
-      - orders: {rep: rover.Order -> rover.Answer, codec: json}
+      - orders: {rep: rover.Order -> rover.Answer, codec: json, max_size: 64KiB}
       - jobs: {push: rover.Job, share: true}
   - name: ground
     gates:

@@ -4,11 +4,11 @@
 
 use super::draft::Draft;
 use super::fitting_sender::FittingSenders;
-use super::wording::listed;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::topology::GateKind;
+use crate::wording::listed;
 
 /// SCL0701.
 pub(crate) const NO_RECEIVER: Rule = Rule {

@@ -2,11 +2,11 @@
 
 use super::connection_end::parts;
 use super::draft::Draft;
-use super::wording::{either, listed};
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::suggest::similar;
+use crate::wording::{either, listed};
 
 /// SCL0501.
 pub(crate) const UNKNOWN: Rule = Rule {

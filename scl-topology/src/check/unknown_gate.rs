@@ -3,12 +3,12 @@
 use super::connection_end::parts;
 use super::draft::Draft;
 use super::unknown_component::swap;
-use super::wording::{either, shortened};
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::source::Spanned;
 use crate::suggest::similar;
+use crate::wording::{either, shortened};
 
 /// SCL0502.
 pub(crate) const RULE: Rule = Rule {

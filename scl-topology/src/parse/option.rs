@@ -3,22 +3,25 @@
 use super::fields::Field;
 use super::{Reader, is_plain, pitfall, scalar, shape};
 use crate::model::OptionModel;
+use crate::size::{self, SizeError};
 use crate::source::Spanned;
 use crate::suggest::similar;
-use crate::topology::GateKind;
+use crate::topology::{GateKind, WhenFull};
 use crate::yaml::{NodeKind, Style};
 
 /// What a value must look like; its range is not checked here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     /// A paragraph.
     Text,
     /// A name of one word or path.
     Name,
     /// A whole number, perhaps out of range.
     Number,
-    /// A number and a unit.
+    /// A number and a unit of time.
     Duration,
+    /// A whole number and a unit of [`size`].
+    Size,
     /// `true` or `false`.
     Boolean,
     /// One of some words.
@@ -26,28 +29,29 @@ pub(super) enum Value {
 }
 
 /// An option: its key, the shape of its value, the kinds of gate that have it.
-pub(super) struct OptionRule {
-    pub(super) key: &'static str,
-    pub(super) value: Value,
-    pub(super) kinds: &'static [GateKind],
+pub(crate) struct OptionRule {
+    pub(crate) key: &'static str,
+    pub(crate) value: Value,
+    pub(crate) kinds: &'static [GateKind],
 }
 
-use GateKind::{Pub, Pull, Push, Req, Sub};
+use GateKind::{Pub, Pull, Push, Rep, Req, Sub};
 
 /// All options, in the order in which messages list them.
-pub(super) const OPTIONS: [OptionRule; 8] = [
+pub(crate) const OPTIONS: [OptionRule; 9] = [
     OptionRule { key: "doc", value: Value::Text, kinds: &GateKind::ALL },
     OptionRule { key: "codec", value: Value::Name, kinds: &GateKind::ALL },
     OptionRule { key: "queue", value: Value::Number, kinds: &[Sub, Pull] },
-    OptionRule { key: "when_full", value: Value::Word(&["drop_oldest", "drop_newest", "wait"]), kinds: &[Sub, Pull] },
+    OptionRule { key: "when_full", value: Value::Word(&WhenFull::WORDS), kinds: &[Sub, Pull] },
     OptionRule { key: "backpressure", value: Value::Boolean, kinds: &[Pub, Push] },
+    OptionRule { key: "max_size", value: Value::Size, kinds: &[Sub, Pull, Req, Rep] },
     OptionRule { key: "timeout", value: Value::Duration, kinds: &[Req] },
     OptionRule { key: "share", value: Value::Boolean, kinds: &[Push] },
     OptionRule { key: "unconnected", value: Value::Word(&["ok"]), kinds: &GateKind::ALL },
 ];
 
 /// The rule of an option.
-pub(super) fn rule(key: &str) -> Option<&'static OptionRule> {
+pub(crate) fn rule(key: &str) -> Option<&'static OptionRule> {
     OPTIONS.iter().find(|option| option.key == key)
 }
 
@@ -99,6 +103,8 @@ fn fits(text: &str, style: Style, expected: Value) -> bool {
         Value::Number => style == Style::Plain && is_whole_number(text),
         Value::Boolean => style == Style::Plain && matches!(text, "true" | "false"),
         Value::Duration => is_duration(text),
+        // A size that is too large is a matter of range.
+        Value::Size => size::parse(text) != Err(SizeError::Malformed),
         Value::Word(words) => words.contains(&text),
         Value::Text | Value::Name => true,
     }

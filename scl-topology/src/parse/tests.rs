@@ -81,23 +81,23 @@ fn every_key() {
     check_valid(
         EVERY_KEY,
         expect![[r#"
-        Some("rover") ["rover.proto"] Some("protobuf")
-        sensor optional Some("Reads the inertial unit.")
-          measurements: pub Some("rover.Measurement") doc=One reading per period.
-        actuator None
-          setpoint: sub Some("rover.Setpoint") queue=1
-        controller None
-          sensor: sub Some("rover.Measurement") queue=1
-          actuator: pub None
-          events: pub Some("rover.Event") backpressure=true codec=my_crate::Flat
-          commands: rep Some("rover.Command -> rover.Status") unconnected=ok
-          work: push Some("rover.Job") share=true
-        user_interface None
-          events: sub Some("rover.Event") queue=1000 when_full=wait
-          commands: req Some("rover.Command -> rover.Status") timeout=500ms
-        sensor.measurements - controller.sensor
-        actuator.setpoint - controller.actuator
-    "#]],
+            Some("rover") ["rover.proto"] Some("protobuf")
+            sensor optional Some("Reads the inertial unit.")
+              measurements: pub Some("rover.Measurement") doc=One reading per period.
+            actuator None
+              setpoint: sub Some("rover.Setpoint") queue=1
+            controller None
+              sensor: sub Some("rover.Measurement") queue=1
+              actuator: pub None
+              events: pub Some("rover.Event") backpressure=true codec=my_crate::Flat
+              commands: rep Some("rover.Command -> rover.Status") unconnected=ok
+              work: push Some("rover.Job") share=true
+            user_interface None
+              events: sub Some("rover.Event") queue=1000 when_full=wait max_size=8MiB
+              commands: req Some("rover.Command -> rover.Status") timeout=500ms
+            sensor.measurements - controller.sensor
+            actuator.setpoint - controller.actuator
+        "#]],
     );
 }
 
@@ -126,7 +126,7 @@ fn spans_cover_what_is_written() {
     let texts: Vec<_> = spans.iter().map(|span| sources.snippet(*span)).collect();
     expect![[r#"
         [
-            "events:\n          sub: rover.Event\n          queue: 1000\n          when_full: wait",
+            "events:\n          sub: rover.Event\n          queue: 1000\n          when_full: wait\n          max_size: 8MiB",
             "events",
             "sub",
             "1000",

@@ -1,58 +1,58 @@
-//! Bounds on what serde reads, for formats whose library sets none.
+//! Limits on what serde decodes, for formats whose library has none.
 //!
-//! Without them a frame of some kilobytes could nest so deep that the stack overflows, which ends the process, or
-//! announce 2^60 elements that take no bytes, which keeps it busy for ever. And serde makes room for up to 1 MiB of
-//! elements that are only announced, on each level anew: a few bytes a level would take 128 MiB. Each serde interface is
-//! wrapped, the wrapped value handed on to the next, and the calls that go a level down or to a next element are counted.
-
-use std::cell::Cell;
-use std::fmt;
+//! Without them, a frame of a few kilobytes could nest so deep that the stack overflows and the process dies, or
+//! announce 2^60 elements that occupy no bytes and keep the process busy forever. Moreover, serde allocates up to 1 MiB
+//! for announced elements on each level: a few bytes per level would take 128 MiB. So each serde interface is wrapped,
+//! each wrapper wraps the values that it passes on, and the calls that enter a level or move to the next element are
+//! counted.
 
 use serde::de::{
     Deserialize, DeserializeSeed, Deserializer, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor,
 };
+use std::cell::Cell;
+use std::fmt;
 
-/// How many sequences, maps, enums and `Some` may lie in each other.
+/// Maximum depth of nested sequences, maps, enums and `Some`.
 const LEVELS: usize = 128;
-/// How many elements without bytes a frame may have; every other element takes a byte of the frame.
+/// Maximum number of elements that occupy no bytes. Every other element occupies at least one byte of the frame.
 const EMPTY_ELEMENTS: usize = 4096;
 
-/// Reads a value from the bytes of a frame, of which `length` says how many they are.
-pub(super) fn read<'de, T: Deserialize<'de>, D: Deserializer<'de>>(input: D, length: usize) -> Result<T, D::Error> {
+/// Decodes a value from a frame of `length` bytes.
+pub(super) fn decode<'de, T: Deserialize<'de>, D: Deserializer<'de>>(input: D, length: usize) -> Result<T, D::Error> {
     let elements = length.saturating_add(EMPTY_ELEMENTS);
-    let bounds = Bounds { levels: Cell::new(LEVELS), elements: Cell::new(elements), expected: Cell::new(length) };
+    let bounds = Bounds { levels: Cell::new(LEVELS), elements: Cell::new(elements), allocatable: Cell::new(length) };
     T::deserialize(Bounded { inner: input, bounds: &bounds })
 }
 
-/// What is left.
+/// What remains of the limits.
 struct Bounds {
     levels: Cell<usize>,
     elements: Cell<usize>,
-    /// For how many more elements room may be made before they come: all together no more than the frame has bytes.
-    expected: Cell<usize>,
+    /// The number of elements for which memory may still be allocated in advance; the total is the frame's length.
+    allocatable: Cell<usize>,
 }
 
 impl Bounds {
     fn enter<E: Error>(&self) -> Result<Level<'_>, E> {
         let left = self.levels.get().checked_sub(1);
-        self.levels.set(left.ok_or_else(|| E::custom(format_args!("it is nested deeper than {LEVELS} levels")))?);
+        self.levels.set(left.ok_or_else(|| E::custom(format_args!("nested deeper than {LEVELS} levels")))?);
         Ok(Level(&self.levels))
     }
 
     fn count_element<E: Error>(&self) -> Result<(), E> {
         let left = self.elements.get().checked_sub(1);
-        self.elements.set(left.ok_or_else(|| E::custom("it announces more elements than the frame can hold"))?);
+        self.elements.set(left.ok_or_else(|| E::custom("announces more elements than the frame can hold"))?);
         Ok(())
     }
 
-    fn expect_elements(&self, announced: usize) -> usize {
-        let expected = announced.min(self.expected.get());
-        self.expected.set(self.expected.get() - expected);
-        expected
+    fn allocate(&self, announced: usize) -> usize {
+        let allocated = announced.min(self.allocatable.get());
+        self.allocatable.set(self.allocatable.get() - allocated);
+        allocated
     }
 }
 
-/// A level that is left when this is dropped.
+/// A level of nesting, left when this is dropped.
 struct Level<'b>(&'b Cell<usize>);
 
 impl Drop for Level<'_> {
@@ -61,23 +61,23 @@ impl Drop for Level<'_> {
     }
 }
 
-/// A deserializer, a seed, or an enum's access.
+/// Wraps a deserializer, a seed, or the access to an enum.
 struct Bounded<'b, I> {
     inner: I,
     bounds: &'b Bounds,
 }
 
-/// A visitor, or the elements of what it visits; `announced` if the frame itself says how many they are.
-struct Watched<'b, I> {
+/// Wraps a visitor, or the access to the elements that it visits; `announced` if their number comes from the frame.
+struct Counted<'b, I> {
     inner: I,
     bounds: &'b Bounds,
     announced: bool,
 }
 
-macro_rules! hand_on {
+macro_rules! forward {
     ($($method:ident($($argument:ident: $type:ty),*) $announced:literal)*) => {$(
         fn $method<V: Visitor<'de>>(self, $($argument: $type,)* visitor: V) -> Result<V::Value, D::Error> {
-            self.inner.$method($($argument,)* Watched { inner: visitor, bounds: self.bounds, announced: $announced })
+            self.inner.$method($($argument,)* Counted { inner: visitor, bounds: self.bounds, announced: $announced })
         }
     )*};
 }
@@ -85,7 +85,7 @@ macro_rules! hand_on {
 impl<'de, D: Deserializer<'de>> Deserializer<'de> for Bounded<'_, D> {
     type Error = D::Error;
 
-    hand_on! {
+    forward! {
         deserialize_any() true deserialize_seq() true deserialize_map() true deserialize_ignored_any() true
         deserialize_bool() false deserialize_char() false
         deserialize_i8() false deserialize_i16() false deserialize_i32() false deserialize_i64() false
@@ -114,7 +114,7 @@ macro_rules! visit_plain {
     )*};
 }
 
-impl<'de, V: Visitor<'de>> Visitor<'de> for Watched<'_, V> {
+impl<'de, V: Visitor<'de>> Visitor<'de> for Counted<'_, V> {
     type Value = V::Value;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -148,12 +148,12 @@ impl<'de, V: Visitor<'de>> Visitor<'de> for Watched<'_, V> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, elements: A) -> Result<V::Value, A::Error> {
         let _level = self.bounds.enter()?;
-        self.inner.visit_seq(Watched { inner: elements, bounds: self.bounds, announced: self.announced })
+        self.inner.visit_seq(Counted { inner: elements, bounds: self.bounds, announced: self.announced })
     }
 
     fn visit_map<A: MapAccess<'de>>(self, entries: A) -> Result<V::Value, A::Error> {
         let _level = self.bounds.enter()?;
-        self.inner.visit_map(Watched { inner: entries, bounds: self.bounds, announced: self.announced })
+        self.inner.visit_map(Counted { inner: entries, bounds: self.bounds, announced: self.announced })
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, variant: A) -> Result<V::Value, A::Error> {
@@ -162,17 +162,17 @@ impl<'de, V: Visitor<'de>> Visitor<'de> for Watched<'_, V> {
     }
 }
 
-impl<I> Watched<'_, I> {
+impl<I> Counted<'_, I> {
     fn count<E: Error>(&self) -> Result<(), E> {
         if self.announced { self.bounds.count_element() } else { Ok(()) }
     }
 
-    fn expected(&self, hint: Option<usize>) -> Option<usize> {
-        if self.announced { hint.map(|announced| self.bounds.expect_elements(announced)) } else { hint }
+    fn allocated(&self, hint: Option<usize>) -> Option<usize> {
+        if self.announced { hint.map(|announced| self.bounds.allocate(announced)) } else { hint }
     }
 }
 
-impl<'de, A: SeqAccess<'de>> SeqAccess<'de> for Watched<'_, A> {
+impl<'de, A: SeqAccess<'de>> SeqAccess<'de> for Counted<'_, A> {
     type Error = A::Error;
 
     fn next_element_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>, A::Error> {
@@ -182,11 +182,11 @@ impl<'de, A: SeqAccess<'de>> SeqAccess<'de> for Watched<'_, A> {
     }
 
     fn size_hint(&self) -> Option<usize> {
-        self.expected(self.inner.size_hint())
+        self.allocated(self.inner.size_hint())
     }
 }
 
-impl<'de, A: MapAccess<'de>> MapAccess<'de> for Watched<'_, A> {
+impl<'de, A: MapAccess<'de>> MapAccess<'de> for Counted<'_, A> {
     type Error = A::Error;
 
     fn next_key_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>, A::Error> {
@@ -200,7 +200,7 @@ impl<'de, A: MapAccess<'de>> MapAccess<'de> for Watched<'_, A> {
     }
 
     fn size_hint(&self) -> Option<usize> {
-        self.expected(self.inner.size_hint())
+        self.allocated(self.inner.size_hint())
     }
 }
 
@@ -234,7 +234,7 @@ impl<'de, A: VariantAccess<'de>> VariantAccess<'de> for Bounded<'_, A> {
     }
 
     fn tuple_variant<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, A::Error> {
-        self.inner.tuple_variant(length, Watched { inner: visitor, bounds: self.bounds, announced: false })
+        self.inner.tuple_variant(length, Counted { inner: visitor, bounds: self.bounds, announced: false })
     }
 
     fn struct_variant<V: Visitor<'de>>(
@@ -242,6 +242,6 @@ impl<'de, A: VariantAccess<'de>> VariantAccess<'de> for Bounded<'_, A> {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, A::Error> {
-        self.inner.struct_variant(fields, Watched { inner: visitor, bounds: self.bounds, announced: false })
+        self.inner.struct_variant(fields, Counted { inner: visitor, bounds: self.bounds, announced: false })
     }
 }

@@ -1,8 +1,10 @@
+//! Errors of codecs.
+
 use std::error::Error;
 
 type Cause = Box<dyn Error + Send + Sync>;
 
-/// A message that its codec cannot write.
+/// A message could not be encoded.
 #[derive(Debug, thiserror::Error)]
 #[error("codec `{codec}` cannot encode this message: {reason}")]
 pub struct EncodeError {
@@ -12,12 +14,12 @@ pub struct EncodeError {
 }
 
 impl EncodeError {
-    /// An error of the codec called `codec`; `reason` is lower case and ends without a full stop.
+    /// Creates an error of the codec named `codec`. By convention `reason` starts in lower case and has no full stop.
     pub fn new(codec: &'static str, reason: impl Into<String>) -> Self {
         Self { codec, reason: reason.into(), source: None }
     }
 
-    /// Keeps the error that led to this one.
+    /// Adds the error that caused this one, its [`source`](Error::source).
     #[must_use]
     pub fn caused_by(self, source: impl Into<Cause>) -> Self {
         Self { source: Some(source.into()), ..self }
@@ -28,17 +30,17 @@ impl EncodeError {
         self.codec
     }
 
-    /// Why the message cannot be written.
+    /// Why the message cannot be encoded.
     pub fn reason(&self) -> &str {
         &self.reason
     }
 }
 
-/// Bytes that are no message of the expected type.
+/// Received bytes could not be decoded as a message of the expected type.
 ///
-/// The usual causes are a peer that is no SCL program, and two programs built from different versions of a schema.
+/// The usual causes are a peer that is not an SCL program, and two programs built with different versions of a schema.
 #[derive(Debug, thiserror::Error)]
-#[error("codec `{codec}` cannot decode what arrived: {reason}")]
+#[error("codec `{codec}` cannot decode this message: {reason}")]
 pub struct DecodeError {
     codec: &'static str,
     reason: String,
@@ -46,12 +48,12 @@ pub struct DecodeError {
 }
 
 impl DecodeError {
-    /// An error of the codec called `codec`; `reason` is lower case and ends without a full stop.
+    /// Creates an error of the codec named `codec`. By convention `reason` starts in lower case and has no full stop.
     pub fn new(codec: &'static str, reason: impl Into<String>) -> Self {
         Self { codec, reason: reason.into(), source: None }
     }
 
-    /// Keeps the error that led to this one.
+    /// Adds the error that caused this one, its [`source`](Error::source).
     #[must_use]
     pub fn caused_by(self, source: impl Into<Cause>) -> Self {
         Self { source: Some(source.into()), ..self }
@@ -62,7 +64,7 @@ impl DecodeError {
         self.codec
     }
 
-    /// Why the bytes are no message.
+    /// Why the bytes cannot be decoded.
     pub fn reason(&self) -> &str {
         &self.reason
     }

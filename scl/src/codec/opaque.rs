@@ -1,32 +1,34 @@
-use bytes::{Bytes, BytesMut};
+//! Plain bytes, for gates without a type.
 
 use super::{Codec, DecodeError, EncodeError};
+use bytes::{Bytes, BytesMut};
 
-/// Up to this length, in bytes, a copy into memory that is used again costs less than a second owner.
+/// Up to this length, in bytes, copying into a reused buffer costs less than sharing ownership.
 const SHORT: usize = 512;
 
-/// Carries [`Bytes`] as they are: the codec of gates without a type.
+/// Sends and receives [`Bytes`] unchanged: the codec of gates without a type.
 ///
-/// Neither sending nor receiving copies them: what arrived is handed on, so decoding never fails. Only a short message is
-/// copied when it is sent, because a second owner of its memory would cost more. Bytes have a codec of their own because
-/// one implementation for them and another for all types of fixed layout would overlap in [`Raw`](super::Raw).
+/// Neither encoding nor decoding copies, except for messages of up to 512 bytes, which are copied when they are sent
+/// because sharing their memory would cost more. Decoding never fails.
+// A codec of its own, because in `Raw` an implementation for `Bytes` would overlap with that for all types of fixed
+// layout.
 #[derive(Debug)]
 pub struct Opaque;
 
 impl Codec<Bytes> for Opaque {
     const NAME: &'static str = "bytes";
 
-    fn encode(message: &Bytes, into: &mut BytesMut) -> Result<(), EncodeError> {
-        into.extend_from_slice(message);
+    fn encode(message: &Bytes, buffer: &mut BytesMut) -> Result<(), EncodeError> {
+        buffer.extend_from_slice(message);
         Ok(())
     }
 
-    fn to_frame(message: &Bytes, memory: &mut BytesMut) -> Result<Bytes, EncodeError> {
+    fn to_frame(message: &Bytes, buffer: &mut BytesMut) -> Result<Bytes, EncodeError> {
         if message.len() > SHORT {
             return Ok(message.clone());
         }
-        Self::encode(message, memory)?;
-        Ok(memory.split().freeze())
+        Self::encode(message, buffer)?;
+        Ok(buffer.split().freeze())
     }
 
     fn decode(bytes: Bytes) -> Result<Bytes, DecodeError> {

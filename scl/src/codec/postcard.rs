@@ -1,42 +1,46 @@
+//! Postcard, for any serde type.
+
+use super::{Codec, DecodeError, EncodeError, bounded};
 use bytes::{BufMut, Bytes, BytesMut};
 use serde::{Serialize, de::DeserializeOwned};
 
-use super::{Codec, DecodeError, EncodeError, bounded};
-
-/// Carries any serde type in the compact format of `postcard`, without field names.
+/// Encodes any serde type in the compact format of `postcard`, without field names.
 ///
-/// The bytes say nothing about the type, so both ends must be built from the same version of it: a frame of another
-/// version is refused where its length or a value does not fit, but may also be read as other values. Name the type
-/// anew when it changes, then the contract of the connection keeps the two apart. Types that look at what comes next,
-/// such as `serde_json::Value` or untagged enums, cannot be read. Values nested deeper than 128 levels (each `Some` is
-/// one), anything after the value, and sequences of more elements than the frame has bytes and 4096 are refused.
+/// The format does not describe the type, so both ends must be built with the same version of it: a frame of another
+/// version is refused if its length or a value does not fit, but may also be decoded as other values. Rename the type
+/// when it changes; the contracts of the connection then differ, and the two versions do not connect. Types that accept
+/// any value, such as `serde_json::Value` and untagged enums, cannot be decoded. Values nested deeper than 128 levels
+/// (each `Some` is one level), data after the value, and sequences with more than 4096 elements beyond the number of
+/// bytes of the frame are refused.
 #[derive(Debug)]
 pub struct Postcard;
 
-// Without this attribute the compiler would complain about the bounds below instead of showing the text of `Codec`.
+// Without this attribute the compiler reports the bounds below instead of the message of `Codec`.
 #[diagnostic::do_not_recommend]
 impl<T: Serialize + DeserializeOwned> Codec<T> for Postcard {
     const NAME: &'static str = "postcard";
 
-    fn encode(message: &T, into: &mut BytesMut) -> Result<(), EncodeError> {
-        let start = into.len();
-        postcard::to_io(message, (&mut *into).writer()).map(drop).map_err(|error| {
-            into.truncate(start);
-            EncodeError::new(<Self as Codec<T>>::NAME, "its value has no form in postcard").caused_by(error)
+    fn encode(message: &T, buffer: &mut BytesMut) -> Result<(), EncodeError> {
+        let start = buffer.len();
+        postcard::to_io(message, (&mut *buffer).writer()).map(drop).map_err(|error| {
+            buffer.truncate(start);
+            EncodeError::new(<Self as Codec<T>>::NAME, "postcard cannot represent its value").caused_by(error)
         })
     }
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
         let refused = |reason| DecodeError::new(<Self as Codec<T>>::NAME, reason);
         let mut input = postcard::Deserializer::from_bytes(&bytes);
-        let message = bounded::read(&mut input, bytes.len());
+        let message = bounded::decode(&mut input, bytes.len());
         let read = message.and_then(|message| Ok((message, input.finalize()?)));
         let (message, rest) = read.map_err(|error| {
-            refused(format!("{} bytes are no postcard value of the expected type", bytes.len())).caused_by(error)
+            refused(format!("this {}-byte frame is not a postcard value of the expected type", bytes.len()))
+                .caused_by(error)
         })?;
         if rest.is_empty() {
             return Ok(message);
         }
-        Err(refused(format!("{} of {} bytes follow after the value", rest.len(), bytes.len())))
+        let end = bytes.len() - rest.len();
+        Err(refused(format!("the value ends after {end} of {} bytes", bytes.len())))
     }
 }

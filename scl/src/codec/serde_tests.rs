@@ -1,13 +1,11 @@
-//! The codecs for any serde type that are not on by default: one list of demands, and each codec's own bytes.
+//! The codecs for any serde type that are off by default: the same checks for all, on hostile frames of each format.
 #![allow(clippy::unwrap_used)]
 
-use std::collections::BTreeMap;
-use std::fmt::Debug;
-
+use super::{Codec, DecodeError};
 use bytes::{Bytes, BytesMut};
 use serde::{Deserialize, Serialize};
-
-use super::{Codec, DecodeError};
+use std::collections::BTreeMap;
+use std::fmt::Debug;
 
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Event {
@@ -43,7 +41,7 @@ fn event() -> Event {
     }
 }
 
-/// A list that nests through `Option`, as [`Chain`] does through enums.
+/// Nests through `Option`, as [`Chain`] does through enums.
 #[derive(Debug, Serialize, Deserialize)]
 struct List(Option<Box<List>>);
 
@@ -58,10 +56,10 @@ fn chain(levels: usize) -> Chain {
 }
 
 fn encoded<C: Codec<T>, T>(message: &T) -> Bytes {
-    let mut into = BytesMut::from(&b"before"[..]);
-    C::encode(message, &mut into).unwrap();
-    assert_eq!(into.split_to(6), b"before"[..]);
-    into.freeze()
+    let mut buffer = BytesMut::from(&b"before"[..]);
+    C::encode(message, &mut buffer).unwrap();
+    assert_eq!(buffer.split_to(6), b"before"[..]);
+    buffer.freeze()
 }
 
 fn decoded<C: Codec<T>, T>(bytes: &[u8]) -> Result<T, DecodeError> {
@@ -81,11 +79,11 @@ fn check_round_trip_and_ends<C: Codec<Event> + Codec<u32>>() {
     for length in 0..whole.len() {
         refused::<C, Event>(&format!("truncated to {length} bytes"), &whole[..length]);
     }
-    refused::<C, Event>("a zero byte behind", &[&whole[..], b"\0"].concat());
+    refused::<C, Event>("a zero byte at the end", &[&whole[..], b"\0"].concat());
     refused::<C, Event>("twice", &[&whole[..], &whole[..]].concat());
 }
 
-/// Texts, bytes, lists and maps that announce more than there is end at once, and without room made for them.
+/// Strings, bytes, lists and maps that announce more than the frame contains are refused before memory is allocated.
 fn check_announced_lengths<C>(cases: &[(&str, &[u8])])
 where
     C: Codec<String> + Codec<Vec<u64>> + Codec<Vec<()>> + Codec<BTreeMap<u8, u8>> + Codec<Event>,
@@ -99,14 +97,14 @@ where
     }
 }
 
-/// A frame of two million bytes that nests all the way, and one made of a megabyte of any byte.
+/// Frames of two million bytes that nest throughout, and a megabyte of each byte value.
 fn check_nesting<C: Codec<List> + Codec<Chain> + Codec<Event>>(one_level: &[u8]) {
     let deep = one_level.repeat(2_000_000 / one_level.len());
     refused::<C, Chain>("a chain of enums", &deep);
     refused::<C, List>("a chain of enums as a list", &deep);
     for byte in 0..=255 {
         let same = vec![byte; 1_000_000];
-        // Most are refused; what matters is that none takes the process down.
+        // Some may be accepted; none may crash the process.
         let _ = decoded::<C, List>(&same);
         let _ = decoded::<C, Event>(&same);
     }
@@ -120,10 +118,10 @@ fn check_noise<C: Codec<Event> + Codec<Kind>>() {
         let mut bytes = whole.to_vec();
         for _ in 0..=round % 4 {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            let place = (state >> 33) as usize % bytes.len();
-            bytes[place] = (state >> 24) as u8;
+            let index = (state >> 33) as usize % bytes.len();
+            bytes[index] = (state >> 24) as u8;
         }
-        // Whatever is accepted must be a message that can be sent again.
+        // A frame that is accepted must be a message that can be encoded again.
         if let Ok(message) = decoded::<C, Event>(&bytes) {
             encoded::<C, _>(&message);
         }
@@ -143,7 +141,7 @@ struct Second {
     unit: Option<Vec<Kind>>,
 }
 
-/// With the names of fields in the frame, each version reads the other.
+/// With field names in the frame, each version decodes the other.
 #[cfg(any(feature = "cbor", feature = "msgpack"))]
 fn check_versions<C: Codec<First> + Codec<Second>>() {
     let second = Second { x: 7, name: "a".into(), unit: Some(vec![Kind::Level(1), Kind::Named { text: "b".into() }]) };
@@ -153,23 +151,23 @@ fn check_versions<C: Codec<First> + Codec<Second>>() {
 }
 
 fn check_failed_encode<C: Codec<T>, T>(message: &T, cause: &str) {
-    let mut into = BytesMut::from(&b"before"[..]);
-    let error = C::encode(message, &mut into).unwrap_err();
-    assert_eq!(into, b"before"[..]);
+    let mut buffer = BytesMut::from(&b"before"[..]);
+    let error = C::encode(message, &mut buffer).unwrap_err();
+    assert_eq!(buffer, b"before"[..]);
     assert!(error.to_string().contains(&format!("codec `{}` cannot encode", C::NAME)), "{error}");
     assert!(std::error::Error::source(&error).unwrap().to_string().contains(cause), "{:?}", error);
 }
 
-/// A type that no serde format can write.
+/// A type that no serde format can encode.
 #[derive(Debug, Deserialize)]
-struct Unwritable;
+struct Unencodable;
 
-impl Serialize for Unwritable {
+impl Serialize for Unencodable {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::{Error, SerializeSeq};
         let mut written = serializer.serialize_seq(Some(2))?;
         written.serialize_element("half of it")?;
-        Err(S::Error::custom("only half can be written"))
+        Err(S::Error::custom("only half can be encoded"))
     }
 }
 
@@ -189,17 +187,20 @@ where
 fn cbor() {
     use super::Cbor;
     let lengths: [(&str, &[u8]); 5] = [
-        ("text of 2^64-1 bytes", b"\x7b\xff\xff\xff\xff\xff\xff\xff\xff"),
+        ("string of 2^64-1 bytes", b"\x7b\xff\xff\xff\xff\xff\xff\xff\xff"),
         ("bytes of 2^62", b"\x5b\x40\0\0\0\0\0\0\0x"),
         ("list of 2^62", b"\x9b\x40\0\0\0\0\0\0\0\x01"),
         ("map of 2^63", b"\xbb\x80\0\0\0\0\0\0\0\x01\x02"),
-        ("list without an end", b"\x9f\x01\x02"),
+        ("list without end", b"\x9f\x01\x02"),
     ];
     check_all::<Cbor>(&lengths, b"\xa1\x64Next");
     check_versions::<Cbor>();
-    check_failed_encode::<Cbor, _>(&Unwritable, "only half can be written");
+    check_failed_encode::<Cbor, _>(&Unencodable, "only half can be encoded");
     let error = refused::<Cbor, u32>("two items", b"\x01\x02");
-    assert_eq!(error.to_string(), "codec `cbor` cannot decode what arrived: 2 bytes are more than one cbor item");
+    assert_eq!(
+        error.to_string(),
+        "codec `cbor` cannot decode this message: data follows the CBOR item in this 2-byte frame"
+    );
 }
 
 #[cfg(feature = "msgpack")]
@@ -207,16 +208,16 @@ fn cbor() {
 fn msgpack() {
     use super::Msgpack;
     let lengths: [(&str, &[u8]); 4] = [
-        ("text of 2^32-1 bytes", b"\xdb\xff\xff\xff\xff"),
+        ("string of 2^32-1 bytes", b"\xdb\xff\xff\xff\xff"),
         ("bytes of 2^32-1", b"\xc6\xff\xff\xff\xff"),
         ("list of 2^32-1", b"\xdd\xff\xff\xff\xff\x01"),
         ("map of 2^32-1", b"\xdf\xff\xff\xff\xff\x01\x02"),
     ];
     check_all::<Msgpack>(&lengths, b"\x81\xa4Next");
     check_versions::<Msgpack>();
-    check_failed_encode::<Msgpack, _>(&Unwritable, "only half can be written");
+    check_failed_encode::<Msgpack, _>(&Unencodable, "only half can be encoded");
     let error = refused::<Msgpack, u32>("two values", b"\x01\x02");
-    let text = "codec `msgpack` cannot decode what arrived: 1 of 2 bytes follow after the value";
+    let text = "codec `msgpack` cannot decode this message: the value ends after 1 of 2 bytes";
     assert_eq!(error.to_string(), text);
 }
 
@@ -225,25 +226,25 @@ fn msgpack() {
 fn postcard() {
     use super::Postcard;
     let lengths: [(&str, &[u8]); 2] = [
-        ("2^63 of anything", b"\x80\x80\x80\x80\x80\x80\x80\x80\x80\x01"),
-        ("2^40 of anything", b"\x80\x80\x80\x80\x80\x20\x01"),
+        ("length of 2^63", b"\x80\x80\x80\x80\x80\x80\x80\x80\x80\x01"),
+        ("length of 2^40", b"\x80\x80\x80\x80\x80\x20\x01"),
     ];
     check_all::<Postcard>(&lengths, b"\x01");
-    check_failed_encode::<Postcard, _>(&Unwritable, "Serde Serialization Error");
+    check_failed_encode::<Postcard, _>(&Unencodable, "Serde Serialization Error");
     let error = refused::<Postcard, u32>("two values", b"\x01\x02");
-    let text = "codec `postcard` cannot decode what arrived: 1 of 2 bytes follow after the value";
+    let text = "codec `postcard` cannot decode this message: the value ends after 1 of 2 bytes";
     assert_eq!(error.to_string(), text);
 }
 
-/// Without names a frame of another version ends too early or too late, and either is an error, never a wrong field.
+/// Without field names, a frame of another version is too short or too long: an error, never a wrong value.
 #[cfg(feature = "postcard")]
 #[test]
-fn postcard_refuses_a_version_with_a_field_more_or_less() {
+fn postcard_refuses_a_version_with_one_field_more_or_less() {
     use super::Postcard;
     let first = encoded::<Postcard, _>(&First { x: 7, name: "a".into() });
-    refused::<Postcard, Second>("a field less", &first);
+    refused::<Postcard, Second>("one field less", &first);
     for unit in [None, Some(vec![]), Some(vec![Kind::Level(1)])] {
         let second = encoded::<Postcard, _>(&Second { x: 7, name: "a".into(), unit });
-        refused::<Postcard, First>("a field more", &second);
+        refused::<Postcard, First>("one field more", &second);
     }
 }

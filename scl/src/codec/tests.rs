@@ -1,13 +1,12 @@
+//! The codecs that are on by default: round trips, truncated and hostile frames, error messages.
 #![allow(clippy::unwrap_used)]
 
+use super::{Codec, Opaque};
+use bytes::{Bytes, BytesMut};
 use std::fmt::Debug;
 
-use bytes::{Bytes, BytesMut};
-
-use super::{Codec, Opaque};
-
 #[test]
-fn opaque_carries_any_bytes_without_a_copy() {
+fn opaque_keeps_any_bytes_without_a_copy() {
     check_round_trip::<Opaque, _>(&[Bytes::new(), Bytes::from_static(b"\0\xff text"), Bytes::from(vec![7; 100_000])]);
     let sent = Bytes::from(vec![7; 1000]);
     assert_eq!(Opaque::decode(sent.clone()).unwrap().as_ptr(), sent.as_ptr());
@@ -48,7 +47,7 @@ mod protobuf {
         let accepted: Vec<usize> = (0..=whole.len())
             .filter(|&length| <Protobuf as Codec<Reading>>::decode(whole.slice(..length)).is_ok())
             .collect();
-        // Protobuf has no end mark, so the ends of whole fields, and only these, are messages.
+        // Protobuf has no end marker, so a frame that is cut between two fields is a message, and no other is.
         assert_eq!(accepted, [0, 2, 7, 25, whole.len()]);
     }
 
@@ -107,7 +106,7 @@ mod json {
     }
 
     #[test]
-    fn a_number_arrives_to_its_last_digit() {
+    fn numbers_keep_their_last_digit() {
         check_round_trip::<Json, _>(&[2.222_222_222_222_222_6e283, 0.1 + 0.2, f64::MIN_POSITIVE, f64::MAX, -5e-324]);
     }
 
@@ -123,7 +122,7 @@ mod json {
     fn hostile_bytes_are_errors() {
         let nested = "[".repeat(1_000_000);
         let cases: [(&str, &[u8]); 6] = [
-            ("nothing", b""),
+            ("an empty frame", b""),
             ("trailing value", b"{\"name\":\"\",\"values\":[],\"inner\":null} 1"),
             ("trailing zero byte", b"{\"name\":\"\",\"values\":[],\"inner\":null}\0"),
             ("another type", b"[1, 2]"),
@@ -140,10 +139,10 @@ mod json {
     #[test]
     fn a_failed_encode_leaves_the_buffer_as_it_was() {
         let unwritable = BTreeMap::from([(vec![1_u8], 1_u8)]);
-        let mut into = BytesMut::from(&b"before"[..]);
-        let error = <Json as Codec<BTreeMap<Vec<u8>, u8>>>::encode(&unwritable, &mut into).unwrap_err();
-        assert_eq!(into, b"before"[..]);
-        assert_eq!(error.to_string(), "codec `json` cannot encode this message: its value has no form in json");
+        let mut buffer = BytesMut::from(&b"before"[..]);
+        let error = <Json as Codec<BTreeMap<Vec<u8>, u8>>>::encode(&unwritable, &mut buffer).unwrap_err();
+        assert_eq!(buffer, b"before"[..]);
+        assert_eq!(error.to_string(), "codec `json` cannot encode this message: JSON cannot represent its value");
         assert_eq!(std::error::Error::source(&error).unwrap().to_string(), "key must be a string");
     }
 }
@@ -173,21 +172,18 @@ mod raw {
     }
 
     #[test]
-    fn any_other_length_is_an_error_that_names_both() {
+    fn any_other_length_is_an_error_with_both_lengths() {
         let whole = encoded::<Raw, _>(&attitude());
         for length in (0..whole.len()).chain([33, 4096]) {
             let bytes = vec![0xff; length];
             check_refused::<Raw, Attitude>(&format!("{length} bytes"), &bytes, "raw");
         }
         let error = <Raw as Codec<Attitude>>::decode(whole.slice(1..)).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "codec `raw` cannot decode what arrived: the type takes exactly 32 bytes, 31 arrived"
-        );
+        assert_eq!(error.to_string(), "codec `raw` cannot decode this message: expected exactly 32 bytes, received 31");
     }
 
     #[test]
-    fn bytes_at_an_odd_address_are_read() {
+    fn unaligned_bytes_are_decoded() {
         let mut frame = BytesMut::from(&b"x"[..]);
         Raw::encode(&attitude(), &mut frame).unwrap();
         let frame = frame.freeze();
@@ -200,21 +196,21 @@ mod raw {
     }
 }
 
-/// Encodes behind other bytes, so that a codec that overwrites or forgets them is seen.
+/// Encodes after other bytes, to catch a codec that overwrites or drops them.
 fn check_round_trip<C: Codec<T>, T: PartialEq + Debug>(messages: &[T]) {
     for message in messages {
-        let mut into = BytesMut::from(&b"before"[..]);
-        C::encode(message, &mut into).unwrap();
-        assert_eq!(into.split_to(6), b"before"[..]);
-        assert_eq!(C::decode(into.freeze()).unwrap(), *message);
+        let mut buffer = BytesMut::from(&b"before"[..]);
+        C::encode(message, &mut buffer).unwrap();
+        assert_eq!(buffer.split_to(6), b"before"[..]);
+        assert_eq!(C::decode(buffer.freeze()).unwrap(), *message);
     }
 }
 
 #[cfg(any(feature = "protobuf", feature = "json", feature = "raw"))]
 fn encoded<C: Codec<T>, T>(message: &T) -> Bytes {
-    let mut into = BytesMut::new();
-    C::encode(message, &mut into).unwrap();
-    into.freeze()
+    let mut buffer = BytesMut::new();
+    C::encode(message, &mut buffer).unwrap();
+    buffer.freeze()
 }
 
 #[cfg(any(feature = "protobuf", feature = "json", feature = "raw"))]
@@ -225,7 +221,7 @@ fn check_refused<C: Codec<T>, T>(case: &str, bytes: &[u8], codec: &str) {
     }
 }
 
-/// Whatever is accepted of bytes without meaning must be a message that can be sent again.
+/// Random bytes that are accepted must be a message that can be encoded again.
 #[cfg(any(feature = "protobuf", feature = "json"))]
 fn check_noise<C: Codec<T>, T>() {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;

@@ -1,123 +1,130 @@
-//! Opening a component: its site, then its gates one by one.
+//! Opening a component: its registration, then its gates one by one.
 
-use super::blocking::OwnedRuntime;
-use super::site::Site;
-use super::{Component, Core, OpenOptions};
+use super::ComponentHandle;
 use crate::codec::Codec;
-use crate::error::OpenError;
-use crate::gate::holding::Holding;
-use crate::gate::incoming::Incoming;
-use crate::gate::sending::Sending;
-use crate::gate::{AnyGate, GateName, Outgoing, Pub, Pull, Push, Rep, Req, Sub};
-use crate::spec::{ComponentSpec, GateKind, GateSpec, LinkSpec};
+use crate::error::{GateName, OpenError};
+use crate::gate::{Connection, GateTap, Incoming, Outgoing, Pub, Pull, Push, Rep, Req, Sub};
+use crate::medium::Medium;
+use crate::options::OpenOptions;
+use crate::registration::Registration;
+use crate::runtime_dir::{RuntimeDir, SystemDir};
+use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::state::{ComponentState, OwnedRuntime};
 use crate::time::Watchdog;
-use crate::transport::{Outlet, Transport, TransportError};
+use crate::transport::{Endpoint, Sender, Transport, TransportError};
 use std::sync::{Arc, Mutex};
 
-/// Makes the gates of one component; only generated code calls it.
+/// Opens the gates of one component; only generated code calls it.
 pub struct Opener {
-    core: Arc<Core>,
+    state: Arc<ComponentState>,
     transport: Arc<dyn Transport>,
 }
 
 impl Opener {
+    /// Registers and announces the component.
     pub(super) fn begin(
         spec: &'static ComponentSpec,
-        options: OpenOptions,
+        options: &OpenOptions,
         runtime: Option<Arc<OwnedRuntime>>,
     ) -> Result<Self, OpenError> {
-        let (site, transport) = Site::choose(spec, &options)?;
-        Ok(Self { core: Arc::new(Core::new(spec, site, runtime)), transport })
+        let (registration, transport) = match options.chosen_transport() {
+            Some(transport) => (Registration::without_files(), transport),
+            None => register(spec, options)?,
+        };
+        Ok(Self { state: Arc::new(ComponentState::new(spec, registration, runtime)), transport })
     }
 
-    pub(super) fn finish<C: Component>(mut self) -> Result<C, OpenError> {
-        let component = C::assemble(&mut self)?;
-        self.core.announce()?;
-        Ok(component)
-    }
-
-    /// The `pub` gate at a place in the component's list.
+    /// Opens the `pub` gate at an index of the component's list.
     pub fn publisher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Pub<T>, OpenError> {
         let spec = self.gate(index);
-        let mut connections = self.connections(spec, |transport, endpoint| transport.publish(endpoint))?;
-        let tap = self.transport.publish(spec.endpoint).map_err(|source| self.refused(spec, source))?;
-        connections.push(self.connect(spec, tap, Holding::of_tap(), "a tap".to_owned()));
-        Ok(Pub::new(Sending::new::<C>(Arc::clone(&self.core), spec, connections)))
+        let connections = self.connections(spec, |transport, endpoint| transport.publish(endpoint))?;
+        let tap = self.tap(spec)?;
+        Ok(Pub::new(Outgoing::new::<C>(Arc::clone(&self.state), spec, connections, tap)))
     }
 
-    /// The `push` gate at a place in the component's list.
+    /// Opens the `push` gate at an index of the component's list.
     pub fn pusher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Push<T>, OpenError> {
         let spec = self.gate(index);
         let connections = self.connections(spec, |transport, endpoint| transport.push(endpoint))?;
-        Ok(Push::new(Sending::new::<C>(Arc::clone(&self.core), spec, connections)))
+        // The puller has the tap.
+        Ok(Push::new(Outgoing::new::<C>(Arc::clone(&self.state), spec, connections, GateTap::new(None))))
     }
 
-    /// The `sub` gate at a place in the component's list.
+    /// Opens the `sub` gate at an index of the component's list.
     pub fn subscriber<T, C: Codec<T>>(&mut self, index: usize) -> Result<Sub<T>, OpenError> {
         let spec = self.gate(index);
-        let subscribe = |link: &LinkSpec| self.transport.subscribe(link.endpoint);
+        let subscribe = |link| self.transport.subscribe(&self.connecting(spec, link));
         let links = spec.links.iter().map(subscribe).collect::<Result<_, _>>();
         let links = links.map_err(|source| self.refused(spec, source))?;
-        Ok(Sub::new(Incoming::new::<C>(Arc::clone(&self.core), spec, links)))
+        Ok(Sub::new(Incoming::new::<C>(Arc::clone(&self.state), spec, links, GateTap::new(None))))
     }
 
-    /// The `pull` gate at a place in the component's list.
+    /// Opens the `pull` gate at an index of the component's list.
     pub fn puller<T, C: Codec<T>>(&mut self, index: usize) -> Result<Pull<T>, OpenError> {
         let spec = self.gate(index);
-        let link = self.transport.pull(spec.endpoint).map_err(|source| self.refused(spec, source))?;
-        Ok(Pull::new(Incoming::new::<C>(Arc::clone(&self.core), spec, vec![link])))
+        let link = self.transport.pull(&endpoint(spec.endpoint, spec));
+        let link = link.map_err(|source| self.refused(spec, source))?;
+        let tap = self.tap(spec)?;
+        Ok(Pull::new(Incoming::new::<C>(Arc::clone(&self.state), spec, vec![link], tap)))
     }
 
-    /// The `req` gate at a place in the component's list.
+    /// Opens the `req` gate at an index of the component's list.
     pub fn requester<A, B, C: Codec<A> + Codec<B>>(&mut self, index: usize) -> Result<Req<A, B>, OpenError> {
         let spec = self.gate(index);
-        let link = spec.links.first().map(|link| self.transport.request(link.endpoint)).transpose();
+        let link = spec.links.first().map(|link| self.transport.request(&self.connecting(spec, link))).transpose();
         let link = link.map_err(|source| self.refused(spec, source))?;
         let watchdog = Watchdog::new().map_err(|source| OpenError::Timer { gate: self.name(spec), source })?;
-        Ok(Req::new::<C>(Arc::clone(&self.core), spec, link, watchdog))
+        Ok(Req::new::<C>(Arc::clone(&self.state), spec, link, watchdog))
     }
 
-    /// The `rep` gate at a place in the component's list.
+    /// Opens the `rep` gate at an index of the component's list.
     pub fn replier<A, B, C: Codec<A> + Codec<B>>(&mut self, index: usize) -> Result<Rep<A, B>, OpenError> {
         let spec = self.gate(index);
-        let link = self.transport.reply(spec.endpoint).map_err(|source| self.refused(spec, source))?;
-        Ok(Rep::new::<C>(Arc::clone(&self.core), spec, link))
+        let link = self.transport.reply(&endpoint(spec.endpoint, spec));
+        let link = link.map_err(|source| self.refused(spec, source))?;
+        let tap = self.tap(spec)?;
+        Ok(Rep::new::<C>(Arc::clone(&self.state), spec, link, tap))
     }
 
-    /// The place of a component without gates.
-    pub fn idle(&mut self) -> Result<Idle, OpenError> {
-        Ok(Idle { core: Arc::clone(&self.core) })
+    /// What the component holds besides its gates.
+    pub fn handle(&self) -> ComponentHandle {
+        ComponentHandle(Arc::clone(&self.state))
     }
 
     fn gate(&self, index: usize) -> &'static GateSpec {
-        &self.core.spec().gates[index]
+        &self.state.spec().gates[index]
     }
 
     fn connections(
         &self,
         spec: &'static GateSpec,
-        outlet: impl Fn(&dyn Transport, &str) -> Result<Box<dyn Outlet>, TransportError>,
-    ) -> Result<Vec<Arc<Mutex<Outgoing>>>, OpenError> {
-        let connect = |link: &LinkSpec| {
-            let made = outlet(&*self.transport, link.endpoint).map_err(|source| self.refused(spec, source))?;
-            let peer = format!("{}.{}", link.peer_component, link.peer_gate);
-            Ok(self.connect(spec, made, Holding::of(spec, link), peer))
+        open: impl Fn(&dyn Transport, &Endpoint) -> Result<Box<dyn Sender>, TransportError>,
+    ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
+        let connect = |link| {
+            let sender = open(&*self.transport, &self.connecting(spec, link));
+            let sender = sender.map_err(|source| self.refused(spec, source))?;
+            let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes());
+            Ok(self.state.drive(connection))
         };
         spec.links.iter().map(connect).collect()
     }
 
-    fn connect(
-        &self,
-        spec: &'static GateSpec,
-        link: Box<dyn Outlet>,
-        holding: Holding,
-        peer: String,
-    ) -> Arc<Mutex<Outgoing>> {
-        self.core.drive(Outgoing::new(link, holding, self.name(spec), peer))
+    fn tap(&self, spec: &'static GateSpec) -> Result<GateTap, OpenError> {
+        if spec.tap.is_empty() {
+            return Ok(GateTap::new(None));
+        }
+        let tap = self.transport.tap(&Endpoint::new(spec.tap));
+        tap.map(GateTap::new).map_err(|source| self.refused(spec, source))
+    }
+
+    /// The endpoint of one connection, whose connecting end checks its peer first.
+    fn connecting(&self, spec: &'static GateSpec, link: &'static LinkSpec) -> Endpoint {
+        let check = self.state.registration().peer_check(spec, link);
+        Endpoint { check, ..endpoint(link.endpoint, spec) }
     }
 
     fn name(&self, spec: &'static GateSpec) -> GateName {
-        GateName::new(self.core.spec().name, spec.name)
+        GateName::new(self.state.spec().name, spec.name)
     }
 
     fn refused(&self, spec: &'static GateSpec, source: TransportError) -> OpenError {
@@ -125,35 +132,30 @@ impl Opener {
     }
 }
 
-/// The field of a component that has no gates: it holds the component's place.
-#[derive(Debug)]
-pub struct Idle {
-    core: Arc<Core>,
+/// Takes the component's name in the runtime folder.
+fn register(
+    spec: &'static ComponentSpec,
+    options: &OpenOptions,
+) -> Result<(Registration, Arc<dyn Transport>), OpenError> {
+    let (system, medium) = (options.system_name(spec.system)?, options.chosen_medium()?);
+    let failed = |source| OpenError::RuntimeDir { component: spec.name, source };
+    let runtime_dir = RuntimeDir::locate(&|name| options.variable(name)).map_err(failed)?;
+    let dir = runtime_dir.system(&system).map_err(failed)?;
+    let transport = transport(spec, &dir, medium)?;
+    Ok((Registration::in_folder(spec, dir).map_err(failed)?, transport))
 }
 
-impl AnyGate for Idle {
-    fn spec(&self) -> &'static GateSpec {
-        const NONE: GateSpec = GateSpec {
-            name: "",
-            kind: GateKind::Sub,
-            payload: "",
-            codec: "",
-            place: "",
-            endpoint: "",
-            queue: 1,
-            when_full: crate::spec::WhenFull::DropOldest,
-            backpressure: false,
-            timeout: std::time::Duration::ZERO,
-            links: &[],
-        };
-        &NONE
-    }
+#[cfg(feature = "zeromq")]
+fn transport(_spec: &ComponentSpec, dir: &SystemDir, medium: Medium) -> Result<Arc<dyn Transport>, OpenError> {
+    Ok(Arc::new(crate::transport::zeromq::ZeroMq::new(dir.clone(), medium)))
+}
 
-    fn missing(&self) -> Vec<&'static LinkSpec> {
-        Vec::new()
-    }
+#[cfg(not(feature = "zeromq"))]
+fn transport(spec: &ComponentSpec, _dir: &SystemDir, _medium: Medium) -> Result<Arc<dyn Transport>, OpenError> {
+    Err(OpenError::NoTransport { component: spec.name })
+}
 
-    fn core(&self) -> &Arc<Core> {
-        &self.core
-    }
+fn endpoint(name: &'static str, spec: &GateSpec) -> Endpoint {
+    let max_size = usize::try_from(spec.max_size).unwrap_or(usize::MAX);
+    Endpoint { max_size, newest_only: spec.newest_only(), ..Endpoint::new(name) }
 }

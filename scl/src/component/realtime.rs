@@ -1,7 +1,9 @@
-//! Real-time priority, a processor of its own, memory that stays: what a program asks for through its environment.
+//! Real-time priority, a processor of its own, and locked memory, as set in the environment of a program.
 //!
-//! A program that may not have them says so and goes on, so that the same launch file serves the vehicle and the desk.
+//! Without the privileges, the program logs a warning and continues, so one launch file works on the vehicle and on a
+//! desktop.
 
+use crate::environment::{self, Variables};
 use crate::error::OpenError;
 use rustix::mm::MlockAllFlags;
 use rustix::process::Resource;
@@ -11,57 +13,42 @@ use thread_priority::{
     set_thread_priority_and_policy, thread_native_id,
 };
 
-/// What the environment asks for.
+/// The real-time settings of the environment.
 #[derive(Debug, Default, PartialEq, Eq)]
-struct Wishes {
+pub(super) struct Settings {
     /// `SCL_SCHED=fifo:80`: the priority, 1 to 99.
     fifo: Option<u8>,
     /// `SCL_CPU=1`: the processor, counted from 0.
     cpu: Option<usize>,
 }
 
-/// Honours `SCL_SCHED` and `SCL_CPU` for the calling thread and those that it starts; with either, the program's memory
-/// is locked.
-///
-/// # Errors
-/// [`OpenError::Environment`] for a value that says nothing. What the system refuses is only warned of.
-pub(super) fn honour_environment() -> Result<(), OpenError> {
-    let wishes = Wishes::read(&|name| std::env::var_os(name).map(|value| value.to_string_lossy().into_owned()))?;
-    if let Some(cpu) = wishes.cpu {
-        pin(cpu);
-    }
-    if let Some(priority) = wishes.fifo {
-        schedule(priority);
-    }
-    if wishes != Wishes::default() {
-        lock_memory();
-    }
-    Ok(())
-}
-
-impl Wishes {
-    fn read(variable: &dyn Fn(&'static str) -> Option<String>) -> Result<Self, OpenError> {
-        let wish = |name| variable(name).filter(|value| !value.is_empty());
+impl Settings {
+    /// Reads `SCL_SCHED` and `SCL_CPU`.
+    ///
+    /// # Errors
+    /// [`OpenError::Environment`] for a value that is not understood.
+    pub(super) fn read(variables: Variables<'_>) -> Result<Self, OpenError> {
         let fifo =
             |value: &str| value.strip_prefix("fifo:")?.parse().ok().filter(|priority| (1..=99).contains(priority));
         let cpu = |value: &str| value.parse().ok().filter(|cpu| *cpu < CpuSet::MAX_CPU);
         Ok(Self {
-            fifo: understood("SCL_SCHED", wish("SCL_SCHED"), fifo, "`fifo:1` to `fifo:99`")?,
-            cpu: understood("SCL_CPU", wish("SCL_CPU"), cpu, "the number of a processor, counted from 0")?,
+            fifo: environment::read(variables, "SCL_SCHED", "`fifo:1` to `fifo:99`", fifo)?,
+            cpu: environment::read(variables, "SCL_CPU", "the number of a processor, counted from 0", cpu)?,
         })
     }
-}
 
-fn understood<T>(
-    variable: &'static str,
-    value: Option<String>,
-    parse: impl Fn(&str) -> Option<T>,
-    expected: &'static str,
-) -> Result<Option<T>, OpenError> {
-    let Some(value) = value else { return Ok(None) };
-    match parse(&value) {
-        Some(parsed) => Ok(Some(parsed)),
-        None => Err(OpenError::Environment { variable, value, expected }),
+    /// Applies the settings to the calling thread and to those that it starts from now on. With any of them, the memory
+    /// of the program is locked. Logs a warning for what the operating system refuses.
+    pub(super) fn apply(&self) {
+        if let Some(cpu) = self.cpu {
+            pin(cpu);
+        }
+        if let Some(priority) = self.fifo {
+            schedule(priority);
+        }
+        if *self != Self::default() {
+            lock_memory();
+        }
     }
 }
 
@@ -69,7 +56,7 @@ fn pin(cpu: usize) {
     let mut one = CpuSet::new();
     one.set(cpu);
     if let Err(error) = rustix::thread::sched_setaffinity(None, &one) {
-        tracing::warn!("`SCL_CPU={cpu}` has no effect: {error}; `nproc --all` tells how many processors there are");
+        tracing::warn!("`SCL_CPU={cpu}` has no effect: {error}; `nproc --all` shows how many processors there are");
     }
 }
 
@@ -81,27 +68,27 @@ fn schedule(priority: u8) {
     });
     if let Err(error) = set {
         tracing::warn!(
-            "`SCL_SCHED=fifo:{priority}` has no effect: {error}; the program needs the capability `cap_sys_nice`, or \
-             its user a limit `rtprio` of {priority} or more"
+            "`SCL_SCHED=fifo:{priority}` has no effect: {error}; the program needs the capability `cap_sys_nice`, \
+             or its user a limit `rtprio` of {priority} or more"
         );
     }
 }
 
-/// Locks what the program has and will have, as soon as it is used.
+/// Locks all memory of the program, present and future, each page on its first use.
 fn lock_memory() {
-    // With a limit, locking what is still to come would make a later allocation fail, and end the program.
     let limited = rustix::process::getrlimit(Resource::Memlock).current.is_some();
     let capable = rustix::thread::capabilities(None).is_ok_and(|sets| sets.effective.contains(CapabilitySet::IPC_LOCK));
+    // With RLIMIT_MEMLOCK set, MCL_FUTURE would make later allocations fail and abort the program.
     let locked = if limited && !capable {
         Err("its size is limited".to_owned())
     } else {
-        // On first use: a peer that announces 8 GiB makes the library ask for them, and they shall cost nothing.
+        // On first use, so that reserved but unused memory stays cheap.
         let flags = MlockAllFlags::CURRENT | MlockAllFlags::FUTURE | MlockAllFlags::ONFAULT;
         rustix::mm::mlockall(flags).map_err(|error| error.to_string())
     };
     if let Err(error) = locked {
         tracing::warn!(
-            "the memory cannot be locked: {error}; the program needs the capability `cap_ipc_lock`, or its user an \
+            "memory cannot be locked: {error}; the program needs the capability `cap_ipc_lock`, or its user an \
              unlimited `memlock`"
         );
     }
@@ -110,28 +97,31 @@ fn lock_memory() {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::environment::refused;
 
     #[test]
-    fn the_environment_is_read() {
+    fn settings_are_read_or_refused() {
+        let not_sched = |value: &str| Err(format!("SCL_SCHED={value}, not `fifo:1` to `fifo:99`"));
+        let not_cpu = |value: &str| Err(format!("SCL_CPU={value}, not the number of a processor, counted from 0"));
         let cases = [
             ("", "", Ok((None, None))),
             ("fifo:80", "", Ok((Some(80), None))),
             ("fifo:1", "3", Ok((Some(1), Some(3)))),
             ("", "0", Ok((None, Some(0)))),
-            ("fifo:0", "", Err("`SCL_SCHED=fifo:0` is not understood; write one of: `fifo:1` to `fifo:99`")),
-            ("fifo:100", "", Err("`SCL_SCHED=fifo:100` is not understood; write one of: `fifo:1` to `fifo:99`")),
-            ("rr:5", "", Err("`SCL_SCHED=rr:5` is not understood; write one of: `fifo:1` to `fifo:99`")),
-            ("", "-1", Err("`SCL_CPU=-1` is not understood; write one of: the number of a processor, counted from 0")),
-            (
-                "",
-                "99999999",
-                Err("`SCL_CPU=99999999` is not understood; write one of: the number of a processor, counted from 0"),
-            ),
+            ("fifo:0", "", not_sched("fifo:0")),
+            ("fifo:100", "", not_sched("fifo:100")),
+            ("rr:5", "", not_sched("rr:5")),
+            ("", "-1", not_cpu("-1")),
+            ("", "99999999", not_cpu("99999999")),
         ];
         for (sched, cpu, expected) in cases {
-            let variable = |name: &'static str| Some(if name == "SCL_SCHED" { sched } else { cpu }.to_owned());
-            let read = Wishes::read(&variable).map(|wishes| (wishes.fifo, wishes.cpu));
-            assert_eq!(read.map_err(|error| error.to_string()), expected.map_err(str::to_owned), "{sched} {cpu}");
+            let variables = |name: &str| match name {
+                "SCL_SCHED" => Some(sched.into()),
+                "SCL_CPU" => Some(cpu.into()),
+                _ => None,
+            };
+            let read = refused(Settings::read(&variables)).map(|settings| (settings.fifo, settings.cpu));
+            assert_eq!(read, expected, "{sched} {cpu}");
         }
     }
 }

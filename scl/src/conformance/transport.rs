@@ -1,58 +1,103 @@
-//! The guarantees of a transport.
+//! What SCL relies on in a transport, one function per guarantee.
 //!
-//! Every end gets a waker of its own and is only called again when that one was woken, so a wake-up that gets lost
-//! shows in each of these tests.
+//! Each end has a waker of its own and is called again only after it has used that waker, so a missed wake-up makes any
+//! of these tests fail. They run on a current-thread runtime and on one with two worker threads.
+//!
+//! | file | guarantees about |
+//! |---|---|
+//! | `delivery` | messages that arrive complete, in order, once |
+//! | `peers` | ends that find each other, in any order and again |
+//! | `pace` | peers of different speed, acknowledgements, and rest |
+//! | `freshness` | ends that want only the newest message |
+//! | `detached` | calls without a runtime |
+//! | `threads` | ends that are moved between tasks and threads |
+//! | `requests` | requests and replies |
 
-mod call;
-mod flow;
+mod delivery;
+mod detached;
+mod ends;
+mod freshness;
 mod pace;
+mod peers;
+mod request_ends;
+mod requests;
+mod threads;
 mod watched;
 
-pub use call::{
-    answers_who_asked_in_any_order, carries_requests_of_every_size, finds_the_replier_that_stays,
-    gives_back_what_nobody_answers, numbers_old_answers, survives_a_lost_requester, tells_of_a_lost_replier,
+pub use delivery::{
+    carries_every_size, delivers_what_was_written, keeps_order, never_delivers_an_oversized_message,
+    serves_every_pusher,
 };
-pub use flow::{
-    carries_every_size, finds_the_peer_that_stays, frees_its_endpoint, gives_back_what_nobody_takes, keeps_order,
-    keeps_what_is_flushed, lets_go_of_who_came_early, reports_a_late_peer, serves_every_pusher,
-    serves_the_next_receiver, serves_the_next_sender,
+pub use detached::{
+    accepts_peers_when_detached, delivers_after_its_runtime_has_ended, delivers_when_detached, replies_when_detached,
 };
-pub use pace::{stays_quiet_when_idle, stops_and_resumes};
+pub use freshness::{catches_up_with_a_busy_sender, catches_up_without_a_runtime, returns_the_newest_message};
+pub use pace::{acknowledges_what_was_taken, keeps_subscribers_independent, stays_quiet_when_idle, stops_and_resumes};
+pub use peers::{
+    connects_only_if_the_check_passes, counts_peers, finds_the_peer_that_stays, frees_its_endpoint,
+    reconnects_after_a_dropped_link, releases_an_idle_connection, serves_the_next_receiver, serves_the_next_sender,
+    waits_for_a_late_peer, yields_each_peer_once,
+};
+pub use requests::{
+    answers_in_any_order, carries_requests_of_every_size, delivers_written_replies, finds_the_replier_that_stays,
+    keeps_request_numbers, never_delivers_an_oversized_request, refuses_requests_without_a_replier,
+    reports_a_lost_replier, survives_a_lost_requester,
+};
+pub use threads::{moves_between_threads, moves_requests_between_threads};
 
-use crate::transport::{Inlet, Outlet, Transport, TransportError};
+use crate::transport::{Endpoint, Transport, TransportError};
 use bytes::Bytes;
-use watched::{Receiving, Sending};
+use ends::{TestReceiver, TestSender};
+use std::future::poll_fn;
+use std::task::{Context, Poll};
 
 const ENDPOINT: &str = "sensor.out--controller.in.1a2b3c4d";
 const OTHER_ENDPOINT: &str = "sensor.other--controller.other.1a2b3c4d";
 const SIZES: [usize; 7] = [0, 1, 255, 256, 70_000, 1 << 20, 0];
 
-/// The two ways to send.
-#[derive(Debug, Clone, Copy)]
-enum Flow {
-    PublishSubscribe,
+/// The two patterns in which messages go one way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Pattern {
+    PubSub,
     PushPull,
 }
 
-const FLOWS: [Flow; 2] = [Flow::PublishSubscribe, Flow::PushPull];
+const PATTERNS: [Pattern; 2] = [Pattern::PubSub, Pattern::PushPull];
 
-impl Flow {
-    fn sender(self, transport: &dyn Transport, endpoint: &str) -> Sending {
-        Sending::new(opened(match self {
-            Self::PublishSubscribe => transport.publish(endpoint),
+impl Pattern {
+    fn sender(self, transport: &dyn Transport) -> TestSender {
+        self.sender_at(transport, &Endpoint::new(ENDPOINT))
+    }
+
+    fn sender_at(self, transport: &dyn Transport, endpoint: &Endpoint) -> TestSender {
+        TestSender::new(opened(match self {
+            Self::PubSub => transport.publish(endpoint),
             Self::PushPull => transport.push(endpoint),
         }))
     }
 
-    fn receiver(self, transport: &dyn Transport, endpoint: &str) -> Receiving {
-        Receiving::new(opened(match self {
-            Self::PublishSubscribe => transport.subscribe(endpoint),
+    fn receiver(self, transport: &dyn Transport) -> TestReceiver {
+        self.receiver_at(transport, &Endpoint::new(ENDPOINT))
+    }
+
+    fn receiver_at(self, transport: &dyn Transport, endpoint: &Endpoint) -> TestReceiver {
+        TestReceiver::new(opened(match self {
+            Self::PubSub => transport.subscribe(endpoint),
             Self::PushPull => transport.pull(endpoint),
         }))
     }
 
-    fn pair(self, transport: &dyn Transport, endpoint: &str) -> (Sending, Receiving) {
-        (self.sender(transport, endpoint), self.receiver(transport, endpoint))
+    /// A sender and a receiver that are connected.
+    async fn connected(self, transport: &dyn Transport) -> (TestSender, TestReceiver) {
+        self.connected_to(transport, &Endpoint::new(ENDPOINT)).await
+    }
+
+    /// A sender, and a receiver with limits of its own.
+    async fn connected_to(self, transport: &dyn Transport, receiving: &Endpoint) -> (TestSender, TestReceiver) {
+        let mut sender = self.sender_at(transport, &Endpoint::new(receiving.name.clone()));
+        let mut receiver = self.receiver_at(transport, receiving);
+        connect(&mut sender, &mut receiver).await;
+        (sender, receiver)
     }
 }
 
@@ -60,15 +105,44 @@ fn opened<E>(end: Result<E, TransportError>) -> E {
     end.unwrap_or_else(|error| panic!("an end could not be opened: {error}"))
 }
 
+/// Waits until the sender is connected, polling the receiver too.
+async fn connect(sender: &mut TestSender, receiver: &mut TestReceiver) {
+    poll_fn(|cx| {
+        assert!(receiver.poll(cx).is_pending(), "received a message that was not sent");
+        if sender.poll(cx) { Poll::Ready(()) } else { Poll::Pending }
+    })
+    .await;
+}
+
+/// Sends `messages` and a last one, and checks that exactly these arrive, in this order.
+async fn check_carried(pattern: Pattern, sender: &mut TestSender, receiver: &mut TestReceiver, messages: &[Bytes]) {
+    let last = Bytes::from_static(b"the last message");
+    sender.queue(messages.iter().cloned().chain([last.clone()]));
+    for (index, expected) in messages.iter().enumerate() {
+        let message = receiver.next(&mut [sender]).await;
+        let sizes = (message.len(), expected.len());
+        assert!(message == *expected, "{pattern:?}: message {index} differs, sizes {sizes:?}: {message:.20?}");
+    }
+    assert_eq!(receiver.next(&mut [sender]).await, last, "{pattern:?}: received more than was sent");
+}
+
+/// Polls for a number of turns, letting other tasks run in between.
+async fn turns(count: usize, mut poll: impl FnMut(&Context<'_>)) {
+    for _ in 0..count {
+        poll_fn(|cx| {
+            poll(cx);
+            Poll::Ready(())
+        })
+        .await;
+        tokio::task::yield_now().await;
+    }
+}
+
 fn numbered(count: u32) -> Vec<Bytes> {
     (0..count).map(|number| Bytes::copy_from_slice(&number.to_be_bytes())).collect()
 }
 
-fn pattern(size: usize) -> Bytes {
-    (0..size).map(|place| (place % 251) as u8).collect()
+/// Bytes that tell whether some of them were lost or moved.
+fn content(size: usize) -> Bytes {
+    (0..size).map(|index| (index % 251) as u8).collect()
 }
-
-/// The type of a sending end, for [`Sending`].
-type AnyOutlet = Box<dyn Outlet>;
-/// The type of a receiving end, for [`Receiving`].
-type AnyInlet = Box<dyn Inlet>;

@@ -1,179 +1,180 @@
-//! What `sub` and `pull` share: frames from one or several links, the gate's own queue, decoding.
+//! What `sub` and `pull` share: receiving and decoding.
 
-use super::stats::{Counts, GateStats};
-use super::{GateName, Peers};
+use super::inbox::{Arrived, SharedInbox};
+use super::stats::GateStats;
+use super::tap::GateTap;
 use crate::codec::{Codec, DecodeError};
-use crate::component::Core;
-use crate::error::{RecvError, RecvTimeoutError};
-use crate::spec::{GateSpec, LinkSpec, WhenFull};
-use crate::transport::Inlet;
+use crate::error::{BlockingError, GateName, Missing, Peers, RecvError, RecvTimeoutError};
+use crate::spec::GateSpec;
+use crate::state::ComponentState;
+use crate::transport::Receiver;
 use bytes::Bytes;
-use std::collections::VecDeque;
-use std::future::poll_fn;
 use std::sync::Arc;
-use std::task::{Context, Poll, Waker};
+use std::task::{Context, Poll};
 use std::time::Duration;
-
-/// How many messages one call takes in at most, so that a peer that sends faster than they are taken in ends no call.
-const TAKE_IN: usize = 1024;
 
 pub(crate) struct Incoming<T> {
     pub(crate) spec: &'static GateSpec,
     name: GateName,
-    links: Vec<Box<dyn Inlet>>,
-    /// The link to ask first, so that none is kept waiting by another.
-    next: usize,
-    inbox: VecDeque<Arrived>,
-    /// Whether the last receiving call found nothing.
-    waiting: bool,
+    inbox: SharedInbox,
     decode: fn(Bytes) -> Result<T, DecodeError>,
-    counts: Counts,
-    /// Let go after the links, whose endpoints are this component's only as long as it has its name.
-    pub(crate) core: Arc<Core>,
-}
-
-struct Arrived {
-    link: usize,
-    frame: Bytes,
+    undecodable: u64,
+    /// Dropped after the ends, which are this component's only as long as it holds its lock.
+    pub(crate) state: Arc<ComponentState>,
 }
 
 impl<T> Incoming<T> {
-    pub(crate) fn new<C: Codec<T>>(core: Arc<Core>, spec: &'static GateSpec, links: Vec<Box<dyn Inlet>>) -> Self {
-        let name = GateName::new(core.spec().name, spec.name);
-        let inbox = VecDeque::new();
-        Self { core, spec, name, links, next: 0, inbox, waiting: false, decode: C::decode, counts: Counts::default() }
+    pub(crate) fn new<C: Codec<T>>(
+        state: Arc<ComponentState>,
+        spec: &'static GateSpec,
+        links: Vec<Box<dyn Receiver>>,
+        tap: GateTap,
+    ) -> Self {
+        let name = GateName::new(state.spec().name, spec.name);
+        let inbox = SharedInbox::new(spec, links, tap, state.changes());
+        Self { spec, name, inbox, decode: C::decode, undecodable: 0, state }
     }
 
     pub(crate) async fn recv(&mut self) -> Result<T, RecvError> {
-        poll_fn(|cx| self.poll_recv(cx)).await
+        Recv { gate: self, is_waiting: false }.await
     }
 
     pub(crate) fn recv_blocking(&mut self) -> Result<T, RecvError> {
-        let core = Arc::clone(&self.core);
-        core.block_on(self.recv()).map_err(|source| RecvError::Blocking { gate: self.name, source })?
+        let (state, gate) = (Arc::clone(&self.state), self.name);
+        let blocking = |source| RecvError::Blocking { gate, source };
+        state.may_block().map_err(blocking)?;
+        if let Some(within) = state.direct_wait() {
+            let arrived = self.inbox.lock().wait(within);
+            if let Some(arrived) = arrived {
+                state.take_turn();
+                return self.decode(arrived);
+            }
+        }
+        state.block_on(self.recv()).map_err(blocking)?
     }
 
     pub(crate) fn recv_timeout(&mut self, timeout: Duration) -> Result<T, RecvTimeoutError> {
-        let core = Arc::clone(&self.core);
-        let received = core.block_on(async { tokio::time::timeout(timeout, self.recv()).await });
-        match received {
-            Ok(Ok(received)) => received.map_err(RecvTimeoutError::Recv),
-            Ok(Err(_elapsed)) => {
-                Err(RecvTimeoutError::Timeout { gate: self.name, peers: Peers(self.spec.links), waited: timeout })
+        let (state, gate) = (Arc::clone(&self.state), self.name);
+        match state.block_on_for(timeout, self.recv()) {
+            Ok(Some(received)) => received.map_err(RecvTimeoutError::Recv),
+            Ok(None) => {
+                let (peers, reason) = (Peers::of(self.spec), self.state.why_missing(self.spec, &self.missing()));
+                Err(RecvTimeoutError::Timeout { gate, peers, waited: timeout, reason })
             }
-            Err(source) => Err(RecvTimeoutError::Recv(RecvError::Blocking { gate: self.name, source })),
+            Err(source) => Err(RecvTimeoutError::Recv(RecvError::Blocking { gate, source })),
         }
     }
 
-    pub(crate) fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Result<T, RecvError>> {
-        // What ends a wait is the first to arrive since, so a queue of several has nothing to give way to.
-        let ended_wait = self.waiting && self.spec.queue > 1;
-        if ended_wait && let Poll::Ready(arrived) = self.poll_links(cx) {
-            self.waiting = false;
-            self.counts.moved(arrived.frame.len());
-            return Poll::Ready(self.decode(arrived));
+    /// The next item of a stream, which may be dropped without notice.
+    pub(crate) fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<Result<T, RecvError>> {
+        self.poll_recv(cx, true)
+    }
+
+    fn poll_recv(&mut self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Result<T, RecvError>> {
+        if let Err(source) = self.state.check() {
+            return Poll::Ready(Err(self.refused(source)));
         }
-        if !ended_wait {
-            self.take_in(cx);
+        // A stopped program's calls stay pending: what waits for them is dropped.
+        if self.state.is_stopped() {
+            return Poll::Pending;
         }
-        let first = self.inbox.pop_front();
-        self.waiting = first.is_none();
-        first.map_or(Poll::Pending, |arrived| Poll::Ready(self.decode(arrived)))
+        self.inbox.poll_next(cx, may_vanish).map(|arrived| self.decode(arrived))
     }
 
     pub(crate) fn try_recv(&mut self) -> Result<Option<T>, RecvError> {
-        self.look()?;
-        self.inbox.pop_front().map(|arrived| self.decode(arrived)).transpose()
+        self.look(|inbox| inbox.lock().try_next())
     }
 
     pub(crate) fn latest(&mut self) -> Result<Option<T>, RecvError> {
-        self.look()?;
-        let mut newest = self.inbox.pop_back();
-        self.inbox.clear();
-        if self.spec.when_full == WhenFull::Wait {
-            // Such a gate takes in one message at a time, but what is passed over keeps no publisher waiting.
-            for _ in 0..TAKE_IN {
-                let Poll::Ready(newer) = self.poll_links(&mut Context::from_waker(Waker::noop())) else { break };
-                self.counts.moved(newer.frame.len());
-                newest = Some(newer);
-            }
-        }
-        newest.map(|arrived| self.decode(arrived)).transpose()
+        self.look(|inbox| inbox.lock().newest())
     }
 
-    /// Takes in what has arrived without waiting for more.
-    fn look(&mut self) -> Result<(), RecvError> {
-        let core = Arc::clone(&self.core);
-        let blocking = |source| RecvError::Blocking { gate: self.name, source };
-        if core.owns_runtime() {
-            // Nothing is seen to arrive unless the runtime looks.
-            core.block_on(tokio::task::yield_now()).map_err(blocking)?;
-        }
-        self.waiting = false;
-        self.take_in(&mut Context::from_waker(Waker::noop()));
-        Ok(())
+    fn look(&mut self, look: impl FnOnce(&SharedInbox) -> Option<Arrived>) -> Result<Option<T>, RecvError> {
+        self.state.may_proceed().map_err(|source| self.refused(source))?;
+        self.state.take_turn();
+        look(&self.inbox).map(|arrived| self.decode(arrived)).transpose()
     }
 
-    /// Moves what has arrived into the inbox, as much as the gate's queue allows; whoever waits is woken by the rest.
-    fn take_in(&mut self, cx: &mut Context<'_>) {
-        let waits = self.spec.when_full == WhenFull::Wait;
-        let capacity = self.spec.queue as usize;
-        for _ in 0..TAKE_IN {
-            // A publisher that waits for this gate is given room only by the messages that are asked for.
-            if waits && !self.inbox.is_empty() {
-                return;
-            }
-            let Poll::Ready(arrived) = self.poll_links(cx) else { return };
-            self.counts.moved(arrived.frame.len());
-            if self.inbox.len() >= capacity {
-                let newest = self.spec.when_full == WhenFull::DropNewest;
-                self.counts.dropped(newest);
-                if newest {
-                    continue;
-                }
-                self.inbox.pop_front();
-            }
-            self.inbox.push_back(arrived);
-        }
+    fn refused(&self, source: BlockingError) -> RecvError {
+        RecvError::Blocking { gate: self.name, source }
     }
 
-    fn poll_links(&mut self, cx: &mut Context<'_>) -> Poll<Arrived> {
-        let count = self.links.len();
-        for offset in 0..count {
-            let link = (self.next + offset) % count;
-            if let Poll::Ready(frame) = self.links[link].poll_recv(cx) {
-                self.next = (link + 1) % count;
-                return Poll::Ready(Arrived { link, frame });
-            }
-        }
-        Poll::Pending
-    }
-
-    fn decode(&mut self, arrived: Arrived) -> Result<T, RecvError> {
-        (self.decode)(arrived.frame).map_err(|source| {
-            self.counts.rejected += 1;
-            // A listening gate has one link for all its peers, so any of them may have sent this.
-            let peers = if self.links.len() == self.spec.links.len() {
-                &self.spec.links[arrived.link..=arrived.link]
-            } else {
-                self.spec.links
-            };
-            RecvError::Decode { gate: self.name, peers: Peers(peers), source }
+    fn decode(&mut self, Arrived { link, frame }: Arrived) -> Result<T, RecvError> {
+        (self.decode)(frame).map_err(|source| {
+            self.undecodable += 1;
+            RecvError::Decode { gate: self.name, peers: self.senders(link), source }
         })
     }
 
-    pub(crate) fn missing(&self) -> Vec<&'static LinkSpec> {
-        let links = self.spec.links.iter().zip(&self.links);
-        links.filter(|(spec, link)| spec.required && link.peers() == Some(0)).map(|(spec, _)| spec).collect()
+    /// The possible senders of a message: a listening gate has one link for all its peers.
+    fn senders(&self, link: usize) -> Peers {
+        let links = self.spec.links;
+        if self.spec.endpoint.is_empty() { Peers(&links[link..=link]) } else { Peers(links) }
+    }
+
+    /// Returns true if all required peers are connected, or, for a listening gate, at least one peer.
+    pub(crate) fn is_connected(&self) -> bool {
+        match self.spec.endpoint {
+            "" => self.missing().is_empty(),
+            _ => self.inbox.lock().peers() > 0,
+        }
+    }
+
+    pub(crate) fn missing(&self) -> Vec<Missing> {
+        if !self.spec.endpoint.is_empty() {
+            return Vec::new();
+        }
+        let inbox = self.inbox.lock();
+        let links = self.spec.links.iter().zip(inbox.links());
+        let missing = links.filter(|(link, end)| link.required && end.peers() == 0);
+        missing.map(|(link, end)| Missing { link, refusal: end.refusal() }).collect()
     }
 
     pub(crate) fn stats(&self) -> GateStats {
-        let mut stats = GateStats::default();
-        self.counts.add_to(&mut stats);
-        stats.received = self.counts.messages;
-        stats.rejected += self.links.iter().map(|link| link.malformed()).sum::<u64>();
-        stats.waiting = self.inbox.len();
-        stats.peers = self.links.iter().filter_map(|link| link.peers()).sum();
+        let inbox = self.inbox.lock();
+        let mut stats = GateStats {
+            received: inbox.received,
+            rejected: self.undecodable + inbox.malformed(),
+            dropped_oldest: inbox.queue().dropped_oldest,
+            dropped_newest: inbox.queue().dropped_newest,
+            dropped_for_observers: inbox.tap_dropped(),
+            waiting: inbox.queue().len(),
+            peers: inbox.peers(),
+            ..GateStats::default()
+        };
+        inbox.activity.add_to(&mut stats);
         stats
+    }
+}
+
+impl<T> Drop for Incoming<T> {
+    fn drop(&mut self) {
+        if self.state.is_inherited() {
+            self.inbox.leak();
+        }
+    }
+}
+
+/// A receiving call. Dropping it before it is ready hands the gate's I/O back to the background task.
+struct Recv<'a, T> {
+    gate: &'a mut Incoming<T>,
+    is_waiting: bool,
+}
+
+impl<T> Future for Recv<'_, T> {
+    type Output = Result<T, RecvError>;
+
+    fn poll(mut self: std::pin::Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Self::Output> {
+        let polled = self.gate.poll_recv(cx, false);
+        self.is_waiting = polled.is_pending();
+        polled
+    }
+}
+
+impl<T> Drop for Recv<'_, T> {
+    fn drop(&mut self) {
+        if self.is_waiting {
+            self.gate.inbox.io.cancel();
+        }
     }
 }

@@ -1,225 +1,214 @@
-//! One connection at its sending end: the link, and the queue of what the peer has not taken.
+//! What `pub` and `push` share: a message is encoded once and sent over each connection.
 
-use super::GateName;
-use super::holding::Holding;
-use super::stats::Counts;
-use crate::spec::WhenFull;
-use crate::transport::Outlet;
+use super::Connection;
+use super::encoding::Encoding;
+use super::stats::{GateStats, PeerStats};
+use super::tap::{GateTap, Observed};
+use crate::codec::Codec;
+use crate::error::{GateName, Missing, PeerName, SendError, TrySendError};
+use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
+use crate::state::{ComponentState, SendingEnd};
+use crate::sync::lock;
 use bytes::Bytes;
-use std::collections::VecDeque;
+use std::future::poll_fn;
+use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Waker};
-use std::time::{Duration, Instant};
 
-/// So many messages are written one by one, each from the call that sends it. If they came within [`BURST`], and the
-/// runtime had no turn meanwhile, more is coming: what follows is left to the connection's task, which writes many at once.
-const ONE_BY_ONE: u32 = 32;
-/// Also how long messages are left to the task at most while others are sent.
-const BURST: Duration = Duration::from_millis(1);
-
-/// One connection at its sending end.
-pub(crate) struct Outgoing {
-    link: Box<dyn Outlet>,
-    waiting: VecDeque<Bytes>,
-    holding: Holding,
-    present: bool,
-    /// How many messages were written one by one since the task had its turn, and when that began.
-    in_a_row: u32,
-    began: Instant,
-    /// Wakes the connection's task; senders use it too, so that whatever they leave behind is picked up there.
-    task: Waker,
-    /// A sender that waits for room.
-    sender: Option<Waker>,
-    /// A task that waits until everything is handed over.
-    flusher: Option<Waker>,
-    /// How often the peer has come or gone, and a task that waits for the next time.
-    changes: u64,
-    watcher: Option<Waker>,
-    counts: Counts,
-    dropping: bool,
-    gate: GateName,
-    peer: String,
+pub(crate) struct Outgoing<T> {
+    pub(crate) spec: &'static GateSpec,
+    name: GateName,
+    /// One per peer, in the order of `spec.links`.
+    connections: Vec<Arc<Mutex<Connection>>>,
+    tap: GateTap,
+    encoding: Encoding<T>,
+    may_wait: bool,
+    /// Whether each message goes to one of the peers only.
+    shares: bool,
+    /// The connection whose turn it is, if the gate shares.
+    turn: usize,
+    /// The peer that accepts the shortest messages.
+    strictest: Option<&'static LinkSpec>,
+    /// Number of connects and disconnects reported by `peers_changed`.
+    reported: u64,
+    pub(crate) state: Arc<ComponentState>,
 }
 
-impl Outgoing {
-    pub(crate) fn new(link: Box<dyn Outlet>, holding: Holding, gate: GateName, peer: String) -> Self {
-        Self {
-            link,
-            waiting: VecDeque::new(),
-            holding,
-            present: false,
-            in_a_row: 0,
-            began: Instant::now(),
-            task: Waker::noop().clone(),
-            sender: None,
-            flusher: None,
-            changes: 0,
-            watcher: None,
-            counts: Counts::default(),
-            dropping: false,
-            gate,
-            peer,
+impl<T> Outgoing<T> {
+    pub(crate) fn new<C: Codec<T>>(
+        state: Arc<ComponentState>,
+        spec: &'static GateSpec,
+        connections: Vec<Arc<Mutex<Connection>>>,
+        tap: GateTap,
+    ) -> Self {
+        let may_wait = spec.backpressure && spec.links.iter().any(|link| link.when_full == WhenFull::Wait);
+        let shares = spec.kind == GateKind::Push && connections.len() > 1;
+        let name = GateName::new(state.spec().name, spec.name);
+        let strictest = spec.links.iter().min_by_key(|link| link.max_size);
+        let encoding = Encoding::with::<C>();
+        Self { spec, name, connections, tap, encoding, may_wait, shares, turn: 0, strictest, reported: 0, state }
+    }
+
+    pub(crate) async fn send(&mut self, message: &T) -> Result<(), SendError> {
+        let message = self.encode(message)?;
+        if self.may_wait || self.state.is_stopped() {
+            poll_fn(|cx| self.poll_room(cx).map(drop)).await;
         }
-    }
-
-    /// Moves on; called by the connection's task whenever it is woken.
-    pub(crate) fn drive(&mut self, cx: &mut Context<'_>) {
-        if !self.task.will_wake(cx.waker()) {
-            self.task = cx.waker().clone();
-        }
-        let present = self.link.drive(cx);
-        if present != self.present {
-            self.present = present;
-            self.changes += 1;
-            if let Some(watcher) = self.watcher.take() {
-                watcher.wake();
-            }
-            let (gate, peer) = (self.gate, &self.peer);
-            tracing::debug!(%gate, peer, "{}", if present { "connected" } else { "disconnected" });
-        }
-        let waited = self.waiting.len();
-        self.hand_over();
-        let together = waited - self.waiting.len();
-        self.in_a_row = 0;
-        if together >= ONE_BY_ONE as usize {
-            // There is likely more of the burst to come: then one message is enough to see that.
-            (self.in_a_row, self.began) = (ONE_BY_ONE - 1, Instant::now());
-        }
-    }
-
-    /// Takes a message without waiting; a full queue treats it as declared.
-    pub(crate) fn send(&mut self, message: Bytes) {
-        let too_long = self.is_burst() && self.began.elapsed() >= BURST;
-        if too_long || !self.has_room() {
-            self.hand_over();
-        }
-        if too_long {
-            self.in_a_row = 0;
-        }
-        let message = match self.try_link(message) {
-            Ok(()) => return,
-            Err(message) => message,
-        };
-        let kept = self.present || self.holding.for_absent;
-        if kept && (self.has_room() || self.make_room()) {
-            self.waiting.push_back(message);
-        }
-    }
-
-    /// Ready when a message would find room, or would not have to wait for it.
-    pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        if self.makes_wait() {
-            self.hand_over();
-        }
-        if !self.makes_wait() {
-            return Poll::Ready(());
-        }
-        self.sender = Some(cx.waker().clone());
-        Poll::Pending
-    }
-
-    /// Whether one more message would have to wait.
-    pub(crate) fn makes_wait(&self) -> bool {
-        let waits = self.holding.when_full == WhenFull::Wait && (self.present || self.holding.wait_for_absent);
-        waits && !self.has_room()
-    }
-
-    /// Whether one more message would find room.
-    pub(crate) fn has_room(&self) -> bool {
-        self.waiting.len() < self.holding.capacity
-    }
-
-    /// Whether nothing waits that the peer, if it is there, could still be given.
-    pub(crate) fn is_flushed(&self) -> bool {
-        !self.present || (self.waiting.is_empty() && self.link.is_flushed())
-    }
-
-    /// Wakes a task when the queue has moved on; it then asks [`Self::is_flushed`] again.
-    pub(crate) fn wake_when_flushed(&mut self, waker: &Waker) {
-        self.flusher = Some(waker.clone());
-    }
-
-    /// How often the peer has come or gone so far; the task is woken when that is no longer true.
-    pub(crate) fn watch_changes(&mut self, waker: &Waker) -> u64 {
-        self.watcher = Some(waker.clone());
-        self.changes
-    }
-
-    pub(crate) fn is_connected(&self) -> bool {
-        self.present
-    }
-
-    /// Whether a message would go out at once.
-    pub(crate) fn is_free(&self) -> bool {
-        self.present && self.waiting.is_empty()
-    }
-
-    pub(crate) fn waiting(&self) -> usize {
-        self.waiting.len()
-    }
-
-    pub(crate) fn counts(&self) -> &Counts {
-        &self.counts
-    }
-
-    fn try_link(&mut self, message: Bytes) -> Result<(), Bytes> {
-        if !self.present || !self.waiting.is_empty() || self.is_burst() {
-            return Err(message);
-        }
-        let size = message.len();
-        self.link.offer(&mut Context::from_waker(&self.task), message)?;
-        self.counts.moved(size);
-        if self.in_a_row == 0 {
-            self.began = Instant::now();
-        }
-        self.in_a_row += 1;
-        if self.is_burst() {
-            self.task.wake_by_ref();
-            if self.began.elapsed() >= BURST {
-                self.in_a_row = 0;
-            }
-        }
+        // A program that only sends lets the connections' tasks run now and then.
+        tokio::task::coop::consume_budget().await;
+        self.hand_out(&message);
         Ok(())
     }
 
-    /// Whether what is sent now is left to the task.
-    fn is_burst(&self) -> bool {
-        self.in_a_row >= ONE_BY_ONE
+    /// Sends after [`Self::poll_room`] was ready.
+    pub(crate) fn send_now(&mut self, message: &T) -> Result<(), SendError> {
+        let message = self.encode(message)?;
+        self.hand_out(&message);
+        Ok(())
     }
 
-    /// Gives the link what waits, in order, as far as it takes it.
-    fn hand_over(&mut self) {
-        if self.present && !self.waiting.is_empty() {
-            let (counts, mut cx) = (&mut self.counts, Context::from_waker(&self.task));
-            self.link.offer_all(&mut cx, &mut self.waiting, &mut |size| counts.moved(size));
+    pub(crate) fn send_blocking(&mut self, message: &T) -> Result<(), SendError> {
+        let (state, gate) = (Arc::clone(&self.state), self.name);
+        let blocking = |source| SendError::Blocking { gate, source };
+        state.may_block().map_err(blocking)?;
+        let message = self.encode(message)?;
+        if self.may_wait {
+            state.block_on(poll_fn(|cx| self.poll_room(cx).map(drop))).map_err(blocking)?;
         }
-        self.dropping &= !self.waiting.is_empty();
-        if self.is_flushed()
-            && let Some(flusher) = self.flusher.take()
-        {
-            flusher.wake();
+        self.hand_out(&message);
+        state.take_turn();
+        Ok(())
+    }
+
+    pub(crate) fn try_send(&mut self, message: &T) -> Result<(), TrySendError> {
+        let gate = self.name;
+        let blocking = |source| SendError::Blocking { gate, source };
+        self.state.may_proceed().map_err(blocking)?;
+        let message = self.encode(message)?;
+        if self.may_wait {
+            let full = self.full(&mut Context::from_waker(Waker::noop()));
+            if let Some(peer) = full {
+                self.state.take_turn();
+                return Err(TrySendError::Full { gate: self.name, peer });
+            }
         }
-        // There is room, or the peer that it would wait for is an optional one that has gone.
-        if !self.makes_wait()
-            && let Some(sender) = self.sender.take()
-        {
-            sender.wake();
+        self.hand_out(&message);
+        self.state.take_turn();
+        Ok(())
+    }
+
+    /// Ready when no connection would make the message wait, so that it goes to all of them at once or to none.
+    pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), SendError>> {
+        // A stopped program's calls stay pending: what waits for them is dropped.
+        if self.state.is_stopped() || self.full(cx).is_some() { Poll::Pending } else { Poll::Ready(Ok(())) }
+    }
+
+    pub(crate) fn poll_flushed(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        let mut flushed = self.connections.iter().map(|connection| lock(connection).poll_flushed(false, cx));
+        if flushed.all(|flushed| flushed.is_ready()) { Poll::Ready(()) } else { Poll::Pending }
+    }
+
+    pub(crate) async fn peers_changed(&mut self) -> usize {
+        poll_fn(|cx| self.poll_peers_changed(cx)).await;
+        self.stats().peers
+    }
+
+    /// The peer whose queue would make a message wait, if any.
+    fn full(&self, cx: &mut Context<'_>) -> Option<PeerName> {
+        let mut full = self
+            .connections
+            .iter()
+            .map(lock_connection)
+            .filter_map(|mut connection| connection.poll_room(cx).is_pending().then(|| connection.peer_name()));
+        let first = full.next();
+        // A shared message needs room at one of them.
+        let others = if self.shares { full.count() } else { 0 };
+        first.filter(|_| !self.shares || others + 1 == self.connections.len())
+    }
+
+    fn poll_peers_changed(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        let changes = self.connections.iter().map(|connection| lock(connection).watch_changes(cx.waker())).sum();
+        if std::mem::replace(&mut self.reported, changes) == changes { Poll::Pending } else { Poll::Ready(()) }
+    }
+
+    fn encode(&mut self, message: &T) -> Result<Bytes, SendError> {
+        let gate = self.name;
+        self.state.check().map_err(|source| SendError::Blocking { gate, source })?;
+        let frame = self.encoding.encode(message).map_err(|source| SendError::Encode { gate, source })?;
+        match self.strictest {
+            Some(link) if frame.len() as u64 > link.max_size => Err(SendError::TooLong {
+                gate,
+                peer: PeerName::of(link),
+                size: frame.len() as u64,
+                limit: link.max_size,
+            }),
+            _ => Ok(frame),
         }
     }
 
-    /// Whether the new message has a place now.
-    fn make_room(&mut self) -> bool {
-        let newest = self.holding.when_full == WhenFull::DropNewest;
-        if !newest {
-            self.waiting.pop_front();
+    fn hand_out(&mut self, message: &Bytes) {
+        self.tap.observe(Observed::Message, 0, message);
+        if self.shares {
+            let turn = self.next_in_turn();
+            return lock(&self.connections[turn]).send(message.clone());
         }
-        self.counts.dropped(newest);
-        // With a queue of one, replacing the old value by the new is what was asked for, and nothing to warn about.
-        if !self.dropping && self.holding.capacity > 1 {
-            self.dropping = true;
-            let (gate, peer, queue) = (self.gate, &self.peer, self.holding.capacity);
-            let reason = if self.present { "is too slow" } else { "is not there" };
-            tracing::warn!(%gate, queue, "`{peer}` {reason}: its queue is full, messages are dropped");
+        for connection in &self.connections {
+            lock(connection).send(message.clone());
         }
-        !newest
     }
+
+    /// The next puller that can take a message now, or else whose queue can, or else that declared to drop one.
+    fn next_in_turn(&mut self) -> usize {
+        let count = self.connections.len();
+        let turn = |offset| (self.turn + offset) % count;
+        let next =
+            |can: fn(&Connection) -> bool| (0..count).map(turn).find(|&index| can(&lock(&self.connections[index])));
+        let with_room = || next(Connection::has_room).or_else(|| next(|connection| !connection.would_wait()));
+        let chosen = next(Connection::is_free).or_else(with_room).unwrap_or(self.turn % count);
+        self.turn = chosen + 1;
+        chosen
+    }
+
+    pub(crate) fn missing(&self) -> Vec<Missing> {
+        let connections = self.connections.iter().map(lock_connection);
+        let missing = connections.filter(|connection| connection.link().required && !connection.is_connected());
+        missing.map(|connection| Missing { link: connection.link(), refusal: connection.refusal() }).collect()
+    }
+
+    pub(crate) fn peer_stats(&self) -> Vec<PeerStats> {
+        self.connections.iter().map(|connection| lock(connection).stats()).collect()
+    }
+
+    pub(crate) fn stats(&self) -> GateStats {
+        let mut stats = GateStats { dropped_for_observers: self.tap.dropped(), ..GateStats::default() };
+        for connection in self.connections.iter().map(lock_connection) {
+            let peer = connection.stats();
+            let (sent_to_foreign, dropped_for_foreign) = connection.foreign_counts();
+            connection.account().activity.add_to(&mut stats);
+            stats.sent += connection.account().handed() + sent_to_foreign;
+            stats.dropped_oldest += peer.dropped_oldest;
+            stats.dropped_newest += peer.dropped_newest;
+            stats.dropped_for_observers += dropped_for_foreign;
+            stats.lost += peer.lost;
+            stats.waiting += peer.waiting as usize;
+            stats.peers += usize::from(peer.connected);
+        }
+        stats
+    }
+}
+
+/// What is left to hand over stays with the component; the sockets are freed as soon as that is done.
+impl<T> Drop for Outgoing<T> {
+    fn drop(&mut self) {
+        if self.state.is_inherited() {
+            self.connections.iter().cloned().for_each(std::mem::forget);
+            return self.tap.leak();
+        }
+        for connection in self.connections.drain(..) {
+            self.state.release(connection);
+        }
+    }
+}
+
+fn lock_connection(connection: &Arc<Mutex<Connection>>) -> std::sync::MutexGuard<'_, Connection> {
+    lock(connection)
 }

@@ -1,14 +1,14 @@
 //! The `pub` gate.
 
-use super::GateStats;
-use super::sending::Sending;
+use super::outgoing::Outgoing;
 use super::sending_gate::sending_gate;
+use super::{GateStats, PeerStats};
 use crate::error::{SendError, TrySendError};
 
 /// Sends messages to every subscriber of this gate.
 ///
-/// Each subscriber has a connection and a queue of its own: a slow or stopped one does not concern the others, and one
-/// that is not there yet gets what waits for it (up to its `queue`) when it first appears.
+/// Each subscriber has a connection and a queue of its own: a slow or stopped one does not affect the others, and one
+/// that is not connected yet receives what waits for it (up to its `queue`) when it connects.
 ///
 /// ```no_run
 /// scl::topology!("doc/rover.yaml");
@@ -17,82 +17,89 @@ use crate::error::{SendError, TrySendError};
 /// async fn main(mut sensor: Sensor) -> scl::Result<()> {
 ///     let mut tick = scl::time::interval(std::time::Duration::from_millis(1))?;
 ///     loop {
-///         tick.tick().await;
+///         tick.tick().await?;
 ///         sensor.measurements.send(&rover::Measurement { speed: 1.0 }).await?;
 ///     }
 /// }
 /// ```
 pub struct Pub<T> {
-    pub(super) sending: Sending<T>,
+    pub(super) outgoing: Outgoing<T>,
 }
 
 impl<T> Pub<T> {
-    pub(crate) fn new(sending: Sending<T>) -> Self {
-        Self { sending }
+    pub(crate) fn new(outgoing: Outgoing<T>) -> Self {
+        Self { outgoing }
     }
 
     /// Sends a message to every subscriber.
     ///
-    /// It returns at once: what a peer cannot take now waits in that connection's queue and follows by itself. Only a
-    /// gate with `backpressure: true` waits, for a peer with `when_full: wait` whose queue is full.
+    /// The message is written to each peer's socket before this returns. If a peer has not taken the messages before
+    /// (4096 of them, or 1 MiB, may be on their way), or is not connected, the message waits in that connection's queue,
+    /// and everything that waits is written together as soon as the peer takes more. In a burst, after 64 messages
+    /// within a few milliseconds during which the runtime had no turn, messages of up to 4 KiB are gathered, too: they are
+    /// written as soon as the program awaits something else, when it sends later, or 128 at a time.
     ///
-    /// The message is written before this returns. Only in a burst, after 32 messages within a millisecond during which the
-    /// program awaited nothing else, those that follow are written together: as soon as it does, or when it sends again
-    /// after that millisecond.
+    /// Only a gate with `backpressure: true` waits, for a peer with `when_full: wait` whose queue is full.
     ///
     /// # Errors
-    /// [`SendError::Encode`] when the codec cannot express the message; nothing was sent then.
+    /// [`SendError::Encode`] if the codec cannot express the message, [`SendError::TooLong`] if a peer does not accept
+    /// messages of this length; the message was sent to no peer then.
     ///
     /// # Cancel safety
-    /// Cancel safe: a message goes to all connections at once, or, if this is dropped while it waits, to none.
+    /// Cancel safe: a message is sent over all connections at once, or, if this is dropped while it waits, over none.
     pub async fn send(&mut self, message: &T) -> Result<(), SendError> {
-        self.sending.send(message).await
+        self.outgoing.send(message).await
     }
 
-    /// [`send`](Self::send) from a program without async. What is left of a burst is written by the next call, or some
-    /// milliseconds after the last one.
+    /// [`send`](Self::send) from a plain thread.
     ///
     /// # Errors
-    /// Those of `send`, and [`SendError::Blocking`] inside async code, which it would bring to a halt.
+    /// Those of `send`, and [`SendError::Blocking`] inside async code or after a stop request.
     pub fn send_blocking(&mut self, message: &T) -> Result<(), SendError> {
-        self.sending.send_blocking(message)
+        self.outgoing.send_blocking(message)
     }
 
-    /// Sends without ever waiting.
+    /// Sends without waiting.
     ///
     /// # Errors
-    /// [`TrySendError::Full`] where `send` would wait; the message was sent to nobody then.
+    /// [`TrySendError::Full`] if `send` would wait; the message was sent to no peer then. Otherwise those of
+    /// [`send_blocking`](Self::send_blocking).
     pub fn try_send(&mut self, message: &T) -> Result<(), TrySendError> {
-        self.sending.try_send(message)
+        self.outgoing.try_send(message)
     }
 
-    /// Whether all required peers are connected.
-    pub fn connected(&self) -> bool {
-        self.sending.missing().is_empty()
+    /// Returns true if all required peers are connected.
+    pub fn is_connected(&self) -> bool {
+        self.outgoing.missing().is_empty()
     }
 
-    /// Waits until a subscriber has connected or disconnected since this was last called, at first since the gate was
-    /// opened, and says how many are connected now. Several changes in a row are reported as one.
+    /// Waits until a subscriber has connected or disconnected since the last call, or since the gate was opened, and returns
+    /// how many are connected now. Several changes in a row are reported as one.
     ///
-    /// A peer that is killed disconnects as soon as this program notices; one that merely stands still stays connected.
+    /// A peer that is killed disconnects at once; one that is merely stopped stays connected.
     ///
     /// ```no_run
     /// # scl::topology!("doc/rover.yaml");
     /// # async fn wait(mut sensor: Sensor) {
     /// while sensor.measurements.peers_changed().await > 0 {}
-    /// println!("nobody is left");
+    /// println!("no peer is left");
     /// # }
     /// ```
     ///
     /// # Cancel safety
     /// Cancel safe: a change that was not reported is reported by the next call.
     pub async fn peers_changed(&mut self) -> usize {
-        self.sending.peers_changed().await
+        self.outgoing.peers_changed().await
     }
 
-    /// What this gate has done so far.
+    /// Returns the gate's counts.
     pub fn stats(&self) -> GateStats {
-        self.sending.stats()
+        self.outgoing.stats()
+    }
+
+    /// Returns what became of the messages of each connection, in the order of the topology file.
+    pub fn peer_stats(&self) -> Vec<PeerStats> {
+        self.outgoing.peer_stats()
     }
 }
 

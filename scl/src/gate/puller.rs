@@ -29,57 +29,60 @@ impl<T> Pull<T> {
 
     /// Waits for the next message.
     ///
-    /// The gate's `queue` is applied to what has arrived: with `queue: 1` this is always the newest message.
+    /// The gate's `queue` applies to what has arrived. With `queue: 1` this is always the newest message, also after a
+    /// pause: a sender that may hold a newer one is asked for it.
     ///
     /// # Errors
-    /// [`RecvError::Decode`] when a message is not what the codec reads; the next call goes on with the next message.
+    /// [`RecvError::Decode`] if the codec cannot read a message; the next call returns the next message.
     ///
     /// # Cancel safety
-    /// Cancel safe: no message is lost when this is dropped before it is ready.
+    /// Cancel safe: no message is lost if this is dropped before it is ready.
     pub async fn recv(&mut self) -> Result<T, RecvError> {
         self.incoming.recv().await
     }
 
-    /// [`recv`](Self::recv) from a program without async.
+    /// [`recv`](Self::recv) from a plain thread.
     ///
     /// # Errors
-    /// Those of `recv`, and [`RecvError::Blocking`] inside async code, or when the program was told to stop.
+    /// Those of `recv`, and [`RecvError::Blocking`] inside async code or after a stop request.
     pub fn recv_blocking(&mut self) -> Result<T, RecvError> {
         self.incoming.recv_blocking()
     }
 
-    /// [`recv_blocking`](Self::recv_blocking), but no longer than a given time.
+    /// [`recv_blocking`](Self::recv_blocking) with a time limit.
     ///
     /// # Errors
-    /// [`RecvTimeoutError::Timeout`] when nothing arrived in time.
+    /// Those of `recv_blocking`, and [`RecvTimeoutError::Timeout`] if no message arrived in time.
     pub fn recv_timeout(&mut self, timeout: Duration) -> Result<T, RecvTimeoutError> {
         self.incoming.recv_timeout(timeout)
     }
 
-    /// The next message if one has arrived.
+    /// Returns the next message if one has arrived.
     ///
-    /// In async code a message is seen to arrive only while the program awaits something now and then.
+    /// It does not wait for new messages. Only at a gate with `queue: 1`, after a pause, it may take up to 10 ms (usually
+    /// some microseconds) to fetch a newer message that the sender holds back.
     ///
     /// # Errors
-    /// Those of [`recv_blocking`](Self::recv_blocking).
+    /// Those of `recv`, and [`RecvError::Blocking`] after a stop request.
     pub fn try_recv(&mut self) -> Result<Option<T>, RecvError> {
         self.incoming.try_recv()
     }
 
-    /// The newest message that has arrived, if any; the older ones are passed over.
+    /// Returns the newest message that has arrived, if any, and discards the older ones. It waits no longer than
+    /// [`try_recv`](Self::try_recv).
     ///
     /// # Errors
-    /// Those of [`recv_blocking`](Self::recv_blocking).
+    /// Those of `try_recv`.
     pub fn latest(&mut self) -> Result<Option<T>, RecvError> {
         self.incoming.latest()
     }
 
-    /// Whether all required peers are connected; a listening gate cannot know and says yes.
-    pub fn connected(&self) -> bool {
-        self.incoming.missing().is_empty()
+    /// Returns true if at least one pusher is connected.
+    pub fn is_connected(&self) -> bool {
+        self.incoming.is_connected()
     }
 
-    /// What this gate has done so far.
+    /// Returns the gate's counts.
     pub fn stats(&self) -> GateStats {
         self.incoming.stats()
     }

@@ -1,37 +1,34 @@
 //! What `Sub` and `Pull` are besides their own calls, once for both. The calls themselves are written out in each, so
 //! that rustc shows a user plain code.
 
-/// Makes a gate that receives known to its component, and a `Stream`.
+/// Implements `AnyGate` and `Stream` for a gate that receives.
 macro_rules! receiving_gate {
     ($gate:ident) => {
-        use crate::component::Core;
-        use crate::gate::AnyGate;
-        use crate::spec::{GateSpec, LinkSpec};
+        use crate::error::Missing;
+        use crate::gate::{AnyGate, sealed};
+        use crate::spec::GateSpec;
         use futures_core::Stream;
         use std::pin::Pin;
-        use std::sync::Arc;
         use std::task::{Context, Poll};
+
+        impl<T> sealed::Sealed for $gate<T> {}
 
         impl<T> AnyGate for $gate<T> {
             fn spec(&self) -> &'static GateSpec {
                 self.incoming.spec
             }
 
-            fn missing(&self) -> Vec<&'static LinkSpec> {
+            fn missing(&self) -> Vec<Missing> {
                 self.incoming.missing()
-            }
-
-            fn core(&self) -> &Arc<Core> {
-                &self.incoming.core
             }
         }
 
-        /// All messages, for ever.
+        /// An endless stream of messages.
         impl<T> Stream for $gate<T> {
             type Item = Result<T, RecvError>;
 
             fn poll_next(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Option<Self::Item>> {
-                self.incoming.poll_recv(cx).map(Some)
+                self.incoming.poll_next(cx).map(Some)
             }
         }
 

@@ -1,21 +1,22 @@
 //! The `rep` gate.
 
+use super::AnyGate;
 use super::encoding::Encoding;
-use super::stats::Counts;
-use super::{AnyGate, GateName, GateStats, Peers};
+use super::reply_end::ReplyEnd;
+use super::stats::{Activity, GateStats};
+use super::tap::{GateTap, Observed};
 use crate::codec::{Codec, DecodeError};
-use crate::component::Core;
-use crate::error::{RecvError, ReplyError};
+use crate::error::{BlockingError, GateName, Missing, PeerName, Peers, RecvError, ReplyError};
 use crate::spec::{GateSpec, LinkSpec};
+use crate::state::ComponentState;
 use crate::sync::lock;
-use crate::transport::{Answerer, Asked, Responder};
+use crate::transport::{IncomingRequest, Replier, ReplyPath};
 use bytes::Bytes;
 use futures_core::Stream;
-use std::future::poll_fn;
 use std::ops::Deref;
 use std::pin::Pin;
 use std::sync::{Arc, Mutex};
-use std::task::{Context, Poll, Waker};
+use std::task::{Context, Poll};
 
 /// Answers the requests of any number of `req` gates.
 ///
@@ -28,93 +29,159 @@ use std::task::{Context, Poll, Waker};
 /// async fn main(mut controller: Controller) -> scl::Result<()> {
 ///     loop {
 ///         let command = controller.commands.recv().await?;
-///         println!("asked for {} m/s", command.target_speed);
-///         command.reply(&rover::Status { accepted: true }).await?;
+///         println!("requested {} m/s", command.target_speed);
+///         command.reply(&rover::Status { accepted: true })?;
 ///     }
 /// }
 /// ```
 pub struct Rep<A, B> {
     spec: &'static GateSpec,
-    name: GateName,
-    link: Box<dyn Answerer>,
-    /// Shared with the requests, each of which may be answered anywhere.
-    encoding: Arc<Mutex<Encoding<B>>>,
+    end: Arc<ReplyEnd>,
     decode: fn(Bytes) -> Result<A, DecodeError>,
-    counts: Counts,
-    /// Let go after the link, whose endpoint is this component's only as long as it has its name.
-    core: Arc<Core>,
+    received: u64,
+    undecodable: u64,
+    activity: Activity,
+    replies: Arc<Replies<B>>,
+}
+
+/// What all requests of a gate need to be answered.
+struct Replies<B> {
+    gate: GateName,
+    encoding: Mutex<Encoding<B>>,
+    tap: GateTap,
+    /// The requester that accepts the shortest replies.
+    strictest: Option<&'static LinkSpec>,
+    /// Dropped after the end, which is this component's only as long as it holds its lock.
+    state: Arc<ComponentState>,
 }
 
 impl<A, B> Rep<A, B> {
     pub(crate) fn new<C: Codec<A> + Codec<B>>(
-        core: Arc<Core>,
+        state: Arc<ComponentState>,
         spec: &'static GateSpec,
-        link: Box<dyn Answerer>,
+        link: Box<dyn Replier>,
+        tap: GateTap,
     ) -> Self {
-        let name = GateName::new(core.spec().name, spec.name);
-        let (encoding, decode) = (Arc::new(Mutex::new(Encoding::with::<C>())), <C as Codec<A>>::decode);
-        Self { core, spec, name, link, encoding, decode, counts: Counts::default() }
+        let gate = GateName::new(state.spec().name, spec.name);
+        let end = ReplyEnd::open(link, &state);
+        let encoding = Mutex::new(Encoding::with::<C>());
+        let strictest = spec.links.iter().min_by_key(|link| link.max_size);
+        let replies = Arc::new(Replies { gate, encoding, tap, strictest, state });
+        let decode = <C as Codec<A>>::decode;
+        Self { spec, end, decode, received: 0, undecodable: 0, activity: Activity::default(), replies }
     }
 
     /// Waits for the next request.
     ///
     /// # Errors
-    /// [`RecvError::Decode`] when a request is not what the codec reads; its sender gets no answer, and the next call
-    /// goes on with the next request.
+    /// [`RecvError::Decode`] if the codec cannot read a request; its sender gets no reply, and the next call returns the
+    /// next request.
     ///
     /// # Cancel safety
-    /// Cancel safe: no request is lost when this is dropped before it is ready.
+    /// Cancel safe: no request is lost if this is dropped before it is ready.
     pub async fn recv(&mut self) -> Result<Request<A, B>, RecvError> {
-        poll_fn(|cx| self.poll_recv(cx)).await
+        Recv { gate: self, is_waiting: false }.await
     }
 
-    /// [`recv`](Self::recv) from a program without async.
+    /// [`recv`](Self::recv) from a plain thread.
     ///
     /// # Errors
-    /// Those of `recv`, and [`RecvError::Blocking`] inside async code, or when the program was told to stop.
+    /// Those of `recv`, and [`RecvError::Blocking`] inside async code or after a stop request.
     pub fn recv_blocking(&mut self) -> Result<Request<A, B>, RecvError> {
-        let core = Arc::clone(&self.core);
-        core.block_on(self.recv()).map_err(|source| RecvError::Blocking { gate: self.name, source })?
+        let (replies, gate) = (Arc::clone(&self.replies), self.replies.gate);
+        replies.state.block_on(self.recv()).map_err(|source| RecvError::Blocking { gate, source })?
     }
 
-    /// The next request if one has arrived.
+    /// Returns the next request if one has arrived.
     ///
     /// # Errors
-    /// Those of [`recv_blocking`](Self::recv_blocking).
+    /// Those of `recv`, and [`RecvError::Blocking`] after a stop request.
     pub fn try_recv(&mut self) -> Result<Option<Request<A, B>>, RecvError> {
-        if self.core.owns_runtime() {
-            // Nothing is seen to arrive unless the runtime looks.
-            let looked = self.core.block_on(tokio::task::yield_now());
-            looked.map_err(|source| RecvError::Blocking { gate: self.name, source })?;
-        }
-        match self.poll_recv(&mut Context::from_waker(Waker::noop())) {
-            Poll::Ready(request) => request.map(Some),
-            Poll::Pending => Ok(None),
+        self.replies.state.may_proceed().map_err(|source| self.refused(source))?;
+        self.replies.state.take_turn();
+        match self.end.try_next() {
+            Some(request) => self.decode(request).map(Some),
+            None => Ok(None),
         }
     }
 
-    /// What this gate has done so far; `received` counts requests.
+    /// Returns true if at least one requester is connected.
+    pub fn is_connected(&self) -> bool {
+        self.end.peers() > 0
+    }
+
+    /// Returns the gate's counts; `received` counts requests.
     pub fn stats(&self) -> GateStats {
-        let mut stats = GateStats { received: self.counts.messages, ..GateStats::default() };
-        self.counts.add_to(&mut stats);
-        stats.rejected += self.link.malformed();
+        let mut stats = GateStats { received: self.received, ..GateStats::default() };
+        self.activity.add_to(&mut stats);
+        stats.rejected = self.undecodable + self.end.malformed();
+        stats.peers = self.end.peers();
+        stats.dropped_for_observers = self.replies.tap.dropped();
         stats
     }
 
-    fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Result<Request<A, B>, RecvError>> {
-        self.link.poll_asked(cx).map(|Asked { body, responder }| {
-            self.counts.moved(body.len());
-            match (self.decode)(body) {
-                Ok(message) => {
-                    let (encoding, core) = (Arc::clone(&self.encoding), Arc::clone(&self.core));
-                    Ok(Request { message, way_back: WayBack { responder, encoding, gate: self.name, core } })
-                }
-                Err(source) => {
-                    self.counts.rejected += 1;
-                    Err(RecvError::Decode { gate: self.name, peers: Peers(self.spec.links), source })
-                }
-            }
-        })
+    fn poll_recv(&mut self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Result<Request<A, B>, RecvError>> {
+        if let Err(source) = self.replies.state.check() {
+            return Poll::Ready(Err(self.refused(source)));
+        }
+        // A stopped program's calls stay pending: what waits for them is dropped.
+        if self.replies.state.is_stopped() {
+            return Poll::Pending;
+        }
+        self.end.poll_next(cx, may_vanish).map(|request| self.decode(request))
+    }
+
+    fn refused(&self, source: BlockingError) -> RecvError {
+        RecvError::Blocking { gate: self.replies.gate, source }
+    }
+
+    fn decode(
+        &mut self,
+        IncomingRequest { body, envelope, path }: IncomingRequest,
+    ) -> Result<Request<A, B>, RecvError> {
+        self.received += 1;
+        self.activity.add(body.len());
+        let id = self.received;
+        self.replies.tap.observe(Observed::Request, id, &body);
+        let decoded = (self.decode)(body).map_err(|source| {
+            self.undecodable += 1;
+            RecvError::Decode { gate: self.replies.gate, peers: Peers::of(self.spec), source }
+        });
+        Ok(Request { message: decoded?, id, envelope, path, replies: Arc::clone(&self.replies) })
+    }
+}
+
+impl<A, B> Drop for Rep<A, B> {
+    fn drop(&mut self) {
+        if self.replies.state.is_inherited() {
+            std::mem::forget(Arc::clone(&self.end));
+            return std::mem::forget(Arc::clone(&self.replies));
+        }
+        self.replies.state.release(self.end.link());
+    }
+}
+
+/// A receiving call. Dropping it before it is ready hands the gate's I/O back to the background task.
+struct Recv<'a, A, B> {
+    gate: &'a mut Rep<A, B>,
+    is_waiting: bool,
+}
+
+impl<A, B> Future for Recv<'_, A, B> {
+    type Output = Result<Request<A, B>, RecvError>;
+
+    fn poll(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Self::Output> {
+        let polled = self.gate.poll_recv(cx, false);
+        self.is_waiting = polled.is_pending();
+        polled
+    }
+}
+
+impl<A, B> Drop for Recv<'_, A, B> {
+    fn drop(&mut self) {
+        if self.is_waiting {
+            self.gate.end.cancel();
+        }
     }
 }
 
@@ -124,42 +191,35 @@ impl<A, B> Rep<A, B> {
 #[must_use = "a request that is not answered keeps its sender waiting until the timeout"]
 pub struct Request<A, B> {
     message: A,
-    way_back: WayBack<B>,
-}
-
-struct WayBack<B> {
-    responder: Box<dyn Responder>,
-    encoding: Arc<Mutex<Encoding<B>>>,
-    gate: GateName,
-    core: Arc<Core>,
+    id: u64,
+    envelope: Bytes,
+    path: Arc<dyn ReplyPath>,
+    replies: Arc<Replies<B>>,
 }
 
 impl<A, B> Request<A, B> {
-    /// What is asked.
+    /// Returns the message.
     pub fn message(&self) -> &A {
         &self.message
     }
 
-    /// Answers.
+    /// Sends the reply. It never waits, and may be called from any thread, inside async code or not.
     ///
     /// # Errors
-    /// [`ReplyError::RequesterGone`] when nobody waits for the answer any more, which a replier may well ignore;
-    /// [`ReplyError::Encode`] when the codec cannot express the answer.
-    ///
-    /// # Cancel safety
-    /// It never waits.
-    pub async fn reply(self, answer: &B) -> Result<(), ReplyError> {
-        self.reply_now(answer)
-    }
-
-    /// [`reply`](Self::reply) from a program without async; it never waits.
-    ///
-    /// # Errors
-    /// Those of `reply`.
-    pub fn reply_now(self, answer: &B) -> Result<(), ReplyError> {
-        let WayBack { responder, encoding, gate, core } = self.way_back;
-        let body = lock(&encoding).encode(answer).map_err(|source| ReplyError::Encode { gate, source })?;
-        core.with_a_turn(|| responder.respond(body)).map_err(|_gone| ReplyError::RequesterGone { gate })
+    /// [`ReplyError::RequesterGone`] if nobody waits for the reply any more, which a replier may well ignore;
+    /// [`ReplyError::Encode`] if the codec cannot express it; [`ReplyError::TooLong`] if the requester does not accept a
+    /// reply of this length.
+    pub fn reply(self, reply: &B) -> Result<(), ReplyError> {
+        let Replies { gate, encoding, tap, strictest, state } = &*self.replies;
+        let gate = *gate;
+        state.check().map_err(|source| ReplyError::Blocking { gate, source })?;
+        let body = lock(encoding).encode(reply).map_err(|source| ReplyError::Encode { gate, source })?;
+        if let Some(link) = strictest.filter(|link| body.len() as u64 > link.max_size) {
+            let (size, limit) = (body.len() as u64, link.max_size);
+            return Err(ReplyError::TooLong { gate, peer: PeerName::of(link), size, limit });
+        }
+        tap.observe(Observed::Reply, self.id, &body);
+        self.path.reply(&self.envelope, body).map_err(|_gone| ReplyError::RequesterGone { gate })
     }
 }
 
@@ -177,26 +237,24 @@ impl<A: std::fmt::Debug, B> std::fmt::Debug for Request<A, B> {
     }
 }
 
+impl<A, B> super::sealed::Sealed for Rep<A, B> {}
+
 impl<A, B> AnyGate for Rep<A, B> {
     fn spec(&self) -> &'static GateSpec {
         self.spec
     }
 
-    fn missing(&self) -> Vec<&'static LinkSpec> {
+    fn missing(&self) -> Vec<Missing> {
         Vec::new()
-    }
-
-    fn core(&self) -> &Arc<Core> {
-        &self.core
     }
 }
 
-/// All requests, for ever.
+/// An endless stream of requests.
 impl<A, B> Stream for Rep<A, B> {
     type Item = Result<Request<A, B>, RecvError>;
 
     fn poll_next(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Option<Self::Item>> {
-        (*self).poll_recv(cx).map(Some)
+        self.poll_recv(cx, true).map(Some)
     }
 }
 

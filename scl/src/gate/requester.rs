@@ -1,21 +1,21 @@
 //! The `req` gate.
 
+use super::AnyGate;
 use super::encoding::Encoding;
-use super::stats::Counts;
-use super::{AnyGate, GateName, GateStats, Peers};
+use super::exchange::{Exchange, ExchangeError};
+use super::stats::{Activity, GateStats};
 use crate::codec::{Codec, DecodeError};
-use crate::component::Core;
-use crate::error::CallError;
+use crate::error::{BlockingError, CallError, GateName, Missing, PeerName, Peers};
 use crate::spec::{GateSpec, LinkSpec};
+use crate::state::ComponentState;
 use crate::time::Watchdog;
-use crate::transport::{Answer, Asker};
+use crate::transport::Requester;
 use bytes::Bytes;
-use std::future::poll_fn;
 use std::sync::Arc;
-use std::task::{Context, Poll};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use tokio::time::Instant;
 
-/// Asks the `rep` gate that this gate is connected to, one request at a time.
+/// Sends requests to the `rep` gate that this gate is connected to, one at a time.
 ///
 /// ```no_run
 /// scl::topology!("doc/rover.yaml");
@@ -31,56 +31,85 @@ pub struct Req<A, B> {
     spec: &'static GateSpec,
     name: GateName,
     /// `None` for a gate that is meant to be unconnected.
-    link: Option<Box<dyn Asker>>,
+    exchange: Option<Exchange>,
     watchdog: Watchdog,
     encoding: Encoding<A>,
     decode: fn(Bytes) -> Result<B, DecodeError>,
     last_id: u64,
-    asked: u64,
-    counts: Counts,
-    core: Arc<Core>,
+    sent: u64,
+    received: u64,
+    undecodable: u64,
+    activity: Activity,
+    /// Dropped after the end, which is this component's only as long as it holds its lock.
+    state: Arc<ComponentState>,
 }
 
 impl<A, B> Req<A, B> {
     pub(crate) fn new<C: Codec<A> + Codec<B>>(
-        core: Arc<Core>,
+        state: Arc<ComponentState>,
         spec: &'static GateSpec,
-        link: Option<Box<dyn Asker>>,
+        link: Option<Box<dyn Requester>>,
         watchdog: Watchdog,
     ) -> Self {
-        let name = GateName::new(core.spec().name, spec.name);
-        let (encoding, decode) = (Encoding::with::<C>(), <C as Codec<B>>::decode);
-        Self { core, spec, name, link, watchdog, encoding, decode, last_id: 0, asked: 0, counts: Counts::default() }
+        let name = GateName::new(state.spec().name, spec.name);
+        let exchange = link.map(|link| Exchange::new(link, state.changes()));
+        Self {
+            spec,
+            name,
+            exchange,
+            watchdog,
+            encoding: Encoding::with::<C>(),
+            decode: <C as Codec<B>>::decode,
+            last_id: 0,
+            sent: 0,
+            received: 0,
+            undecodable: 0,
+            activity: Activity::default(),
+            state,
+        }
     }
 
-    /// Asks, and waits for the answer, together no longer than the gate's `timeout`.
+    /// Sends a request and waits for the reply, together no longer than the gate's `timeout`.
     ///
-    /// A replier that is not there yet, or that restarts, is waited for within that time.
+    /// A replier that is not connected yet, or that restarts, is waited for within that time.
     ///
     /// # Errors
-    /// [`CallError::Timeout`] when no answer came in time, [`CallError::PeerLost`] when the replier went away after it
-    /// was asked; either way the next call starts afresh and never meets an answer to this one.
+    /// [`CallError::Timeout`] if no reply arrived in time, [`CallError::PeerLost`] if the replier disconnected after the
+    /// request was sent. Either way the next call starts afresh and never receives the reply to this one.
+    /// [`CallError::TooLong`] if the replier does not accept a request of this length; nothing was sent.
     ///
     /// # Cancel safety
-    /// Cancel safe: a call that is dropped may still be answered, and its answer is then discarded.
+    /// Cancel safe. A call that is dropped may still be answered; its reply is discarded.
     pub async fn call(&mut self, request: &A) -> Result<B, CallError> {
-        let encoded = self.encoding.encode(request);
-        let body = encoded.map_err(|source| CallError::Encode { gate: self.name, source })?;
+        let body = self.encode(request)?;
         let started = Instant::now();
-        let answered = self.exchange(body, started + self.spec.timeout).await;
-        answered.unwrap_or_else(|TimedOut| {
-            let (connected, waited) = (self.connected(), started.elapsed());
-            Err(CallError::Timeout { gate: self.name, peers: Peers(self.spec.links), waited, connected })
-        })
+        self.last_id += 1;
+        let deadline = started + self.spec.timeout;
+        let exchanged = match &self.exchange {
+            Some(exchange) => exchange.call(self.last_id, body, &mut self.watchdog, deadline, &self.state).await,
+            None => Exchange::unconnected(&mut self.watchdog, deadline).await,
+        };
+        let (gate, peers) = (self.name, Peers::of(self.spec));
+        // A connection that broke before the request was sent is no reason to count it.
+        self.sent += u64::from(!matches!(exchanged, Err(ExchangeError::TimedOut { sent: false })));
+        match exchanged {
+            Ok(body) => self.decode(body),
+            Err(ExchangeError::Lost) => Err(CallError::PeerLost { gate, peers }),
+            Err(ExchangeError::TimedOut { .. }) => {
+                let (connected, waited) = (self.is_connected(), started.elapsed());
+                let reason = self.state.why_missing(self.spec, &self.missing());
+                Err(CallError::Timeout { gate, peers, waited, connected, reason })
+            }
+        }
     }
 
-    /// [`call`](Self::call) from a program without async.
+    /// [`call`](Self::call) from a plain thread.
     ///
     /// # Errors
-    /// Those of `call`, and [`CallError::Blocking`] inside async code, or when the program was told to stop.
+    /// Those of `call`, and [`CallError::Blocking`] inside async code or after a stop request.
     pub fn call_blocking(&mut self, request: &A) -> Result<B, CallError> {
-        let core = Arc::clone(&self.core);
-        core.block_on(self.call(request)).map_err(|source| CallError::Blocking { gate: self.name, source })?
+        let (state, gate) = (Arc::clone(&self.state), self.name);
+        state.block_on(self.call(request)).map_err(|source| CallError::Blocking { gate, source })?
     }
 
     /// The gate's `timeout`.
@@ -88,87 +117,70 @@ impl<A, B> Req<A, B> {
         self.spec.timeout
     }
 
-    /// Whether the replier is connected.
-    pub fn connected(&self) -> bool {
+    /// Returns true if the replier is connected.
+    pub fn is_connected(&self) -> bool {
         self.missing().is_empty()
     }
 
-    /// What this gate has done so far.
+    /// Returns the gate's counts; `sent` counts requests, `received` replies.
     pub fn stats(&self) -> GateStats {
-        let mut stats = GateStats { sent: self.asked, received: self.counts.messages, ..GateStats::default() };
-        self.counts.add_to(&mut stats);
-        stats.peers = usize::from(self.link.is_some() && self.connected());
+        let mut stats = GateStats { sent: self.sent, received: self.received, ..GateStats::default() };
+        stats.rejected = self.undecodable;
+        self.activity.add_to(&mut stats);
+        stats.peers = usize::from(self.exchange.as_ref().is_some_and(Exchange::is_connected));
         stats
     }
 
-    async fn exchange(&mut self, body: Bytes, deadline: Instant) -> Result<Result<B, CallError>, TimedOut> {
-        self.last_id += 1;
-        loop {
-            self.by(deadline, |link, cx| link.poll_connected(cx)).await?;
-            let asked = self.link.as_mut().map(|link| link.ask(self.last_id, body.clone()));
-            if !matches!(asked, Some(Err(_refused))) {
-                break;
-            }
-            // The connection broke at this very moment; the next one is on its way.
-            tokio::task::yield_now().await;
-            if Instant::now() >= deadline {
-                return Err(TimedOut);
-            }
-        }
-        self.asked += 1;
-        // The library writes in a task of its own: let it, before looking for an answer.
-        tokio::task::yield_now().await;
-        loop {
-            let answer = self.by(deadline, |link, cx| link.poll_answer(cx)).await?;
-            let (gate, peers) = (self.name, Peers(self.spec.links));
-            match answer {
-                Answer::Reply { id, body } if id == self.last_id => {
-                    self.counts.moved(body.len());
-                    return Ok((self.decode)(body).map_err(|source| {
-                        self.counts.rejected += 1;
-                        CallError::Decode { gate, peers, source }
-                    }));
-                }
-                Answer::Reply { .. } => tracing::debug!(%gate, "the answer to an earlier call came too late"),
-                Answer::Lost => return Ok(Err(CallError::PeerLost { gate, peers })),
-            }
+    fn encode(&mut self, request: &A) -> Result<Bytes, CallError> {
+        let gate = self.name;
+        self.state.check().map_err(|source: BlockingError| CallError::Blocking { gate, source })?;
+        let body = self.encoding.encode(request).map_err(|source| CallError::Encode { gate, source })?;
+        match self.spec.links.first() {
+            Some(link) if body.len() as u64 > link.max_size => Err(CallError::TooLong {
+                gate,
+                peer: PeerName::of(link),
+                size: body.len() as u64,
+                limit: link.max_size,
+            }),
+            _ => Ok(body),
         }
     }
 
-    /// Waits for something of the link until the deadline. A gate that is not connected to anything has no link.
-    async fn by<R>(
-        &mut self,
-        deadline: Instant,
-        mut poll: impl FnMut(&mut dyn Asker, &mut Context<'_>) -> Poll<R>,
-    ) -> Result<R, TimedOut> {
-        let (link, watchdog) = (&mut self.link, &mut self.watchdog);
-        poll_fn(|cx| {
-            if let Some(link) = link
-                && let Poll::Ready(ready) = poll(&mut **link, cx)
-            {
-                return Poll::Ready(Ok(ready));
-            }
-            // A timer that fails would leave the call waiting for ever.
-            watchdog.poll_past(cx, deadline).map(|_past| Err(TimedOut))
+    fn decode(&mut self, body: Bytes) -> Result<B, CallError> {
+        self.received += 1;
+        self.activity.add(body.len());
+        (self.decode)(body).map_err(|source| {
+            self.undecodable += 1;
+            CallError::Decode { gate: self.name, peers: Peers::of(self.spec), source }
         })
-        .await
+    }
+
+    fn missing(&self) -> Vec<Missing> {
+        let Some(exchange) = self.exchange.as_ref().filter(|exchange| !exchange.is_connected()) else {
+            return Vec::new();
+        };
+        let required = self.spec.links.iter().filter(|link: &&LinkSpec| link.required);
+        required.map(|link| Missing { link, refusal: exchange.refusal() }).collect()
     }
 }
 
-struct TimedOut;
+impl<A, B> Drop for Req<A, B> {
+    fn drop(&mut self) {
+        if self.state.is_inherited() {
+            self.exchange.iter().for_each(Exchange::leak);
+        }
+    }
+}
+
+impl<A, B> super::sealed::Sealed for Req<A, B> {}
 
 impl<A, B> AnyGate for Req<A, B> {
     fn spec(&self) -> &'static GateSpec {
         self.spec
     }
 
-    fn missing(&self) -> Vec<&'static LinkSpec> {
-        let connected = self.link.as_ref().is_none_or(|link| link.is_connected());
-        self.spec.links.iter().filter(|link| link.required && !connected).collect()
-    }
-
-    fn core(&self) -> &Arc<Core> {
-        &self.core
+    fn missing(&self) -> Vec<Missing> {
+        self.missing()
     }
 }
 

@@ -9,30 +9,30 @@ use std::task::{Context, Poll, ready};
 use std::time::Duration;
 use tokio::io::unix::AsyncFd;
 
-/// A timer that keeps running while nobody polls it, and costs the runtime nothing until it expires.
+/// A timer that keeps running while it is not polled, and costs the runtime nothing until it expires.
 #[derive(Debug)]
-pub(crate) struct Timer {
+pub(super) struct Timer {
     descriptor: AsyncFd<OwnedFd>,
 }
 
 impl Timer {
     /// A timer that is not set. Needs a tokio runtime.
-    pub(crate) fn new() -> io::Result<Self> {
+    pub(super) fn new() -> io::Result<Self> {
         let timer = timerfd_create(TimerfdClockId::Monotonic, TimerfdFlags::NONBLOCK | TimerfdFlags::CLOEXEC)?;
-        #[expect(deprecated, reason = "unsound only for types that change their descriptor; an `OwnedFd` keeps it")]
+        #[expect(deprecated, reason = "unsound only for types whose descriptor changes; that of an `OwnedFd` does not")]
         let descriptor = AsyncFd::new(timer)?;
         Ok(Self { descriptor })
     }
 
     /// Expires after `first`, which must not be zero, and then every `period` unless that is zero.
-    pub(crate) fn set(&self, first: Duration, period: Duration) -> io::Result<()> {
+    pub(super) fn set(&self, first: Duration, period: Duration) -> io::Result<()> {
         let times = Itimerspec { it_value: timespec(first), it_interval: timespec(period) };
         timerfd_settime(self.descriptor.get_ref(), TimerfdTimerFlags::empty(), &times)?;
         Ok(())
     }
 
-    /// How often it expired since the last time that it was asked; ready only when it did.
-    pub(crate) fn poll_expired(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<u64>> {
+    /// Ready when the timer has expired; returns how often it did since the last read.
+    pub(super) fn poll_expired(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<u64>> {
         loop {
             let mut readable = ready!(self.descriptor.poll_read_ready(cx))?;
             let mut count = [0; 8];
@@ -40,15 +40,15 @@ impl Timer {
                 Ok(Ok(_)) => return Poll::Ready(Ok(u64::from_ne_bytes(count))),
                 Ok(Err(error)) if error.kind() == io::ErrorKind::Interrupted => {}
                 Ok(Err(error)) => return Poll::Ready(Err(error)),
-                Err(_not_yet) => {}
+                Err(_would_block) => {}
             }
         }
     }
 
-    /// How often it expired since the last time that it was asked, without waiting.
-    pub(crate) fn expired(&self) -> u64 {
+    /// Returns how often the timer has expired since the last read, without waiting.
+    pub(super) fn expired(&self) -> u64 {
         let mut count = [0; 8];
-        // A timer that has not expired has nothing to read.
+        // The read fails if the timer has not expired.
         rustix::io::read(self.descriptor.get_ref(), &mut count).map_or(0, |_| u64::from_ne_bytes(count))
     }
 }

@@ -1,33 +1,48 @@
 //! Connections within one process, for tests of components and for systems that fit into one program.
 //!
-//! | file | what it knows |
+//! | file | contents |
 //! |---|---|
-//! | `pipe` | a bounded queue between two ends that notice each other's end |
-//! | `meeting` | endpoints by name, and how the ends at one find each other |
-//! | `flow` | the roles that only send or only receive |
-//! | `call` | the roles that ask and answer |
+//! | `pipe` | a bounded queue between two ends |
+//! | `switchboard` | endpoints by name, and connecting the ends there |
+//! | `send` | the sending ends: publish and push |
+//! | `receive` | the receiving ends: subscribe and pull |
+//! | `catch_up` | waiting without a runtime for what senders hold back |
+//! | `request_reply` | the ends for requests and replies |
+//! | `round_robin` | several connections that take turns |
 //!
-//! Nothing here needs a task, a thread or the operating system: an end that waits leaves its waker with whatever it
-//! waits for, and whoever changes that wakes it, after it has let go of its lock.
+//! No end needs a task, a thread or the operating system: an end that has to wait stores its waker where the other end
+//! finds it, and the other end uses it after it has released its lock.
 
-mod call;
-mod flow;
-mod meeting;
+mod catch_up;
 mod pipe;
+mod receive;
+mod request_reply;
+mod round_robin;
+mod send;
+mod switchboard;
+#[cfg(test)]
+mod tests;
 
-use super::{Answerer, Asker, Inlet, Outlet, Transport, TransportError};
+use super::{Endpoint, Receiver, Replier, Requester, Sender, Transport, TransportError};
 use bytes::Bytes;
-use meeting::Meeting;
-use pipe::{Receiver, Sender};
+use pipe::{PipeReader, PipeWriter};
+use request_reply::{ToReplier, ToRequester};
 use std::sync::Arc;
+use switchboard::Switchboard;
 
-/// How many messages a connection holds that its reader has not taken.
+/// How many messages a connection holds that the receiver has not taken.
 const IN_FLIGHT: usize = 64;
+/// The same if the receiver wants only the newest message: what a sender cannot send yet, it can still replace.
+const IN_FLIGHT_NEWEST: usize = 1;
 
-/// A place in this process where ends meet; its clones are the same place.
+/// Connects ends within this process. Clones share their endpoints; separate values share nothing.
 ///
-/// Ends may be made in any order, in any tasks and threads. A connection holds at most 64 messages that its reader has
-/// not taken; then `offer` gives the next one back. What was taken from an end that is dropped still arrives.
+/// Ends may be opened in any order, in any task or thread. A connection holds at most 64 messages that the receiver has
+/// not taken (1 for an end with [`Endpoint::newest_only`]), then [`Link::send`](super::Link::send) returns the next
+/// one. What a link has accepted still arrives after the link is dropped.
+///
+/// A subscriber whose publisher drops the connection and goes on listening has been replaced by another one. It stays
+/// unconnected until a new publisher listens, because two ends that replace each other at once would never stop.
 ///
 /// # Example
 ///
@@ -37,66 +52,71 @@ const IN_FLIGHT: usize = 64;
 /// use scl::OpenOptions;
 /// use scl::transport::memory::Memory;
 ///
-/// let place = Memory::new();
-/// let for_sensor = OpenOptions::new().transport(place.clone());
-/// let for_controller = OpenOptions::new().transport(place);
+/// let memory = Memory::new();
+/// let for_sensor = OpenOptions::new().transport(memory.clone());
+/// let for_controller = OpenOptions::new().transport(memory);
 /// ```
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct Memory {
-    place: Arc<Place>,
+    endpoints: Arc<Endpoints>,
 }
 
-struct Place {
-    publishing: Meeting<Sender<Bytes>, Receiver<Bytes>>,
-    pulling: Meeting<Receiver<Bytes>, Sender<Bytes>>,
-    replying: Meeting<call::Dialogue, call::Line>,
+struct Endpoints {
+    publishing: Switchboard<PipeWriter<Bytes>, PipeReader<Bytes>>,
+    pulling: Switchboard<PipeReader<Bytes>, PipeWriter<Bytes>>,
+    replying: Switchboard<ToRequester, ToReplier>,
 }
 
 impl Memory {
-    /// A place of its own: ends made at another one are not found here.
+    /// Creates a transport without any ends.
     pub fn new() -> Self {
-        Self::default()
-    }
-}
-
-impl Default for Place {
-    fn default() -> Self {
-        let pushed = || {
-            let (sender, receiver) = pipe::pipe(IN_FLIGHT);
-            (receiver, sender)
+        let endpoints = Endpoints {
+            // Only the receiving end decides how much is in flight.
+            publishing: Switchboard::new(|newest_only| message_pipe(newest_only.connector)),
+            pulling: Switchboard::new(|newest_only| {
+                let (writer, reader) = message_pipe(newest_only.listener);
+                (reader, writer)
+            }),
+            replying: Switchboard::new(request_reply::connect),
         };
-        Self {
-            publishing: Meeting::new(|| pipe::pipe(IN_FLIGHT)),
-            pulling: Meeting::new(pushed),
-            replying: Meeting::new(call::connect),
-        }
+        Self { endpoints: Arc::new(endpoints) }
     }
 }
 
-/// A listening end is refused while another one listens at its endpoint.
+fn message_pipe(newest_only: bool) -> (PipeWriter<Bytes>, PipeReader<Bytes>) {
+    pipe::pipe(if newest_only { IN_FLIGHT_NEWEST } else { IN_FLIGHT })
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// A second listening end at one endpoint is refused.
 impl Transport for Memory {
-    fn publish(&self, endpoint: &str) -> Result<Box<dyn Outlet>, TransportError> {
-        Ok(Box::new(flow::Publishing::new(self.place.publishing.listen(endpoint)?)))
+    fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
+        Ok(Box::new(send::Publisher::new(self.endpoints.publishing.listen(endpoint)?)))
     }
 
-    fn subscribe(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError> {
-        Ok(Box::new(flow::Subscribing::new(self.place.publishing.join(endpoint))))
+    fn subscribe(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
+        Ok(Box::new(receive::Subscriber::new(self.endpoints.publishing.connect(endpoint), endpoint)))
     }
 
-    fn push(&self, endpoint: &str) -> Result<Box<dyn Outlet>, TransportError> {
-        Ok(Box::new(flow::Pushing::new(self.place.pulling.join(endpoint))))
+    fn push(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
+        Ok(Box::new(send::Pusher::new(self.endpoints.pulling.connect(endpoint))))
     }
 
-    fn pull(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError> {
-        Ok(Box::new(flow::Pulling::new(self.place.pulling.listen(endpoint)?)))
+    fn pull(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
+        Ok(Box::new(receive::Puller::new(self.endpoints.pulling.listen(endpoint)?, endpoint)))
     }
 
-    fn request(&self, endpoint: &str) -> Result<Box<dyn Asker>, TransportError> {
-        Ok(Box::new(call::Requesting::new(self.place.replying.join(endpoint))))
+    fn request(&self, endpoint: &Endpoint) -> Result<Box<dyn Requester>, TransportError> {
+        Ok(Box::new(request_reply::MemoryRequester::new(self.endpoints.replying.connect(endpoint), endpoint)))
     }
 
-    fn reply(&self, endpoint: &str) -> Result<Box<dyn Answerer>, TransportError> {
-        Ok(Box::new(call::Replying::new(self.place.replying.listen(endpoint)?)))
+    fn reply(&self, endpoint: &Endpoint) -> Result<Box<dyn Replier>, TransportError> {
+        Ok(Box::new(request_reply::MemoryReplier::new(self.endpoints.replying.listen(endpoint)?, endpoint)))
     }
 }
 

@@ -1,23 +1,26 @@
-//! ZeroMQ, over Unix sockets or loopback TCP, by the pure-Rust `zeromq` library in all roles but one.
+//! ZeroMQ, over Unix sockets or loopback TCP: ZMTP 3.0 in all six roles.
 //!
-//! The library leaves much open that SCL promises; each file here hides what concerns its role, and says how:
+//! | role | socket | peers | file |
+//! |---|---|---|---|
+//! | publish | XPUB, accepts | SUB, XSUB | `publish.rs`, `link.rs` |
+//! | subscribe | SUB, connects | PUB, XPUB | `subscribe.rs`, `inbound.rs` |
+//! | push | PUSH, connects | PULL | `push.rs`, `link.rs` |
+//! | pull | PULL, accepts | PUSH | `pull.rs`, `inbound.rs` |
+//! | request | DEALER, connects | REP, ROUTER | `request.rs` |
+//! | reply | ROUTER, accepts | REQ, DEALER | `reply.rs` |
 //!
-//! | role | socket | what the library lacks |
-//! |---|---|---|
-//! | publish | an end of our own, one a connection | too much for a way around it (`publish.rs`, `subscriber.rs`, `zmtp.rs`) |
-//! | subscribe | SUB, one a publisher | reconnecting backs off to 30 s (`line.rs`) |
-//! | push | PUSH | 100,000 messages of its own queue, a lost peer unnoticed (`push.rs`) |
-//! | pull | PULL | connections that outlive their socket (`latecomers.rs`) |
-//! | request | DEALER with an id frame | REQ never recovers from a restarted peer (`request.rs`) |
-//! | reply | ROUTER | the same, and a socket that lives as long as any unanswered request (`reply.rs`) |
-//! | all that listen | | spinning when no descriptors are left (`door.rs`) |
+//! `zmtp` is the protocol without I/O, `connection.rs` a stream that speaks it; `acceptor.rs` and `dialler.rs` make
+//! connections. SCL's ends recognize each other by a property of READY and grant each other credit; plain ZeroMQ programs
+//! see none of that. `docs/zeromq.md` describes it exactly.
 
-mod dial;
-mod door;
-mod frames;
-mod latecomers;
-mod line;
-mod listen;
+mod acceptor;
+mod connection;
+mod credit;
+mod dialler;
+mod inbound;
+mod link;
+mod link_count;
+mod listener;
 mod publish;
 mod pull;
 mod push;
@@ -25,71 +28,62 @@ mod reply;
 mod request;
 mod stream;
 mod subscribe;
-mod subscriber;
+mod tap;
+mod tcp_user;
+#[cfg(test)]
+mod tests;
+mod timer;
+mod topics;
 mod zmtp;
 
-use super::{Answerer, Asker, Inlet, Outlet, Transport, TransportError};
-use crate::place::SystemDir;
+use super::{Endpoint, Receiver, Replier, Requester, Sender, Tap, Transport, TransportError};
+use crate::runtime_dir::SystemDir;
 use std::sync::Arc;
-use tokio::runtime::RuntimeFlavor;
 
-/// How the listening ends listen; connecting ends find either.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Medium {
-    /// Unix sockets in the runtime folder.
-    #[default]
-    Ipc,
-    /// TCP on 127.0.0.1, the port told in the runtime folder.
-    Tcp,
-}
+#[doc(hidden)]
+pub use zmtp::decode_for_fuzzing;
 
-/// The transport over the `zeromq` library.
+pub use crate::medium::Medium;
+
+/// The transport between programs.
 pub struct ZeroMq {
-    place: Arc<SystemDir>,
+    dir: Arc<SystemDir>,
     medium: Medium,
 }
 
 impl ZeroMq {
-    /// Ends that meet in a system's folder.
-    pub fn new(place: SystemDir, medium: Medium) -> Self {
-        Self { place: Arc::new(place), medium }
+    /// A transport whose ends meet in a system's folder.
+    pub fn new(dir: SystemDir, medium: Medium) -> Self {
+        Self { dir: Arc::new(dir), medium }
     }
 }
 
 impl Transport for ZeroMq {
-    fn publish(&self, endpoint: &str) -> Result<Box<dyn Outlet>, TransportError> {
-        Ok(Box::new(publish::Publishing::open(&self.place, self.medium, endpoint)?))
+    fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
+        Ok(Box::new(publish::Publisher::open(&self.dir, self.medium, endpoint)?))
     }
 
-    fn subscribe(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError> {
-        Ok(Box::new(subscribe::Subscribing::open(&self.place, endpoint)))
+    fn subscribe(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
+        Ok(Box::new(subscribe::Subscriber::open(&self.dir, endpoint)))
     }
 
-    fn push(&self, endpoint: &str) -> Result<Box<dyn Outlet>, TransportError> {
-        Ok(Box::new(push::Pushing::open(&self.place, endpoint)))
+    fn push(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
+        Ok(Box::new(push::Pusher::open(&self.dir, endpoint)))
     }
 
-    fn pull(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError> {
-        refuse_several_threads(endpoint)?;
-        Ok(Box::new(pull::Pulling::open(&self.place, self.medium, endpoint)?))
+    fn pull(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
+        Ok(Box::new(pull::Puller::open(&self.dir, self.medium, endpoint)?))
     }
 
-    fn request(&self, endpoint: &str) -> Result<Box<dyn Asker>, TransportError> {
-        Ok(Box::new(request::Requesting::open(&self.place, endpoint)))
+    fn request(&self, endpoint: &Endpoint) -> Result<Box<dyn Requester>, TransportError> {
+        Ok(Box::new(request::Caller::open(&self.dir, endpoint)))
     }
 
-    fn reply(&self, endpoint: &str) -> Result<Box<dyn Answerer>, TransportError> {
-        refuse_several_threads(endpoint)?;
-        Ok(Box::new(reply::Replying::open(&self.place, self.medium, endpoint)?))
+    fn reply(&self, endpoint: &Endpoint) -> Result<Box<dyn Replier>, TransportError> {
+        Ok(Box::new(reply::Answerer::open(&self.dir, self.medium, endpoint)?))
     }
-}
 
-/// An end of the library that listens may block the threads of such a runtime for ever as peers connect; better to say so
-/// at once than to hang one day.
-fn refuse_several_threads(endpoint: &str) -> Result<(), TransportError> {
-    let here = tokio::runtime::Handle::try_current();
-    if here.is_ok_and(|runtime| runtime.runtime_flavor() != RuntimeFlavor::CurrentThread) {
-        return Err(TransportError::SeveralThreads { endpoint: endpoint.to_owned() });
+    fn tap(&self, endpoint: &Endpoint) -> Result<Option<Box<dyn Tap>>, TransportError> {
+        Ok(Some(Box::new(tap::Tap::open(&self.dir, self.medium, endpoint)?)))
     }
-    Ok(())
 }

@@ -1,10 +1,10 @@
-//! Plays a component of `bounded.yaml` as it is told: `bounded camera` or `bounded viewer`.
+//! Plays a component of `bounded.yaml` and follows commands: `bounded camera` or `bounded viewer`.
 
 use scl::bytes::Bytes;
 use scl_tests::{Commands, say};
 use std::time::Duration;
 
-scl::topology!("bounded.yaml");
+scl::topology!("topologies/bounded.yaml");
 
 const FRAME: usize = 1 << 20;
 
@@ -25,18 +25,17 @@ async fn play_camera(mut camera: Camera) -> scl::Result<()> {
         for number in 0..count {
             camera.frames.send(&Bytes::from(vec![number; FRAME])).await?;
         }
-        let stats = camera.frames.stats();
-        say(format!("waiting {}", stats.waiting));
+        say(format!("waiting {}", camera.frames.stats().waiting));
     }
     Ok(())
 }
 
 async fn play_viewer(mut viewer: Viewer) -> scl::Result<()> {
     let mut last = None;
-    // The frame of number 99 is the last one.
+    // The test sends frames 0 to 99.
     while last != Some(99) {
         last = viewer.frames.recv().await?.first().copied();
     }
-    say("seen the last");
+    say("received the last frame");
     Ok(())
 }

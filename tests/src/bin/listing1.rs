@@ -1,9 +1,9 @@
-//! Plays a component of the paper's Listing 1, untyped, in the way that its name says.
+//! Plays a component of the paper's Listing 1, whose messages are plain bytes: `listing1 sensor` and so on.
 
 use scl::bytes::Bytes;
 use scl_tests::say;
 
-scl::topology!("listing1.yaml");
+scl::topology!("topologies/listing1.yaml");
 
 #[tokio::main(flavor = "current_thread")]
 async fn main() -> scl::Result<()> {
@@ -15,7 +15,7 @@ async fn main() -> scl::Result<()> {
     }
 }
 
-/// Sends one measurement and waits to be ended: it is enough, because no first message is lost.
+/// Sends one measurement and waits to be killed. One is enough, because the first message is not lost.
 async fn sensor(mut sensor: Sensor) -> scl::Result<()> {
     sensor.measurements.send(&Bytes::from_static(b"measured")).await?;
     say("sent");
@@ -35,7 +35,7 @@ async fn controller(mut c: Controller) -> scl::Result<()> {
             command = c.commands.recv() => {
                 let command = command?;
                 c.events.send(command.message()).await?;
-                command.reply(&Bytes::from_static(b"done")).await?;
+                command.reply(&Bytes::from_static(b"done"))?;
             }
         }
     }

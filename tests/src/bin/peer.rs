@@ -1,25 +1,26 @@
-//! Plays a component of `six_kinds.yaml` as it is told: `peer source`, `peer sink` or `peer watcher`.
+//! Plays a component of `six_kinds.yaml` and follows commands: `peer source`, `peer sink` or `peer watcher`.
 
-use scl_tests::{Commands, say, stand_still};
+use scl_tests::{Commands, ranges, say, say_error, stop_self};
 use std::fmt::Display;
+use std::process::{ExitCode, Stdio};
 use std::time::{Duration, Instant};
 
-scl::topology!("six_kinds.yaml");
+scl::topology!("topologies/six_kinds.yaml");
 
 #[tokio::main(flavor = "current_thread")]
-async fn main() -> std::process::ExitCode {
-    let role = std::env::args().nth(1).unwrap_or_default();
-    let played = match role.as_str() {
+async fn main() -> ExitCode {
+    let component = std::env::args().nth(1).unwrap_or_default();
+    let result = match component.as_str() {
         "source" => play_source().await,
         "sink" => play_sink().await,
         "watcher" => play_watcher().await,
-        other => Err(scl::Error::message(format!("no component is called `{other}`"))),
+        other => Err(scl::Error::message(format!("there is no component `{other}`"))),
     };
-    match played {
-        Ok(()) => std::process::ExitCode::SUCCESS,
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            say(format!("failed: {error:?}"));
-            std::process::ExitCode::FAILURE
+            say_error(error);
+            ExitCode::FAILURE
         }
     }
 }
@@ -38,14 +39,14 @@ async fn play_source() -> scl::Result<()> {
                 }
                 say("published");
             }
-            "compute_and_publish" => {
+            "publish_and_compute" => {
                 for value in number(1)..number(2) {
                     source.readings.send(&message(value, 0)).await?;
-                    // As in a loop that computes for each message, and awaits nothing but sending.
+                    // Like a loop that computes for each message and awaits nothing but `send`.
                     let sent = Instant::now();
                     while sent.elapsed() < Duration::from_micros(100) {}
                 }
-                stand_still();
+                stop_self();
             }
             "lossless" => {
                 for value in number(1)..number(2) {
@@ -62,7 +63,7 @@ async fn play_source() -> scl::Result<()> {
             }
             "call" => answer(source.question.call(&message(number(1), 0)).await.map(|answer| answer.value)),
             "disconnected" => {
-                while source.readings.connected() {
+                while source.readings.is_connected() {
                     source.readings.peers_changed().await;
                 }
                 say("disconnected");
@@ -73,7 +74,7 @@ async fn play_source() -> scl::Result<()> {
                 }
                 say("peers");
             }
-            // Until every gate has seen that nobody is there: what is sent from now on waits for the next one.
+            // Until every gate has noticed that its peer is gone: later messages wait for the next one.
             "alone" => {
                 while source.readings.stats().peers > 0 {
                     source.readings.peers_changed().await;
@@ -85,6 +86,11 @@ async fn play_source() -> scl::Result<()> {
                     source.jobs.peers_changed().await;
                 }
                 say("alone");
+            }
+            "account" => {
+                let one = source.readings.peer_stats().remove(0);
+                let dropped = format!("{} {}", one.dropped_oldest, one.dropped_newest);
+                say(format!("{} {} {} {dropped} {} {}", one.peer, one.published, one.taken, one.lost, one.waiting));
             }
             "stats" => {
                 let stats = source.readings.stats();
@@ -100,8 +106,7 @@ async fn play_source() -> scl::Result<()> {
 async fn play_sink() -> scl::Result<()> {
     let mut sink = Sink::open().await?;
     say("open");
-    // Requests that are never answered.
-    let mut heard: Vec<scl::Request<test::Number, test::Number>> = Vec::new();
+    let mut unanswered: Vec<scl::Request<test::Number, test::Number>> = Vec::new();
     let mut commands = Commands::listen();
     while let Some(words) = commands.next().await {
         let count = words.get(1).and_then(|word| word.parse::<u64>().ok()).unwrap_or(1);
@@ -129,27 +134,33 @@ async fn play_sink() -> scl::Result<()> {
                 }
                 say(ranges(&values));
             }
-            "answer_heard" => {
-                for question in heard.drain(..) {
-                    let doubled = message(question.value * 2, 0);
-                    answer(question.reply(&doubled).await.map(|()| "answered"));
+            "answer_taken" => {
+                for request in unanswered.drain(..) {
+                    let doubled = message(request.value * 2, 0);
+                    answer(request.reply(&doubled).map(|()| "answered"));
                 }
             }
             "rejected" => say(sink.jobs.stats().rejected),
+            // A child that outlives this program.
+            "spawn" => {
+                let mut command = std::process::Command::new("sleep");
+                command.arg("600").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+                say(command.spawn()?.id());
+            }
             "serve" => {
                 for _ in 0..count {
                     match sink.answer.recv().await {
-                        Ok(question) => {
-                            let doubled = message(question.value * 2, 0);
-                            answer(question.reply(&doubled).await.map(|()| "served"));
+                        Ok(request) => {
+                            let doubled = message(request.value * 2, 0);
+                            answer(request.reply(&doubled).map(|()| "served"));
                         }
-                        Err(error) => say(format!("error: {error}")),
+                        Err(error) => say_error(error),
                     }
                 }
             }
-            "hear" => {
-                heard.push(sink.answer.recv().await?);
-                say("heard");
+            "take_request" => {
+                unanswered.push(sink.answer.recv().await?);
+                say("taken");
             }
             other => say(format!("unknown command `{other}`")),
         }
@@ -175,13 +186,13 @@ async fn receive(gate: &mut scl::Sub<test::Number>, count: u64) {
     receive_while(gate, |received, _| received < count).await;
 }
 
-/// Receives at least one message; `more` is asked with how many were received and the last one's value.
+/// Receives at least one message; `more` gets the number of messages received and the last value.
 async fn receive_while(gate: &mut scl::Sub<test::Number>, more: impl Fn(u64, u64) -> bool) {
     let mut values = Vec::new();
     loop {
         match gate.recv().await {
             Ok(number) => values.push(number.value),
-            Err(error) => return say(format!("error: {error}")),
+            Err(error) => return say_error(error),
         }
         if !more(values.len() as u64, values[values.len() - 1]) {
             return say(ranges(&values));
@@ -193,21 +204,9 @@ fn message(value: u64, padding: u64) -> test::Number {
     test::Number { value, padding: vec![7; padding as usize] }
 }
 
-fn answer<T: Display, E: Display>(result: Result<T, E>) {
+fn answer<T: Display, E: Into<scl::Error>>(result: Result<T, E>) {
     match result {
         Ok(value) => say(value),
-        Err(error) => say(format!("error: {error}")),
+        Err(error) => say_error(error),
     }
-}
-
-/// `0..10 12..13`: what arrived, in the order of its arrival, shortened where the numbers follow each other.
-fn ranges(values: &[u64]) -> String {
-    let mut ranges: Vec<std::ops::Range<u64>> = Vec::new();
-    for &value in values {
-        match ranges.last_mut() {
-            Some(last) if last.end == value => last.end += 1,
-            _ => ranges.push(value..value + 1),
-        }
-    }
-    ranges.iter().map(|range| format!("{}..{}", range.start, range.end)).collect::<Vec<_>>().join(" ")
 }

@@ -1,11 +1,11 @@
-//! Plays a component of `six_kinds.yaml` without async, as it is told: `plain source` or `plain sink`.
+//! Plays a component of `six_kinds.yaml` without async and follows commands: `plain source` or `plain sink`.
 
-use scl_tests::{say, stand_still};
+use scl_tests::{say, stop_self};
 use std::time::{Duration, Instant};
 
-scl::topology!("six_kinds.yaml", only = [source, sink]);
+scl::topology!("topologies/six_kinds.yaml", only = [source, sink]);
 
-/// Shorter than any pause after which somebody else looks after the gates.
+/// Shorter than any pause after which a background thread could take over.
 const PERIOD: Duration = Duration::from_micros(300);
 
 fn main() -> scl::Result<()> {
@@ -23,10 +23,10 @@ fn play_source(mut source: Source) -> scl::Result<()> {
                 source.ready_blocking(Duration::from_secs(30))?;
                 say("ready");
             }
-            "publish_for_ever" => publish_for_ever(&mut source)?,
+            "publish_forever" => publish_forever(&mut source)?,
             "push_and_stop" => {
                 source.jobs.send_blocking(&number(7))?;
-                stand_still();
+                stop_self();
             }
             "push_and_close" => {
                 for value in 0..1000 {
@@ -41,8 +41,8 @@ fn play_source(mut source: Source) -> scl::Result<()> {
     Ok(())
 }
 
-/// Keeps the thread busy between its calls, and never waits in one.
-fn publish_for_ever(source: &mut Source) -> scl::Result<()> {
+/// Keeps the thread busy between its calls, none of which waits.
+fn publish_forever(source: &mut Source) -> scl::Result<()> {
     for value in 0.. {
         source.readings.send_blocking(&number(value))?;
         let sent = Instant::now();
@@ -54,10 +54,10 @@ fn publish_for_ever(source: &mut Source) -> scl::Result<()> {
 fn play_sink(mut sink: Sink) -> scl::Result<()> {
     say("open");
     loop {
-        let question = sink.answer.recv_blocking()?;
-        let doubled = number(question.value * 2);
-        question.reply_now(&doubled)?;
-        stand_still();
+        let request = sink.answer.recv_blocking()?;
+        let doubled = number(request.value * 2);
+        request.reply(&doubled)?;
+        stop_self();
     }
 }
 

@@ -1,8 +1,8 @@
-//! Plays the sink of `six_kinds.yaml` with `#[scl::main]`: says that it runs, and waits to be ended.
+//! Plays the sink of `six_kinds.yaml` with `#[scl::main]` and waits until it is stopped.
 
 use scl_tests::say;
 
-scl::topology!("six_kinds.yaml", only = [sink]);
+scl::topology!("topologies/six_kinds.yaml", only = [sink]);
 
 #[scl::main]
 async fn main(_sink: Sink) -> scl::Result<()> {

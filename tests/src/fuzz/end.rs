@@ -1,16 +1,19 @@
-//! An end of the `zeromq` transport, used as its gate would use it.
+//! An end of the `zeromq` transport, used as a gate uses it.
 
 use scl::bytes::Bytes;
 use scl::transport::zeromq::ZeroMq;
-use scl::transport::{Answer, Answerer, Asker, Inlet, Outlet, Transport, TransportError};
+use scl::transport::{Answer, Endpoint, Link, Receiver, Replier, Requester, Sender, Transport, TransportError};
+use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::task::{Context, Poll};
 
 pub(super) const ENDPOINT: &str = "a.out--b.in.1a2b3c4d";
+/// The longest message that each end accepts.
+const MAX_SIZE: usize = 1 << 20;
 
-/// What good peers say to each other.
-const WORD: Bytes = Bytes::from_static(b"a word among good peers");
-const NUMBER: u64 = 0x0101_0101_0101_0101;
+/// What two ends send each other.
+const MESSAGE: Bytes = Bytes::from_static(b"a message between good peers");
+const REQUEST: u64 = 0x0101_0101_0101_0101;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
@@ -41,8 +44,8 @@ impl Role {
         }
     }
 
-    /// The kind of socket that this role has on the wire.
-    pub(super) fn kind(self) -> &'static [u8] {
+    /// The socket type that this role has in ZMTP.
+    pub(super) fn socket_type(self) -> &'static [u8] {
         match self {
             Self::Publish => b"XPUB",
             Self::Subscribe => b"SUB",
@@ -55,51 +58,58 @@ impl Role {
 }
 
 pub(super) enum End {
-    Outlet(Box<dyn Outlet>),
-    Inlet(Box<dyn Inlet>),
-    Answerer(Box<dyn Answerer>),
-    /// With whether it waits for an answer.
-    Asker(Box<dyn Asker>, bool),
+    Sender { end: Box<dyn Sender>, links: Vec<Box<dyn Link>> },
+    Receiver(Box<dyn Receiver>),
+    Replier(Box<dyn Replier>),
+    Requester { end: Box<dyn Requester>, waits: bool },
 }
 
 impl End {
-    pub(super) fn open(role: Role, transport: &ZeroMq) -> Result<Self, TransportError> {
+    pub(super) fn open(role: Role, newest_only: bool, transport: &ZeroMq) -> Result<Self, TransportError> {
+        let mut endpoint = Endpoint::new(ENDPOINT);
+        (endpoint.max_size, endpoint.newest_only) = (MAX_SIZE, newest_only);
         Ok(match role {
-            Role::Publish => Self::Outlet(transport.publish(ENDPOINT)?),
-            Role::Push => Self::Outlet(transport.push(ENDPOINT)?),
-            Role::Subscribe => Self::Inlet(transport.subscribe(ENDPOINT)?),
-            Role::Pull => Self::Inlet(transport.pull(ENDPOINT)?),
-            Role::Reply => Self::Answerer(transport.reply(ENDPOINT)?),
-            Role::Request => Self::Asker(transport.request(ENDPOINT)?, false),
+            Role::Publish => Self::Sender { end: transport.publish(&endpoint)?, links: Vec::new() },
+            Role::Push => Self::Sender { end: transport.push(&endpoint)?, links: Vec::new() },
+            Role::Subscribe => Self::Receiver(transport.subscribe(&endpoint)?),
+            Role::Pull => Self::Receiver(transport.pull(&endpoint)?),
+            Role::Reply => Self::Replier(transport.reply(&endpoint)?),
+            Role::Request => Self::Requester { end: transport.request(&endpoint)?, waits: false },
         })
     }
 
-    /// Sends the word to who is there, takes what has come, answers what is asked. Says whether the word came.
+    /// Sends the message to each peer, receives what has arrived, answers requests. Returns true if the message
+    /// arrived.
     fn turn(&mut self, cx: &mut Context<'_>) -> bool {
         match self {
-            Self::Outlet(end) => {
-                end.drive(cx);
-                let _nobody_takes_it = end.offer(cx, WORD);
+            Self::Sender { end, links } => {
+                while let Poll::Ready(peer) = end.poll_peer(cx) {
+                    links.push(peer.link);
+                }
+                links.retain_mut(|link| send(&mut **link, cx));
                 false
             }
-            Self::Inlet(end) => match end.poll_recv(cx) {
-                Poll::Ready(message) => message == WORD,
-                Poll::Pending => false,
-            },
-            Self::Answerer(end) => {
-                if let Poll::Ready(asked) = end.poll_asked(cx) {
-                    let _gone = asked.responder.respond(asked.body);
+            Self::Receiver(end) => {
+                let received = end.poll_recv(cx);
+                if received.is_pending() {
+                    let _newest = end.poll_caught_up(cx);
+                }
+                received == Poll::Ready(MESSAGE)
+            }
+            Self::Replier(end) => {
+                if let Poll::Ready(request) = end.poll_request(cx) {
+                    let _gone = request.path.reply(&request.envelope, request.body);
                 }
                 false
             }
-            Self::Asker(end, waits) if !*waits => {
-                *waits = end.poll_connected(cx).is_ready() && end.ask(NUMBER, WORD).is_ok();
+            Self::Requester { end, waits } if !*waits => {
+                *waits = end.poll_connected(cx).is_ready() && end.request(cx, REQUEST, MESSAGE).is_ok();
                 false
             }
-            Self::Asker(end, waits) => match end.poll_answer(cx) {
+            Self::Requester { end, waits } => match end.poll_answer(cx) {
                 Poll::Ready(Answer::Reply { id, body }) => {
-                    *waits = id != NUMBER;
-                    id == NUMBER && body == WORD
+                    *waits = id != REQUEST;
+                    id == REQUEST && body == MESSAGE
                 }
                 Poll::Ready(Answer::Lost) => {
                     *waits = false;
@@ -111,9 +121,18 @@ impl End {
     }
 }
 
-/// Gives each end its turn again and again, until the word has come to one of them.
-pub(super) async fn exchange(ends: [&mut End; 2]) {
-    let [one, other] = ends;
+/// Returns false if the peer is gone.
+fn send(link: &mut dyn Link, cx: &mut Context<'_>) -> bool {
+    let is_connected = link.drive(cx).is_ok();
+    if is_connected {
+        link.send_all(cx, &mut VecDeque::from([MESSAGE]), &mut |_| {});
+        link.request_acknowledgement(cx);
+    }
+    is_connected
+}
+
+/// Gives both ends turns until the message has arrived at one of them.
+pub(super) async fn exchange([one, other]: [&mut End; 2]) {
     poll_fn(|cx| {
         let arrived = one.turn(cx) | other.turn(cx);
         cx.waker().wake_by_ref();
@@ -122,7 +141,7 @@ pub(super) async fn exchange(ends: [&mut End; 2]) {
     .await;
 }
 
-/// Gives an end its turns until something is done, and a few more for what is still on its way.
+/// Gives an end turns until something is done, and some more for what is still on its way.
 pub(super) async fn use_until(end: &mut End, done: impl Fn() -> bool) {
     let mut more = 50;
     poll_fn(|cx| {

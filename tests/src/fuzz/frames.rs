@@ -1,10 +1,11 @@
-//! A stranger at each end of the `zeromq` transport, over a real Unix socket.
+//! A stranger at each end of the `zeromq` transport, over a real Unix socket, and at the decoder behind it.
 
 use super::end::{ENDPOINT, End, Role, exchange, use_until};
-use super::zmtp::speech;
+use super::zmtp::stream;
 use arbitrary::{Result, Unstructured};
-use scl::place::{RuntimeDir, SystemDir, bind_ipc};
-use scl::transport::zeromq::{Medium, ZeroMq};
+use scl::runtime_dir::internals::bind_ipc;
+use scl::runtime_dir::{RuntimeDir, SystemDir};
+use scl::transport::zeromq::{Medium, ZeroMq, decode_for_fuzzing};
 use std::cell::Cell;
 use std::rc::Rc;
 use tempfile::TempDir;
@@ -12,22 +13,38 @@ use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{UnixListener, UnixStream};
 use tokio::task::{LocalSet, spawn_local, yield_now};
 
-/// Lets a stranger speak to an end, whichever the bytes choose, and says what they say. Nothing panics, and afterwards a
-/// good peer and the end exchange a message.
+/// Lets a stranger send to an end, or, at an end that connects, listen and send; the bytes choose which end, and what
+/// is sent. Nothing panics, and afterwards the end and a good peer exchange a message.
 ///
 /// # Panics
-/// If an end does. A panic in a task of the library's is told to the panic hook alone, and an exchange that fails does
-/// not return.
+/// If an end does. A panic in a background task reaches only the panic hook, and an exchange that fails does not
+/// return.
 pub fn frames(data: &[u8]) {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
     let stage = Stage::new();
-    // Too few bytes are no scene.
-    let _scene = runtime.block_on(LocalSet::new().run_until(stage.play(&mut Unstructured::new(data))));
+    // Too few bytes describe nothing.
+    let _played = runtime.block_on(LocalSet::new().run_until(stage.play(&mut Unstructured::new(data))));
+}
+
+/// Lets the decoder of the protocol read what a stranger sends, and noise. It returns an error or items, and reserves
+/// no memory for what has not arrived.
+///
+/// # Panics
+/// If it does not.
+pub fn decoder(data: &[u8]) {
+    let _error = decode_for_fuzzing("SUB", usize::MAX, [data]);
+    let bytes = &mut Unstructured::new(data);
+    let Ok(role) = bytes.choose(&Role::ALL).copied() else { return };
+    let Ok(max_size) = bytes.choose(&[0, 100, 64 << 20, usize::MAX]).copied() else { return };
+    if let Ok(pieces) = stream(bytes, role.counterpart().socket_type()) {
+        let socket_type = std::str::from_utf8(role.socket_type()).expect("a name in ASCII");
+        let _error = decode_for_fuzzing(socket_type, max_size, pieces.iter().map(|piece| &piece[..]));
+    }
 }
 
 struct Stage {
     _folder: TempDir,
-    place: SystemDir,
+    dir: SystemDir,
     transport: ZeroMq,
 }
 
@@ -35,75 +52,83 @@ impl Stage {
     fn new() -> Self {
         let folder = TempDir::with_prefix("scl").expect("a folder");
         let variable = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| folder.path().into());
-        let place = RuntimeDir::locate(&variable).and_then(|dir| dir.system("fuzz")).expect("a place");
-        Self { _folder: folder, transport: ZeroMq::new(place.clone(), Medium::Ipc), place }
+        let dir = RuntimeDir::locate(&variable).and_then(|dir| dir.system("fuzz")).expect("a system's folder");
+        Self { _folder: folder, transport: ZeroMq::new(dir.clone(), Medium::Ipc), dir }
     }
 
     async fn play(&self, bytes: &mut Unstructured<'_>) -> Result<()> {
         let role = *bytes.choose(&Role::ALL)?;
-        let (peer_is_there, stays): (bool, bool) = bytes.arbitrary()?;
-        let words = speech(bytes, role.counterpart().kind())?;
-        let mut end = self.open(role);
+        let (has_peer, stays, newest_only): (bool, bool, bool) = bytes.arbitrary()?;
+        let pieces = stream(bytes, role.counterpart().socket_type())?;
+        let open = |role| self.open(role, newest_only);
+        let mut end = open(role);
         if role.listens() {
             let mut peer = None;
-            if peer_is_there {
-                exchange([&mut end, peer.insert(self.open(role.counterpart()))]).await;
+            if has_peer {
+                exchange([&mut end, peer.insert(open(role.counterpart()))]).await;
             }
-            let stranger = self.speak_to(&mut end, words).await;
-            // One that stays reads what it is sent; one that does not makes a publisher wait, as it may.
-            let _reader = stays.then(|| spawn_local(read_on(stranger)));
-            exchange([&mut end, peer.get_or_insert_with(|| self.open(role.counterpart()))]).await;
+            let stranger = self.send_to(&mut end, pieces).await;
+            // One that stays either reads what it is sent, or nothing.
+            let _stays = match (stays, has_peer) {
+                (true, true) => Some(spawn_local(read_on(stranger))),
+                (true, false) => Some(spawn_local(never_read(stranger))),
+                (false, _) => None,
+            };
+            exchange([&mut end, peer.get_or_insert_with(|| open(role.counterpart()))]).await;
         } else {
-            self.listen_as_a_stranger(&mut end, words).await;
-            exchange([&mut end, &mut self.open(role.counterpart())]).await;
+            self.listen_and_send(&mut end, pieces).await;
+            exchange([&mut end, &mut open(role.counterpart())]).await;
         }
         Ok(())
     }
 
-    fn open(&self, role: Role) -> End {
-        End::open(role, &self.transport).unwrap_or_else(|error| panic!("{error}"))
+    fn open(&self, role: Role, newest_only: bool) -> End {
+        End::open(role, newest_only, &self.transport).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    async fn speak_to(&self, end: &mut End, words: Vec<Vec<u8>>) -> UnixStream {
-        let path = self.place.path(ENDPOINT).expect("a path");
-        let stream = UnixStream::connect(path).await.expect("connected");
-        let speaking = spawn_local(speak(stream, words));
-        use_until(end, || speaking.is_finished()).await;
-        speaking.await.expect("spoken")
+    async fn send_to(&self, end: &mut End, pieces: Vec<Vec<u8>>) -> UnixStream {
+        let path = self.dir.path(ENDPOINT).expect("a path");
+        let socket = UnixStream::connect(path).await.expect("connected");
+        let sending = spawn_local(send(socket, pieces));
+        use_until(end, || sending.is_finished()).await;
+        sending.await.expect("sent")
     }
 
-    /// Says the words to whoever connects, until two have heard them all: an end looks whether somebody listens before it
-    /// connects in earnest. Then everything that the stranger had open is closed.
-    async fn listen_as_a_stranger(&self, end: &mut End, words: Vec<Vec<u8>>) {
-        let bound = bind_ipc(&self.place, ENDPOINT).expect("bound");
+    /// Listens until the end has connected, and sends it all pieces; then closes everything it has open.
+    async fn listen_and_send(&self, end: &mut End, pieces: Vec<Vec<u8>>) {
+        let bound = bind_ipc(&self.dir, ENDPOINT).expect("bound");
         let listener = UnixListener::from_std(bound.listener).expect("a listener");
-        let heard = Rc::new(Cell::new(0));
-        let count = Rc::clone(&heard);
+        let served = Rc::new(Cell::new(0));
+        let count = Rc::clone(&served);
         let listening = spawn_local(async move {
-            let mut streams = Vec::new();
-            while let Ok((stream, _)) = listener.accept().await {
-                streams.push(speak(stream, words.clone()).await);
+            let mut sockets = Vec::new();
+            while let Ok((socket, _)) = listener.accept().await {
+                sockets.push(send(socket, pieces.clone()).await);
                 count.set(count.get() + 1);
             }
         });
-        use_until(end, || heard.get() >= 2).await;
+        use_until(end, || served.get() > 0).await;
         listening.abort();
         let _aborted = listening.await;
     }
 }
 
-/// Says all words, unless it is thrown out before.
-async fn speak(mut stream: UnixStream, words: Vec<Vec<u8>>) -> UnixStream {
-    for piece in words {
-        if stream.write_all(&piece).await.is_err() {
+/// Sends all pieces, or until it is disconnected.
+async fn send(mut socket: UnixStream, pieces: Vec<Vec<u8>>) -> UnixStream {
+    for piece in pieces {
+        if socket.write_all(&piece).await.is_err() {
             break;
         }
         yield_now().await;
     }
-    stream
+    socket
 }
 
-async fn read_on(mut stream: UnixStream) {
-    let mut heard = [0; 4096];
-    while matches!(stream.read(&mut heard).await, Ok(1..)) {}
+async fn read_on(mut socket: UnixStream) {
+    let mut received = [0; 4096];
+    while matches!(socket.read(&mut received).await, Ok(1..)) {}
+}
+
+async fn never_read(_socket: UnixStream) {
+    std::future::pending().await
 }

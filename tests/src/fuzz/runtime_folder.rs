@@ -2,9 +2,8 @@
 
 use super::litter;
 use arbitrary::{Result, Unstructured};
-use scl::place::{
-    Address, Announcement, ComponentLock, PlaceError, RuntimeDir, SystemDir, bind_ipc, bind_tcp, find, other_contracts,
-};
+use scl::runtime_dir::internals::{Address, ComponentLock, bind_ipc, bind_tcp, check_peer, explain_missing, find};
+use scl::runtime_dir::{Announcement, RuntimeDir, RuntimeDirError, SystemDir};
 use scl::{Component, OpenOptions};
 use std::collections::BTreeMap;
 use std::fs::{self, Permissions};
@@ -12,7 +11,7 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-scl::topology!("six_kinds.yaml", only = [sink]);
+scl::topology!("topologies/six_kinds.yaml", only = [sink]);
 
 /// Names that are used in the folder, or nearly.
 const NAMES: [&str; 8] =
@@ -89,7 +88,7 @@ impl Scene {
         self.look_around(&dir);
         if let Some(lock) = self.told(ComponentLock::take(&dir, "sink")) {
             let again = ComponentLock::take(&dir, "sink").expect_err("the lock is taken");
-            assert!(matches!(again, PlaceError::AlreadyRunning { .. }), "{again}");
+            assert!(matches!(again, RuntimeDirError::AlreadyRunning { .. }), "{again}");
             self.told(lock.clear_leftovers());
         }
         for endpoint in endpoints() {
@@ -109,18 +108,20 @@ impl Scene {
             if let Some(Address::Ipc(path)) = find(dir, &name) {
                 assert_eq!(path.parent(), Some(dir.folder()));
             }
-            let (connection, contract) = name.rsplit_once('.').unwrap_or((&name, ""));
-            for other in other_contracts(dir, connection, contract) {
-                assert!(other.endpoint.starts_with(connection) && other.contract != contract, "{other:?}");
-            }
-            let _whatever_it_says = Announcement::read(dir, connection);
+            let component = name.split('.').next().unwrap_or_default();
+            let _any = (Announcement::read(dir, component), ComponentLock::holder(dir, component));
+        }
+        for (gate, link) in Sink::SPEC.gates.iter().flat_map(|gate| gate.links.iter().map(move |link| (gate, link))) {
+            let _peer = ComponentLock::take(dir, link.peer_component);
+            let _any = check_peer(dir, Sink::SPEC, gate, link);
+            assert!(!explain_missing(dir, Sink::SPEC, gate, link).is_empty());
         }
     }
 
     /// The whole component: it opens and is announced, or says what is in its way.
     fn open(&self) {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
-        let options = OpenOptions::new().runtime_dir(&self.runtime_dir).system("six").tcp(false);
+        let options = OpenOptions::new().runtime_dir(&self.runtime_dir).system("six").medium(scl::Medium::Ipc);
         let opened = runtime.block_on(Sink::open_with(options));
         let announced = self.system.join("sink.json");
         match opened {
@@ -129,11 +130,12 @@ impl Scene {
                 drop(sink);
                 assert!(!announced.exists());
             }
-            Err(error) => self.check_told(&error.to_string()),
+            // With its sources, one of which is about the folder.
+            Err(error) => self.check_told(&format!("{:?}", scl::Error::from(error))),
         }
     }
 
-    fn told<T>(&self, result: std::result::Result<T, PlaceError>) -> Option<T> {
+    fn told<T>(&self, result: std::result::Result<T, RuntimeDirError>) -> Option<T> {
         result.map_err(|error| self.check_told(&error.to_string())).ok()
     }
 

@@ -1,66 +1,118 @@
-//! What a stranger says to an end: ZMTP 3.0 (RFC 23), or bytes that begin like it, or none of it.
+//! What a stranger sends to an end: ZMTP 3.0 (RFC 23) with SCL's additions, or bytes that begin like it, or noise.
 
+use crate::zmtp::{COMMAND, MORE, announcement, command, frame, greeting, greeting_with, property};
 use arbitrary::{Result, Unstructured};
 
-/// So much fits into a socket that nobody reads, also in small pieces.
+/// What fits into a socket that nobody reads, even in small pieces.
 const MOST_BYTES: usize = 16 << 10;
 const MOST_PIECES: usize = 64;
 
-const MORE: u8 = 1;
-const LONG: u8 = 2;
-const COMMAND: u8 = 4;
-const GREETING: &[u8; 64] = b"\xff\0\0\0\0\0\0\0\0\x7f\x03\0NULL\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\
-    \0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
-const KINDS: [&[u8]; 9] = [b"PUSH", b"PULL", b"PUB", b"SUB", b"XPUB", b"REQ", b"REP", b"DEALER", b"ROUTER"];
+const SOCKET_TYPES: [&[u8]; 9] = [b"PUSH", b"PULL", b"PUB", b"SUB", b"XPUB", b"REQ", b"REP", b"DEALER", b"ROUTER"];
+const COMMANDS: [&str; 11] = [
+    "X-SCL-ACK",
+    "X-SCL-BEHIND",
+    "X-SCL-CATCH-UP",
+    "X-SCL-CAUGHT-UP",
+    "X-SCL-FLUSH",
+    "SUBSCRIBE",
+    "CANCEL",
+    "PING",
+    "PONG",
+    "ERROR",
+    "OTHER",
+];
+/// Values of the property `X-SCL`.
+const ADDITIONS: [&[u8]; 8] = [
+    b"1",
+    b"1 window=256,1048576",
+    b"1 window=64,32768 newest",
+    b"1 window=1,1",
+    b"1 window=18446744073709551615,18446744073709551615",
+    b"1 window=0,0 newest window=",
+    b"2 window=1,1",
+    b"\xff",
+];
+/// Lengths that nobody means.
+const LENGTHS: [u64; 6] = [(1 << 20) + 1, 16 << 30, 64 << 30, 1 << 40, 1 << 63, u64::MAX];
 
-/// The pieces in which a stranger speaks, who mostly introduces itself properly as a socket of one kind.
-pub(super) fn speech(bytes: &mut Unstructured<'_>, kind: &[u8]) -> Result<Vec<Vec<u8>>> {
+/// The pieces that a stranger sends, which mostly introduces itself properly as a socket of a type.
+pub(super) fn stream(bytes: &mut Unstructured<'_>, socket_type: &[u8]) -> Result<Vec<Vec<u8>>> {
     let lengths = bytes.arbitrary()?;
-    let mut said = Vec::new();
+    let mut stream = Vec::new();
     if bytes.ratio(7, 8)? {
-        said.extend_from_slice(GREETING);
-        introduce(bytes, kind, &mut said)?;
+        stream.extend(greeting());
+        put_ready(bytes, socket_type, &mut stream)?;
+    } else {
+        stream.extend(other_greeting(bytes)?);
     }
-    while !bytes.is_empty() && said.len() < MOST_BYTES / 2 {
-        match bytes.int_in_range(0..=7)? {
-            0..=3 => message(bytes, &mut said)?,
-            4 => introduce(bytes, kind, &mut said)?,
-            5 => frame(COMMAND | bytes.arbitrary::<u8>()?, &content(bytes)?, &mut said),
-            6 => said.extend_from_slice(GREETING),
-            _ => said.extend(content(bytes)?),
+    while !bytes.is_empty() && stream.len() < MOST_BYTES / 2 {
+        match bytes.int_in_range(0..=9)? {
+            0..=3 => put_message(bytes, &mut stream)?,
+            4 => put_ready(bytes, socket_type, &mut stream)?,
+            5 | 6 => put_command(bytes, &mut stream)?,
+            7 => stream.extend(frame(COMMAND | bytes.arbitrary::<u8>()?, &content(bytes)?)),
+            8 => put_enormous(bytes, &mut stream)?,
+            _ => stream.extend(content(bytes)?),
         }
     }
-    said.truncate(MOST_BYTES);
-    keep_announcements_small(&mut said);
-    Ok(cut(lengths, said))
+    stream.truncate(MOST_BYTES);
+    Ok(cut(lengths, stream))
 }
 
-/// READY with the kind of the socket, sometimes a wrong one, and sometimes a name.
-fn introduce(bytes: &mut Unstructured<'_>, kind: &[u8], said: &mut Vec<u8>) -> Result<()> {
-    let kind = if bytes.ratio(1, 16)? { *bytes.choose(&KINDS)? } else { kind };
-    let mut body = b"\x05READY".to_vec();
-    property(b"Socket-Type", kind, &mut body);
-    if bytes.ratio(1, 4)? {
-        property(b"Identity", &content(bytes)?, &mut body);
+/// A greeting of another version or mechanism, or with any byte changed.
+fn other_greeting(bytes: &mut Unstructured<'_>) -> Result<Vec<u8>> {
+    let mut greeting = greeting();
+    match bytes.int_in_range(0..=4)? {
+        0 => greeting = b"\x01\0".to_vec(),
+        1 => greeting[10] = bytes.int_in_range(0..=4)?,
+        2 => greeting = greeting_with(b"CURVE"),
+        3 => greeting[bytes.int_in_range(0..=63)?] = bytes.arbitrary()?,
+        _ => greeting.truncate(bytes.int_in_range(0..=63)?),
     }
-    frame(COMMAND, &body, said);
+    Ok(greeting)
+}
+
+/// READY with the socket type, now and then a wrong one, sometimes an identity, often SCL's property.
+fn put_ready(bytes: &mut Unstructured<'_>, socket_type: &[u8], stream: &mut Vec<u8>) -> Result<()> {
+    let socket_type = if bytes.ratio(1, 16)? { *bytes.choose(&SOCKET_TYPES)? } else { socket_type };
+    let mut properties = property("Socket-Type", socket_type);
+    if bytes.ratio(1, 4)? {
+        properties.extend(property("Identity", &content(bytes)?));
+    }
+    if bytes.ratio(3, 4)? {
+        properties.extend(property("X-SCL", bytes.choose(&ADDITIONS)?));
+    }
+    stream.extend(command("READY", &properties));
     Ok(())
 }
 
-fn property(name: &[u8], value: &[u8], body: &mut Vec<u8>) {
-    body.push(name.len() as u8);
-    body.extend_from_slice(name);
-    body.extend((value.len() as u32).to_be_bytes());
-    body.extend_from_slice(value);
+/// A command with a number, often a small one, or with any content.
+fn put_command(bytes: &mut Unstructured<'_>, stream: &mut Vec<u8>) -> Result<()> {
+    let name = bytes.choose(&COMMANDS)?;
+    let data = match bytes.int_in_range(0..=3)? {
+        0 => Vec::new(),
+        1 => bytes.int_in_range(0..=300_u64)?.to_be_bytes().to_vec(),
+        2 => bytes.arbitrary::<u64>()?.to_be_bytes().to_vec(),
+        _ => content(bytes)?,
+    };
+    stream.extend(command(name, &data));
+    Ok(())
 }
 
-/// Up to six frames, among them all shapes of an envelope; now and then the last one is not the last.
-fn message(bytes: &mut Unstructured<'_>, said: &mut Vec<u8>) -> Result<()> {
+/// Up to six frames, which include all shapes of an envelope; now and then the last one has the flag MORE.
+fn put_message(bytes: &mut Unstructured<'_>, stream: &mut Vec<u8>) -> Result<()> {
     for _ in 0..bytes.int_in_range(0..=5)? {
-        frame(MORE, &content(bytes)?, said);
+        stream.extend(frame(MORE, &content(bytes)?));
     }
-    let open = u8::from(bytes.ratio(1, 16)?);
-    frame(open, &content(bytes)?, said);
+    let more = u8::from(bytes.ratio(1, 16)?);
+    stream.extend(frame(more, &content(bytes)?));
+    Ok(())
+}
+
+/// A frame that announces more than is accepted, and its beginning.
+fn put_enormous(bytes: &mut Unstructured<'_>, stream: &mut Vec<u8>) -> Result<()> {
+    stream.extend(announcement(*bytes.choose(&[0, MORE, COMMAND])?, *bytes.choose(&LENGTHS)?));
+    stream.extend(content(bytes)?);
     Ok(())
 }
 
@@ -73,50 +125,21 @@ fn content(bytes: &mut Unstructured<'_>) -> Result<Vec<u8>> {
         _ => bytes.int_in_range(0..=700)?,
     };
     let mut content = bytes.bytes(length.min(bytes.len()))?.to_vec();
-    // A subscription, or the number of a request, without waiting for the fuzzer to hit on one.
+    // A subscription, or the number of a request, which the fuzzer need not find by itself.
     content.resize(length, 1);
     Ok(content)
 }
 
-fn frame(flags: u8, body: &[u8], said: &mut Vec<u8>) {
-    match u8::try_from(body.len()) {
-        Ok(length) if flags & LONG == 0 => said.extend([flags, length]),
-        _ => {
-            said.push(flags | LONG);
-            said.extend((body.len() as u64).to_be_bytes());
-        }
-    }
-    said.extend_from_slice(body);
-}
-
-/// Reads along and bounds each announced length to 16 MiB. The library reserves whatever is announced, and where that is
-/// more than there is, the process ends: see "What remains" in `docs/zeromq.md`.
-fn keep_announcements_small(said: &mut [u8]) {
-    let mut at = GREETING.len();
-    while let Some(&flags) = said.get(at) {
-        let length = if flags & LONG == 0 {
-            at += 2;
-            said.get(at - 1).map_or(0, |&length| usize::from(length))
-        } else {
-            at += 9;
-            let Some(length) = said.get_mut(at - 8..at) else { return };
-            length[..5].fill(0);
-            length.iter().fold(0, |length, &byte| length << 8 | usize::from(byte))
-        };
-        at += length;
-    }
-}
-
-/// Cuts off pieces of the given lengths, again and again; a length of 0 leaves the rest whole.
-fn cut(lengths: [u8; 4], mut said: Vec<u8>) -> Vec<Vec<u8>> {
+/// Cuts off pieces of the given lengths, repeatedly; a length of 0 leaves the rest whole.
+fn cut(lengths: [u8; 4], mut stream: Vec<u8>) -> Vec<Vec<u8>> {
     let mut pieces = Vec::new();
     for length in lengths.into_iter().cycle().take(MOST_PIECES - 1).map(usize::from) {
-        if length == 0 || length >= said.len() {
+        if length == 0 || length >= stream.len() {
             break;
         }
-        let rest = said.split_off(length);
-        pieces.push(std::mem::replace(&mut said, rest));
+        let rest = stream.split_off(length);
+        pieces.push(std::mem::replace(&mut stream, rest));
     }
-    pieces.push(said);
+    pieces.push(stream);
     pieces
 }

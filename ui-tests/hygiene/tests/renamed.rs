@@ -19,6 +19,36 @@ fn specifications_tell_the_wiring() {
 }
 
 #[test]
+fn both_ends_of_a_connection_know_how_large_a_message_may_be() {
+    let (asking, answering) = (&UserInterface::SPEC.gates[0], &Controller::SPEC.gates[3]);
+    assert_eq!((asking.max_size, asking.links[0].max_size), (512, 4096));
+    assert_eq!((answering.max_size, answering.links[0].max_size), (4096, 512));
+    assert_eq!(Sensor::SPEC.gates[0].links[0].max_size, 64 << 20);
+}
+
+#[test]
+fn listening_gates_have_a_tap() {
+    let taps: Vec<&str> = Controller::SPEC.gates.iter().map(|gate| gate.tap).collect();
+    assert_eq!(taps, ["", "", "", "controller.commands.tap", ""]);
+    assert_eq!(Sensor::SPEC.gates[0].tap, "sensor.measurements.tap");
+    assert_eq!((Sensor::SPEC.gates[0].endpoint, UserInterface::SPEC.gates[1].tap), ("", "user_interface.work.tap"));
+}
+
+#[test]
+fn programs_embed_the_descriptors_of_their_messages() {
+    let files = |spec: &wires::spec::ComponentSpec| {
+        let schema = spec.schema.as_ref()?;
+        let set = wires::private::prost_types::FileDescriptorSet::decode(schema.descriptors).expect("descriptors");
+        Some(set.file.into_iter().map(|file| file.name.unwrap_or_default()).collect::<Vec<_>>())
+    };
+    // Imports come first, and every file that a message needs is there.
+    let expected = ["google/protobuf/timestamp.proto", "level.proto", "rover.proto"];
+    assert_eq!(files(Controller::SPEC).expect("a schema"), expected);
+    assert_eq!(files(Sensor::SPEC).expect("a schema"), expected);
+    assert_eq!(files(Logger::SPEC), None);
+}
+
+#[test]
 fn generated_messages_travel() {
     let axis =
         rover::measurement::ImuAxis { kind: rover::measurement::imu_axis::Kind::Angular.into(), samples: vec![1.5] };

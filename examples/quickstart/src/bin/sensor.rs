@@ -8,7 +8,7 @@ scl::topology!("topology.yaml");
 async fn main(mut sensor: Sensor) -> scl::Result<()> {
     let mut tick = scl::time::interval(Duration::from_millis(100))?;
     for step in 0.. {
-        tick.tick().await;
+        tick.tick().await?;
         let speed = 1.0 + f64::from(step).sin();
         println!("speed {speed:.2} m/s");
         sensor.measurements.send(&rover::Measurement { speed }).await?;

@@ -8,7 +8,7 @@ scl::topology!("topology.yaml");
 async fn main(mut ui: UserInterface) -> scl::Result<()> {
     let mut tick = scl::time::interval(Duration::from_secs(1))?;
     for target_speed in [0.5, 1.5].into_iter().cycle() {
-        tick.tick().await;
+        tick.tick().await?;
         let status = ui.commands.call(&rover::Command { target_speed }).await?;
         println!("asked for {target_speed:.1} m/s: {}", if status.accepted { "accepted" } else { &status.reason });
         println!("event: {}", ui.events.recv().await?.text);

@@ -1,11 +1,11 @@
 //! Reads one comment for the checker. SCL0901: nobody knows what it says. SCL0903: it wants to allow what cannot be.
 
 use crate::catalogue::{self, Examples, Rule};
-use crate::check::wording::listed;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::model::ControlModel;
 use crate::source::Span;
 use crate::suggest::one_edit_away;
+use crate::wording::listed;
 
 /// SCL0901.
 pub(crate) const UNKNOWN_CODE: Rule = Rule {

@@ -8,6 +8,7 @@ use crate::parse::fields::Field;
 use crate::parse::option::{OPTIONS, rule};
 use crate::suggest::similar;
 use crate::topology::GateKind;
+use crate::wording::all_of;
 
 /// SCL0212.
 pub(crate) const RULE: Rule = Rule {
@@ -50,8 +51,8 @@ fn only_of(option: &str, kind: &str) -> String {
     if kinds.iter().any(|of| of.word() == kind) {
         return String::new();
     }
-    let words: Vec<String> = kinds.iter().map(|of| format!("`{}`", of.word())).collect();
-    format!(", for {} gates", words.join(" and "))
+    let words: Vec<&str> = kinds.iter().map(|of| of.word()).collect();
+    format!(", for {} gates", all_of(&words))
 }
 
 #[cfg(test)]

@@ -1,13 +1,14 @@
 //! SCL0215: a value of the wrong kind.
 
-use super::ticked;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::option::Value;
 use crate::parse::{is_plain, shape_word};
+use crate::size;
 use crate::suggest::similar;
+use crate::wording::either;
 use crate::yaml::{Node, NodeKind};
 
 /// SCL0215.
@@ -16,7 +17,7 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Error,
     title: "option value has the wrong kind",
     explanation: "The value has the wrong type: text where a number belongs, a number without a unit where a duration \
-                  belongs, or a word that the option does not know. The message gives an example.",
+                  or a size belongs, or a word that the option does not know. The message gives an example.",
     examples: Examples::Topology {
         bad: "components:
   - name: sensor
@@ -37,14 +38,16 @@ pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Value) -> Diagnosti
         Value::Number if key == "scl" => ("a whole number".to_owned(), "1"),
         Value::Number => ("a whole number".to_owned(), "16"),
         Value::Duration => ("a number and a unit: `us`, `ms` or `s`".to_owned(), "500ms"),
+        Value::Size => (format!("a whole number and a unit: {}", either(&size::UNITS.map(|(unit, _)| unit))), "8MiB"),
         Value::Boolean => ("`true` or `false`".to_owned(), "true"),
-        Value::Word(words) => (one_of(words), words.first().copied().unwrap_or("")),
+        Value::Word(words) => (either(words), words.first().copied().unwrap_or("")),
         Value::Text | Value::Name => ("text".to_owned(), "text"),
     };
-    let problem = RULE.at(format!("`{key}` must be {rule}"), field.value.span, label(field.value));
-    problem.help(match meant(field.value, expected) {
-        Some(word) => format!("write `{key}: {word}`"),
-        None => format!("for example `{key}: {example}`"),
+    let problem = RULE.at(format!("`{key}` must be {rule}"), field.value.span, label(field.value, expected));
+    let meant: Vec<String> = meant(field.value, expected).iter().map(|value| format!("`{key}: {value}`")).collect();
+    problem.help(match meant.is_empty() {
+        true => format!("for example `{key}: {example}`"),
+        false => format!("write {}", meant.join(" or ")),
     })
 }
 
@@ -54,15 +57,13 @@ pub(in crate::parse) fn not_text(place: &str, node: &Node) -> Diagnostic {
     RULE.at(message, node.span, format!("this is {}", shape_word(node)))
 }
 
-fn one_of(words: &[&str]) -> String {
-    match words {
-        [rest @ .., last] if !rest.is_empty() => format!("{} or `{last}`", ticked(rest.iter().copied())),
-        _ => ticked(words.iter().copied()),
-    }
-}
-
-fn label(value: &Node) -> String {
+fn label(value: &Node, expected: Value) -> String {
     match &value.kind {
+        // Quotes around a size do no harm.
+        NodeKind::Scalar { text, .. } if expected == Value::Size && text.parse::<i64>().is_ok() => {
+            "this is a number without a unit".to_owned()
+        }
+        NodeKind::Scalar { .. } if expected == Value::Size => "this is not a size".to_owned(),
         NodeKind::Scalar { .. } if !is_plain(value) => "this is text, because of the quotes".to_owned(),
         NodeKind::Scalar { text, .. } if text.parse::<i64>().is_ok() => "this is a number without a unit".to_owned(),
         NodeKind::Scalar { text, .. } if text.parse::<f64>().is_ok() => "this is not a whole number".to_owned(),
@@ -70,29 +71,31 @@ fn label(value: &Node) -> String {
     }
 }
 
-/// The value without its quotes, or a word that is nearly right.
-fn meant(value: &Node, expected: Value) -> Option<String> {
-    let NodeKind::Scalar { text, .. } = &value.kind else { return None };
+/// The value without its quotes, or words that are nearly right.
+fn meant(value: &Node, expected: Value) -> Vec<String> {
+    let NodeKind::Scalar { text, .. } = &value.kind else { return Vec::new() };
     let words: &[&str] = match expected {
-        Value::Number => return (!is_plain(value) && text.parse::<u32>().is_ok()).then(|| text.clone()),
+        Value::Number if !is_plain(value) && text.parse::<u32>().is_ok() => return vec![text.clone()],
+        // A bare number is most probably meant as milliseconds.
+        Value::Duration if text.parse::<u32>().is_ok() => return vec![format!("{text}ms")],
+        Value::Size => return size::suggestions(text),
         Value::Boolean => &["true", "false"],
         Value::Word(words) => words,
-        // A bare number is most probably meant as milliseconds.
-        Value::Duration => return text.parse::<u32>().is_ok().then(|| format!("{text}ms")),
-        Value::Text | Value::Name => return None,
+        Value::Number | Value::Duration | Value::Text | Value::Name => return Vec::new(),
     };
-    match text.to_ascii_lowercase().as_str() {
+    let word = match text.to_ascii_lowercase().as_str() {
         "yes" | "on" if words.contains(&"true") => Some("true".to_owned()),
         "no" | "off" if words.contains(&"false") => Some("false".to_owned()),
         lower if words.contains(&lower) => Some(lower.to_owned()),
         lower => similar(lower, words.iter().copied()).first().map(|word| (*word).to_owned()),
-    }
+    };
+    word.into_iter().collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::RULE;
-    use crate::parse::testing::check;
+    use crate::parse::testing::{check, parse_text};
     use expect_test::expect;
 
     #[test]
@@ -108,5 +111,33 @@ mod tests {
               |
               = help: for example `queue: 16`"#]],
         );
+    }
+
+    #[test]
+    fn sizes_need_a_unit_of_ours() {
+        let sizes = ["65536", "\"65536\"", "8", "8MB", "\"8 mb\"", "1.5GiB", "1TiB", "large", "0x10", "[8MiB]", "true"];
+        let told = sizes.map(|size| {
+            let yaml =
+                format!("components: [{{name: a, gates: [{{x: {{sub: T, max_size: {size}}}}}]}}]\nconnections: []\n");
+            let (_, found, _) = parse_text(&yaml);
+            let told = found.iter().map(|found| {
+                let label = found.primary.as_ref().map_or("", |label| label.text.as_str());
+                format!("{}: {} {label} {:?}\n", size, found.message, found.helps)
+            });
+            told.collect::<String>()
+        });
+        expect![[r#"
+            65536: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a number without a unit ["write `max_size: 65536B` or `max_size: 64KiB`"]
+            "65536": `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a number without a unit ["write `max_size: 65536B` or `max_size: 64KiB`"]
+            8: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a number without a unit ["write `max_size: 8MiB` or `max_size: 8KiB` or `max_size: 8B`"]
+            8MB: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["write `max_size: 8MiB`"]
+            "8 mb": `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["write `max_size: 8MiB`"]
+            1.5GiB: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["write `max_size: 1536MiB`"]
+            1TiB: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["for example `max_size: 8MiB`"]
+            large: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["for example `max_size: 8MiB`"]
+            0x10: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["for example `max_size: 8MiB`"]
+            [8MiB]: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a list ["for example `max_size: 8MiB`"]
+            true: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["for example `max_size: 8MiB`"]
+        "#]].assert_eq(&told.concat());
     }
 }

@@ -1,73 +1,160 @@
-//! What happens when a peer is slower than the other, and when nothing happens.
+//! Peers of different speed, acknowledgements, and rest.
 
-use super::call::pair;
-use super::flow::sender_sees;
-use super::{ENDPOINT, FLOWS, Flow, OTHER_ENDPOINT, numbered, pattern};
-use crate::transport::Transport;
+use super::ends::TestLink;
+use super::{OTHER_ENDPOINT, PATTERNS, Pattern, content, numbered, requests};
+use crate::transport::{Endpoint, Transport};
 use bytes::Bytes;
+use std::collections::VecDeque;
 use std::future::poll_fn;
-use std::task::Poll;
+use std::task::{Context, Poll};
 
-/// A receiver that stops reading makes `offer` give messages back before 64 MiB are under way; when it reads again, the
-/// sender is woken, and everything that was taken arrives.
+/// A number of polls without progress after which an end counts as blocked.
+const WITHOUT_PROGRESS: usize = 200;
+
+/// A link refuses messages of a receiver that stops reading before 64 MiB are on their way. When the receiver reads
+/// again, the sender is woken, and everything that was accepted arrives.
 pub async fn stops_and_resumes(transport: &dyn Transport) {
     const MESSAGES: usize = 1024;
-    let message = pattern(64 << 10);
-    for flow in FLOWS {
-        let (mut sender, mut receiver) = flow.pair(transport, ENDPOINT);
-        sender_sees(&mut sender, &mut receiver).await;
+    let message = content(64 << 10);
+    for pattern in PATTERNS {
+        let (mut sender, mut receiver) = pattern.connected(transport).await;
         sender.queue(vec![message.clone(); MESSAGES]);
-        let mut quiet = 0;
-        poll_fn(|cx| {
-            let before = sender.left();
+        until_blocked(|cx| {
             sender.poll(cx);
-            assert!(sender.left() > 0, "{flow:?}: a receiver that does not read was sent {MESSAGES} messages");
-            quiet = if sender.left() == before { quiet + 1 } else { 0 };
-            cx.waker().wake_by_ref();
-            if quiet > 200 { Poll::Ready(()) } else { Poll::Pending }
+            sender.waiting()
         })
         .await;
-        assert!(sender.left() < MESSAGES, "{flow:?}: nothing was sent");
-        for place in 0..MESSAGES {
+        assert!(sender.waiting() > 0, "{pattern:?}: {MESSAGES} messages were sent to a receiver that does not read");
+        assert!(sender.waiting() < MESSAGES, "{pattern:?}: nothing was sent");
+        for index in 0..MESSAGES {
             let received = receiver.next(&mut [&mut sender]).await;
-            assert!(received == message, "{flow:?}: message {place} of {MESSAGES} is damaged");
+            assert!(received == message, "{pattern:?}: message {index} of {MESSAGES} is damaged");
         }
     }
 }
 
-/// Ends that have nothing to do are not woken, connected or not, while other ends are busy.
+/// Each subscriber of an endpoint has a link of its own, and one that stops reading does not delay the other.
+pub async fn keeps_subscribers_independent(transport: &dyn Transport) {
+    const MESSAGES: usize = 1024;
+    let message = content(64 << 10);
+    let mut publisher = Pattern::PubSub.sender(transport);
+    let mut stalled = Pattern::PubSub.receiver(transport);
+    let mut to_stalled = poll_fn(|cx| {
+        assert!(stalled.poll(cx).is_pending());
+        publisher.poll_link(cx)
+    })
+    .await;
+    let mut waiting: VecDeque<Bytes> = vec![message.clone(); MESSAGES].into();
+    until_blocked(|cx| {
+        assert!(to_stalled.poll(cx, &mut waiting), "a subscriber that stops reading was disconnected");
+        waiting.len()
+    })
+    .await;
+    let blocked_at = waiting.len();
+    assert!(blocked_at > 0, "{MESSAGES} messages were sent to a subscriber that does not read");
+
+    let mut reading = Pattern::PubSub.receiver(transport);
+    let mut to_reading = poll_fn(|cx| {
+        assert!(reading.poll(cx).is_pending());
+        publisher.poll_link(cx)
+    })
+    .await;
+    let mut queue: VecDeque<Bytes> = numbered(3000).into();
+    for expected in numbered(3000) {
+        let received = poll_fn(|cx| {
+            assert!(to_stalled.poll(cx, &mut waiting) && to_reading.poll(cx, &mut queue), "a link is broken");
+            reading.poll(cx)
+        });
+        assert_eq!(received.await, expected, "received something else beside a subscriber that does not read");
+    }
+    assert_eq!(waiting.len(), blocked_at, "messages were sent to a subscriber that does not read");
+    assert_eq!(publisher.peers(), 2, "number of links for two subscribers");
+
+    for index in 0..MESSAGES {
+        let received = poll_fn(|cx| {
+            to_stalled.poll(cx, &mut waiting);
+            stalled.poll(cx)
+        });
+        assert!(received.await == message, "message {index} of {MESSAGES} is damaged");
+    }
+}
+
+/// A link that is asked for an acknowledgement is woken, and counts no unacknowledged messages, once the receiver has
+/// taken everything. A transport without acknowledgements always counts none.
+pub async fn acknowledges_what_was_taken(transport: &dyn Transport) {
+    for pattern in PATTERNS {
+        let (mut sender, mut receiver) = pattern.connected(transport).await;
+        for count in [1, 7, 30] {
+            sender.queue(numbered(count));
+            poll_fn(|cx| {
+                sender.poll(cx);
+                if sender.is_written() { Poll::Ready(()) } else { Poll::Pending }
+            })
+            .await;
+            let link = sender.link.as_mut().unwrap_or_else(|| panic!("{pattern:?}: disconnected"));
+            let sent = link.unacknowledged();
+            assert!(sent <= u64::from(count), "{pattern:?}: more is unacknowledged than was sent");
+            link.request_acknowledgement();
+            let asked = link.wakes();
+            for expected in numbered(count) {
+                assert_eq!(receiver.next(&mut [&mut sender]).await, expected);
+            }
+            let is_acknowledged = |link: &TestLink| link.unacknowledged() == 0 && (sent == 0 || link.wakes() > asked);
+            poll_fn(|cx| {
+                assert!(receiver.poll(cx).is_pending(), "{pattern:?}: received a message that was not sent");
+                assert!(sender.poll(cx), "{pattern:?}: disconnected");
+                if sender.link.as_ref().is_some_and(is_acknowledged) { Poll::Ready(()) } else { Poll::Pending }
+            })
+            .await;
+        }
+    }
+}
+
+/// Ends that have nothing to do are not woken while other ends are busy: connected ends, and listening ones without
+/// peers. (An end without a listener to connect to may be woken to try again.)
 pub async fn stays_quiet_when_idle(transport: &dyn Transport) {
-    for flow in FLOWS {
-        let (mut sender, mut receiver) = flow.pair(transport, ENDPOINT);
-        sender_sees(&mut sender, &mut receiver).await;
-        sender.queue([Bytes::from_static(b"the last")]);
+    for pattern in PATTERNS {
+        let (mut sender, mut receiver) = pattern.connected(transport).await;
+        sender.queue([Bytes::from_static(b"the last message")]);
         receiver.next(&mut [&mut sender]).await;
-        let mut lonely = flow.sender(transport, "lonely.out--nobody.in.1a2b3c4d");
-        let (mut asker, mut answerer) = pair(transport, ENDPOINT).await;
+        let mut lonely = Pattern::PubSub.sender_at(transport, &Endpoint::new("lonely.out--nobody.in.1a2b3c4d"));
+        let (mut requester, mut replier) = requests::pair(transport).await;
         let mut wakes = Vec::new();
         for _ in 0..3 {
-            make_noise(flow, transport).await;
+            be_busy(pattern, transport).await;
             poll_fn(|cx| {
                 sender.poll(cx);
                 lonely.poll(cx);
-                assert!(receiver.poll(cx).is_pending(), "{flow:?}: received what was not sent");
-                assert!(answerer.poll(cx).is_pending(), "asked what nobody asked");
-                assert!(asker.poll_answer(cx).is_pending(), "answered what nobody asked");
+                assert!(receiver.poll(cx).is_pending(), "{pattern:?}: received a message that was not sent");
+                assert!(replier.poll(cx).is_pending(), "received a request that was not sent");
+                assert!(requester.poll_answer(cx).is_pending(), "received a reply that was not sent");
                 Poll::Ready(())
             })
             .await;
-            let of_flow = [sender.wakes(), receiver.wakes(), lonely.wakes()];
-            wakes.push((of_flow, [asker.wakes(), answerer.wakes()]));
+            wakes.push((sender.wakes(), receiver.wakes(), lonely.wakes(), requester.wakes(), replier.wakes()));
         }
-        // The first round is for what is still under way from before.
-        assert_eq!(wakes[1], wakes[2], "{flow:?}: idle ends (sender, receiver, lonely), (asker, answerer) were woken");
+        // The first round completes what was under way before.
+        let what = "wake-ups of an idle sender and its link, receiver, lonely publisher, requester, replier";
+        assert_eq!(wakes[1], wakes[2], "{pattern:?}: {what}");
     }
 }
 
-async fn make_noise(flow: Flow, transport: &dyn Transport) {
-    let (mut sender, mut receiver) = flow.pair(transport, OTHER_ENDPOINT);
+async fn be_busy(pattern: Pattern, transport: &dyn Transport) {
+    let (mut sender, mut receiver) = pattern.connected_to(transport, &Endpoint::new(OTHER_ENDPOINT)).await;
     sender.queue(numbered(1000));
     for _ in 0..1000 {
         receiver.next(&mut [&mut sender]).await;
     }
+}
+
+/// Polls until the returned number of waiting messages no longer changes.
+async fn until_blocked(mut poll: impl FnMut(&Context<'_>) -> usize) {
+    let (mut waiting, mut without_progress) = (usize::MAX, 0);
+    poll_fn(|cx| {
+        let before = std::mem::replace(&mut waiting, poll(cx));
+        without_progress = if waiting == before { without_progress + 1 } else { 0 };
+        cx.waker().wake_by_ref();
+        if without_progress > WITHOUT_PROGRESS { Poll::Ready(()) } else { Poll::Pending }
+    })
+    .await;
 }

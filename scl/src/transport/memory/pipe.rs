@@ -1,22 +1,32 @@
-//! A bounded queue between two ends, each of which notices when the other is gone.
+//! A bounded queue between two ends, each of which notices when the other is dropped.
 
 use crate::sync::lock;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Waker};
 
-/// A queue of at most `capacity` items.
-pub(super) fn pipe<T>(capacity: usize) -> (Sender<T>, Receiver<T>) {
-    let state = State { queue: VecDeque::new(), closed: false, refused: false, writer: None, reader: None };
+/// Creates a queue of at most `capacity` items.
+pub(super) fn pipe<T>(capacity: usize) -> (PipeWriter<T>, PipeReader<T>) {
+    let state = State {
+        queue: VecDeque::new(),
+        untaken: 0,
+        closed: false,
+        wants_room: false,
+        wants_empty: false,
+        holds_back: false,
+        question: Question::None,
+        writer: None,
+        reader: None,
+    };
     let shared = Arc::new(Shared { state: Mutex::new(state), capacity });
-    (Sender { shared: Arc::clone(&shared) }, Receiver { shared })
+    (PipeWriter { shared: Arc::clone(&shared) }, PipeReader { shared })
 }
 
-pub(super) struct Sender<T> {
+pub(super) struct PipeWriter<T> {
     shared: Arc<Shared<T>>,
 }
 
-pub(super) struct Receiver<T> {
+pub(super) struct PipeReader<T> {
     shared: Arc<Shared<T>>,
 }
 
@@ -27,41 +37,104 @@ struct Shared<T> {
 
 struct State<T> {
     queue: VecDeque<T>,
-    /// Set when either end is gone.
+    /// Number of items that the reader has not taken. Those it left behind when it was dropped still count.
+    untaken: u64,
+    /// Set when either end is dropped.
     closed: bool,
-    /// Set when the sender found no room, until it is woken for it.
-    refused: bool,
+    /// The writer was refused and has not been woken for it yet.
+    wants_room: bool,
+    /// The writer asked to be woken when everything is taken.
+    wants_empty: bool,
+    /// The writer was refused and has not said since that nothing more is waiting.
+    holds_back: bool,
+    question: Question,
     writer: Option<Waker>,
     reader: Option<Waker>,
 }
 
-impl<T> Sender<T> {
-    /// Appends an item, unless there is no room or nobody to read it.
-    pub(super) fn send(&self, item: T) -> Result<(), T> {
+/// Whether the reader has asked for what the writer holds back.
+#[derive(PartialEq)]
+enum Question {
+    None,
+    Asked,
+    /// After the reader asked, the writer had nothing left to send.
+    Answered,
+}
+
+impl<T> State<T> {
+    fn push(&mut self, item: T) {
+        self.queue.push_back(item);
+        self.untaken += 1;
+    }
+
+    fn refuse(&mut self, cx: &Context<'_>) {
+        self.wants_room = true;
+        self.holds_back = true;
+        keep(&mut self.writer, cx);
+    }
+}
+
+impl<T> PipeWriter<T> {
+    /// Appends an item, or returns it if there is no room or no reader. Wakes the task when to try again, or to find
+    /// out that the reader is gone.
+    pub(super) fn send(&self, cx: &Context<'_>, item: T) -> Result<(), T> {
         let mut state = lock(&self.shared.state);
-        if state.closed || state.queue.len() >= self.shared.capacity {
+        if state.closed {
+            drop(state);
+            cx.waker().wake_by_ref();
             return Err(item);
         }
-        state.queue.push_back(item);
+        if state.queue.len() >= self.shared.capacity {
+            state.refuse(cx);
+            return Err(item);
+        }
+        state.push(item);
         let reader = state.reader.take();
         drop(state);
         wake(reader);
         Ok(())
     }
 
-    /// Whether an item would be taken; if there is no room, the task is woken when there is some again.
+    /// Appends items from the front of a queue while there is room, and calls `sent` with each. An emptied queue tells
+    /// the reader that nothing is held back.
+    pub(super) fn send_all(&self, cx: &Context<'_>, items: &mut VecDeque<T>, mut sent: impl FnMut(&T)) {
+        let mut state = lock(&self.shared.state);
+        if state.closed {
+            drop(state);
+            return cx.waker().wake_by_ref();
+        }
+        let count = items.len().min(self.shared.capacity.saturating_sub(state.queue.len()));
+        for item in items.drain(..count) {
+            sent(&item);
+            state.push(item);
+        }
+        let mut is_news = count > 0;
+        if items.is_empty() {
+            state.holds_back = false;
+            if state.question == Question::Asked {
+                state.question = Question::Answered;
+                is_news = true;
+            }
+        } else {
+            state.refuse(cx);
+        }
+        let reader = if is_news { state.reader.take() } else { None };
+        drop(state);
+        wake(reader);
+    }
+
+    /// Returns true if an item can be sent now. If not, the task is woken when there is room.
     pub(super) fn has_room(&self, cx: &Context<'_>) -> bool {
         let mut state = lock(&self.shared.state);
         if state.queue.len() < self.shared.capacity {
             return true;
         }
-        state.refused = true;
-        keep(&mut state.writer, cx);
+        state.refuse(cx);
         false
     }
 
-    /// Whether the reader is there; the task is woken when it goes.
-    pub(super) fn is_read(&self, cx: &Context<'_>) -> bool {
+    /// Returns true if the reader is there. Wakes the task when it is dropped.
+    pub(super) fn poll_open(&self, cx: &Context<'_>) -> bool {
         let mut state = lock(&self.shared.state);
         keep(&mut state.writer, cx);
         !state.closed
@@ -71,7 +144,21 @@ impl<T> Sender<T> {
         !lock(&self.shared.state).closed
     }
 
-    /// Lets the reader have what is in the queue, and then know that nothing follows.
+    /// Number of items sent that the reader has not taken, including those it left behind when it was dropped.
+    pub(super) fn untaken(&self) -> u64 {
+        lock(&self.shared.state).untaken
+    }
+
+    /// Wakes the task when the reader has taken everything.
+    pub(super) fn wake_when_empty(&self, cx: &Context<'_>) {
+        let mut state = lock(&self.shared.state);
+        if state.untaken > 0 {
+            state.wants_empty = true;
+            keep(&mut state.writer, cx);
+        }
+    }
+
+    /// Ends the pipe: the reader can still take what is in the queue.
     pub(super) fn close(&self) {
         let mut state = lock(&self.shared.state);
         state.closed = true;
@@ -81,8 +168,8 @@ impl<T> Sender<T> {
     }
 }
 
-impl<T> Receiver<T> {
-    /// The next item, or `None` when the sender is gone and its last item was taken.
+impl<T> PipeReader<T> {
+    /// Returns the next item, or `None` if the writer is gone and everything has been taken.
     pub(super) fn poll_recv(&self, cx: &Context<'_>) -> Poll<Option<T>> {
         let mut state = lock(&self.shared.state);
         let Some(item) = state.queue.pop_front() else {
@@ -92,13 +179,34 @@ impl<T> Receiver<T> {
             keep(&mut state.reader, cx);
             return Poll::Pending;
         };
-        // A sender that found no room is woken when half of it is free, so that it can hand over several at once.
-        let room = state.refused && state.queue.len() <= self.shared.capacity / 2;
-        state.refused &= !room;
-        let writer = if room { state.writer.take() } else { None };
+        state.untaken -= 1;
+        // A refused writer is woken when half of the queue is free, so that it can send several items at once.
+        let has_room = state.wants_room && state.queue.len() <= self.shared.capacity / 2;
+        let is_empty = state.wants_empty && state.queue.is_empty();
+        state.wants_room &= !has_room;
+        state.wants_empty &= !is_empty;
+        let writer = if has_room || is_empty { state.writer.take() } else { None };
         drop(state);
         wake(writer);
         Poll::Ready(Some(item))
+    }
+
+    /// Returns true if the writer holds nothing back, or held nothing back after it was asked. If not, asks it, and
+    /// wakes the task when it has answered. Call it when there is nothing to receive.
+    pub(super) fn poll_caught_up(&self, cx: &Context<'_>) -> bool {
+        let mut state = lock(&self.shared.state);
+        if state.closed || !state.holds_back || state.question == Question::Answered {
+            return true;
+        }
+        // The writer needs no waking: it was woken when the queue became empty, because it had been refused.
+        state.question = Question::Asked;
+        keep(&mut state.reader, cx);
+        false
+    }
+
+    /// Makes the next [`poll_caught_up`](Self::poll_caught_up) ask again.
+    pub(super) fn forget_answer(&self) {
+        lock(&self.shared.state).question = Question::None;
     }
 
     pub(super) fn is_open(&self) -> bool {
@@ -106,32 +214,32 @@ impl<T> Receiver<T> {
     }
 }
 
-impl<T> Drop for Sender<T> {
+impl<T> Drop for PipeWriter<T> {
     fn drop(&mut self) {
         self.close();
     }
 }
 
-impl<T> Drop for Receiver<T> {
+impl<T> Drop for PipeReader<T> {
     fn drop(&mut self) {
         let mut state = lock(&self.shared.state);
         state.closed = true;
         let writer = state.writer.take();
-        // Nobody will read what is left.
-        let unread = std::mem::take(&mut state.queue);
+        let discarded = std::mem::take(&mut state.queue);
         drop(state);
-        drop(unread);
+        drop(discarded);
         wake(writer);
     }
 }
 
-/// Keeps the task's waker for later, without cloning one that is there already.
+/// Stores the task's waker, without cloning it if the same one is stored already.
 pub(super) fn keep(slot: &mut Option<Waker>, cx: &Context<'_>) {
     if !slot.as_ref().is_some_and(|kept| kept.will_wake(cx.waker())) {
         *slot = Some(cx.waker().clone());
     }
 }
 
+/// Wakes a task. Call it without holding a lock, because a waker may run code of its own.
 pub(super) fn wake(waker: Option<Waker>) {
     if let Some(waker) = waker {
         waker.wake();

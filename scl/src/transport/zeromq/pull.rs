@@ -1,53 +1,113 @@
-//! The pulling end: a PULL socket that any number of pushers connect to.
+//! The pulling end, which accepts any number of pushers: a PULL socket to them.
 
 use super::Medium;
-use super::frames::{Messages, single_frame};
-use super::latecomers::ClosesLatecomers;
-use super::listen::{Listening, listen};
-use crate::place::{Claim, SystemDir};
-use crate::sync::AbortOnDrop;
-use crate::transport::{Inlet, TransportError};
+use super::acceptor::Acceptor;
+use super::credit::receiving;
+use super::inbound::Inbound;
+use super::zmtp::SocketType;
+use crate::runtime_dir::SystemDir;
+use crate::transport::{Endpoint, Receiver, TransportError};
 use bytes::Bytes;
+use std::sync::Arc;
 use std::task::{Context, Poll};
-use zeromq::PullSocket;
+use std::time::Duration;
 
-pub(super) struct Pulling {
-    messages: Messages<PullSocket>,
+/// How many messages one pusher may deliver in a row while others may have some as well.
+const IN_A_ROW: usize = 64;
+
+pub(super) struct Puller {
+    acceptor: Acceptor,
+    newest_only: bool,
+    pushers: Vec<Inbound>,
+    /// The pusher whose turn it is, and how many messages it has delivered in it.
+    turn: usize,
+    delivered: usize,
     malformed: u64,
-    _connections: ClosesLatecomers,
-    _door: AbortOnDrop,
-    _guard: Claim,
 }
 
-impl Pulling {
-    pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { socket, events, door, guard } = listen::<PullSocket>(place, medium, endpoint)?;
-        let connections = ClosesLatecomers::of(&socket);
-        let door = door.watch(events);
-        Ok(Self { messages: Messages::of(socket), malformed: 0, _connections: connections, _door: door, _guard: guard })
+impl Puller {
+    pub(super) fn open(dir: &Arc<SystemDir>, medium: Medium, endpoint: &Endpoint) -> Result<Self, TransportError> {
+        let newest_only = endpoint.newest_only;
+        let acceptor = Acceptor::open(dir, medium, endpoint, SocketType::Pull, receiving(newest_only))?;
+        Ok(Self { acceptor, newest_only, pushers: Vec::new(), turn: 0, delivered: 0, malformed: 0 })
     }
-}
 
-impl Inlet for Pulling {
-    fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Bytes> {
-        loop {
-            match self.messages.poll(cx) {
-                Poll::Ready(Ok(message)) => match single_frame(message) {
-                    Some(frame) => return Poll::Ready(frame),
-                    None => self.malformed += 1,
-                },
-                // One pusher spoke nonsense or broke off; the library has dropped it, the others go on.
-                Poll::Ready(Err(error)) => tracing::debug!(%error, "a pusher was dropped"),
-                Poll::Pending => return Poll::Pending,
-            }
+    fn accept(&mut self, cx: &mut Context<'_>) {
+        while let Poll::Ready((connection, ready)) = self.acceptor.poll_connection(cx, self.pushers.len()) {
+            self.pushers.push(Inbound::new(connection, &ready, self.newest_only));
         }
     }
 
-    fn peers(&self) -> Option<usize> {
-        None
+    /// Polls the pusher whose turn it is.
+    fn poll_turn(&mut self, cx: &mut Context<'_>) -> Poll<Bytes> {
+        while let Some(pusher) = self.pushers.get_mut(self.turn) {
+            let next = pusher.poll_next(cx);
+            self.malformed += pusher.take_malformed();
+            match next {
+                Poll::Ready(Ok(message)) => return Poll::Ready(message),
+                Poll::Ready(Err(error)) => {
+                    tracing::debug!(%error, "a pusher left");
+                    self.pushers.remove(self.turn);
+                }
+                Poll::Pending => break,
+            }
+        }
+        Poll::Pending
+    }
+
+    fn next_turn(&mut self) {
+        self.turn = if self.turn + 1 < self.pushers.len() { self.turn + 1 } else { 0 };
+        self.delivered = 0;
+    }
+}
+
+impl Receiver for Puller {
+    fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Bytes> {
+        if self.delivered >= IN_A_ROW {
+            self.next_turn();
+            self.accept(cx);
+        }
+        for pass in 0..2 {
+            for _ in 0..=self.pushers.len() {
+                if let Poll::Ready(message) = self.poll_turn(cx) {
+                    self.delivered += 1;
+                    return Poll::Ready(message);
+                }
+                self.next_turn();
+            }
+            if pass == 0 {
+                let before = self.pushers.len();
+                self.accept(cx);
+                // Those that were polled already will wake the task; the others must be polled as well.
+                if self.pushers.len() == before {
+                    break;
+                }
+            }
+        }
+        Poll::Pending
+    }
+
+    fn peers(&self) -> usize {
+        self.pushers.len()
     }
 
     fn malformed(&self) -> u64 {
         self.malformed
+    }
+
+    fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        let mut caught_up = Poll::Ready(());
+        for pusher in &mut self.pushers {
+            if pusher.poll_caught_up(cx).is_pending() {
+                caught_up = Poll::Pending;
+            }
+        }
+        caught_up
+    }
+
+    fn catch_up(&mut self, within: Duration) {
+        for pusher in &mut self.pushers {
+            pusher.catch_up(within);
+        }
     }
 }

@@ -1,91 +1,229 @@
-//! The replying end: a ROUTER, so that each request can be answered when its answer is ready, in any order.
+//! The replying end, which accepts any number of requesters: a ROUTER socket to them.
 //!
-//! The library keeps the socket, listener and all, until both its halves are gone. A request holds only a weak
-//! reference to the sending half, so that one that is never answered does not keep requesters waiting at an end that
-//! nobody reads.
+//! The connection is the way back, so there is no table of requesters. A request holds its connection's frames up to the
+//! empty one as they came, and the reply repeats them.
 
 use super::Medium;
-use super::frames::Messages;
-use super::latecomers::ClosesLatecomers;
-use super::listen::{Listening, listen};
-use crate::place::{Claim, SystemDir};
-use crate::sync::AbortOnDrop;
-use crate::transport::{Answerer, Asked, RequesterGone, Responder, TransportError};
+use super::acceptor::Acceptor;
+use super::connection::{Closed, Connection};
+use super::zmtp::{Header, Item, Message, ProtocolError, SclReady, SocketType, bodies};
+use crate::runtime_dir::SystemDir;
+use crate::sync::lock;
+use crate::transport::{Endpoint, IncomingRequest, Replier, ReplyPath, RequesterGone, TransportError};
 use bytes::Bytes;
-use std::collections::VecDeque;
-use std::sync::{Arc, Weak};
-use std::task::{Context, Poll, Waker};
-use zeromq::{RouterRecvHalf, RouterSendHalf, RouterSocket, SocketSend, ZmqMessage};
+use std::sync::{Arc, Mutex};
+use std::task::{Context, Poll, Waker, ready};
 
-pub(super) struct Replying {
-    requests: Messages<RouterRecvHalf>,
-    replies: Arc<RouterSendHalf>,
+/// How much may wait for a requester that does not read; beyond that it is disconnected.
+const MOST_UNWRITTEN: usize = 1 << 20;
+const MOST_PIECES: usize = 64;
+
+pub(super) struct Answerer {
+    acceptor: Acceptor,
+    requesters: Vec<Arc<Client>>,
+    turn: usize,
     malformed: u64,
-    _connections: ClosesLatecomers,
-    _door: AbortOnDrop,
-    _guard: Claim,
 }
 
-impl Replying {
-    pub(super) fn open(place: &SystemDir, medium: Medium, endpoint: &str) -> Result<Self, TransportError> {
-        let Listening { socket, events, door, guard } = listen::<RouterSocket>(place, medium, endpoint)?;
-        let connections = ClosesLatecomers::of(&socket);
-        let door = door.watch(events);
-        let (replies, requests) = socket.split();
-        let replies = Arc::new(replies);
-        let requests = Messages::of(requests);
-        Ok(Self { requests, replies, malformed: 0, _connections: connections, _door: door, _guard: guard })
+/// A requester.
+struct Client(Mutex<Exchange>);
+
+struct Exchange {
+    /// Gone once it broke, or the replying end was dropped.
+    connection: Option<Connection>,
+    /// A request that was read while looking for commands, which are handled also while the program takes no requests.
+    ahead: Option<Message>,
+    /// The task of the replying end, to be woken for what a reply could not write.
+    task: Option<Waker>,
+}
+
+impl Answerer {
+    pub(super) fn open(dir: &Arc<SystemDir>, medium: Medium, endpoint: &Endpoint) -> Result<Self, TransportError> {
+        let acceptor = Acceptor::open(dir, medium, endpoint, SocketType::Router, SclReady::default())?;
+        Ok(Self { acceptor, requesters: Vec::new(), turn: 0, malformed: 0 })
+    }
+
+    fn accept(&mut self, cx: &mut Context<'_>) {
+        while let Poll::Ready((connection, _)) = self.acceptor.poll_connection(cx, self.requesters.len()) {
+            let exchange = Exchange { connection: Some(connection), ahead: None, task: None };
+            self.requesters.push(Arc::new(Client(Mutex::new(exchange))));
+        }
+    }
+
+    /// Polls the requester whose turn it is.
+    fn poll_turn(&mut self, cx: &mut Context<'_>) -> Poll<IncomingRequest> {
+        while let Some(client) = self.requesters.get(self.turn) {
+            let mut exchange = lock(&client.0);
+            match exchange.poll_request(cx, &mut self.malformed) {
+                Poll::Ready(Ok((envelope, body))) => {
+                    drop(exchange);
+                    let path = Arc::clone(client);
+                    self.turn += 1;
+                    return Poll::Ready(IncomingRequest { body, envelope, path });
+                }
+                Poll::Ready(Err(error)) => {
+                    tracing::debug!(%error, "a requester left");
+                    exchange.connection = None;
+                    drop(exchange);
+                    self.requesters.remove(self.turn);
+                }
+                Poll::Pending => break,
+            }
+        }
+        Poll::Pending
     }
 }
 
-impl Answerer for Replying {
-    fn poll_asked(&mut self, cx: &mut Context<'_>) -> Poll<Asked> {
+impl Replier for Answerer {
+    fn poll_request(&mut self, cx: &mut Context<'_>) -> Poll<IncomingRequest> {
         loop {
-            match self.requests.poll(cx) {
-                Poll::Ready(Ok(message)) => match split_envelope(message) {
-                    Some((envelope, body)) => {
-                        let responder = Box::new(Envelope { frames: envelope, replies: Arc::downgrade(&self.replies) });
-                        return Poll::Ready(Asked { body, responder });
-                    }
-                    None => self.malformed += 1,
-                },
-                Poll::Ready(Err(error)) => tracing::debug!(%error, "a requester was dropped"),
-                Poll::Pending => return Poll::Pending,
+            for _ in 0..=self.requesters.len() {
+                if self.turn >= self.requesters.len() {
+                    self.turn = 0;
+                }
+                if let Poll::Ready(request) = self.poll_turn(cx) {
+                    return Poll::Ready(request);
+                }
+                self.turn += 1;
+            }
+            let before = self.requesters.len();
+            self.accept(cx);
+            // Those that were polled already will wake the task; the others must be polled as well.
+            if self.requesters.len() == before {
+                return Poll::Pending;
             }
         }
+    }
+
+    fn drive(&mut self, cx: &mut Context<'_>) -> bool {
+        self.accept(cx);
+        let mut is_written = true;
+        self.requesters.retain(|client| {
+            let mut exchange = lock(&client.0);
+            match exchange.drive(cx) {
+                Ok(written) => is_written &= written,
+                Err(error) => {
+                    tracing::debug!(%error, "a requester left");
+                    exchange.connection = None;
+                    return false;
+                }
+            }
+            true
+        });
+        is_written
+    }
+
+    fn peers(&self) -> usize {
+        self.requesters.len()
     }
 
     fn malformed(&self) -> u64 {
         self.malformed
     }
-}
 
-/// Splits `[identity, .., empty, body]` behind the empty frame.
-fn split_envelope(message: ZmqMessage) -> Option<(VecDeque<Bytes>, Bytes)> {
-    let mut frames = message.into_vecdeque();
-    let delimiter = frames.iter().skip(1).position(Bytes::is_empty)? + 1;
-    if frames.len() != delimiter + 2 {
-        return None;
-    }
-    let body = frames.pop_back()?;
-    Some((frames, body))
-}
-
-/// The frames that lead back to one requester.
-struct Envelope {
-    frames: VecDeque<Bytes>,
-    replies: Weak<RouterSendHalf>,
-}
-
-impl Responder for Envelope {
-    fn respond(mut self: Box<Self>, body: Bytes) -> Result<(), RequesterGone> {
-        let mut replies = RouterSendHalf::clone(&*self.replies.upgrade().ok_or(RequesterGone)?);
-        self.frames.push_back(body);
-        let message = ZmqMessage::try_from(self.frames).map_err(|_empty| RequesterGone)?;
-        // The library only queues here; its writer runs as a task of its own.
-        match replies.send(message).as_mut().poll(&mut Context::from_waker(Waker::noop())) {
-            Poll::Ready(Ok(())) => Ok(()),
-            Poll::Ready(Err(_)) | Poll::Pending => Err(RequesterGone),
+    fn detach(&mut self) {
+        self.acceptor.detach();
+        for client in &self.requesters {
+            if let Some(connection) = &mut lock(&client.0).connection {
+                connection.detach();
+            }
         }
     }
+}
+
+impl Drop for Answerer {
+    fn drop(&mut self) {
+        // Requests that are not answered yet must not keep connections open.
+        for client in &self.requesters {
+            lock(&client.0).connection = None;
+        }
+    }
+}
+
+impl Exchange {
+    fn prepare(&mut self, cx: &mut Context<'_>) -> Result<&mut Connection, Closed> {
+        if !self.task.as_ref().is_some_and(|task| task.will_wake(cx.waker())) {
+            self.task = Some(cx.waker().clone());
+        }
+        let connection = self.connection.as_mut().ok_or(Closed::Eof)?;
+        if !connection.is_written() {
+            connection.flush(cx)?;
+        }
+        Ok(connection)
+    }
+
+    fn poll_request(&mut self, cx: &mut Context<'_>, malformed: &mut u64) -> Poll<Result<(Bytes, Bytes), Closed>> {
+        loop {
+            match self.poll_message(cx) {
+                Poll::Ready(Ok(message)) => match split(message) {
+                    Some(request) => return Poll::Ready(Ok(request)),
+                    None => *malformed += 1,
+                },
+                Poll::Ready(Err(error)) => return Poll::Ready(Err(error)),
+                Poll::Pending => return Poll::Pending,
+            }
+        }
+    }
+
+    /// Returns the next message, and handles the commands before it.
+    fn poll_message(&mut self, cx: &mut Context<'_>) -> Poll<Result<Message, Closed>> {
+        if let Some(message) = self.ahead.take() {
+            return Poll::Ready(Ok(message));
+        }
+        let connection = self.prepare(cx)?;
+        loop {
+            match ready!(connection.poll_item(cx))? {
+                Item::Message(message) => return Poll::Ready(Ok(message)),
+                Item::Command(_) | Item::Ready(_) => {}
+            }
+        }
+    }
+
+    /// Returns true if everything is written.
+    fn drive(&mut self, cx: &mut Context<'_>) -> Result<bool, Closed> {
+        // Read no further than one request ahead, but far enough to notice that the requester has left.
+        if self.ahead.is_none()
+            && let Poll::Ready(message) = self.poll_message(cx)
+        {
+            self.ahead = Some(message?);
+        }
+        Ok(self.prepare(cx)?.is_written())
+    }
+
+    fn reply(&mut self, envelope: &[u8], body: &Bytes) -> Result<(), Closed> {
+        let connection = self.connection.as_mut().ok_or(Closed::Eof)?;
+        if connection.unwritten_pieces() >= MOST_PIECES || connection.unwritten_bytes() >= MOST_UNWRITTEN {
+            return Err(ProtocolError::NotReading.into());
+        }
+        connection.write_message(envelope, Header::new(0, body.len()).as_bytes(), body)?;
+        if !connection.is_written()
+            && let Some(task) = &self.task
+        {
+            task.wake_by_ref();
+        }
+        Ok(())
+    }
+}
+
+impl ReplyPath for Client {
+    fn reply(&self, envelope: &Bytes, body: Bytes) -> Result<(), RequesterGone> {
+        let mut exchange = lock(&self.0);
+        exchange.reply(envelope, &body).map_err(|error| {
+            tracing::debug!(%error, "a requester left before it was answered");
+            exchange.connection = None;
+            if let Some(task) = &exchange.task {
+                task.wake_by_ref();
+            }
+            RequesterGone
+        })
+    }
+}
+
+/// Checks that the frames in front of the body end with the only empty one.
+fn split(Message { envelope, body }: Message) -> Option<(Bytes, Bytes)> {
+    let is_delimited = {
+        let mut frames = bodies(&envelope);
+        frames.by_ref().any(<[u8]>::is_empty) && frames.next().is_none()
+    };
+    is_delimited.then_some((envelope, body))
 }

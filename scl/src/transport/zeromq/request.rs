@@ -1,109 +1,124 @@
-//! The requesting end: a DEALER that numbers its requests.
+//! The requesting end: a DEALER socket that numbers its requests.
 //!
-//! The library's REQ never recovers from a peer that restarts. A DEALER that sends `[number, empty, body]` is to any
-//! REP or ROUTER an ordinary requester behind a router: the frames up to the empty one come back with the reply, so a
-//! late reply is never taken for a newer one.
+//! A request is `[number, empty, body]`. To any REP or ROUTER socket that is an ordinary requester behind a router: the
+//! frames up to the empty one come back with the reply, so a late reply is never taken for a newer one.
 
-use super::dial::Dials;
-use super::frames::Messages;
-use super::line::Line;
-use crate::place::SystemDir;
-use crate::transport::{Answer, Asker};
-use bytes::{BufMut, Bytes, BytesMut};
+use super::connection::{Closed, Connection};
+use super::dialler::Dialler;
+use super::zmtp::{Header, Item, MORE, Message, SclReady, SocketType, bodies};
+use crate::runtime_dir::SystemDir;
+use crate::transport::{Answer, Endpoint, Requester};
+use bytes::Bytes;
 use std::sync::Arc;
-use std::task::{Context, Poll, Waker};
-use zeromq::{DealerRecvHalf, DealerSendHalf, DealerSocket, SocketSend, ZmqMessage};
+use std::task::{Context, Poll, ready};
+use std::time::Duration;
 
-/// Memory for the numbers of requests is taken in pieces of this size; a piece is used again when all its numbers are
-/// written.
-const PIECE: usize = 1024;
+/// How much may wait for a replier that does not read; beyond that it is disconnected.
+const MOST_UNWRITTEN: usize = 1 << 20;
+const MOST_PIECES: usize = 64;
 
-pub(super) struct Requesting {
-    line: Line<DealerSocket>,
-    numbers: BytesMut,
+pub(super) struct Caller {
+    dialler: Dialler,
+    replier: Option<Connection>,
 }
 
-/// A connected socket.
-pub(super) struct Exchange {
-    requests: DealerSendHalf,
-    replies: Messages<DealerRecvHalf>,
-}
-
-impl Requesting {
-    pub(super) fn open(place: &Arc<SystemDir>, endpoint: &str) -> Self {
-        Self { line: Line::open(place, endpoint), numbers: BytesMut::new() }
+impl Caller {
+    pub(super) fn open(dir: &Arc<SystemDir>, endpoint: &Endpoint) -> Self {
+        Self { dialler: Dialler::new(dir, endpoint, SocketType::Dealer, SclReady::default()), replier: None }
     }
 
-    fn number(&mut self, id: u64) -> Bytes {
-        if self.numbers.capacity() < size_of::<u64>() {
-            self.numbers.reserve(PIECE);
+    /// Returns the next reply over the current connection.
+    fn poll_reply(replier: &mut Connection, cx: &mut Context<'_>) -> Poll<Result<(u64, Bytes), Closed>> {
+        if !replier.is_written() {
+            replier.flush(cx)?;
         }
-        self.numbers.put_u64(id);
-        self.numbers.split().freeze()
-    }
-}
-
-impl Dials for DealerSocket {
-    type End = Exchange;
-
-    fn into_end(self) -> Exchange {
-        let (requests, replies) = self.split();
-        Exchange { requests, replies: Messages::of(replies) }
-    }
-}
-
-impl Asker for Requesting {
-    fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         loop {
-            let Poll::Ready(dialled) = self.line.poll_dialled(cx) else { return Poll::Pending };
-            // A peer that left is noticed only by looking for what it sends; nothing that comes now is still wanted.
-            match dialled.end.replies.poll(cx) {
-                Poll::Ready(Ok(_stale)) => continue,
-                Poll::Ready(Err(_)) => {}
-                Poll::Pending if dialled.poll_lost(cx).is_pending() => return Poll::Ready(()),
-                Poll::Pending => {}
-            }
-            self.line.lost();
-        }
-    }
-
-    fn ask(&mut self, id: u64, body: Bytes) -> Result<(), Bytes> {
-        let number = self.number(id);
-        let Some(dialled) = self.line.dialled() else { return Err(body) };
-        let frames = vec![number, Bytes::new(), body.clone()];
-        let Ok(message) = ZmqMessage::try_from(frames) else { return Err(body) };
-        // The library only queues here; its writer runs as a task of its own.
-        match dialled.end.requests.send(message).as_mut().poll(&mut Context::from_waker(Waker::noop())) {
-            Poll::Ready(Ok(())) => Ok(()),
-            Poll::Ready(Err(_)) | Poll::Pending => Err(body),
-        }
-    }
-
-    fn is_connected(&self) -> bool {
-        self.line.is_connected()
-    }
-
-    fn poll_answer(&mut self, cx: &mut Context<'_>) -> Poll<Answer> {
-        loop {
-            let Poll::Ready(dialled) = self.line.poll_dialled(cx) else { return Poll::Ready(Answer::Lost) };
-            match dialled.end.replies.poll(cx) {
-                Poll::Ready(Ok(message)) => match numbered(message) {
-                    Some((id, body)) => return Poll::Ready(Answer::Reply { id, body }),
-                    None => tracing::warn!("a reply without the number of its request was passed over"),
-                },
-                Poll::Pending if dialled.poll_lost(cx).is_pending() => return Poll::Pending,
-                Poll::Ready(Err(_)) | Poll::Pending => {
-                    self.line.lost();
-                    return Poll::Ready(Answer::Lost);
+            if let Item::Message(message) = ready!(replier.poll_item(cx))? {
+                match numbered(message) {
+                    Some(reply) => return Poll::Ready(Ok(reply)),
+                    None => tracing::warn!("ignoring a reply without the number of its request"),
                 }
             }
         }
     }
+
+    fn lose(&mut self, error: &Closed) {
+        tracing::debug!(endpoint = %self.dialler.endpoint().name, %error, "lost the replier");
+        self.replier = None;
+    }
+
+    fn try_request(replier: &mut Connection, cx: &mut Context<'_>, id: u64, body: &Bytes) -> Result<(), Closed> {
+        if replier.unwritten_pieces() >= MOST_PIECES || replier.unwritten_bytes() >= MOST_UNWRITTEN {
+            return Err(super::zmtp::ProtocolError::NotReading.into());
+        }
+        replier.write_message(&envelope(id), Header::new(0, body.len()).as_bytes(), body)?;
+        Ok(replier.flush(cx)?)
+    }
 }
 
-/// Takes `[number, empty, body]` apart.
-fn numbered(message: ZmqMessage) -> Option<(u64, Bytes)> {
-    let [number, delimiter, body] = <[Bytes; 3]>::try_from(message.into_vec()).ok()?;
-    let number = <[u8; 8]>::try_from(&*number).ok()?;
-    delimiter.is_empty().then(|| (u64::from_be_bytes(number), body))
+impl Requester for Caller {
+    fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        loop {
+            let Some(replier) = &mut self.replier else {
+                let (connection, _) = ready!(self.dialler.poll_connected(cx));
+                self.replier = Some(connection);
+                continue;
+            };
+            match Self::poll_reply(replier, cx) {
+                Poll::Ready(Ok(_too_late)) => {}
+                Poll::Ready(Err(error)) => self.lose(&error),
+                Poll::Pending => return Poll::Ready(()),
+            }
+        }
+    }
+
+    fn request(&mut self, cx: &mut Context<'_>, id: u64, body: Bytes) -> Result<(), Bytes> {
+        let Some(replier) = &mut self.replier else { return Err(body) };
+        match Self::try_request(replier, cx, id, &body) {
+            Ok(()) => Ok(()),
+            Err(error) => {
+                self.lose(&error);
+                Err(body)
+            }
+        }
+    }
+
+    fn is_connected(&self) -> bool {
+        self.replier.is_some()
+    }
+
+    fn poll_answer(&mut self, cx: &mut Context<'_>) -> Poll<Answer> {
+        let Some(replier) = &mut self.replier else { return Poll::Ready(Answer::Lost) };
+        match ready!(Self::poll_reply(replier, cx)) {
+            Ok((id, body)) => Poll::Ready(Answer::Reply { id, body }),
+            Err(error) => {
+                self.lose(&error);
+                Poll::Ready(Answer::Lost)
+            }
+        }
+    }
+
+    fn wait(&mut self, within: Duration) -> bool {
+        self.replier.as_mut().is_some_and(|replier| replier.wait(within))
+    }
+
+    fn refusal(&self) -> Option<String> {
+        self.dialler.refusal()
+    }
+}
+
+/// The frames in front of a request: its number and the empty one.
+fn envelope(id: u64) -> [u8; 12] {
+    let mut envelope = [0; 12];
+    envelope[..2].copy_from_slice(&[MORE, 8]);
+    envelope[2..10].copy_from_slice(&id.to_be_bytes());
+    envelope[10] = MORE;
+    envelope
+}
+
+fn numbered(Message { envelope, body }: Message) -> Option<(u64, Bytes)> {
+    let mut frames = bodies(&envelope);
+    let number = <[u8; 8]>::try_from(frames.next()?).ok()?;
+    let is_delimited = frames.next()?.is_empty() && frames.next().is_none();
+    is_delimited.then(|| (u64::from_be_bytes(number), body))
 }

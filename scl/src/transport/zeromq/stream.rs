@@ -1,74 +1,130 @@
-//! Connections of the two media, of which the publishing end accepts its own.
+//! Connected sockets of both media.
+//!
+//! Writing goes to the operating system directly and asks the runtime only when that takes no more. Reading goes through
+//! the runtime, which knows without a system call that nothing has arrived; the raw variant is for callers that cannot
+//! wait until the runtime looks.
 
 use bytes::BytesMut;
+use rustix::net::{RecvFlags, SendAncillaryBuffer, SendFlags};
 use std::io::{self, IoSlice};
+use std::mem::MaybeUninit;
+use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
+use std::pin::pin;
 use std::task::{Context, Poll, ready};
-use tokio::net::{TcpListener, TcpStream, UnixListener, UnixStream};
-use zeromq::Listener;
+use tokio::io::{AsyncReadExt, Interest};
+use tokio::net::{TcpStream, UnixStream};
 
-pub(super) enum Acceptor {
-    Unix(UnixListener),
-    Tcp(TcpListener),
-}
+/// Bytes that one raw read fetches at most; they pass through the stack.
+const RAW_READ: usize = 16 << 10;
+/// A closed peer is an error to be returned, not a signal that ends the program.
+const SEND: SendFlags = SendFlags::NOSIGNAL.union(SendFlags::DONTWAIT);
 
-pub(super) enum Stream {
+pub(super) enum Socket {
     Unix(UnixStream),
     Tcp(TcpStream),
+    /// Unknown to any runtime.
+    Plain(OwnedFd),
 }
 
-impl Acceptor {
-    pub(super) fn of(listener: Listener) -> io::Result<Self> {
-        match listener {
-            Listener::Ipc(listener) => UnixListener::from_std(listener).map(Self::Unix),
-            Listener::Tcp(listener) => TcpListener::from_std(listener).map(Self::Tcp),
-            _ => Err(io::ErrorKind::Unsupported.into()),
-        }
-    }
-
-    pub(super) fn poll_accept(&self, cx: &mut Context<'_>) -> Poll<io::Result<Stream>> {
-        Poll::Ready(match self {
-            Self::Unix(listener) => ready!(listener.poll_accept(cx)).map(|(stream, _)| Stream::Unix(stream)),
-            Self::Tcp(listener) => ready!(listener.poll_accept(cx)).and_then(|(stream, _)| {
-                stream.set_nodelay(true)?;
-                Ok(Stream::Tcp(stream))
-            }),
-        })
-    }
+pub(super) struct Stream {
+    socket: Socket,
+    /// Whether the runtime must no longer be used.
+    detached: bool,
 }
 
 impl Stream {
-    /// Appends what has arrived; nothing more will when it is 0 bytes.
-    pub(super) fn poll_read(&self, cx: &mut Context<'_>, into: &mut BytesMut) -> Poll<io::Result<usize>> {
-        loop {
-            let read = match self {
-                Self::Unix(stream) => ready!(stream.poll_read_ready(cx)).and_then(|()| stream.try_read_buf(into)),
-                Self::Tcp(stream) => ready!(stream.poll_read_ready(cx)).and_then(|()| stream.try_read_buf(into)),
-            };
-            if !would_block(&read) {
-                return Poll::Ready(read);
-            }
+    pub(super) fn new(socket: Socket) -> Self {
+        let detached = matches!(socket, Socket::Plain(_));
+        Self { socket, detached }
+    }
+
+    /// From now on, only raw system calls are made.
+    pub(super) fn detach(&mut self) {
+        self.detached = true;
+    }
+
+    /// Whether everything that a peer has written can be read at once. TCP may hold it back for a while.
+    pub(super) fn is_immediate(&self) -> bool {
+        matches!(self.socket, Socket::Unix(_))
+    }
+
+    pub(super) fn as_fd(&self) -> BorrowedFd<'_> {
+        match &self.socket {
+            Socket::Unix(stream) => stream.as_fd(),
+            Socket::Tcp(stream) => stream.as_fd(),
+            Socket::Plain(descriptor) => descriptor.as_fd(),
         }
     }
 
-    /// Writes what the operating system takes at once; if that is nothing, the task is woken when it takes more.
-    pub(super) fn poll_write(&self, cx: &mut Context<'_>, parts: &[IoSlice<'_>]) -> Poll<io::Result<usize>> {
+    /// Appends what has arrived. Returns 0 at the end of the stream.
+    pub(super) fn poll_read(&mut self, cx: &mut Context<'_>, into: &mut BytesMut) -> Poll<io::Result<usize>> {
+        match &mut self.socket {
+            Socket::Unix(stream) if !self.detached => pin!(stream.read_buf(into)).poll(cx),
+            Socket::Tcp(stream) if !self.detached => pin!(stream.read_buf(into)).poll(cx),
+            _ => pending_if_blocked(self.read(into)),
+        }
+    }
+
+    /// The same without the runtime; fails with `WouldBlock` if nothing has arrived.
+    pub(super) fn read(&self, into: &mut BytesMut) -> io::Result<usize> {
+        let mut scratch = [MaybeUninit::uninit(); RAW_READ];
+        let ((arrived, _), _) = rustix::net::recv(self.as_fd(), &mut scratch[..], RecvFlags::DONTWAIT)?;
+        into.extend_from_slice(arrived);
+        Ok(arrived.len())
+    }
+
+    /// Writes as much as the operating system takes at once; fails with `WouldBlock` if that is nothing.
+    pub(super) fn write(&self, bytes: &[u8]) -> io::Result<usize> {
+        Ok(rustix::net::send(self.as_fd(), bytes, SEND)?)
+    }
+
+    pub(super) fn write_vectored(&self, parts: &[IoSlice<'_>]) -> io::Result<usize> {
+        Ok(rustix::net::sendmsg(self.as_fd(), parts, &mut SendAncillaryBuffer::default(), SEND)?)
+    }
+
+    /// Writes as [`write`](Self::write) does, and wakes the task when the operating system takes more.
+    pub(super) fn poll_write(&self, cx: &mut Context<'_>, bytes: &[u8]) -> Poll<io::Result<usize>> {
+        if self.detached {
+            return pending_if_blocked(self.write(bytes));
+        }
         loop {
-            let written = match self {
-                Self::Unix(stream) => stream.try_write_vectored(parts),
-                Self::Tcp(stream) => stream.try_write_vectored(parts),
+            let written = match &self.socket {
+                Socket::Unix(stream) => {
+                    ready!(stream.poll_write_ready(cx))?;
+                    stream.try_io(Interest::WRITABLE, || self.write(bytes))
+                }
+                Socket::Tcp(stream) => {
+                    ready!(stream.poll_write_ready(cx))?;
+                    stream.try_io(Interest::WRITABLE, || self.write(bytes))
+                }
+                Socket::Plain(_) => self.write(bytes),
             };
-            if !would_block(&written) {
+            if !is_blocked(&written) {
                 return Poll::Ready(written);
             }
-            let writable = match self {
-                Self::Unix(stream) => ready!(stream.poll_write_ready(cx)),
-                Self::Tcp(stream) => ready!(stream.poll_write_ready(cx)),
-            };
-            writable?;
         }
     }
 }
 
-fn would_block(result: &io::Result<usize>) -> bool {
+impl Drop for Stream {
+    fn drop(&mut self) {
+        // Closing a TCP socket with unread data discards what the peer has not received yet.
+        let is_tcp = matches!(&self.socket, Socket::Tcp(_) | Socket::Plain(_));
+        let mut scratch = [MaybeUninit::uninit(); 4096];
+        let mut read =
+            || is_tcp && matches!(rustix::net::recv(self.as_fd(), &mut scratch[..], RecvFlags::DONTWAIT), Ok((_, 1..)));
+        for _ in 0..64 {
+            if !read() {
+                break;
+            }
+        }
+    }
+}
+
+pub(super) fn is_blocked<T>(result: &io::Result<T>) -> bool {
     matches!(result, Err(error) if error.kind() == io::ErrorKind::WouldBlock)
+}
+
+fn pending_if_blocked<T>(result: io::Result<T>) -> Poll<io::Result<T>> {
+    if is_blocked(&result) { Poll::Pending } else { Poll::Ready(result) }
 }

@@ -1,64 +1,85 @@
-//! The subscribing end: a SUB socket for each publisher, so that one that is lost is dialled again by itself.
+//! The subscribing end of one connection: a SUB socket to its publisher.
 
-use super::dial::Dials;
-use super::frames::{Messages, single_frame};
-use super::line::Line;
-use crate::place::SystemDir;
-use crate::transport::Inlet;
+use super::credit::receiving;
+use super::dialler::Dialler;
+use super::inbound::Inbound;
+use super::zmtp::{SUBSCRIBE_ALL, SocketType};
+use crate::runtime_dir::SystemDir;
+use crate::transport::{Endpoint, Receiver};
 use bytes::Bytes;
 use std::sync::Arc;
-use std::task::{Context, Poll};
-use zeromq::{SubSocket, ZmqResult};
+use std::task::{Context, Poll, ready};
+use std::time::Duration;
 
-pub(super) struct Subscribing {
-    line: Line<SubSocket>,
+pub(super) struct Subscriber {
+    dialler: Dialler,
+    publisher: Option<Inbound>,
     malformed: u64,
 }
 
-impl Subscribing {
-    pub(super) fn open(place: &Arc<SystemDir>, endpoint: &str) -> Self {
-        Self { line: Line::open(place, endpoint), malformed: 0 }
+impl Subscriber {
+    pub(super) fn open(dir: &Arc<SystemDir>, endpoint: &Endpoint) -> Self {
+        let dialler = Dialler::new(dir, endpoint, SocketType::Sub, receiving(endpoint.newest_only));
+        Self { dialler, publisher: None, malformed: 0 }
+    }
+
+    fn poll_publisher(&mut self, cx: &mut Context<'_>) -> Poll<&mut Inbound> {
+        let publisher = match self.publisher.take() {
+            Some(publisher) => publisher,
+            None => {
+                let (mut connection, ready) = ready!(self.dialler.poll_connected(cx));
+                // Not earlier: libzmq closes a connection on which this arrives together with READY.
+                let _reported_by_reading = connection.write(SUBSCRIBE_ALL);
+                Inbound::new(connection, &ready, self.dialler.endpoint().newest_only)
+            }
+        };
+        Poll::Ready(self.publisher.insert(publisher))
     }
 }
 
-impl Dials for SubSocket {
-    type End = Messages<Self>;
-
-    async fn prepare(&mut self) -> ZmqResult<()> {
-        self.subscribe("").await
-    }
-
-    fn into_end(self) -> Messages<Self> {
-        Messages::of(self)
-    }
-}
-
-impl Inlet for Subscribing {
+impl Receiver for Subscriber {
     fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Bytes> {
         loop {
-            let Poll::Ready(dialled) = self.line.poll_dialled(cx) else { return Poll::Pending };
-            match dialled.end.poll(cx) {
-                Poll::Ready(Ok(message)) => match single_frame(message) {
-                    Some(frame) => return Poll::Ready(frame),
-                    None => self.malformed += 1,
-                },
+            let publisher = match &mut self.publisher {
+                Some(publisher) => publisher,
+                None => ready!(self.poll_publisher(cx)),
+            };
+            let next = publisher.poll_next(cx);
+            self.malformed += publisher.take_malformed();
+            match next {
+                Poll::Ready(Ok(message)) => return Poll::Ready(message),
                 Poll::Ready(Err(error)) => {
-                    tracing::debug!(%error, "a connection broke");
-                    self.line.lost();
+                    tracing::debug!(endpoint = %self.dialler.endpoint().name, %error, "lost the publisher");
+                    self.publisher = None;
                 }
-                Poll::Pending => match dialled.poll_lost(cx) {
-                    Poll::Ready(()) => self.line.lost(),
-                    Poll::Pending => return Poll::Pending,
-                },
+                Poll::Pending => return Poll::Pending,
             }
         }
     }
 
-    fn peers(&self) -> Option<usize> {
-        Some(usize::from(self.line.is_connected()))
+    fn peers(&self) -> usize {
+        usize::from(self.publisher.is_some())
     }
 
     fn malformed(&self) -> u64 {
         self.malformed
+    }
+
+    fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        self.publisher.as_mut().map_or(Poll::Ready(()), |publisher| publisher.poll_caught_up(cx))
+    }
+
+    fn catch_up(&mut self, within: Duration) {
+        if let Some(publisher) = &mut self.publisher {
+            publisher.catch_up(within);
+        }
+    }
+
+    fn wait(&mut self, within: Duration) -> bool {
+        self.publisher.as_mut().is_some_and(|publisher| publisher.wait(within))
+    }
+
+    fn refusal(&self) -> Option<String> {
+        self.dialler.refusal()
     }
 }

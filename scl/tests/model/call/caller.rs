@@ -1,7 +1,7 @@
-//! A requester with its call in progress, which is polled only when it was woken.
+//! A requester and its call in progress, which is polled only after it was woken.
 
 use super::model::Question;
-use crate::raised::Raised;
+use crate::model::wake_flag::WakeFlag;
 use bytes::Bytes;
 use scl::{CallError, Req};
 use std::pin::Pin;
@@ -12,7 +12,7 @@ use tokio::sync::Mutex;
 type Answer = Result<Bytes, CallError>;
 
 pub(super) struct Caller {
-    /// Locked by the call in progress; one that is given up lets go of it.
+    /// Locked by the call in progress.
     gate: Arc<Mutex<Req<Bytes, Bytes>>>,
     call: Option<Call>,
 }
@@ -20,7 +20,7 @@ pub(super) struct Caller {
 struct Call {
     question: Question,
     answer: Pin<Box<dyn Future<Output = Answer>>>,
-    raised: Raised,
+    flag: WakeFlag,
 }
 
 impl Caller {
@@ -28,21 +28,21 @@ impl Caller {
         Self { gate: Arc::new(Mutex::new(gate)), call: None }
     }
 
-    /// What is being asked.
-    pub(super) fn asks(&self) -> Option<Question> {
+    /// The question of the call in progress.
+    pub(super) fn question(&self) -> Option<Question> {
         self.call.as_ref().map(|call| call.question)
     }
 
-    /// Whether the replier is known to be there; `None` while that cannot be asked.
+    /// Returns true if the replier is connected, or `None` during a call.
     pub(super) fn is_connected(&self) -> Option<bool> {
-        self.gate.try_lock().ok().map(|gate| gate.connected())
+        self.gate.try_lock().ok().map(|gate| gate.is_connected())
     }
 
     /// Starts a call; the next poll is its first.
     pub(super) fn ask(&mut self, question: Question) {
         let gate = Arc::clone(&self.gate);
         let answer = Box::pin(async move { gate.lock().await.call(&question.body()).await });
-        self.call = Some(Call { question, answer, raised: Raised::up() });
+        self.call = Some(Call { question, answer, flag: WakeFlag::set() });
     }
 
     pub(super) fn give_up(&mut self) {
@@ -50,20 +50,20 @@ impl Caller {
     }
 
     pub(super) fn is_woken(&self) -> bool {
-        self.call.as_ref().is_some_and(|call| call.raised.is_raised())
+        self.call.as_ref().is_some_and(|call| call.flag.is_set())
     }
 
-    /// How the call has ended, if it has; not looked at unless it was woken.
+    /// Polls the call if it was woken. Returns its result if it has ended.
     pub(super) fn poll_if_woken(&mut self) -> Option<(Question, Answer)> {
-        let call = self.call.as_mut().filter(|call| call.raised.is_raised())?;
-        call.raised = Raised::default();
-        match call.answer.as_mut().poll(&mut Context::from_waker(&call.raised.waker())) {
+        let call = self.call.as_mut().filter(|call| call.flag.is_set())?;
+        call.flag = WakeFlag::default();
+        match call.answer.as_mut().poll(&mut Context::from_waker(&call.flag.waker())) {
             Poll::Ready(answer) => self.call.take().map(|call| (call.question, answer)),
             Poll::Pending => None,
         }
     }
 
-    /// Waits for the end of the call.
+    /// Waits until the call has ended.
     pub(super) async fn end(&mut self) -> Option<(Question, Answer)> {
         let Call { question, answer, .. } = self.call.take()?;
         Some((question, answer.await))

@@ -1,38 +1,42 @@
-//! The components: a replier and three requesters, the last of which does not wait long.
+//! The components: a replier and three requesters, the last of which is impatient.
 
 use bytes::Bytes;
 use scl::codec::Opaque;
 use scl::private::{
-    AnyGate, Component, ComponentSpec, GateKind, GateSpec, LinkSpec, OpenError, Opener, WhenFull, open,
+    AnyGate, Component, ComponentHandle, ComponentSpec, GateKind, GateSpec, LinkSpec, OpenError, Opener, WhenFull, open,
 };
 use scl::{OpenOptions, Rep, Req};
 use std::time::Duration;
 
-/// How many requesters there are.
+/// Number of requesters.
 pub(super) const REQUESTERS: usize = 3;
-/// The requester whose calls run out of time.
-pub(super) const HASTY: usize = 2;
+/// The requester whose calls time out.
+pub(super) const IMPATIENT: usize = 2;
 
 const ENDPOINT: &str = "replier.answer.5e6f7a8b";
+const CONTRACT: &str = "5e6f7a8b";
+const MAX_SIZE: u64 = 64 << 20;
 const NAMES: [&str; REQUESTERS] = ["a", "b", "c"];
 
 struct Replier {
     gate: Rep<Bytes, Bytes>,
+    handle: ComponentHandle,
 }
 
-struct Requester<const PLACE: usize> {
+struct Requester<const INDEX: usize> {
     gate: Req<Bytes, Bytes>,
+    handle: ComponentHandle,
 }
 
 pub(super) async fn open_replier(options: OpenOptions) -> Result<Rep<Bytes, Bytes>, OpenError> {
     Ok(open::<Replier>(options).await?.gate)
 }
 
-pub(super) async fn open_requester(place: usize, options: OpenOptions) -> Result<Req<Bytes, Bytes>, OpenError> {
-    match place {
+pub(super) async fn open_requester(index: usize, options: OpenOptions) -> Result<Req<Bytes, Bytes>, OpenError> {
+    match index {
         0 => Ok(open::<Requester<0>>(options).await?.gate),
         1 => Ok(open::<Requester<1>>(options).await?.gate),
-        _ => Ok(open::<Requester<HASTY>>(options).await?.gate),
+        _ => Ok(open::<Requester<IMPATIENT>>(options).await?.gate),
     }
 }
 
@@ -40,17 +44,22 @@ impl Component for Replier {
     const SPEC: &'static ComponentSpec = &ComponentSpec {
         system: "model",
         name: "replier",
-        place: "topology.yaml:3:3",
+        declared_at: "topology.yaml:3:3",
         gates: &[gate(
             "answer",
             GateKind::Rep,
             Duration::ZERO,
             &[link(NAMES[0], "question"), link(NAMES[1], "question"), link(NAMES[2], "question")],
         )],
+        schema: None,
     };
 
     fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
-        Ok(Self { gate: opener.replier::<_, _, Opaque>(0)? })
+        Ok(Self { gate: opener.replier::<_, _, Opaque>(0)?, handle: opener.handle() })
+    }
+
+    fn handle(&self) -> &ComponentHandle {
+        &self.handle
     }
 
     fn gates(&self) -> Vec<&dyn AnyGate> {
@@ -58,16 +67,21 @@ impl Component for Replier {
     }
 }
 
-impl<const PLACE: usize> Component for Requester<PLACE> {
+impl<const INDEX: usize> Component for Requester<INDEX> {
     const SPEC: &'static ComponentSpec = &ComponentSpec {
         system: "model",
-        name: NAMES[PLACE],
-        place: "topology.yaml:6:3",
-        gates: &[gate("question", GateKind::Req, timeout(PLACE), &[link("replier", "answer")])],
+        name: NAMES[INDEX],
+        declared_at: "topology.yaml:6:3",
+        gates: &[gate("question", GateKind::Req, timeout(INDEX), &[link("replier", "answer")])],
+        schema: None,
     };
 
     fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
-        Ok(Self { gate: opener.requester::<_, _, Opaque>(0)? })
+        Ok(Self { gate: opener.requester::<_, _, Opaque>(0)?, handle: opener.handle() })
+    }
+
+    fn handle(&self) -> &ComponentHandle {
+        &self.handle
     }
 
     fn gates(&self) -> Vec<&dyn AnyGate> {
@@ -75,9 +89,9 @@ impl<const PLACE: usize> Component for Requester<PLACE> {
     }
 }
 
-/// No case takes as long as the others wait.
-const fn timeout(place: usize) -> Duration {
-    if place == HASTY { Duration::from_millis(2) } else { Duration::from_secs(3600) }
+/// The others wait longer than any case takes.
+const fn timeout(index: usize) -> Duration {
+    if index == IMPATIENT { Duration::from_millis(2) } else { Duration::from_secs(3600) }
 }
 
 const fn gate(name: &'static str, kind: GateKind, timeout: Duration, links: &'static [LinkSpec]) -> GateSpec {
@@ -86,7 +100,10 @@ const fn gate(name: &'static str, kind: GateKind, timeout: Duration, links: &'st
         kind,
         payload: "bytes -> bytes",
         codec: "bytes",
-        place: "topology.yaml:5:5",
+        declared_at: "topology.yaml:5:5",
+        tap: "",
+        contract: CONTRACT,
+        max_size: MAX_SIZE,
         endpoint: if let GateKind::Rep = kind { ENDPOINT } else { "" },
         queue: 1,
         when_full: WhenFull::DropOldest,
@@ -101,9 +118,10 @@ const fn link(peer_component: &'static str, peer_gate: &'static str) -> LinkSpec
         peer_component,
         peer_gate,
         endpoint: ENDPOINT,
-        contract: "5e6f7a8b",
+        contract: CONTRACT,
         required: true,
         queue: 1,
         when_full: WhenFull::DropOldest,
+        max_size: MAX_SIZE,
     }
 }

@@ -1,19 +1,19 @@
-//! A transport whose replier is there and takes no request.
+//! A transport whose replier is connected and accepts no request.
 
 use bytes::Bytes;
-use scl::transport::{Answer, Answerer, Asker, Inlet, Outlet, Transport, TransportError};
+use scl::transport::{Answer, Endpoint, Receiver, Replier, Requester, Sender, Transport, TransportError};
 use std::task::{Context, Poll};
 
 pub(super) struct Refusing;
 
-struct Refused;
+struct RefusingRequester;
 
-impl Asker for Refused {
+impl Requester for RefusingRequester {
     fn poll_connected(&mut self, _cx: &mut Context<'_>) -> Poll<()> {
         Poll::Ready(())
     }
 
-    fn ask(&mut self, _id: u64, body: Bytes) -> Result<(), Bytes> {
+    fn request(&mut self, _cx: &mut Context<'_>, _id: u64, body: Bytes) -> Result<(), Bytes> {
         Err(body)
     }
 
@@ -27,31 +27,34 @@ impl Asker for Refused {
 }
 
 impl Transport for Refusing {
-    fn publish(&self, endpoint: &str) -> Result<Box<dyn Outlet>, TransportError> {
-        Err(no_end(endpoint))
+    fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
+        Err(refused(endpoint))
     }
 
-    fn subscribe(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError> {
-        Err(no_end(endpoint))
+    fn subscribe(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
+        Err(refused(endpoint))
     }
 
-    fn push(&self, endpoint: &str) -> Result<Box<dyn Outlet>, TransportError> {
-        Err(no_end(endpoint))
+    fn push(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
+        Err(refused(endpoint))
     }
 
-    fn pull(&self, endpoint: &str) -> Result<Box<dyn Inlet>, TransportError> {
-        Err(no_end(endpoint))
+    fn pull(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
+        Err(refused(endpoint))
     }
 
-    fn request(&self, _endpoint: &str) -> Result<Box<dyn Asker>, TransportError> {
-        Ok(Box::new(Refused))
+    fn request(&self, _endpoint: &Endpoint) -> Result<Box<dyn Requester>, TransportError> {
+        Ok(Box::new(RefusingRequester))
     }
 
-    fn reply(&self, endpoint: &str) -> Result<Box<dyn Answerer>, TransportError> {
-        Err(no_end(endpoint))
+    fn reply(&self, endpoint: &Endpoint) -> Result<Box<dyn Replier>, TransportError> {
+        Err(refused(endpoint))
     }
 }
 
-fn no_end(endpoint: &str) -> TransportError {
-    TransportError::Refused { endpoint: endpoint.to_owned(), reason: "there are only requests here".to_owned() }
+fn refused(endpoint: &Endpoint) -> TransportError {
+    TransportError::Refused {
+        endpoint: endpoint.name.to_string(),
+        reason: "this transport has only requesters".to_owned(),
+    }
 }

@@ -1,7 +1,7 @@
-//! The steps that a case consists of. A step that needs an end that is not there does nothing.
+//! The steps of a case. A step that needs an end that is not there does nothing.
 
 use super::layout::REQUESTERS;
-use crate::trial::list;
+use crate::model::runner::list;
 use proptest::prelude::{Just, Strategy, any, prop_oneof};
 use std::fmt;
 
@@ -14,25 +14,25 @@ pub(super) struct Case {
 pub(super) enum Step {
     ReplierAppears,
     ReplierVanishes,
-    /// Takes so many requests, ending early when there is none.
+    /// Takes so many requests, or fewer if there are no more.
     Take(usize),
-    /// Answers one of the requests that were taken, maybe late, maybe when its replier is gone.
+    /// Answers one of the requests that were taken, perhaps late, perhaps after its replier has vanished.
     Answer(usize),
-    /// Drops one of them, which is then never answered.
+    /// Drops one of them without an answer.
     Neglect(usize),
     RequesterAppears(usize),
     RequesterVanishes(usize),
     Ask(usize),
     GiveUp(usize),
     /// Asks and gives up so many times.
-    Badger(usize, usize),
-    /// The call of the requester that is in a hurry runs out of time, unless something else ends it.
+    AskAndGiveUp(usize, usize),
+    /// The call of the impatient requester times out, unless something else ends it.
     TimeRunsOut,
-    /// Whoever is woken goes on.
+    /// The gates' tasks run, and calls that were woken continue.
     TasksRun,
 }
 
-/// What half of the cases begin with, so that the other steps meet ends that are connected.
+/// Half of the cases begin with these, so that their other steps find connected ends.
 const CONNECTED: &[Step] = &[
     Step::ReplierAppears,
     Step::RequesterAppears(0),
@@ -49,18 +49,19 @@ pub(super) fn cases() -> impl Strategy<Value = Case> {
 }
 
 fn steps() -> impl Strategy<Value = Step> {
-    let place = || 0..REQUESTERS;
+    let requester = || 0..REQUESTERS;
     prop_oneof![
         4 => Just(Step::ReplierAppears),
         2 => Just(Step::ReplierVanishes),
         5 => (1..4_usize).prop_map(Step::Take),
         6 => (0..4_usize).prop_map(Step::Answer),
         1 => (0..4_usize).prop_map(Step::Neglect),
-        4 => place().prop_map(Step::RequesterAppears),
-        1 => place().prop_map(Step::RequesterVanishes),
-        8 => place().prop_map(Step::Ask),
-        2 => place().prop_map(Step::GiveUp),
-        1 => (place(), prop_oneof![1..4_usize, 60..80_usize]).prop_map(|(place, times)| Step::Badger(place, times)),
+        4 => requester().prop_map(Step::RequesterAppears),
+        1 => requester().prop_map(Step::RequesterVanishes),
+        8 => requester().prop_map(Step::Ask),
+        2 => requester().prop_map(Step::GiveUp),
+        1 => (requester(), prop_oneof![1..4_usize, 60..80_usize])
+            .prop_map(|(requester, times)| Step::AskAndGiveUp(requester, times)),
         1 => Just(Step::TimeRunsOut),
         9 => Just(Step::TasksRun),
     ]

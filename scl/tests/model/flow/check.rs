@@ -2,65 +2,85 @@
 
 use super::model::Connection;
 use super::stage::Stage;
-use super::way::Promise;
-use crate::trial::Outcome;
-use scl::GateStats;
+use super::transit::Promise;
+use crate::model::runner::Outcome;
+use scl::{GateStats, PeerStats};
 
 impl Stage {
-    /// After each step: what the gates count is what the model counts.
-    pub(super) fn check(&self) -> Outcome {
-        let (sender, readers) = (self.sender.as_ref().map(|gate| gate.stats()), self.readers.iter());
-        let readers: Vec<_> = readers.map(|reader| reader.as_ref().map(|gate| gate.stats())).collect();
-        let model = self.book.model();
+    /// After each step: the gates count what the model counts.
+    pub(super) fn check(&mut self) -> Outcome {
+        let sender = self.source.as_mut().map(|source| source.gate().stats());
+        let readers: Vec<_> = self.readers.iter().map(|reader| reader.as_ref().map(|gate| gate.stats())).collect();
+        let model = self.model.lock();
         model.verdict()?;
-        if let Some(stats) = sender {
+        if let Some((stats, peers)) = sender {
             check_sender(&stats, &model.connections)?;
+            for ((stats, connection), reader) in peers.iter().zip(&model.connections).zip(0..) {
+                check_peer(stats, connection).map_err(|reason| format!("account of reader {reader}: {reason}"))?;
+            }
         }
-        for ((stats, connection), place) in readers.into_iter().zip(&model.connections).zip(0..) {
+        for ((stats, connection), reader) in readers.into_iter().zip(&model.connections).zip(0..) {
             if let Some(stats) = stats {
-                check_reader(&stats, connection).map_err(|reason| format!("reader {place}: {reason}"))?;
+                check_reader(&stats, connection).map_err(|reason| format!("reader {reader}: {reason}"))?;
             }
         }
         Ok(())
     }
 
-    /// After the tasks have run, of connections in memory: who could move on has done so, or was woken to do so.
-    pub(super) fn check_moved(&self) -> Outcome {
-        let model = self.book.model();
-        for ((connection, news), place) in model.connections.iter().zip(&self.news).zip(0..) {
-            let Connection { held, way, .. } = connection;
-            if self.sender.is_some() && held.present != way.has_reader() {
-                return Err(format!("reader {place} is there: {}; the sender knows nothing of it", way.has_reader()));
+    /// After the tasks of gates in memory have run: everything that could move has moved, and waiting calls were woken.
+    pub(super) fn check_progress(&self) -> Outcome {
+        let model = self.model.lock();
+        for ((connection, news), reader) in model.connections.iter().zip(&self.news).zip(0..) {
+            let Connection { outbox, transit, inbox, .. } = connection;
+            if self.source.is_some() && outbox.is_connected() != transit.has_reader() {
+                return Err(format!(
+                    "reader {reader} is there: {}; the sender does not know that",
+                    transit.has_reader()
+                ));
             }
-            if held.present && !held.waiting.is_empty() && way.due() == 0 {
-                return Err(format!("reader {place} has nothing on the way, and {:?} wait for it", held.waiting));
+            let (queued, due) = (&outbox.waiting, transit.due());
+            if outbox.is_connected() && !queued.is_empty() && (due == 0 || !inbox.waits()) {
+                return Err(format!("reader {reader} takes more, and {queued:?} wait for it"));
             }
-            if news.as_ref().is_some_and(|news| way.due() > 0 && !news.is_raised()) {
-                return Err(format!("reader {place} waits, something has arrived, and it was not woken"));
+            if transit.has_reader() && due > 0 && !inbox.waits() {
+                return Err(format!("{due} messages have arrived, and reader {reader} has not taken them in"));
+            }
+            let has_news = due > 0 || !inbox.waiting.is_empty();
+            if news.as_ref().is_some_and(|news| has_news && !news.is_set()) {
+                return Err(format!("reader {reader} waits, a message has arrived, and the reader was not woken"));
             }
         }
-        if self.room.as_ref().is_some_and(|room| !model.makes_wait() && !room.is_raised()) {
-            return Err("the sender waits, there is room, and it was not woken".to_owned());
+        if self.room.as_ref().is_some_and(|room| !model.would_wait() && !room.is_set()) {
+            return Err("the sender waits, there is room, and the sender was not woken".to_owned());
         }
         Ok(())
     }
 }
 
-/// After a call that applies the queue to everything that has arrived, of a connection in memory: nothing is left.
-pub(super) fn check_taken_in(promise: Promise, everything: bool, connection: &Connection) -> Outcome {
-    match connection.way.due() {
-        left @ 1.. if everything && promise.is_exact() => Err(format!("{left} messages had arrived and were left out")),
+/// After a call that applies the queue to everything that has arrived: nothing is left in the memory transport.
+pub(super) fn check_taken_in(promise: Promise, connection: &Connection) -> Outcome {
+    match connection.transit.due() {
+        left @ 1.. if promise.is_exact() => Err(format!("{left} messages have arrived and were not taken in")),
         _ => Ok(()),
     }
 }
 
 fn check_sender(stats: &GateStats, connections: &[Connection]) -> Outcome {
     let sum = |count: fn(&Connection) -> u64| connections.iter().map(count).sum::<u64>();
-    same("sent", stats.sent, sum(|one| one.held.sent))?;
-    same("dropped_oldest", stats.dropped_oldest, sum(|one| one.held.dropped_oldest))?;
-    same("dropped_newest", stats.dropped_newest, sum(|one| one.held.dropped_newest))?;
-    same("waiting", stats.waiting as u64, sum(|one| one.held.waiting.len() as u64))?;
-    same("peers", stats.peers as u64, sum(|one| u64::from(one.held.present)))
+    same("sent", stats.sent, sum(|one| one.outbox.handed))?;
+    same("lost", stats.lost, sum(|one| one.outbox.lost))?;
+    same("dropped_oldest", stats.dropped_oldest, sum(|one| one.outbox.dropped_oldest))?;
+    same("dropped_newest", stats.dropped_newest, sum(|one| one.outbox.dropped_newest))?;
+    same("waiting", stats.waiting as u64, sum(|one| one.outbox.waiting.len() as u64 + one.unacknowledged))?;
+    same("peers", stats.peers as u64, sum(|one| u64::from(one.outbox.is_connected())))
+}
+
+fn check_peer(stats: &PeerStats, connection: &Connection) -> Outcome {
+    let dropped = stats.dropped_oldest + stats.dropped_newest;
+    same("published", stats.published, stats.taken + dropped + stats.lost + stats.waiting)?;
+    let outbox = &connection.outbox;
+    same("taken", stats.taken, outbox.handed - outbox.lost - connection.unacknowledged)?;
+    same("connected", u64::from(stats.connected), u64::from(outbox.is_connected()))
 }
 
 fn check_reader(stats: &GateStats, connection: &Connection) -> Outcome {

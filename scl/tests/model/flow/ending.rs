@@ -1,16 +1,16 @@
-//! The end of each case, when all ends are there and everything that was not lost as declared has to arrive.
+//! The end of each case: all ends are there, and everything that was not lost as declared must arrive.
 
 use super::stage::Stage;
-use crate::trial::Outcome;
+use crate::model::runner::Outcome;
 use std::future::poll_fn;
 use std::task::{Context, Poll, Waker};
 use std::time::{Duration, Instant};
 
-/// How often the tasks may run until everything has arrived; each time the transport in memory is filled.
+/// How often the tasks may run until everything has arrived. Each time the memory transport can be filled.
 const ROUNDS: usize = 50;
 /// How long something may take over sockets at most.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// How long a message is waited for until another is sent, since the first may have been lost with a peer.
+/// How long to wait for a message until another one is sent, since the first may have been lost with a peer.
 const AGAIN: Duration = Duration::from_millis(20);
 
 impl Stage {
@@ -35,7 +35,7 @@ impl Stage {
                 while self.poll_recv(reader, &mut Context::from_waker(Waker::noop()))?.is_some() {}
             }
             self.check()?;
-            if self.book.model().is_idle() {
+            if self.model.lock().is_idle() {
                 return Ok(());
             }
         }
@@ -44,7 +44,7 @@ impl Stage {
 
     /// Sends until every reader has received something new, which comes after everything else.
     async fn end_over_sockets(&mut self) -> Outcome {
-        let (before, started) = (self.count, Instant::now());
+        let (before, started) = (self.last, Instant::now());
         let mut served = vec![false; self.readers.len()];
         while started.elapsed() < PATIENCE {
             if served.contains(&false) {
@@ -67,7 +67,7 @@ impl Stage {
                 return Err(reason);
             }
             self.check()?;
-            if !served.contains(&false) && self.book.model().is_idle() {
+            if !served.contains(&false) && self.model.lock().is_idle() {
                 return Ok(());
             }
         }

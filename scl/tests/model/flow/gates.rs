@@ -1,10 +1,10 @@
-//! The gates, whichever kind they are of.
+//! Gates of different kinds behind one type.
 
 use super::message::Message;
 use bytes::Bytes;
 use futures_core::Stream;
 use futures_sink::Sink;
-use scl::{GateStats, Pub, Pull, Push, Sub};
+use scl::{GateStats, PeerStats, Pub, Pull, Push, Sub};
 use std::pin::Pin;
 use std::task::{Context, Poll};
 
@@ -31,7 +31,7 @@ impl Sender {
         sent.map_err(|error| error.to_string())
     }
 
-    /// Whether there is room for a message; if not, the task is woken when there is.
+    /// Returns true if there is room for a message. If not, wakes the task when there is.
     pub(super) fn poll_room(&mut self, cx: &mut Context<'_>) -> bool {
         match self {
             Self::Pub(gate) => Pin::new(gate).poll_ready(cx).is_ready(),
@@ -39,7 +39,7 @@ impl Sender {
         }
     }
 
-    /// Whether everything is handed over.
+    /// Returns true if everything is handed over.
     pub(super) fn poll_flush(&mut self, cx: &mut Context<'_>) -> bool {
         match self {
             Self::Pub(gate) => Pin::new(gate).poll_flush(cx).is_ready(),
@@ -47,10 +47,10 @@ impl Sender {
         }
     }
 
-    pub(super) fn stats(&self) -> GateStats {
+    pub(super) fn stats(&self) -> (GateStats, Vec<PeerStats>) {
         match self {
-            Self::Pub(gate) => gate.stats(),
-            Self::Push(gate) => gate.stats(),
+            Self::Pub(gate) => (gate.stats(), gate.peer_stats()),
+            Self::Push(gate) => (gate.stats(), gate.peer_stats()),
         }
     }
 }
@@ -62,7 +62,7 @@ pub(super) enum Receiver {
 }
 
 impl Receiver {
-    /// The next message, or none: then the task is woken when there is one.
+    /// Returns the next message, if any. If not, wakes the task when there is one.
     pub(super) fn poll_recv(&mut self, cx: &mut Context<'_>) -> Result<Option<Message>, String> {
         let polled = match self {
             Self::Sub(gate) => Pin::new(gate).poll_next(cx),
@@ -70,7 +70,7 @@ impl Receiver {
         };
         match polled {
             Poll::Ready(Some(received)) => read(received.map(Some)),
-            Poll::Ready(None) => Err("the messages have come to an end".to_owned()),
+            Poll::Ready(None) => Err("the stream of messages has ended".to_owned()),
             Poll::Pending => Ok(None),
         }
     }

@@ -1,29 +1,57 @@
-//! The model of the gate that receives: its own queue, which is applied to what has arrived.
+//! Model of the receiving gate: its queue, which applies to what has arrived.
 
 use super::layout::Declared;
 use super::message::Message;
-use crate::trial::Outcome;
+use crate::model::runner::Outcome;
 use scl::private::WhenFull;
 use std::collections::VecDeque;
 
 pub(super) struct Inbox {
     declared: Declared,
     pub(super) waiting: VecDeque<Message>,
-    /// Whether the call in progress asks for the newest message, whatever it passes over.
-    passing_over: bool,
+    call: Call,
+    /// Whether the last waiting call found nothing, and nothing has arrived since.
+    was_empty: bool,
+    /// The first message that arrives for a call that waited. The queue has nothing to do with it.
+    direct: Option<Message>,
     pub(super) received: u64,
     pub(super) dropped_oldest: u64,
     pub(super) dropped_newest: u64,
 }
 
+/// The call in progress.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Call {
+    None,
+    /// For the next message, and waits for it.
+    Next,
+    /// For the next message if there is one.
+    TryNext,
+    /// For the newest message, passing over the others.
+    Newest,
+}
+
 impl Inbox {
     pub(super) fn new(declared: Declared) -> Self {
-        let waiting = VecDeque::new();
-        Self { declared, waiting, passing_over: false, received: 0, dropped_oldest: 0, dropped_newest: 0 }
+        Self {
+            declared,
+            waiting: VecDeque::new(),
+            call: Call::None,
+            was_empty: false,
+            direct: None,
+            received: 0,
+            dropped_oldest: 0,
+            dropped_newest: 0,
+        }
     }
 
     pub(super) fn arrives(&mut self, message: Message) -> Outcome {
         self.received += 1;
+        let waited = std::mem::take(&mut self.was_empty);
+        if waited && self.call == Call::Next && !self.is_newest_only() {
+            self.direct = Some(message);
+            return Ok(());
+        }
         let full = self.waiting.len() >= self.declared.queue as usize;
         match self.declared.when_full {
             WhenFull::DropNewest if full => {
@@ -34,8 +62,8 @@ impl Inbox {
                 self.waiting.pop_front();
                 self.dropped_oldest += 1;
             }
-            WhenFull::Wait if full && !self.passing_over => {
-                return Err(format!("{message:?} was fetched into a full queue"));
+            WhenFull::Wait if full && self.call != Call::Newest => {
+                return Err(format!("{message:?} was taken from the transport, and the queue is full"));
             }
             _ => {}
         }
@@ -43,33 +71,39 @@ impl Inbox {
         Ok(())
     }
 
-    /// A call for the next message is done.
-    pub(super) fn gives(&mut self, given: Option<Message>) -> Outcome {
-        check(self.waiting.pop_front(), given)
+    pub(super) fn call(&self) -> Call {
+        self.call
     }
 
-    pub(super) fn passes_over(&mut self) {
-        self.passing_over = true;
+    pub(super) fn begins(&mut self, call: Call) {
+        self.call = call;
+        self.was_empty &= call == Call::Next;
     }
 
-    /// A call for the newest message is done.
-    pub(super) fn gives_newest(&mut self, given: Option<Message>) -> Outcome {
-        self.passing_over = false;
-        let newest = self.waiting.pop_back();
-        self.waiting.clear();
-        check(newest, given)
+    /// The call is done. `catches_up`: it may return nothing because its sender holds back a newer message.
+    pub(super) fn ends(&mut self, given: Option<Message>, catches_up: bool) -> Outcome {
+        let call = std::mem::replace(&mut self.call, Call::None);
+        if given.is_none() && catches_up && self.is_newest_only() && call == Call::Next {
+            return Ok(());
+        }
+        let expected = match call {
+            Call::Newest => {
+                let newest = self.waiting.pop_back();
+                self.waiting.clear();
+                newest
+            }
+            _ => self.direct.take().or_else(|| self.waiting.pop_front()),
+        };
+        self.was_empty = call == Call::Next && given.is_none();
+        if given == expected { Ok(()) } else { Err(format!("the reader was given {given:?} instead of {expected:?}")) }
     }
 
-    /// Whether it makes its sender wait, and so takes in no more than it is asked for.
+    /// Returns true if it makes its sender wait, and so takes in no more than it has room for.
     pub(super) fn waits(&self) -> bool {
         self.declared.when_full == WhenFull::Wait
     }
 
-    pub(super) fn holds_one(&self) -> bool {
-        self.declared.queue == 1
+    pub(super) fn is_newest_only(&self) -> bool {
+        self.declared.queue == 1 && self.declared.when_full == WhenFull::DropOldest
     }
-}
-
-fn check(expected: Option<Message>, given: Option<Message>) -> Outcome {
-    if given == expected { Ok(()) } else { Err(format!("the reader was given {given:?} instead of {expected:?}")) }
 }

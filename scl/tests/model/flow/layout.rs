@@ -1,19 +1,23 @@
-//! What is declared: kinds of gates, queues and what they do when they are full.
+//! What is declared: kinds of gates, queues and their policies.
 
 use super::gates::{Receiver, Sender};
 use scl::OpenOptions;
 use scl::codec::Opaque;
 use scl::private::{
-    AnyGate, Component, ComponentSpec, GateKind, GateSpec, LinkSpec, OpenError, Opener, WhenFull, open,
+    AnyGate, Component, ComponentHandle, ComponentSpec, GateKind, GateSpec, LinkSpec, OpenError, Opener, WhenFull,
+    close, open,
 };
+use std::pin::Pin;
 use std::time::Duration;
 
-/// How many layouts there are.
+/// Number of layouts.
 pub(super) const LAYOUTS: usize = 26;
 
 const SOURCE: &str = "source";
+const CONTRACT: &str = "1a2b3c4d";
+const MAX_SIZE: u64 = 64 << 20;
 const READERS: [&str; 3] = ["a", "b", "c"];
-/// Where each reader and the source meet.
+/// The endpoint of each reader.
 pub(super) const ENDPOINTS: [&str; 3] =
     ["source.out--a.in.1a2b3c4d", "source.out--b.in.1a2b3c4d", "source.out--c.in.1a2b3c4d"];
 
@@ -78,36 +82,61 @@ const fn optional(declared: Declared) -> Declared {
     Declared { required: false, ..declared }
 }
 
-/// The component that sends. A gate keeps its component open, so only the gates are kept.
-struct Source<const LAYOUT: usize> {
+/// A component that sends, of any layout.
+pub(super) trait Source {
+    fn gate(&mut self) -> &mut Sender;
+
+    /// Closes the component without waiting for its readers.
+    fn close_now(self: Box<Self>) -> Pin<Box<dyn Future<Output = ()>>>;
+}
+
+impl<const LAYOUT: usize> Source for SourceOf<LAYOUT> {
+    fn gate(&mut self) -> &mut Sender {
+        &mut self.gate
+    }
+
+    fn close_now(self: Box<Self>) -> Pin<Box<dyn Future<Output = ()>>> {
+        Box::pin(async {
+            // Messages that are left are expected.
+            let _left = close(*self, Duration::ZERO).await;
+        })
+    }
+}
+
+struct SourceOf<const LAYOUT: usize> {
     gate: Sender,
+    handle: ComponentHandle,
 }
 
-struct Reader<const LAYOUT: usize, const PLACE: usize> {
+/// A component that receives. A gate keeps its component open, so only the gates of readers are kept.
+struct Reader<const LAYOUT: usize, const INDEX: usize> {
     gate: Receiver,
+    handle: ComponentHandle,
 }
 
-impl<const LAYOUT: usize> Source<LAYOUT> {
+impl<const LAYOUT: usize> SourceOf<LAYOUT> {
     const LINKS: &'static [LinkSpec; 3] =
         &[to_reader(layout(LAYOUT), 0), to_reader(layout(LAYOUT), 1), to_reader(layout(LAYOUT), 2)];
     const GATE: GateSpec = GateSpec {
-        endpoint: "source.out",
         backpressure: layout(LAYOUT).backpressure,
         links: Self::LINKS.split_at(layout(LAYOUT).count).0,
         ..gate("out", layout(LAYOUT).kind)
     };
 }
 
-impl<const LAYOUT: usize> Component for Source<LAYOUT> {
-    const SPEC: &'static ComponentSpec =
-        &ComponentSpec { system: "model", name: SOURCE, place: "topology.yaml:3:3", gates: &[Self::GATE] };
+impl<const LAYOUT: usize> Component for SourceOf<LAYOUT> {
+    const SPEC: &'static ComponentSpec = &component(SOURCE, &[Self::GATE]);
 
     fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
         let gate = match layout(LAYOUT).kind {
             GateKind::Push => Sender::Push(opener.pusher::<_, Opaque>(0)?),
             _ => Sender::Pub(opener.publisher::<_, Opaque>(0)?),
         };
-        Ok(Self { gate })
+        Ok(Self { gate, handle: opener.handle() })
+    }
+
+    fn handle(&self) -> &ComponentHandle {
+        &self.handle
     }
 
     fn gates(&self) -> Vec<&dyn AnyGate> {
@@ -118,11 +147,11 @@ impl<const LAYOUT: usize> Component for Source<LAYOUT> {
     }
 }
 
-impl<const LAYOUT: usize, const PLACE: usize> Reader<LAYOUT, PLACE> {
-    const DECLARED: Declared = layout(LAYOUT).readers[PLACE];
-    const LINK: LinkSpec = LinkSpec { peer_component: SOURCE, peer_gate: "out", ..to_reader(layout(LAYOUT), PLACE) };
+impl<const LAYOUT: usize, const INDEX: usize> Reader<LAYOUT, INDEX> {
+    const DECLARED: Declared = layout(LAYOUT).readers[INDEX];
+    const LINK: LinkSpec = LinkSpec { peer_component: SOURCE, peer_gate: "out", ..to_reader(layout(LAYOUT), INDEX) };
     const GATE: GateSpec = GateSpec {
-        endpoint: ENDPOINTS[PLACE],
+        endpoint: if let GateKind::Push = layout(LAYOUT).kind { ENDPOINTS[INDEX] } else { "" },
         queue: Self::DECLARED.queue,
         when_full: Self::DECLARED.when_full,
         links: &[Self::LINK],
@@ -130,16 +159,19 @@ impl<const LAYOUT: usize, const PLACE: usize> Reader<LAYOUT, PLACE> {
     };
 }
 
-impl<const LAYOUT: usize, const PLACE: usize> Component for Reader<LAYOUT, PLACE> {
-    const SPEC: &'static ComponentSpec =
-        &ComponentSpec { system: "model", name: READERS[PLACE], place: "topology.yaml:6:3", gates: &[Self::GATE] };
+impl<const LAYOUT: usize, const INDEX: usize> Component for Reader<LAYOUT, INDEX> {
+    const SPEC: &'static ComponentSpec = &component(READERS[INDEX], &[Self::GATE]);
 
     fn assemble(opener: &mut Opener) -> Result<Self, OpenError> {
         let gate = match layout(LAYOUT).kind {
             GateKind::Push => Receiver::Pull(opener.puller::<_, Opaque>(0)?),
             _ => Receiver::Sub(opener.subscriber::<_, Opaque>(0)?),
         };
-        Ok(Self { gate })
+        Ok(Self { gate, handle: opener.handle() })
+    }
+
+    fn handle(&self) -> &ComponentHandle {
+        &self.handle
     }
 
     fn gates(&self) -> Vec<&dyn AnyGate> {
@@ -150,14 +182,21 @@ impl<const LAYOUT: usize, const PLACE: usize> Component for Reader<LAYOUT, PLACE
     }
 }
 
+const fn component(name: &'static str, gates: &'static [GateSpec]) -> ComponentSpec {
+    ComponentSpec { system: "model", name, declared_at: "topology.yaml:3:3", gates, schema: None }
+}
+
 const fn gate(name: &'static str, kind: GateKind) -> GateSpec {
     GateSpec {
         name,
         kind,
         payload: "bytes",
         codec: "bytes",
-        place: "topology.yaml:5:5",
+        declared_at: "topology.yaml:5:5",
         endpoint: "",
+        tap: "",
+        contract: CONTRACT,
+        max_size: MAX_SIZE,
         queue: 1,
         when_full: WhenFull::DropOldest,
         backpressure: false,
@@ -166,35 +205,36 @@ const fn gate(name: &'static str, kind: GateKind) -> GateSpec {
     }
 }
 
-const fn to_reader(layout: Layout, place: usize) -> LinkSpec {
-    let Declared { queue, when_full, required } = layout.readers[place];
+const fn to_reader(layout: Layout, index: usize) -> LinkSpec {
+    let Declared { queue, when_full, required } = layout.readers[index];
     LinkSpec {
-        peer_component: READERS[place],
+        peer_component: READERS[index],
         peer_gate: "in",
-        endpoint: ENDPOINTS[place],
-        contract: "1a2b3c4d",
+        endpoint: ENDPOINTS[index],
+        contract: CONTRACT,
         required,
         queue,
         when_full,
+        max_size: MAX_SIZE,
     }
 }
 
-/// Components are types, and the layout is a number that is drawn: each gets a line of its own.
+/// Each layout is a type of its own, and chosen by a number at run time.
 macro_rules! openers {
     ($($index:literal)*) => {
-        pub(super) async fn open_sender(layout: usize, options: OpenOptions) -> Result<Sender, OpenError> {
+        pub(super) async fn open_source(layout: usize, options: OpenOptions) -> Result<Box<dyn Source>, OpenError> {
             match layout {
-                $($index => Ok(open::<Source<$index>>(options).await?.gate),)*
+                $($index => Ok(Box::new(open::<SourceOf<$index>>(options).await?)),)*
                 _ => panic!("there is no such layout"),
             }
         }
 
         pub(super) async fn open_receiver(
             layout: usize,
-            place: usize,
+            index: usize,
             options: OpenOptions,
         ) -> Result<Receiver, OpenError> {
-            match (layout, place) {
+            match (layout, index) {
                 $(
                     ($index, 0) => Ok(open::<Reader<$index, 0>>(options).await?.gate),
                     ($index, 1) => Ok(open::<Reader<$index, 1>>(options).await?.gate),

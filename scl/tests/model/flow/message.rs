@@ -3,7 +3,7 @@
 use bytes::Bytes;
 use std::fmt;
 
-/// A message: the sender it is of, counting those that came back, and its number among that one's.
+/// A message: the number of its sender, counting each restart, and its own number among those of that sender.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Message {
     pub(super) sender: u32,
@@ -11,10 +11,10 @@ pub(super) struct Message {
 }
 
 impl Message {
-    /// Its bytes, of a length and with a content of its own.
+    /// Its bytes; length and content depend on the number.
     pub(super) fn frame(self) -> Bytes {
         let head = self.sender.to_be_bytes().into_iter().chain(self.number.to_be_bytes());
-        let filling = (0..self.number % 7).map(|place| (self.number + place) as u8);
+        let filling = (0..self.number % 7).map(|index| (self.number + index) as u8);
         head.chain(filling).collect()
     }
 

@@ -1,15 +1,16 @@
-//! The real gates, and how a step is done to them.
+//! The real gates, and what a step does to them.
 
 use super::check::check_taken_in;
 use super::gates::{Receiver, Sender};
-use super::layout::{layout, open_receiver, open_sender};
-use super::ledger::{Book, Ledger};
+use super::inbox::Call;
+use super::layout::{Source, layout, open_receiver, open_source};
 use super::message::Message;
-use super::model::Model;
+use super::model::{Connection, Model};
+use super::observed::{ObservedTransport, SharedModel};
 use super::step::{Case, Step};
-use super::way::Promise;
-use crate::raised::Raised;
-use crate::trial::Outcome;
+use super::transit::Promise;
+use crate::model::runner::Outcome;
+use crate::model::wake_flag::WakeFlag;
 use scl::OpenOptions;
 use scl::transport::Transport;
 use std::future::poll_fn;
@@ -17,40 +18,40 @@ use std::pin::pin;
 use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 
-/// How often the tasks of the connections may run in one step: often enough for all that each can do without news.
-const TURNS: usize = 10;
-/// Over sockets, how long tasks may run until the ends have found each other; whoever has not goes on later.
-const DIALLING: Duration = Duration::from_millis(50);
-/// How often a call is asked again that gave way although it has nothing to wait for.
-const PATIENCE: usize = 100;
+/// How often the gates' tasks may run in one step: often enough for all that they can do without new events.
+const TURNS: usize = 20;
+/// Over sockets, how long tasks may run until the ends have found each other. Those that have not continue later.
+const CONNECTING: Duration = Duration::from_millis(50);
+/// How often a call is polled that yields although it has nothing to wait for.
+const YIELDS: usize = 100;
 
 pub(super) struct Stage {
-    pub(super) index: usize,
+    pub(super) layout: usize,
     pub(super) promise: Promise,
-    pub(super) book: Book,
+    pub(super) model: SharedModel,
     options: OpenOptions,
-    pub(super) sender: Option<Sender>,
+    pub(super) source: Option<Box<dyn Source>>,
     pub(super) readers: Vec<Option<Receiver>>,
-    /// How many senders there were, and how many messages the present one has sent.
-    pub(super) count: Message,
-    /// Raised when the sender, which waits for room, is woken.
-    pub(super) room: Option<Raised>,
-    /// Raised when a reader that waits is woken.
-    pub(super) news: Vec<Option<Raised>>,
+    /// Number of senders so far, and of messages of the present one.
+    pub(super) last: Message,
+    /// Set when the sender, which waits for room, is woken.
+    pub(super) room: Option<WakeFlag>,
+    /// Set when a reader that waits is woken.
+    pub(super) news: Vec<Option<WakeFlag>>,
 }
 
 impl Stage {
     pub(super) fn new(index: usize, transport: impl Transport, promise: Promise) -> Self {
         let layout = layout(index);
-        let (book, readers) = (Book::new(Model::new(&layout, promise)), layout.readers().len());
+        let (model, readers) = (SharedModel::new(Model::new(&layout, promise)), layout.readers().len());
         Self {
-            index,
+            layout: index,
             promise,
-            options: OpenOptions::new().transport(Ledger { transport, book: book.clone() }),
-            book,
-            sender: None,
+            options: OpenOptions::new().transport(ObservedTransport { transport, model: model.clone() }),
+            model,
+            source: None,
             readers: (0..readers).map(|_| None).collect(),
-            count: Message { sender: 0, number: 0 },
+            last: Message { sender: 0, number: 0 },
             room: None,
             news: (0..readers).map(|_| None).collect(),
         }
@@ -62,12 +63,13 @@ impl Stage {
             self.verdict(done).map_err(|reason| format!("step {number}, {step:?}: {reason}"))?;
         }
         let ended = self.end().await;
-        self.verdict(ended).map_err(|reason| format!("after the last step: {reason}"))
+        self.verdict(ended).map_err(|reason| format!("after the last step: {reason}"))?;
+        self.close().await
     }
 
-    /// What the model says went wrong first; the rest may follow from that.
+    /// The model's first contradiction, because everything else may follow from it.
     fn verdict(&self, done: Outcome) -> Outcome {
-        self.book.model().verdict().and(done)
+        self.model.lock().verdict().and(done)
     }
 
     async fn step(&mut self, step: Step) -> Outcome {
@@ -75,7 +77,7 @@ impl Stage {
         let of = |reader: usize| reader % readers;
         match step {
             Step::SenderAppears => self.sender_appears().await,
-            Step::SenderVanishes => self.sender_vanishes(false),
+            Step::SenderVanishes => self.sender_vanishes(false).await,
             Step::SenderFinishes => self.sender_finishes().await,
             Step::Send(count) => self.send(count).await,
             Step::TrySend(count) => (0..count).try_for_each(|_| self.try_send()),
@@ -83,92 +85,107 @@ impl Stage {
             Step::ReaderAppears(reader) => self.reader_appears(of(reader)).await,
             Step::ReaderVanishes(reader) => self.reader_vanishes(of(reader)),
             Step::Recv(reader, count) => self.recv(of(reader), count),
-            Step::TryRecv(reader, count) => (0..count).try_for_each(|_| self.try_recv(of(reader))),
+            Step::TryRecv(reader, count) => self.try_recv(of(reader), count),
             Step::Latest(reader) => self.latest(of(reader)),
             Step::TasksRun => self.tasks_run().await,
         }
     }
 
     pub(super) async fn sender_appears(&mut self) -> Outcome {
-        if self.sender.is_none() {
-            self.count = Message { sender: self.count.sender + 1, number: 0 };
-            self.sender = Some(open_sender(self.index, self.options.clone()).await.map_err(|error| error.to_string())?);
+        if self.source.is_none() {
+            self.last = Message { sender: self.last.sender + 1, number: 0 };
+            self.model.lock().sender_appears(self.last.sender);
+            let opened = open_source(self.layout, self.options.clone()).await;
+            self.source = Some(opened.map_err(|error| format!("{:?}", scl::Error::from(error)))?);
         }
         Ok(())
     }
 
-    fn sender_vanishes(&mut self, flushed: bool) -> Outcome {
-        let Some(sender) = self.sender.take() else { return Ok(()) };
-        drop(sender);
+    /// The sender is dropped if it can hand over at once what waits in its queues, and else closed without that.
+    async fn sender_vanishes(&mut self, flushed: bool) -> Outcome {
+        let Some(source) = self.source.take() else { return Ok(()) };
         self.room = None;
-        let mut model = self.book.model();
-        let kept = model.connections.iter().position(|one| self.promise.is_exact() && one.could_take_more());
-        model.sender_goes(flushed);
-        kept.map_or(Ok(()), |place| Err(format!("the sender went without handing over what reader {place} could take")))
+        let can_hand_over = |one: &Connection| !one.transit.has_reader() || one.has_room_for_all();
+        let exact = self.promise.is_exact();
+        let hands_over = exact && self.model.lock().connections.iter().all(can_hand_over);
+        if hands_over || (flushed && !exact) {
+            drop(source);
+        } else {
+            source.close_now().await;
+        }
+        let mut model = self.model.lock();
+        let kept = model
+            .connections
+            .iter()
+            .position(|one| hands_over && one.outbox.is_connected() && !one.outbox.waiting.is_empty());
+        model.sender_vanishes(flushed);
+        kept.map_or(Ok(()), |reader| {
+            Err(format!("the sender was dropped with messages that reader {reader} could take"))
+        })
     }
 
     async fn sender_finishes(&mut self) -> Outcome {
-        let Some(sender) = &mut self.sender else { return Ok(()) };
+        let Some(source) = &mut self.source else { return Ok(()) };
         let mut flushed = false;
         for _ in 0..TURNS {
-            flushed = poll_fn(|cx| Poll::Ready(sender.poll_flush(cx))).await;
+            flushed = poll_fn(|cx| Poll::Ready(source.gate().poll_flush(cx))).await;
             if flushed {
                 break;
             }
             tokio::task::yield_now().await;
         }
-        self.sender_vanishes(flushed)
+        self.sender_vanishes(flushed).await
     }
 
     async fn send(&mut self, count: usize) -> Outcome {
         for _ in 0..count {
             let message = self.next_message();
-            let Some(sender) = &mut self.sender else { return Ok(()) };
+            let Some(source) = &mut self.source else { return Ok(()) };
             self.room = None;
-            self.book.model().begins(message);
-            if !completed(sender, message, &self.book).await? {
-                self.book.model().is_called_off();
+            self.model.lock().begins(message);
+            if !is_sent(source.gate(), message, &self.model).await? {
+                self.model.lock().is_cancelled();
                 return self.wait_for_room();
             }
-            self.book.model().ends();
+            self.model.lock().ends();
         }
         Ok(())
     }
 
     pub(super) fn try_send(&mut self) -> Outcome {
         let message = self.next_message();
-        let Some(sender) = &mut self.sender else { return Ok(()) };
+        let Some(source) = &mut self.source else { return Ok(()) };
         self.room = None;
-        let full = self.book.model().makes_wait();
-        self.book.model().begins(message);
-        let sent = sender.try_send(message);
-        match (&sent, full) {
-            (Ok(()), _) => self.book.model().ends(),
-            (Err(_), true) => self.book.model().is_called_off(),
-            (Err(error), false) => return Err(format!("there is room, and the answer was: {error}")),
+        self.model.lock().begins(message);
+        let sent = source.gate().try_send(message);
+        let mut model = self.model.lock();
+        match sent {
+            Ok(()) => model.ends(),
+            Err(_) if model.would_wait() => model.is_cancelled(),
+            Err(error) => return Err(format!("there is room, and `try_send` failed: {error}")),
         }
         Ok(())
     }
 
     fn next_message(&mut self) -> Message {
-        self.count.number += 1;
-        self.count
+        self.last.number += 1;
+        self.last
     }
 
     fn wait_for_room(&mut self) -> Outcome {
-        let Some(sender) = &mut self.sender else { return Ok(()) };
-        let raised = Raised::default();
-        let room = sender.poll_room(&mut Context::from_waker(&raised.waker()));
-        self.room = (!room).then_some(raised);
-        let expected = !self.book.model().makes_wait();
+        let Some(source) = &mut self.source else { return Ok(()) };
+        let flag = WakeFlag::default();
+        let room = source.gate().poll_room(&mut Context::from_waker(&flag.waker()));
+        self.room = (!room).then_some(flag);
+        let expected = !self.model.lock().would_wait();
         if room == expected { Ok(()) } else { Err(format!("room: {room}, instead of {expected}")) }
     }
 
     pub(super) async fn reader_appears(&mut self, reader: usize) -> Outcome {
         if self.readers[reader].is_none() {
-            let opened = open_receiver(self.index, reader, self.options.clone()).await;
-            self.readers[reader] = Some(opened.map_err(|error| error.to_string())?);
-            self.book.model().connections[reader].way.reader_comes();
+            self.model.lock().reader_appears(reader);
+            let opened = open_receiver(self.layout, reader, self.options.clone()).await;
+            self.readers[reader] = Some(opened.map_err(|error| format!("{:?}", scl::Error::from(error)))?);
         }
         Ok(())
     }
@@ -177,17 +194,17 @@ impl Stage {
         if let Some(receiver) = self.readers[reader].take() {
             drop(receiver);
             self.news[reader] = None;
-            self.book.model().reader_goes(reader);
+            self.model.lock().reader_vanishes(reader);
         }
         Ok(())
     }
 
     fn recv(&mut self, reader: usize, count: usize) -> Outcome {
         for _ in 0..count {
-            let raised = Raised::default();
-            let polled = self.poll_recv(reader, &mut Context::from_waker(&raised.waker()))?;
+            let flag = WakeFlag::default();
+            let polled = self.poll_recv(reader, &mut Context::from_waker(&flag.waker()))?;
             if polled.is_none() {
-                self.news[reader] = self.readers[reader].is_some().then_some(raised);
+                self.news[reader] = self.readers[reader].is_some().then_some(flag);
                 return Ok(());
             }
         }
@@ -195,61 +212,83 @@ impl Stage {
     }
 
     pub(super) fn poll_recv(&mut self, reader: usize, cx: &mut Context<'_>) -> Result<Option<Message>, String> {
-        let Some(receiver) = &mut self.readers[reader] else { return Ok(None) };
-        self.news[reader] = None;
-        let given = receiver.poll_recv(cx)?;
-        let connection = &mut self.book.model().connections[reader];
-        connection.inbox.gives(given)?;
-        let newest = given.is_none() || (connection.inbox.holds_one() && !connection.inbox.waits());
-        check_taken_in(self.promise, newest, connection)?;
-        Ok(given)
+        self.receive(reader, Call::Next, |gate| gate.poll_recv(cx))
     }
 
-    fn try_recv(&mut self, reader: usize) -> Outcome {
-        let Some(receiver) = &mut self.readers[reader] else { return Ok(()) };
-        self.news[reader] = None;
-        let given = receiver.try_recv()?;
-        let connection = &mut self.book.model().connections[reader];
-        connection.inbox.gives(given)?;
-        check_taken_in(self.promise, given.is_none() || !connection.inbox.waits(), connection)
+    fn try_recv(&mut self, reader: usize, count: usize) -> Outcome {
+        for _ in 0..count {
+            if self.receive(reader, Call::TryNext, Receiver::try_recv)?.is_none() {
+                break;
+            }
+        }
+        Ok(())
     }
 
     fn latest(&mut self, reader: usize) -> Outcome {
-        let Some(receiver) = &mut self.readers[reader] else { return Ok(()) };
+        self.receive(reader, Call::Newest, Receiver::latest).map(drop)
+    }
+
+    fn receive(
+        &mut self,
+        reader: usize,
+        call: Call,
+        receive: impl FnOnce(&mut Receiver) -> Result<Option<Message>, String>,
+    ) -> Result<Option<Message>, String> {
+        let Some(gate) = &mut self.readers[reader] else { return Ok(None) };
         self.news[reader] = None;
-        self.book.model().connections[reader].inbox.passes_over();
-        let given = receiver.latest()?;
-        let connection = &mut self.book.model().connections[reader];
-        connection.inbox.gives_newest(given)?;
-        check_taken_in(self.promise, true, connection)
+        let had_some = !self.model.lock().connections[reader].inbox.waiting.is_empty();
+        self.model.lock().call_begins(reader, call);
+        let given = receive(gate)?;
+        let connection = &mut self.model.lock().connections[reader];
+        connection.call_ends(given)?;
+        let inbox = &connection.inbox;
+        let takes_in_all = match call {
+            Call::TryNext => given.is_none() || (!inbox.waits() && (!had_some || inbox.is_newest_only())),
+            Call::Newest => true,
+            _ => given.is_none() || !inbox.waits(),
+        };
+        if takes_in_all {
+            check_taken_in(self.promise, connection)?;
+        }
+        Ok(given)
     }
 
     pub(super) async fn tasks_run(&mut self) -> Outcome {
         let started = Instant::now();
-        while !self.promise.is_exact() && !self.is_known() && started.elapsed() < DIALLING {
+        while !self.promise.is_exact() && !self.is_known() && started.elapsed() < CONNECTING {
             tokio::task::yield_now().await;
         }
         for _ in 0..TURNS {
             tokio::task::yield_now().await;
         }
-        if self.promise.is_exact() { self.check_moved() } else { Ok(()) }
+        if self.promise.is_exact() { self.check_progress() } else { Ok(()) }
     }
 
-    /// Whether the sender, if there is one, knows which readers are there.
+    /// Returns true if the sender, if there is one, knows which readers are there.
     fn is_known(&self) -> bool {
-        let known = self.book.model().connections.iter().all(|one| one.held.present == one.way.has_reader());
-        known || self.sender.is_none()
+        let known =
+            self.model.lock().connections.iter().all(|one| one.outbox.is_connected() == one.transit.has_reader());
+        known || self.source.is_none()
+    }
+
+    /// Without waiting: the readers are gone before the sender could wait for them.
+    async fn close(mut self) -> Outcome {
+        self.readers.clear();
+        if let Some(source) = self.source.take() {
+            source.close_now().await;
+        }
+        Ok(())
     }
 }
 
-/// Sends, as far as it goes without news: false when the message would have to wait.
-async fn completed(sender: &mut Sender, message: Message, book: &Book) -> Result<bool, String> {
-    let mut sent = pin!(sender.send(message));
-    for _ in 0..PATIENCE {
+/// Sends, as far as that goes without new events. Returns false if the message has to wait.
+async fn is_sent(gate: &mut Sender, message: Message, model: &SharedModel) -> Result<bool, String> {
+    let mut sent = pin!(gate.send(message));
+    for _ in 0..YIELDS {
         match poll_fn(|cx| Poll::Ready(sent.as_mut().poll(cx))).await {
             Poll::Ready(sent) => return sent.map(|()| true),
-            Poll::Pending if book.model().makes_wait() => return Ok(false),
-            // It let others run.
+            Poll::Pending if model.lock().would_wait() => return Ok(false),
+            // It let other tasks run.
             Poll::Pending => tokio::task::yield_now().await,
         }
     }

@@ -1,12 +1,12 @@
-//! The steps that a case consists of. A step that needs an end that is not there does nothing.
+//! The steps of a case. A step that needs an end that is not there does nothing.
 
 use super::layout::{LAYOUTS, layout};
-use crate::trial::list;
+use crate::model::runner::list;
 use proptest::prelude::{Strategy, any, prop_oneof};
 use proptest::sample::select;
 use std::fmt;
 
-/// A layout and what happens to it.
+/// A layout, and what happens to it.
 #[derive(Debug)]
 pub(super) struct Case {
     pub(super) layout: usize,
@@ -17,20 +17,21 @@ pub(super) struct Case {
 pub(super) enum Step {
     SenderAppears,
     SenderVanishes,
-    /// It hands over what readers still take before it goes, as a program that ends does.
+    /// It is flushed before, as a program that ends does.
     SenderFinishes,
-    /// So many messages, ending early at one that would have to wait: that one is called off, and room is waited for.
+    /// Sends so many messages. One that would have to wait is cancelled and ends the step, which then waits for room.
     Send(usize),
     TrySend(usize),
-    /// Asks to be woken when there is room.
+    /// Waits to be woken when there is room.
     WaitForRoom,
     ReaderAppears(usize),
     ReaderVanishes(usize),
-    /// Asks for so many messages, ending early when there is none: then it waits for it.
+    /// Receives so many messages. If there is none, the step ends, and the call waits.
     Recv(usize, usize),
+    /// Receives so many messages, or fewer if there are no more.
     TryRecv(usize, usize),
     Latest(usize),
-    /// The tasks of the connections run; until then, what happened is known to nobody who was not there.
+    /// The gates' tasks run. Until then, gates only know of what their own calls have seen.
     TasksRun,
 }
 
@@ -42,7 +43,7 @@ pub(super) fn cases(longest: usize) -> impl Strategy<Value = Case> {
     })
 }
 
-/// What half of the cases begin with, so that the other steps meet ends that are connected.
+/// Half of the cases begin with these, so that their other steps find connected ends.
 const CONNECTED: &[Step] =
     &[Step::SenderAppears, Step::ReaderAppears(0), Step::ReaderAppears(1), Step::ReaderAppears(2), Step::TasksRun];
 
@@ -64,7 +65,7 @@ fn steps() -> impl Strategy<Value = Step> {
     ]
 }
 
-/// A few, about as many as the transport in memory holds, more than that and the longest queue hold.
+/// A few; about as many as the memory transport holds; more than that and the longest queue hold together.
 fn amounts() -> impl Strategy<Value = usize> {
     prop_oneof![6 => 1..6_usize, 1 => 60..70_usize, 1 => 150..200_usize]
 }
@@ -73,8 +74,8 @@ impl fmt::Display for Case {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let layout = layout(self.layout);
         writeln!(f, "a `{:?}` gate with backpressure: {}", layout.kind, layout.backpressure)?;
-        for (declared, place) in layout.readers().iter().zip(0..) {
-            writeln!(f, "reader {place}: {declared:?}")?;
+        for (declared, reader) in layout.readers().iter().zip(0..) {
+            writeln!(f, "reader {reader}: {declared:?}")?;
         }
         list(f, &self.steps)
     }

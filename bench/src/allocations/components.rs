@@ -1,0 +1,5 @@
+//! The components of this benchmark.
+
+use super::reading;
+
+scl::topology!("allocations.yaml");

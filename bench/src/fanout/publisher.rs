@@ -1,0 +1,149 @@
+//! A publisher and its eight subscriber processes.
+
+use super::components;
+use super::message::{Message, PERIOD};
+use crate::durations::Durations;
+use crate::one_way::BatchReport;
+use crate::raw::SocketPaths;
+use crate::worker::{Worker, unknown_arguments};
+use scl::bytes::Bytes;
+use scl::time::interval;
+use std::time::{Duration, Instant};
+use zeromq::{PubSocket, Socket, SocketSend};
+
+/// The number of subscribers, as in the topology.
+pub(super) const SUBSCRIBERS: usize = 8;
+
+const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
+
+/// After this many messages without one arriving, a subscriber is given up: [`CONNECT_TIMEOUT`] of them.
+const MAX_UNRECEIVED: usize = 10_000;
+
+pub(super) struct Publisher {
+    socket: PublisherSocket,
+    /// The subscriber that is stopped from time to time.
+    stopped: Worker,
+    others: Vec<Worker>,
+    /// The number of the last batch that was sent, to tell old messages from new ones.
+    batch: u32,
+}
+
+enum PublisherSocket {
+    Scl(components::Publisher),
+    Zeromq(PubSocket),
+}
+
+impl Publisher {
+    /// Starts all processes. When this returns, every subscriber has received a message.
+    pub(super) async fn start(id: &str, folder: &str) -> scl::Result<Self> {
+        let start_subscriber = |number: usize| Worker::start(&["fanout", id, folder, &number.to_string()]);
+        let socket = PublisherSocket::open(id, folder).await?;
+        let stopped = start_subscriber(1)?;
+        let others = (2..=SUBSCRIBERS).map(start_subscriber).collect::<scl::Result<_>>()?;
+        if let PublisherSocket::Scl(publisher) = &socket {
+            publisher.ready(CONNECT_TIMEOUT).await?;
+        }
+        let mut publisher = Self { socket, stopped, others, batch: 0 };
+        publisher.reach_all().await?;
+        Ok(publisher)
+    }
+
+    /// Sends a batch, one message per period, and records how long each send takes.
+    pub(super) async fn send_batch(&mut self, messages: u32, sends: &mut Durations) -> scl::Result<()> {
+        self.batch += 1;
+        let mut interval = interval(PERIOD)?;
+        for remaining in (0..messages).rev() {
+            interval.tick().await?;
+            let message = Message::new(self.batch, remaining).encode();
+            let started = Instant::now();
+            self.socket.send(message).await?;
+            sends.record(started.elapsed().as_nanos().try_into()?);
+        }
+        Ok(())
+    }
+
+    /// Waits until the subscribers that are never stopped have received the batch, and returns its delays for each.
+    pub(super) async fn delays_of_others(&mut self) -> scl::Result<Vec<Vec<u64>>> {
+        let mut delays = Vec::with_capacity(self.others.len());
+        for subscriber in &mut self.others {
+            delays.push(delays_of(subscriber, self.batch).await?);
+        }
+        Ok(delays)
+    }
+
+    /// Stops one subscriber after it has received everything that was sent.
+    pub(super) async fn stop_one(&mut self) -> scl::Result<()> {
+        delays_of(&mut self.stopped, self.batch).await?;
+        self.stopped.stop()
+    }
+
+    /// Resumes the stopped subscriber, and returns the delays of what it still receives of the last batch.
+    pub(super) async fn resume_one(&mut self) -> scl::Result<Vec<u64>> {
+        if self.stopped.try_next_line()?.is_some() {
+            return Err(scl::Error::message("the stopped subscriber was resumed by another program"));
+        }
+        self.stopped.resume()?;
+        delays_of(&mut self.stopped, self.batch).await
+    }
+
+    /// Sends until every subscriber has received a new message, so that none is missed from then on.
+    async fn reach_all(&mut self) -> scl::Result<()> {
+        let mut interval = interval(PERIOD)?;
+        let (first, mut sent) = (self.batch + 1, 0);
+        for subscriber in std::iter::once(&mut self.stopped).chain(&mut self.others) {
+            loop {
+                tokio::select! {
+                    delays = delays_of(subscriber, first) => {
+                        delays?;
+                        break;
+                    }
+                    tick = interval.tick() => tick?,
+                }
+                self.batch += 1;
+                sent += 1;
+                if sent > MAX_UNRECEIVED {
+                    return Err(scl::Error::message("a subscriber received nothing for 10 s"));
+                }
+                // A batch of one message, which each subscriber reports at once.
+                self.socket.send(Message::new(self.batch, 0).encode()).await?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Waits until a subscriber has received the last message of a batch, or of a later one.
+async fn delays_of(subscriber: &mut Worker, batch: u32) -> scl::Result<Vec<u64>> {
+    loop {
+        let report = BatchReport::parse(&subscriber.next_line().await?)?;
+        // A subscriber reports the number of the batch instead of its span.
+        if report.span >= batch.into() {
+            return Ok(report.delays);
+        }
+    }
+}
+
+impl PublisherSocket {
+    async fn open(id: &str, folder: &str) -> scl::Result<Self> {
+        match id {
+            "scl" => {
+                let options = scl::OpenOptions::new().runtime_dir(folder).system(id);
+                Ok(Self::Scl(components::Publisher::open_with(options).await?))
+            }
+            "zeromq" => {
+                let mut socket = PubSocket::new();
+                socket.bind(&SocketPaths::new(folder, id).endpoint("stream")).await?;
+                Ok(Self::Zeromq(socket))
+            }
+            other => Err(unknown_arguments(&[other])),
+        }
+    }
+
+    async fn send(&mut self, message: Bytes) -> scl::Result<()> {
+        match self {
+            Self::Scl(publisher) => publisher.stream.send(&message).await?,
+            Self::Zeromq(socket) => socket.send(message.into()).await?,
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,3 @@
+//! The components of this benchmark.
+
+scl::topology!("fresh.yaml");

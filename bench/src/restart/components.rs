@@ -1,0 +1,3 @@
+//! The components of this benchmark.
+
+scl::topology!("restart.yaml");

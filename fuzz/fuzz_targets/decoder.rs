@@ -1,0 +1,4 @@
+//! Anything that a stranger may send, at the decoder of the protocol.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| scl_tests::fuzz::decoder(data));

@@ -1,0 +1,64 @@
+//! The part of the compiled schemas that describes some messages, as bytes that a program can carry.
+
+use super::Schemas;
+use prost::Message;
+use prost_types::{DescriptorProto, FileDescriptorProto, FileDescriptorSet};
+use scl_topology::fingerprint;
+use std::collections::BTreeSet;
+
+/// The schema files that some messages need.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Descriptors {
+    /// A hash of `bytes`, of characters that may stand in a file name.
+    pub hash: String,
+    /// A serialized `google.protobuf.FileDescriptorSet`.
+    pub bytes: Vec<u8>,
+}
+
+impl Schemas {
+    /// The files that declare these messages, with all that they import, without comments and positions. Each file
+    /// comes after the files that it imports. `None` if no file declares any of them.
+    ///
+    /// The same schemas and messages always give the same bytes.
+    pub fn descriptors_of(&self, messages: &BTreeSet<&str>) -> Option<Descriptors> {
+        let all = &self.file_descriptor_set().file;
+        let declaring = all.iter().filter(|file| declares_any(file, messages));
+        let needed = with_imports(all, declaring);
+        if needed.is_empty() {
+            return None;
+        }
+        // Filtering keeps the compiler's order, in which imports come first.
+        let files = all.iter().filter(|file| needed.contains(file.name()));
+        let file = files.map(|file| FileDescriptorProto { source_code_info: None, ..file.clone() }).collect();
+        let bytes = FileDescriptorSet { file }.encode_to_vec();
+        Some(Descriptors { hash: fingerprint::long(&bytes), bytes })
+    }
+}
+
+fn declares_any(file: &FileDescriptorProto, messages: &BTreeSet<&str>) -> bool {
+    file.message_type.iter().any(|message| declares(message, file.package(), messages))
+}
+
+/// Whether the message or one that is nested in it is wanted.
+fn declares(message: &DescriptorProto, outer: &str, wanted: &BTreeSet<&str>) -> bool {
+    let name = match outer {
+        "" => message.name().to_owned(),
+        _ => format!("{outer}.{}", message.name()),
+    };
+    wanted.contains(name.as_str()) || message.nested_type.iter().any(|nested| declares(nested, &name, wanted))
+}
+
+/// The names of these files and of all files that they import, directly or not.
+fn with_imports<'a>(
+    all: &'a [FileDescriptorProto],
+    files: impl Iterator<Item = &'a FileDescriptorProto>,
+) -> BTreeSet<&'a str> {
+    let mut names = BTreeSet::new();
+    let mut open: Vec<&FileDescriptorProto> = files.collect();
+    while let Some(file) = open.pop() {
+        if names.insert(file.name()) {
+            open.extend(all.iter().filter(|other| file.dependency.iter().any(|name| name == other.name())));
+        }
+    }
+    names
+}

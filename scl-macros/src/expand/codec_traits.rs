@@ -1,0 +1,220 @@
+//! `SCL0606`: rustc checks that the codec of a gate supports its message type.
+//!
+//! Each pair of payload and codec has a private trait, implemented for every type that the codec supports. The methods
+//! of the trait open the gates of that pair, so no gate is opened unchecked, and rustc reports a wrong type once however
+//! many gates have it. The text of the report is `#[diagnostic::on_unimplemented]` of the trait. The implementation is
+//! `#[diagnostic::do_not_recommend]`: without that, rustc reports the unsatisfied bound of the implementation instead.
+
+use super::context::Context;
+use super::kinds::{gate_struct, opener_method};
+use super::rustc_notes::{escape_braces, note_with_excerpt};
+use proc_macro2::{Span, TokenStream};
+use quote::{format_ident, quote, quote_spanned};
+use scl_topology::topology::{Codec, Gate, GateId, GateKind, Payload, Topology, TypeName};
+use std::collections::HashMap;
+use syn::Ident;
+
+/// The trait of one pair of payload and codec.
+pub(super) struct CodecTrait<'a> {
+    /// Part of rustc's report, so it says what is required: `NavAttitudeSupportedByProtobuf`.
+    pub(super) name: Ident,
+    payload: &'a Payload,
+    codec: &'a Codec,
+    /// The kinds of gates that the trait opens.
+    kinds: Vec<GateKind>,
+    /// The gate that the report names.
+    first_gate: GateId,
+}
+
+/// The traits of one invocation. The index keeps the search fast in systems with thousands of types.
+#[derive(Default)]
+pub(super) struct CodecTraits<'a> {
+    all: Vec<CodecTrait<'a>>,
+    index: HashMap<(String, &'a Codec), usize>,
+}
+
+impl<'a> CodecTraits<'a> {
+    /// The traits that the generated components need.
+    pub(super) fn collect(context: &Context<'_>, topology: &'a Topology) -> Self {
+        let mut traits = Self::default();
+        let components = topology.components().map(|(_, component)| component);
+        let components = components.filter(|component| context.includes(component.name()));
+        for &id in components.flat_map(|component| component.gates()) {
+            traits.add(context, topology.gate(id), id);
+        }
+        traits
+    }
+
+    fn add(&mut self, context: &Context<'_>, gate: &'a Gate, id: GateId) {
+        if *gate.payload() == Payload::Bytes {
+            return;
+        }
+        let next = self.all.len();
+        let index = *self.index.entry(key(gate)).or_insert(next);
+        if index == next {
+            self.all.push(CodecTrait {
+                name: trait_name(gate, next, context.span),
+                payload: gate.payload(),
+                codec: gate.codec(),
+                kinds: Vec::new(),
+                first_gate: id,
+            });
+        }
+        let kinds = &mut self.all[index].kinds;
+        if !kinds.contains(&gate.kind()) {
+            // The opposite kind is that of the counterpart in unit tests.
+            kinds.extend([gate.kind(), gate.kind().opposite()]);
+        }
+    }
+
+    /// The trait that opens a gate; `None` if the gate has no message type.
+    pub(super) fn of(&self, gate: &Gate) -> Option<&CodecTrait<'a>> {
+        self.index.get(&key(gate)).and_then(|&index| self.all.get(index))
+    }
+
+    /// The traits as tokens.
+    pub(super) fn expand(&self, context: &Context<'_>, topology: &Topology) -> TokenStream {
+        let traits = self.all.iter().map(|it| it.expand(context, topology));
+        quote!(#(#traits)*)
+    }
+}
+
+/// What the gates of one trait have in common.
+fn key(gate: &Gate) -> (String, &Codec) {
+    (gate.payload().to_string(), gate.codec())
+}
+
+impl CodecTrait<'_> {
+    /// The trait, with a method for each kind of gate, and its implementation for the types that the codec supports.
+    fn expand(&self, context: &Context<'_>, topology: &Topology) -> TokenStream {
+        let private = &context.private;
+        let name = &self.name;
+        let codec = codec_path(context, self.codec);
+        let report = self.expand_report(context, topology);
+        let (reply, reply_bound) = match self.payload {
+            Payload::Exchange { .. } => {
+                (Some(quote!(Reply)), Some(quote!(Reply: 'static, #codec: #private::Codec<Reply>,)))
+            }
+            _ => (None, None),
+        };
+        let signatures: Vec<TokenStream> =
+            self.kinds.iter().map(|&kind| expand_signature(context, kind, &reply)).collect();
+        let bodies = self.kinds.iter().zip(&signatures).map(|(&kind, signature)| {
+            let method = opener_method(kind, context.span);
+            let reply = reply.iter();
+            quote_spanned! { context.span => #signature { __opener.#method::<Message, #(#reply,)* #codec>(__index) } }
+        });
+        quote_spanned! { context.span =>
+            #report
+            trait #name<#reply>: ::core::marker::Sized {
+                #(#signatures;)*
+            }
+            #[diagnostic::do_not_recommend]
+            impl<Message: 'static, #reply> #name<#reply> for Message
+            where
+                #codec: #private::Codec<Message>,
+                #reply_bound
+            {
+                #(#bodies)*
+            }
+        }
+    }
+
+    fn expand_report(&self, context: &Context<'_>, topology: &Topology) -> TokenStream {
+        let gate = topology.gate(self.first_gate);
+        let path = topology.gate_path(self.first_gate);
+        let codec = self.codec.word();
+        let shown = |name: &TypeName| context.types.shown(name.dotted());
+        let verbs = if gate.kind().is_source() { ["sends", "receives"] } else { ["receives", "sends"] };
+        let (message, label) = match self.payload {
+            Payload::Exchange { request, reply } => (
+                format!("[SCL0606] the codec `{codec}` must support both `{{Self}}` and `{{Reply}}`"),
+                format!("gate `{path}` {} `{}` and {} `{}`", verbs[0], shown(request), verbs[1], shown(reply)),
+            ),
+            Payload::Message(name) => (
+                format!("[SCL0606] `{{Self}}` is used as a message, but the codec `{codec}` does not support it"),
+                format!("gate `{path}` {} `{}`", verbs[0], shown(name)),
+            ),
+            Payload::Bytes => return TokenStream::new(),
+        };
+        let label = escape_braces(&label);
+        let remedy = escape_braces(&remedy(self.codec));
+        let declaration = note_with_excerpt(context, "the gate is declared here", gate.span());
+        quote! {
+            #[diagnostic::on_unimplemented(message = #message, label = #label, note = #remedy, note = #declaration)]
+        }
+    }
+}
+
+fn expand_signature(context: &Context<'_>, kind: GateKind, reply: &Option<TokenStream>) -> TokenStream {
+    let private = &context.private;
+    let (method, gate) = (opener_method(kind, context.span), gate_struct(kind));
+    let reply = reply.iter();
+    quote_spanned! { context.span =>
+        fn #method(
+            __opener: &mut #private::Opener,
+            __index: usize,
+        ) -> ::core::result::Result<#private::#gate<Self #(, #reply)*>, #private::OpenError>
+    }
+}
+
+/// The number tells apart two types whose names differ only in their dots.
+fn trait_name(gate: &Gate, number: usize, span: Span) -> Ident {
+    let codec = gate.codec().word().rsplit("::").next().unwrap_or_default();
+    let words = format!("{}_supported_by_{codec}", gate.payload().to_string().replace(" -> ", "_and_"));
+    let camel: String = words.split(['_', '.']).map(capitalized).filter(|word| is_alphanumeric(word)).collect();
+    Ident::new(&format!("{camel}_{number}"), span)
+}
+
+fn is_alphanumeric(word: &str) -> bool {
+    word.chars().all(char::is_alphanumeric)
+}
+
+fn capitalized(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
+fn remedy(codec: &Codec) -> String {
+    match codec {
+        Codec::Protobuf => "derive `prost::Message` for it, or name a `.proto` file in `schemas:`".to_owned(),
+        Codec::Json | Codec::Cbor | Codec::Msgpack | Codec::Postcard => {
+            "derive `serde::Serialize` and `serde::Deserialize` for it".to_owned()
+        }
+        Codec::Raw => "derive the traits of `zerocopy` for it; it must have a fixed layout".to_owned(),
+        Codec::Path(path) => format!("implement `scl::codec::Codec<..>` for `{path}`"),
+    }
+}
+
+/// The codec's Rust type.
+fn codec_path(context: &Context<'_>, codec: &Codec) -> TokenStream {
+    let private = &context.private;
+    let name = match codec {
+        Codec::Protobuf => format_ident!("Protobuf"),
+        Codec::Json => format_ident!("Json"),
+        Codec::Cbor => format_ident!("Cbor"),
+        Codec::Msgpack => format_ident!("Msgpack"),
+        Codec::Postcard => format_ident!("Postcard"),
+        Codec::Raw => format_ident!("Raw"),
+        Codec::Path(path) => return user_codec(path, context.span),
+    };
+    quote!(#private::codec::#name)
+}
+
+fn user_codec(path: &str, span: Span) -> TokenStream {
+    match syn::parse_str::<syn::Path>(path) {
+        Ok(path) => respanned(quote!(#path), span),
+        Err(_) => {
+            let problem = format!("[SCL0407] the codec `{path}` is not a path of a Rust type");
+            quote_spanned!(span => ::core::compile_error!(#problem))
+        }
+    }
+}
+
+fn respanned(tokens: TokenStream, span: Span) -> TokenStream {
+    let respan = |mut token: proc_macro2::TokenTree| {
+        token.set_span(span);
+        token
+    };
+    tokens.into_iter().map(respan).collect()
+}

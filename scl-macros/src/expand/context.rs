@@ -1,0 +1,61 @@
+//! What every part of an expansion needs to know about the macro invocation.
+
+use super::types::MessageTypes;
+use crate::arguments::Arguments;
+use proc_macro2::{Span, TokenStream};
+use quote::quote;
+use scl_loader::Loaded;
+use scl_topology::source;
+use syn::Ident;
+
+/// One invocation of `topology!` and the file it loaded.
+pub(super) struct Context<'a> {
+    /// `$crate::private`, the start of every path in the generated code.
+    pub(super) private: TokenStream,
+    /// The span of the path literal. Tokens with this span are reported as if the user had written them there.
+    pub(super) span: Span,
+    /// The path as the user wrote it.
+    pub(super) path: String,
+    /// The components to generate; `None` for all.
+    pub(super) only: Option<&'a [Ident]>,
+    /// The loaded topology file, with its schemas and diagnostics.
+    pub(super) loaded: &'a Loaded,
+    /// The Rust paths of the message types.
+    pub(super) types: MessageTypes,
+}
+
+impl<'a> Context<'a> {
+    pub(super) fn new(arguments: &'a Arguments, loaded: &'a Loaded) -> Self {
+        let krate = &arguments.krate;
+        Self {
+            private: quote!(#krate::private),
+            span: arguments.path.span(),
+            path: arguments.path.value(),
+            only: arguments.only.as_deref(),
+            loaded,
+            types: MessageTypes::of(loaded),
+        }
+    }
+
+    /// Returns true if a component is to be generated.
+    pub(super) fn includes(&self, component: &str) -> bool {
+        self.only.is_none_or(|only| only.iter().any(|wanted| names_component(wanted, component)))
+    }
+
+    /// The location of a declaration: `topology.yaml:14:9`. The path is the one that the user wrote, so that no program
+    /// contains an absolute path of the machine that built it.
+    pub(super) fn location(&self, span: source::Span) -> String {
+        let start = self.loaded.sources.file(span.file).line_column(span.start);
+        format!("{}:{}:{}", self.path, start.line, start.column)
+    }
+
+    /// The path as part of an identifier, so that two invocations in one module do not generate the same name.
+    pub(super) fn path_as_identifier(&self) -> String {
+        self.path.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect()
+    }
+}
+
+/// Returns true if an entry of `only` names this component. Identifiers cannot contain `-`, so `_` stands for it.
+pub(super) fn names_component(wanted: &Ident, component: &str) -> bool {
+    wanted.to_string().trim_start_matches("r#") == component.replace('-', "_")
+}

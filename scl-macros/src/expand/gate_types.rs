@@ -1,0 +1,39 @@
+//! The types of generated fields: `Sub<rover::Measurement>`.
+
+use super::context::Context;
+use super::kinds::gate_struct;
+use proc_macro2::TokenStream;
+use quote::{quote, quote_spanned};
+use scl_topology::topology::{Gate, GateKind, Payload};
+
+/// The type of a gate, as if it were of this kind: its own, or the opposite one for its counterpart.
+pub(super) fn gate_type(context: &Context<'_>, gate: &Gate, kind: GateKind) -> TokenStream {
+    let private = &context.private;
+    let name = gate_struct(kind);
+    let messages = match gate.payload() {
+        Payload::Bytes => bytes(context, kind),
+        Payload::Message(message) => message_type(context, message.dotted()),
+        Payload::Exchange { request, reply } => {
+            let (request, reply) = (message_type(context, request.dotted()), message_type(context, reply.dotted()));
+            quote!(#request, #reply)
+        }
+    };
+    quote!(#private::#name<#messages>)
+}
+
+/// The type arguments of a gate without a message type: bytes in each direction.
+pub(super) fn bytes(context: &Context<'_>, kind: GateKind) -> TokenStream {
+    let private = &context.private;
+    match kind {
+        GateKind::Req | GateKind::Rep => quote!(#private::Bytes, #private::Bytes),
+        _ => quote!(#private::Bytes),
+    }
+}
+
+/// The path of a message type that the checks have accepted.
+pub(super) fn message_type(context: &Context<'_>, dotted: &str) -> TokenStream {
+    context.types.path(dotted, context.span).unwrap_or_else(|| {
+        let problem = format!("`{dotted}` is not a path of a Rust type");
+        quote_spanned!(context.span => ::core::compile_error!(#problem))
+    })
+}

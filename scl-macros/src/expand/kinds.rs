@@ -1,0 +1,31 @@
+//! The names that belong to a kind of gate in the crate `scl`.
+
+use proc_macro2::Span;
+use scl_topology::topology::GateKind;
+use syn::Ident;
+
+/// The gate's type, and the variant of `GateKind`.
+pub(super) fn gate_struct(kind: GateKind) -> Ident {
+    let name = match kind {
+        GateKind::Pub => "Pub",
+        GateKind::Sub => "Sub",
+        GateKind::Req => "Req",
+        GateKind::Rep => "Rep",
+        GateKind::Push => "Push",
+        GateKind::Pull => "Pull",
+    };
+    Ident::new(name, Span::call_site())
+}
+
+/// The method of `Opener` that opens the gate.
+pub(super) fn opener_method(kind: GateKind, span: Span) -> Ident {
+    let name = match kind {
+        GateKind::Pub => "publisher",
+        GateKind::Sub => "subscriber",
+        GateKind::Req => "requester",
+        GateKind::Rep => "replier",
+        GateKind::Push => "pusher",
+        GateKind::Pull => "puller",
+    };
+    Ident::new(name, span)
+}

@@ -1,0 +1,149 @@
+//! The methods of generated structs, in macros, so that their documentation is in one place.
+
+/// The methods of a generated struct.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __component_methods {
+    ($component:ident) => {
+        impl $component {
+            /// Opens the component on the tokio runtime of the caller, whatever its flavour: registers the component,
+            /// announces it and opens its gates. Peers connect by themselves, in whatever order they start.
+            ///
+            /// # Errors
+            /// Another process runs this component, or the runtime folder cannot be used; the text says which.
+            ///
+            /// # Cancel safety
+            /// It never waits.
+            pub async fn open() -> ::core::result::Result<Self, $crate::OpenError> {
+                $crate::private::open(::core::default::Default::default()).await
+            }
+
+            /// `open` with options other than the environment's.
+            ///
+            /// # Errors
+            /// Those of `open`.
+            pub async fn open_with(options: $crate::OpenOptions) -> ::core::result::Result<Self, $crate::OpenError> {
+                $crate::private::open(options).await
+            }
+
+            /// Opens the component for a program without async, which uses the blocking and the non-waiting calls of its
+            /// gates, from as many threads as it likes.
+            ///
+            /// # Errors
+            /// Those of `open`.
+            pub fn open_blocking() -> ::core::result::Result<Self, $crate::OpenError> {
+                $crate::private::open_blocking(::core::default::Default::default())
+            }
+
+            /// `open_blocking` with options other than the environment's.
+            ///
+            /// # Errors
+            /// Those of `open`.
+            pub fn open_blocking_with(options: $crate::OpenOptions) -> ::core::result::Result<Self, $crate::OpenError> {
+                $crate::private::open_blocking(options)
+            }
+
+            /// Waits until all required peers are connected. Gates that listen for any number of peers (`rep`, `pull`)
+            /// have none to wait for.
+            ///
+            /// # Errors
+            /// The peers that are missing after `timeout`, and why.
+            ///
+            /// # Cancel safety
+            /// Cancel safe.
+            pub async fn ready(&self, timeout: ::core::time::Duration) -> ::core::result::Result<(), $crate::NotReady> {
+                $crate::private::ready(self, timeout).await
+            }
+
+            /// `ready` from a plain thread.
+            ///
+            /// # Errors
+            /// Those of `ready`; inside async code or after a stop request, [`BlockingError`]($crate::BlockingError).
+            pub fn ready_blocking(&self, timeout: ::core::time::Duration) -> $crate::Result<()> {
+                ::core::result::Result::Ok($crate::private::block_on(self, self.ready(timeout))??)
+            }
+
+            /// Waits until every peer that is running has taken all messages, then closes. Peers that are running but not
+            /// connected yet are waited for; one that is not running is named in a log line.
+            ///
+            /// Dropping the component hands over what is left, too, but waits no longer than a second, and only until it
+            /// is written.
+            ///
+            /// # Errors
+            /// The peers that have not taken everything after `timeout`, with the number of messages.
+            ///
+            /// # Cancel safety
+            /// The component is closed in any case; what was not handed over is lost.
+            pub async fn close(
+                self,
+                timeout: ::core::time::Duration,
+            ) -> ::core::result::Result<(), $crate::NotFlushed> {
+                $crate::private::close(self, timeout).await
+            }
+
+            /// `close` from a plain thread.
+            ///
+            /// # Errors
+            /// Those of `close`; inside async code, [`BlockingError`]($crate::BlockingError), and the component is dropped.
+            pub fn close_blocking(self, timeout: ::core::time::Duration) -> $crate::Result<()> {
+                $crate::private::close_blocking(self, timeout)
+            }
+
+            #[doc(hidden)]
+            pub fn __scl_main_async<F, R>(main: fn(Self) -> F) -> ::std::process::ExitCode
+            where
+                F: ::core::future::Future<Output = R>,
+                R: $crate::private::Outcome,
+            {
+                $crate::private::run_async(main)
+            }
+
+            #[doc(hidden)]
+            pub fn __scl_main_blocking<R: $crate::private::Outcome>(main: fn(Self) -> R) -> ::std::process::ExitCode {
+                $crate::private::run_blocking(main)
+            }
+        }
+    };
+}
+
+/// Without the in-process transport there is nothing to test components on.
+#[cfg(not(feature = "memory"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __component_test_methods {
+    ($component:ident, $peer:ident) => {};
+}
+
+/// The functions for unit tests in the crate that calls `topology!`.
+#[cfg(feature = "memory")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __component_test_methods {
+    ($component:ident, $peer:ident) => {
+        impl $component {
+            /// Opens the component for a unit test, together with the other ends of all its gates, without processes,
+            /// sockets or files.
+            ///
+            /// # Errors
+            /// There is no tokio runtime.
+            pub async fn test() -> ::core::result::Result<(Self, $peer), $crate::OpenError> {
+                let transport = $crate::private::Memory::new();
+                let component = $crate::private::open($crate::OpenOptions::new().transport(transport.clone())).await?;
+                let peer = $crate::private::open($crate::OpenOptions::new().transport(transport)).await?;
+                ::core::result::Result::Ok((component, peer))
+            }
+
+            /// `test` for a component without async.
+            ///
+            /// # Errors
+            /// The operating system refuses a runtime.
+            pub fn test_blocking() -> ::core::result::Result<(Self, $peer), $crate::OpenError> {
+                let transport = $crate::private::Memory::new();
+                let component =
+                    $crate::private::open_blocking($crate::OpenOptions::new().transport(transport.clone()))?;
+                let peer = $crate::private::open_blocking($crate::OpenOptions::new().transport(transport))?;
+                ::core::result::Result::Ok((component, peer))
+            }
+        }
+    };
+}

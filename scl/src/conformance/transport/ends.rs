@@ -1,0 +1,258 @@
+//! The ends of messages, as the tests use them.
+
+use super::watched::Watched;
+use crate::transport::{Link, PeerKind, Receiver, Sender};
+use bytes::Bytes;
+use std::collections::VecDeque;
+use std::future::poll_fn;
+use std::task::{Context, Poll, Waker};
+use std::time::Duration;
+
+/// More than any test opens.
+const MOST_PEERS: usize = 10_000;
+
+/// A sending end, its newest link, and the messages to send over that.
+pub(super) struct TestSender {
+    watched: Watched<Box<dyn Sender>>,
+    pub(super) link: Option<TestLink>,
+    queue: VecDeque<Bytes>,
+    /// Number of peers so far.
+    peers: usize,
+}
+
+impl TestSender {
+    pub(super) fn new(end: Box<dyn Sender>) -> Self {
+        Self { watched: Watched::new(end), link: None, queue: VecDeque::new(), peers: 0 }
+    }
+
+    pub(super) fn renew_waker(&mut self) {
+        self.watched.renew_waker();
+        self.link.iter_mut().for_each(|link| link.watched.renew_waker());
+    }
+
+    /// How often the end and its link were woken.
+    pub(super) fn wakes(&self) -> (usize, usize) {
+        (self.watched.wakes(), self.link.as_ref().map_or(0, |link| link.watched.wakes()))
+    }
+
+    pub(super) fn peers(&self) -> usize {
+        self.peers
+    }
+
+    pub(super) fn refusal(&self) -> Option<String> {
+        self.watched.end.refusal()
+    }
+
+    pub(super) fn queue(&mut self, messages: impl IntoIterator<Item = Bytes>) {
+        self.queue.extend(messages);
+    }
+
+    /// Sends `message` instead of those that are still waiting.
+    pub(super) fn replace(&mut self, message: Bytes) {
+        self.queue.clear();
+        self.queue.push_back(message);
+    }
+
+    pub(super) fn waiting(&self) -> usize {
+        self.queue.len()
+    }
+
+    /// Returns true if all messages were sent and written.
+    pub(super) fn is_written(&self) -> bool {
+        self.queue.is_empty() && self.link.as_ref().is_none_or(|link| link.watched.end.is_written())
+    }
+
+    /// Looks for peers and drives the link, if these were woken, and sends what is queued. Returns true if there is a
+    /// peer.
+    pub(super) fn poll(&mut self, test: &Context<'_>) -> bool {
+        loop {
+            while let Poll::Ready(link) = self.poll_link(test) {
+                self.link = Some(link);
+            }
+            let Some(link) = &mut self.link else { return false };
+            if link.poll(test, &mut self.queue) {
+                return true;
+            }
+            self.drop_link();
+        }
+    }
+
+    /// Returns the link to the next peer.
+    pub(super) fn poll_link(&mut self, test: &Context<'_>) -> Poll<TestLink> {
+        self.watched.poll(test, |end, cx| end.poll_peer(cx)).map(|peer| {
+            assert_eq!(peer.kind, PeerKind::Component, "an end of this transport is taken for a foreign program");
+            self.peers += 1;
+            assert!(self.peers < MOST_PEERS, "a sending end returns peers without end");
+            TestLink::new(peer.link)
+        })
+    }
+
+    pub(super) fn drop_link(&mut self) {
+        self.link = None;
+        self.watched.call_again();
+    }
+
+    /// Waits until there is a peer, or no longer.
+    pub(super) async fn until_connected(&mut self, connected: bool) {
+        poll_fn(|cx| if self.poll(cx) == connected { Poll::Ready(()) } else { Poll::Pending }).await;
+    }
+
+    pub(super) fn detach(&mut self) {
+        self.watched.end.detach();
+        self.link.iter_mut().for_each(|link| link.watched.end.detach());
+    }
+
+    /// Does what [`poll`](Self::poll) does, but without waiting for a wake-up and without a waker.
+    pub(super) fn turn_detached(&mut self) -> bool {
+        self.watched.use_no_waker();
+        self.link.iter_mut().for_each(|link| link.watched.use_no_waker());
+        let had_link = self.link.is_some();
+        let connected = self.poll(&Context::from_waker(Waker::noop()));
+        if connected && !had_link {
+            self.link.iter_mut().for_each(|link| link.watched.end.detach());
+        }
+        connected
+    }
+}
+
+/// The connection of a sending end to one peer.
+pub(super) struct TestLink {
+    watched: Watched<Box<dyn Link>>,
+    /// A message was returned since the link was last woken.
+    refused: bool,
+    turns: usize,
+}
+
+impl TestLink {
+    fn new(end: Box<dyn Link>) -> Self {
+        Self { watched: Watched::new(end), refused: false, turns: 0 }
+    }
+
+    /// Drives the link if it was woken, and sends from the queue; a message that was returned only after a wake-up.
+    /// Returns false if the peer is gone.
+    pub(super) fn poll(&mut self, test: &Context<'_>, queue: &mut VecDeque<Bytes>) -> bool {
+        let woken = self.watched.take_turn(test);
+        if woken {
+            if self.watched.end.drive(&mut Context::from_waker(&self.watched.waker)).is_err() {
+                return false;
+            }
+            self.refused = false;
+        }
+        if woken || (!self.refused && !queue.is_empty()) {
+            // Gates send single messages and several at once, in any order.
+            self.turns += 1;
+            if self.turns.is_multiple_of(2) {
+                while self.send_one(queue) {}
+            }
+            self.send_all(queue);
+        }
+        true
+    }
+
+    /// Returns true if a message was sent.
+    fn send_one(&mut self, queue: &mut VecDeque<Bytes>) -> bool {
+        let Some(message) = queue.pop_front() else { return false };
+        let sent = message.clone();
+        let refused = self.watched.end.send(&mut Context::from_waker(&self.watched.waker), message);
+        if let Err(returned) = refused {
+            assert!(returned == sent, "`send` returned another message than the one it refused");
+            queue.push_front(returned);
+            return false;
+        }
+        true
+    }
+
+    fn send_all(&mut self, queue: &mut VecDeque<Bytes>) {
+        let cx = &mut Context::from_waker(&self.watched.waker);
+        let (before, mut lengths) = (queue.clone(), Vec::new());
+        self.watched.end.send_all(cx, queue, &mut |length| lengths.push(length));
+        let sent = before.len() - queue.len();
+        assert!(before.range(sent..).eq(&*queue), "`send_all` changed messages that it left in the queue");
+        let expected = before.range(..sent).map(Bytes::len);
+        assert!(expected.eq(lengths), "`send_all` reported other lengths than those of the messages it sent");
+        self.refused = !queue.is_empty();
+    }
+
+    pub(super) fn unacknowledged(&self) -> u64 {
+        self.watched.end.unacknowledged()
+    }
+
+    pub(super) fn request_acknowledgement(&mut self) {
+        self.watched.end.request_acknowledgement(&mut Context::from_waker(&self.watched.waker));
+    }
+
+    pub(super) fn wakes(&self) -> usize {
+        self.watched.wakes()
+    }
+}
+
+/// A receiving end.
+pub(super) struct TestReceiver {
+    watched: Watched<Box<dyn Receiver>>,
+    /// What [`poll_newest`](Self::poll_newest) has received and not returned yet.
+    newest: Option<Bytes>,
+}
+
+impl TestReceiver {
+    pub(super) fn new(end: Box<dyn Receiver>) -> Self {
+        Self { watched: Watched::new(end), newest: None }
+    }
+
+    pub(super) fn renew_waker(&mut self) {
+        self.watched.renew_waker();
+    }
+
+    pub(super) fn wakes(&self) -> usize {
+        self.watched.wakes()
+    }
+
+    pub(super) fn peers(&self) -> usize {
+        self.watched.end.peers()
+    }
+
+    pub(super) fn refusal(&self) -> Option<String> {
+        self.watched.end.refusal()
+    }
+
+    pub(super) fn poll(&mut self, test: &Context<'_>) -> Poll<Bytes> {
+        self.watched.poll(test, |end, cx| end.poll_recv(cx))
+    }
+
+    /// Returns the newest message, or `None` if there is none since the last call, once the sender has nothing newer.
+    pub(super) fn poll_newest(&mut self, test: &Context<'_>) -> Poll<Option<Bytes>> {
+        let newest = &mut self.newest;
+        self.watched.poll(test, |end, cx| {
+            while let Poll::Ready(message) = end.poll_recv(cx) {
+                *newest = Some(message);
+            }
+            let caught_up = end.poll_caught_up(cx);
+            while let Poll::Ready(message) = end.poll_recv(cx) {
+                *newest = Some(message);
+            }
+            caught_up.map(|()| newest.take())
+        })
+    }
+
+    /// Waits for the next message, polling senders too.
+    pub(super) async fn next(&mut self, senders: &mut [&mut TestSender]) -> Bytes {
+        poll_fn(|cx| {
+            for sender in &mut *senders {
+                sender.poll(cx);
+            }
+            self.poll(cx)
+        })
+        .await
+    }
+
+    /// Receives what has arrived, or what arrives in some time, without a runtime.
+    pub(super) fn fetch(&mut self, within: Duration) -> Vec<Bytes> {
+        self.watched.end.catch_up(within);
+        self.watched.call_again();
+        let mut cx = Context::from_waker(Waker::noop());
+        let mut messages = Vec::new();
+        while let Poll::Ready(message) = self.watched.end.poll_recv(&mut cx) {
+            messages.push(message);
+        }
+        messages
+    }
+}

@@ -1,0 +1,141 @@
+//! Ends that want only the newest message, see [`Endpoint::newest_only`].
+//!
+//! The sender in these tests does what a gate with a queue of 1 does: a message that the link refuses waits, and a
+//! newer one takes its place.
+
+use super::ends::{TestReceiver, TestSender};
+use super::{ENDPOINT, PATTERNS, Pattern, turns};
+use crate::conformance::PATIENCE;
+use crate::transport::{Endpoint, Transport};
+use bytes::Bytes;
+use std::future::poll_fn;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// More than fits between two ends.
+const MANY: u64 = 5000;
+
+/// After a pause, a receiver that has caught up has the newest message, however many were sent meanwhile.
+pub async fn returns_the_newest_message(transport: &dyn Transport) {
+    for pattern in PATTERNS {
+        let (mut sender, mut receiver) = connected(pattern, transport).await;
+        let mut last = 0;
+        for count in [1, 2, 50, MANY, 1, MANY] {
+            send(&mut sender, &mut last, count).await;
+            let newest = newest(&mut sender, &mut receiver).await;
+            assert_eq!(newest, Some(last), "{pattern:?}: the newest after {count} messages");
+            assert_eq!(self::newest(&mut sender, &mut receiver).await, None, "{pattern:?}: a message arrived twice");
+            assert_eq!(sender.waiting(), 0, "{pattern:?}: the newest message was not sent");
+        }
+    }
+}
+
+/// A receiver catches up even if the sender never pauses, and has a message not older than the call.
+pub async fn catches_up_with_a_busy_sender(transport: &dyn Transport) {
+    for pattern in PATTERNS {
+        let (mut sender, mut receiver) = connected(pattern, transport).await;
+        let mut last = 0;
+        send(&mut sender, &mut last, MANY).await;
+        for _ in 0..10 {
+            let called_at = last;
+            let newest = poll_fn(|cx| {
+                for _ in 0..100 {
+                    last += 1;
+                    sender.replace(message(last));
+                    sender.poll(cx);
+                }
+                cx.waker().wake_by_ref();
+                receiver.poll_newest(cx)
+            });
+            let newest = newest.await.map(|newest| number(&newest));
+            assert!(newest >= Some(called_at), "{pattern:?}: {newest:?} is older than the call, {called_at}");
+            // A pause, in which the sender goes on.
+            send(&mut sender, &mut last, 1000).await;
+        }
+    }
+}
+
+/// [`Receiver::catch_up`](crate::transport::Receiver::catch_up) gets the newest message from a sender in another
+/// thread, without help from a runtime. It gives up in time if that sender does nothing, and the next call is not
+/// content with an answer to the one that gave up.
+pub async fn catches_up_without_a_runtime(transport: &dyn Transport) {
+    for pattern in PATTERNS {
+        let (mut sender, receiver) = connected(pattern, transport).await;
+        let mut last = 0;
+        send(&mut sender, &mut last, MANY).await;
+        let mut receiver = give_up(pattern, receiver);
+        send(&mut sender, &mut last, 2).await;
+        assert_eq!(newest(&mut sender, &mut receiver).await, Some(last), "{pattern:?}: the newest after giving up");
+        send(&mut sender, &mut last, MANY).await;
+        let mut receiver = give_up(pattern, receiver);
+        send(&mut sender, &mut last, MANY).await;
+        sender.detach();
+        let stop = Arc::new(AtomicBool::new(false));
+        let stopped = Arc::clone(&stop);
+        let sending = std::thread::spawn(move || {
+            while !stopped.load(Ordering::SeqCst) {
+                sender.turn_detached();
+                std::thread::yield_now();
+            }
+            sender
+        });
+        let newest = receiver.fetch(PATIENCE).last().map(number);
+        stop.store(true, Ordering::SeqCst);
+        assert!(sending.join().is_ok(), "{pattern:?}: the sending thread panicked");
+        assert_eq!(newest, Some(last), "{pattern:?}: the newest message");
+        assert!(receiver.fetch(Duration::ZERO).is_empty(), "{pattern:?}: a message arrived twice");
+    }
+}
+
+/// Lets a receiver catch up with a sender that does nothing; in a thread that is left behind if that takes too long.
+fn give_up(pattern: Pattern, mut receiver: TestReceiver) -> TestReceiver {
+    let (returned, gave_up) = std::sync::mpsc::channel();
+    std::thread::spawn(move || {
+        receiver.fetch(Duration::from_millis(1));
+        returned.send(receiver)
+    });
+    let receiver = gave_up.recv_timeout(PATIENCE);
+    receiver.unwrap_or_else(|_| panic!("{pattern:?}: `catch_up` waits longer than it was told to"))
+}
+
+async fn connected(pattern: Pattern, transport: &dyn Transport) -> (TestSender, TestReceiver) {
+    let endpoint = Endpoint { newest_only: true, ..Endpoint::new(ENDPOINT) };
+    pattern.connected_to(transport, &endpoint).await
+}
+
+/// Sends a number of messages while the receiver is not polled.
+async fn send(sender: &mut TestSender, last: &mut u64, count: u64) {
+    let mut left = count;
+    while left > 0 {
+        let batch = left.min(100);
+        left -= batch;
+        turns(1, |cx| {
+            for _ in 0..batch {
+                *last += 1;
+                sender.replace(message(*last));
+                assert!(sender.poll(cx), "disconnected");
+            }
+        })
+        .await;
+    }
+}
+
+async fn newest(sender: &mut TestSender, receiver: &mut TestReceiver) -> Option<u64> {
+    let newest = poll_fn(|cx| {
+        sender.poll(cx);
+        receiver.poll_newest(cx)
+    });
+    newest.await.map(|newest| number(&newest))
+}
+
+/// A message of 1 KiB that begins with a number.
+fn message(number: u64) -> Bytes {
+    let mut bytes = number.to_be_bytes().to_vec();
+    bytes.resize(1024, 0);
+    bytes.into()
+}
+
+fn number(message: &Bytes) -> u64 {
+    message[..8].iter().fold(0, |number, byte| number << 8 | u64::from(*byte))
+}

@@ -1,0 +1,361 @@
+//! One connection at its sending end: the link to the peer, and the queue of what the peer has not taken.
+
+use super::foreign::ForeignPeer;
+use super::queue::{Pushed, Queue, QueuePolicy};
+use super::stats::{Activity, PeerStats};
+use crate::error::{GateName, PeerName, Unflushed};
+use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
+use crate::state::{Changes, SendingEnd};
+use crate::transport::{Link, Peer, PeerKind, Sender};
+use bytes::Bytes;
+use std::task::{Context, Poll, Waker};
+
+/// One connection at its sending end.
+pub(crate) struct Connection {
+    sender: Box<dyn Sender>,
+    /// The link to the component at the other end.
+    peer: Option<Box<dyn Link>>,
+    /// What waits for that component, connected or not.
+    queue: Queue<Bytes>,
+    /// Plain ZeroMQ subscribers beside it or in its place.
+    foreign: Vec<ForeignPeer>,
+    /// Messages sent to and dropped for plain ZeroMQ subscribers that have left.
+    foreign_left: (u64, u64),
+    /// Wakes the connection's task; senders pass it to the link too, so that the task continues what they leave behind.
+    task: Waker,
+    waiting_sender: Option<Waker>,
+    /// A dropped gate and the component's flush may both wait.
+    waiting_flushes: Vec<Waker>,
+    watcher: Option<Waker>,
+    /// Number of connects and disconnects so far.
+    changes: u64,
+    account: Account,
+    /// Whether the queue has been dropping messages since it was last empty.
+    dropping: bool,
+    detached: bool,
+    gate: GateName,
+    kind: GateKind,
+    link: &'static LinkSpec,
+    component_changes: Changes,
+}
+
+/// What became of the messages that left the queue.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Account {
+    /// Messages handed to a link.
+    handed: u64,
+    /// Messages that were on their way when their link broke, and were never acknowledged.
+    lost: u64,
+    pub(crate) activity: Activity,
+}
+
+impl Connection {
+    pub(crate) fn new(
+        sender: Box<dyn Sender>,
+        gate: GateName,
+        spec: &'static GateSpec,
+        link: &'static LinkSpec,
+        component_changes: Changes,
+    ) -> Self {
+        Self {
+            sender,
+            peer: None,
+            queue: Queue::new(policy(spec, link)),
+            foreign: Vec::new(),
+            foreign_left: (0, 0),
+            task: Waker::noop().clone(),
+            waiting_sender: None,
+            waiting_flushes: Vec::new(),
+            watcher: None,
+            changes: 0,
+            account: Account::default(),
+            dropping: false,
+            detached: false,
+            gate,
+            kind: spec.kind,
+            link,
+            component_changes,
+        }
+    }
+
+    /// Does background work; called by the connection's task whenever it is woken.
+    pub(crate) fn drive(&mut self, cx: &mut Context<'_>) {
+        if !self.task.will_wake(cx.waker()) {
+            self.task = cx.waker().clone();
+        }
+        let before = (self.peer.is_some(), self.foreign.len());
+        self.accept_and_read(cx);
+        self.hand_over();
+        let after = (self.peer.is_some(), self.foreign.len());
+        if before != after {
+            self.report_change();
+        }
+    }
+
+    /// Takes a message without waiting; a full queue treats it as declared.
+    pub(crate) fn send(&mut self, message: Bytes) {
+        let mut cx = Context::from_waker(&self.task);
+        for peer in &mut self.foreign {
+            peer.send(&mut cx, &message);
+        }
+        if self.queue.is_full() {
+            // Before a message is dropped, everything is tried to hand some over.
+            let cx = &mut Context::from_waker(&self.task);
+            if self.peer.as_mut().is_some_and(|link| link.drive(cx).is_err()) {
+                self.disconnect();
+                self.task.wake_by_ref();
+            }
+        }
+        if !self.queue.is_empty() {
+            self.hand_over();
+        }
+        match &mut self.peer {
+            Some(link) if self.queue.is_empty() => {
+                let length = message.len();
+                match link.send(&mut Context::from_waker(&self.task), message) {
+                    Ok(()) => self.account.hand(length),
+                    Err(message) => self.keep(message),
+                }
+            }
+            _ => self.keep(message),
+        }
+    }
+
+    /// Ready when a message would find room, or would not have to wait for it.
+    pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        if self.would_wait() {
+            self.hand_over();
+        }
+        if !self.would_wait() {
+            return Poll::Ready(());
+        }
+        self.waiting_sender = Some(cx.waker().clone());
+        Poll::Pending
+    }
+
+    /// Returns true if one more message would have to wait.
+    pub(crate) fn would_wait(&self) -> bool {
+        if !self.queue.waits() {
+            return false;
+        }
+        if self.peer.is_none() && !self.foreign.is_empty() {
+            return self.foreign.iter().any(ForeignPeer::is_full);
+        }
+        self.queue.is_full() && (self.peer.is_some() || self.link.required)
+    }
+
+    /// Returns true if one more message would find room.
+    pub(crate) fn has_room(&self) -> bool {
+        !self.queue.is_full()
+    }
+
+    /// Returns true if a message would be written at once.
+    pub(crate) fn is_free(&self) -> bool {
+        self.peer.is_some() && self.queue.is_empty()
+    }
+
+    /// Returns true if the component at the other end is connected, or a plain ZeroMQ program in its place.
+    pub(crate) fn is_connected(&self) -> bool {
+        self.peer.is_some() || !self.foreign.is_empty()
+    }
+
+    /// Number of connects and disconnects so far. Wakes the task when it changes.
+    pub(crate) fn watch_changes(&mut self, waker: &Waker) -> u64 {
+        self.watcher = Some(waker.clone());
+        self.changes
+    }
+
+    pub(crate) fn peer_name(&self) -> PeerName {
+        PeerName::of(self.link)
+    }
+
+    pub(crate) fn link(&self) -> &'static LinkSpec {
+        self.link
+    }
+
+    pub(crate) fn refusal(&self) -> Option<String> {
+        self.sender.refusal()
+    }
+
+    pub(crate) fn account(&self) -> &Account {
+        &self.account
+    }
+
+    /// Number of messages handed to plain ZeroMQ programs, and dropped because those read slowly.
+    pub(crate) fn foreign_counts(&self) -> (u64, u64) {
+        self.foreign.iter().fold(self.foreign_left, |(sent, dropped), one| (sent + one.sent(), dropped + one.dropped()))
+    }
+
+    pub(crate) fn stats(&self) -> PeerStats {
+        let unacknowledged = self.unacknowledged();
+        let (dropped_oldest, dropped_newest) = (self.queue.dropped_oldest, self.queue.dropped_newest);
+        PeerStats {
+            peer: format!("{}.{}", self.link.peer_component, self.link.peer_gate),
+            connected: self.is_connected(),
+            published: self.account.handed + self.queue.len() as u64 + dropped_oldest + dropped_newest,
+            taken: self.account.handed - self.account.lost - unacknowledged,
+            dropped_oldest,
+            dropped_newest,
+            lost: self.account.lost,
+            waiting: self.queue.len() as u64 + unacknowledged,
+        }
+    }
+
+    fn accept_and_read(&mut self, cx: &mut Context<'_>) {
+        loop {
+            while let Poll::Ready(peer) = self.sender.poll_peer(cx) {
+                self.adopt(peer);
+            }
+            let driven = self.peer.as_mut().map_or(Ok(()), |link| link.drive(cx));
+            if driven.is_ok() {
+                break;
+            }
+            self.disconnect();
+        }
+        let left = &mut self.foreign_left;
+        self.foreign.retain_mut(|peer| {
+            let stays = peer.drive(cx).is_ok();
+            if !stays {
+                *left = (left.0 + peer.sent(), left.1 + peer.dropped());
+            }
+            stays
+        });
+    }
+
+    fn adopt(&mut self, Peer { kind, mut link }: Peer) {
+        if self.detached {
+            link.detach();
+        }
+        if kind == PeerKind::Foreign && self.kind == GateKind::Pub {
+            let policy = self.queue.policy();
+            // The component, when it comes, must find what waited for it; so a program in its place gets a copy.
+            let waiting = if self.peer.is_none() { self.queue.items().clone() } else { Default::default() };
+            self.foreign.push(ForeignPeer::new(link, policy, waiting));
+            return;
+        }
+        // A newer link replaces an older one: only one program at a time runs a component.
+        self.disconnect();
+        self.peer = Some(link);
+    }
+
+    fn disconnect(&mut self) {
+        if let Some(link) = self.peer.take() {
+            self.account.lost += link.unacknowledged();
+        }
+    }
+
+    /// Gives the link what waits, in order, as much as it takes.
+    fn hand_over(&mut self) {
+        let mut cx = Context::from_waker(&self.task);
+        if let Some(link) = &mut self.peer {
+            let account = &mut self.account;
+            link.send_all(&mut cx, self.queue.items_mut(), &mut |length| account.hand(length));
+        }
+        self.dropping &= !self.queue.is_empty();
+        // A flush looks at acknowledgements as well, which arrive without a change of the queue.
+        self.waiting_flushes.drain(..).for_each(Waker::wake);
+        // There is room, or the peer that the sender would wait for is an optional one that has gone.
+        if self.waiting_sender.is_some() && !self.would_wait() {
+            self.waiting_sender.take().into_iter().for_each(Waker::wake);
+        }
+    }
+
+    /// Queues a message for the component at the other end.
+    fn keep(&mut self, message: Bytes) {
+        if self.peer.is_none() && !self.foreign.is_empty() {
+            // A program in the component's place has it; older ones make room, and nothing is lost.
+            if self.queue.replace(message) != Pushed::Stored {
+                self.account.handed += 1;
+            }
+            return;
+        }
+        let pushed = self.queue.push(message);
+        // Replacing the value in a queue of one is what was asked for, and no reason for a warning.
+        if pushed != Pushed::Stored && !self.dropping && self.queue.policy().capacity > 1 {
+            self.dropping = true;
+            let (gate, queue) = (self.gate, self.queue.policy().capacity);
+            let reason = if self.peer.is_some() { "it reads too slowly" } else { "it is not connected" };
+            tracing::warn!(%gate, queue, "queue of {} is full; dropping messages: {reason}", self.peer_name());
+        }
+    }
+
+    fn unacknowledged(&self) -> u64 {
+        self.peer.as_ref().map_or(0, |link| link.unacknowledged())
+    }
+
+    fn report_change(&mut self) {
+        self.changes += 1;
+        self.watcher.take().into_iter().for_each(Waker::wake);
+        self.component_changes.report();
+        let (gate, foreign) = (self.gate, self.foreign.len());
+        let state = if self.peer.is_some() { "connected" } else { "disconnected" };
+        tracing::debug!(%gate, foreign, "{} is {state}", self.peer_name());
+    }
+}
+
+/// The receiving gate's queue. It makes the sender wait only if the sending gate allows that.
+fn policy(spec: &GateSpec, link: &LinkSpec) -> QueuePolicy {
+    let may_wait = spec.backpressure || link.when_full != WhenFull::Wait;
+    let when_full = if may_wait { link.when_full } else { WhenFull::DropOldest };
+    QueuePolicy { capacity: link.queue as usize, when_full }
+}
+
+impl Account {
+    fn hand(&mut self, length: usize) {
+        self.handed += 1;
+        self.activity.add(length);
+    }
+
+    pub(crate) fn handed(&self) -> u64 {
+        self.handed
+    }
+}
+
+impl SendingEnd for Connection {
+    fn poll_flushed(&mut self, acknowledged: bool, cx: &mut Context<'_>) -> Poll<()> {
+        if !self.waiting_flushes.iter().any(|known| known.will_wake(cx.waker())) {
+            self.waiting_flushes.push(cx.waker().clone());
+        }
+        let foreign = self.foreign.iter().all(ForeignPeer::is_flushed);
+        let component = match &mut self.peer {
+            Some(link) => {
+                let written = self.queue.is_empty() && link.is_written();
+                if written && acknowledged && link.unacknowledged() > 0 {
+                    link.request_acknowledgement(&mut Context::from_waker(&self.task));
+                }
+                written && !(acknowledged && link.unacknowledged() > 0)
+            }
+            None => true,
+        };
+        if foreign && component { Poll::Ready(()) } else { Poll::Pending }
+    }
+
+    fn waits_for_absent_peer(&self) -> Option<Unflushed> {
+        (!self.is_connected() && !self.queue.is_empty()).then(|| self.report(self.queue.len() as u64))
+    }
+
+    fn leftover(&self, acknowledged: bool) -> Option<Unflushed> {
+        self.peer.as_ref()?;
+        let waiting = self.queue.len() as u64 + if acknowledged { self.unacknowledged() } else { 0 };
+        (waiting > 0).then(|| self.report(waiting))
+    }
+
+    fn drive(&mut self, cx: &mut Context<'_>) {
+        Self::drive(self, cx);
+    }
+
+    fn detach(&mut self) {
+        self.detached = true;
+        self.sender.detach();
+        self.peer.iter_mut().for_each(|link| link.detach());
+        self.foreign.iter_mut().for_each(ForeignPeer::detach);
+    }
+}
+
+impl Connection {
+    fn report(&self, messages: u64) -> Unflushed {
+        // Nobody waits for an optional component that is not running.
+        let lossless = self.queue.waits() && (self.peer.is_some() || self.link.required);
+        Unflushed { gate: self.gate, peer: self.peer_name(), messages, running: false, lossless }
+    }
+}

@@ -1,0 +1,200 @@
+//! The end of a `req` gate, shared by its calls and its background task.
+
+use super::io_waker::IoWaker;
+use crate::state::{Changes, ComponentState};
+use crate::sync::{AbortOnDrop, lock};
+use crate::time::Watchdog;
+use crate::transport::{Answer, Requester};
+use bytes::Bytes;
+use std::future::poll_fn;
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::task::{Context, Poll, Waker};
+use std::time::Duration;
+use tokio::time::Instant;
+
+pub(super) struct Exchange {
+    end: Arc<Mutex<End>>,
+    io: Arc<IoWaker>,
+    _task: AbortOnDrop,
+}
+
+struct End {
+    link: Box<dyn Requester>,
+    waker: Waker,
+    /// Whether a call is under way, whose reply the task must not take.
+    in_call: bool,
+    /// Whether the link has just refused the request of the call.
+    refused: bool,
+    was_connected: bool,
+    changes: Changes,
+}
+
+/// Why a request got no reply.
+pub(super) enum ExchangeError {
+    TimedOut {
+        /// Whether the request was sent before.
+        sent: bool,
+    },
+    Lost,
+}
+
+impl Exchange {
+    /// Starts to connect. Needs a tokio runtime.
+    pub(super) fn new(link: Box<dyn Requester>, changes: Changes) -> Self {
+        let io = Arc::new(IoWaker::default());
+        let waker = Waker::from(Arc::clone(&io));
+        let end =
+            Arc::new(Mutex::new(End { link, waker, in_call: false, refused: false, was_connected: false, changes }));
+        // Weak, so that the end is gone with the gate, and not only when the runtime drops the task.
+        let (driven, task_io) = (Arc::downgrade(&end), Arc::clone(&io));
+        let task = tokio::spawn(poll_fn(move |cx| {
+            task_io.set_task(cx.waker());
+            let Some(end) = driven.upgrade() else { return Poll::Ready(()) };
+            lock(&end).drive();
+            task_io.wake_call();
+            Poll::Pending
+        }));
+        Self { end, io, _task: AbortOnDrop(task.abort_handle()) }
+    }
+
+    /// Sends a request and waits for its reply.
+    pub(super) async fn call(
+        &self,
+        id: u64,
+        body: Bytes,
+        watchdog: &mut Watchdog,
+        deadline: Instant,
+        state: &ComponentState,
+    ) -> Result<Bytes, ExchangeError> {
+        let _in_call = InCall::begin(self);
+        let mut unsent = Some(body);
+        let mut direct_wait = state.direct_wait();
+        poll_fn(|cx| {
+            // A stopped program's calls stay pending: what waits for them is dropped.
+            if state.is_stopped() {
+                return Poll::Pending;
+            }
+            let polled = self.poll(id, &mut unsent, &mut direct_wait, deadline, cx);
+            if polled.is_ready() {
+                return polled;
+            }
+            // Without its timer the call could wait forever, so a timer that fails ends it too.
+            watchdog.poll_past(cx, deadline).map(|_past| Err(ExchangeError::TimedOut { sent: unsent.is_none() }))
+        })
+        .await
+    }
+
+    /// The call of a gate that is connected to nothing.
+    pub(super) async fn unconnected(watchdog: &mut Watchdog, deadline: Instant) -> Result<Bytes, ExchangeError> {
+        let _past = poll_fn(|cx| watchdog.poll_past(cx, deadline)).await;
+        Err(ExchangeError::TimedOut { sent: false })
+    }
+
+    fn poll(
+        &self,
+        id: u64,
+        unsent: &mut Option<Bytes>,
+        direct_wait: &mut Option<Duration>,
+        deadline: Instant,
+        cx: &mut Context<'_>,
+    ) -> Poll<Result<Bytes, ExchangeError>> {
+        let mut end = lock(&self.end);
+        let mut polled = end.poll_call(id, unsent);
+        if unsent.is_none()
+            && polled.is_pending()
+            && let Some(within) = direct_wait.take()
+            && end.link.wait(within.min(deadline.saturating_duration_since(Instant::now())))
+        {
+            polled = end.poll_call(id, unsent);
+        }
+        if polled.is_pending() {
+            self.io.wait(cx.waker(), false);
+            if std::mem::take(&mut end.refused) {
+                // Tried again after others had their turn.
+                cx.waker().wake_by_ref();
+            }
+        }
+        polled
+    }
+
+    pub(super) fn is_connected(&self) -> bool {
+        self.lock().link.is_connected()
+    }
+
+    pub(super) fn refusal(&self) -> Option<String> {
+        self.lock().link.refusal()
+    }
+
+    /// Keeps the end from being dropped in a forked child, where that would disturb the parent.
+    pub(super) fn leak(&self) {
+        std::mem::forget(Arc::clone(&self.end));
+    }
+
+    fn lock(&self) -> MutexGuard<'_, End> {
+        lock(&self.end)
+    }
+}
+
+impl End {
+    /// Reconnects, and answers heartbeats, while no call does.
+    fn drive(&mut self) {
+        if !self.in_call {
+            let cx = &mut Context::from_waker(&self.waker);
+            let _connected = self.link.poll_connected(cx);
+        }
+        self.report_change();
+    }
+
+    fn poll_call(&mut self, id: u64, unsent: &mut Option<Bytes>) -> Poll<Result<Bytes, ExchangeError>> {
+        let waker = self.waker.clone();
+        let cx = &mut Context::from_waker(&waker);
+        if let Some(body) = unsent.take() {
+            if self.link.poll_connected(cx).is_pending() {
+                *unsent = Some(body);
+                return Poll::Pending;
+            }
+            self.report_change();
+            if let Err(body) = self.link.request(cx, id, body) {
+                // The connection broke at this very moment; the next poll starts to reconnect.
+                *unsent = Some(body);
+                self.refused = true;
+                return Poll::Pending;
+            }
+        }
+        loop {
+            match self.link.poll_answer(cx) {
+                Poll::Ready(Answer::Reply { id: replied, body }) if replied == id => return Poll::Ready(Ok(body)),
+                Poll::Ready(Answer::Reply { .. }) => tracing::debug!("discarded the reply to an earlier call"),
+                Poll::Ready(Answer::Lost) => return Poll::Ready(Err(ExchangeError::Lost)),
+                Poll::Pending => return Poll::Pending,
+            }
+        }
+    }
+
+    fn report_change(&mut self) {
+        let is_connected = self.link.is_connected();
+        if std::mem::replace(&mut self.was_connected, is_connected) != is_connected {
+            self.changes.report();
+        }
+    }
+}
+
+/// Marks a call as under way, and hands the end back to the task when it ends in any way.
+struct InCall<'a>(&'a Exchange);
+
+impl<'a> InCall<'a> {
+    fn begin(exchange: &'a Exchange) -> Self {
+        exchange.lock().in_call = true;
+        Self(exchange)
+    }
+}
+
+impl Drop for InCall<'_> {
+    fn drop(&mut self) {
+        let mut end = self.0.lock();
+        end.in_call = false;
+        self.0.io.forget_call();
+        // Polled once more, so that an event reported to the call is handled, and the next one wakes the task.
+        end.drive();
+    }
+}

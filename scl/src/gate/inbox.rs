@@ -1,0 +1,275 @@
+//! The ends of a receiving gate and its queue, shared by the calls of the program and the gate's background task.
+
+use super::io_waker::IoWaker;
+use super::queue::{Queue, QueuePolicy};
+use super::stats::Activity;
+use super::tap::{GateTap, Observed};
+use crate::spec::{GateSpec, WhenFull};
+use crate::state::Changes;
+use crate::sync::{AbortOnDrop, lock};
+use crate::transport::Receiver;
+use bytes::Bytes;
+use std::future::poll_fn;
+use std::sync::{Arc, Mutex};
+use std::task::{Context, Poll, Waker};
+use std::time::{Duration, Instant};
+
+/// How many messages one call takes in at most, so that a fast peer cannot keep a call from returning.
+const TAKE_IN: usize = 1024;
+/// How long a call that does not wait may be held up to fetch what a sender holds back. A publisher without async may need
+/// until its next call to answer.
+const CATCH_UP: Duration = Duration::from_millis(10);
+
+/// What has arrived at a gate and was not given to the program yet.
+pub(super) struct Inbox {
+    links: Vec<Box<dyn Receiver>>,
+    /// The link to ask first, so that all get their turn.
+    next: usize,
+    queue: Queue<Arrived>,
+    /// Whether the last receiving call found nothing, and nothing was taken in since.
+    was_empty: bool,
+    /// Whether a sender was asked for what it holds back.
+    catching_up: bool,
+    newest_only: bool,
+    pub(super) received: u64,
+    pub(super) activity: Activity,
+    tap: GateTap,
+    waker: Waker,
+    connected: Vec<usize>,
+    changes: Changes,
+}
+
+/// A message and the link that it came from.
+pub(super) struct Arrived {
+    pub(super) link: usize,
+    pub(super) frame: Bytes,
+}
+
+/// The inbox, its waker, and the task that drives it.
+pub(super) struct SharedInbox {
+    inbox: Arc<Mutex<Inbox>>,
+    pub(super) io: Arc<IoWaker>,
+    _task: AbortOnDrop,
+}
+
+impl SharedInbox {
+    /// Starts to receive. Needs a tokio runtime.
+    pub(super) fn new(spec: &GateSpec, links: Vec<Box<dyn Receiver>>, tap: GateTap, changes: Changes) -> Self {
+        let io = Arc::new(IoWaker::default());
+        let waker = Waker::from(Arc::clone(&io));
+        let inbox = Arc::new(Mutex::new(Inbox::new(spec, links, tap, changes, waker)));
+        // Weak, so that the ends are gone with the gate, and not only when the runtime drops the task.
+        let (driven, task_io) = (Arc::downgrade(&inbox), Arc::clone(&io));
+        let task = tokio::spawn(poll_fn(move |cx| {
+            task_io.set_task(cx.waker());
+            let Some(inbox) = driven.upgrade() else { return Poll::Ready(()) };
+            if lock(&inbox).drive() {
+                task_io.wake_call();
+            }
+            Poll::Pending
+        }));
+        Self { inbox, io, _task: AbortOnDrop(task.abort_handle()) }
+    }
+
+    /// Returns the next message, or registers the call and returns `Pending`. `may_vanish`: see [`IoWaker::wait`].
+    pub(super) fn poll_next(&self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Arrived> {
+        let mut inbox = lock(&self.inbox);
+        let polled = inbox.poll_next();
+        if polled.is_pending() {
+            self.io.wait(cx.waker(), may_vanish);
+        }
+        polled
+    }
+
+    pub(super) fn lock(&self) -> std::sync::MutexGuard<'_, Inbox> {
+        lock(&self.inbox)
+    }
+
+    /// Keeps the ends from being dropped in a forked child, where that would disturb the parent.
+    pub(super) fn leak(&self) {
+        std::mem::forget(Arc::clone(&self.inbox));
+    }
+}
+
+impl Inbox {
+    fn new(spec: &GateSpec, links: Vec<Box<dyn Receiver>>, tap: GateTap, changes: Changes, waker: Waker) -> Self {
+        let policy = QueuePolicy { capacity: spec.queue as usize, when_full: spec.when_full };
+        Self {
+            connected: vec![0; links.len()],
+            links,
+            next: 0,
+            queue: Queue::new(policy),
+            was_empty: false,
+            catching_up: false,
+            newest_only: spec.newest_only(),
+            received: 0,
+            activity: Activity::default(),
+            tap,
+            waker,
+            changes,
+        }
+    }
+
+    /// Takes in what has arrived while the program is busy elsewhere. Returns true if a message waits.
+    fn drive(&mut self) -> bool {
+        self.take_in();
+        self.report_changes();
+        !self.queue.is_empty() || self.catching_up
+    }
+
+    fn poll_next(&mut self) -> Poll<Arrived> {
+        // After a pending call the queue was empty, so the first arrival cannot overflow it.
+        if self.was_empty && !self.newest_only {
+            let polled = self.poll_links();
+            self.was_empty = polled.is_pending();
+            if polled.is_ready() {
+                // Polled until nothing is left, or the next event would find nobody to wake.
+                self.take_in();
+            }
+            return polled;
+        }
+        self.take_in();
+        if self.newest_only && self.poll_caught_up().is_pending() {
+            return Poll::Pending;
+        }
+        let first = self.queue.pop();
+        self.was_empty = first.is_none();
+        first.map_or(Poll::Pending, Poll::Ready)
+    }
+
+    /// Waits for the next message on the calling thread, without a runtime, for a short time. Only a gate with one peer
+    /// can: it waits for one socket.
+    pub(super) fn wait(&mut self, within: Duration) -> Option<Arrived> {
+        let started = Instant::now();
+        loop {
+            if let Poll::Ready(arrived) = self.poll_next() {
+                return Some(arrived);
+            }
+            let [link] = &mut self.links[..] else { return None };
+            if !link.wait(within.checked_sub(started.elapsed())?) {
+                return None;
+            }
+        }
+    }
+
+    /// Returns the next message if one has arrived.
+    pub(super) fn try_next(&mut self) -> Option<Arrived> {
+        self.was_empty = false;
+        if self.queue.is_empty() || self.newest_only {
+            self.catch_up();
+            self.take_in();
+        }
+        self.queue.pop()
+    }
+
+    /// Returns the newest message that has arrived and discards the others.
+    pub(super) fn newest(&mut self) -> Option<Arrived> {
+        self.was_empty = false;
+        self.catch_up();
+        self.take_in();
+        let mut newest = self.queue.pop_newest();
+        if self.queue.waits() {
+            // Such a gate takes in no more than its queue holds, but what is passed over keeps no publisher waiting.
+            for _ in 0..TAKE_IN {
+                let Poll::Ready(newer) = self.poll_links() else { break };
+                newest = Some(newer);
+            }
+        }
+        newest
+    }
+
+    /// Drains the links into the queue, as far as it makes its senders wait.
+    fn take_in(&mut self) {
+        for _ in 0..TAKE_IN {
+            if self.queue.waits() && self.queue.is_full() {
+                return;
+            }
+            let Poll::Ready(arrived) = self.poll_links() else { return };
+            self.was_empty = false;
+            self.queue.push(arrived);
+        }
+        // There is more: the task continues after others had their turn.
+        self.waker.wake_by_ref();
+    }
+
+    fn poll_links(&mut self) -> Poll<Arrived> {
+        let cx = &mut Context::from_waker(&self.waker);
+        let count = self.links.len();
+        for offset in 0..count {
+            let link = (self.next + offset) % count;
+            if let Poll::Ready(frame) = self.links[link].poll_recv(cx) {
+                self.next = (link + 1) % count;
+                self.received += 1;
+                self.activity.add(frame.len());
+                self.tap.observe(Observed::Message, 0, &frame);
+                return Poll::Ready(Arrived { link, frame });
+            }
+        }
+        Poll::Pending
+    }
+
+    /// Ready when no sender holds back anything newer than what was taken in.
+    fn poll_caught_up(&mut self) -> Poll<()> {
+        loop {
+            let cx = &mut Context::from_waker(&self.waker);
+            let behind =
+                self.links.iter_mut().filter_map(|link| link.poll_caught_up(cx).is_pending().then_some(())).count();
+            if behind > 0 {
+                self.catching_up = true;
+                return Poll::Pending;
+            }
+            let asked = std::mem::take(&mut self.catching_up);
+            // To know that, the links may have read messages that were not there before.
+            self.take_in();
+            // An answer may be to the question of an earlier call, so the next one must need no question.
+            if !asked {
+                return Poll::Ready(());
+            }
+        }
+    }
+
+    /// Asks the operating system, because the runtime may not have had a turn for long.
+    fn catch_up(&mut self) {
+        let within = if self.newest_only { CATCH_UP } else { Duration::ZERO };
+        self.links.iter_mut().for_each(|link| link.catch_up(within));
+    }
+
+    fn report_changes(&mut self) {
+        let mut changed = false;
+        for (link, known) in self.links.iter().zip(&mut self.connected) {
+            changed |= std::mem::replace(known, link.peers()) != link.peers();
+        }
+        if changed {
+            self.changes.report();
+        }
+    }
+
+    pub(super) fn links(&self) -> &[Box<dyn Receiver>] {
+        &self.links
+    }
+
+    pub(super) fn queue(&self) -> &Queue<Arrived> {
+        &self.queue
+    }
+
+    pub(super) fn tap_dropped(&self) -> u64 {
+        self.tap.dropped()
+    }
+
+    /// Number of messages that were not one frame.
+    pub(super) fn malformed(&self) -> u64 {
+        self.links.iter().map(|link| link.malformed()).sum()
+    }
+
+    /// Number of connected peers.
+    pub(super) fn peers(&self) -> usize {
+        self.links.iter().map(|link| link.peers()).sum()
+    }
+}
+
+impl GateSpec {
+    /// Whether a receiving gate wants nothing but the newest message.
+    pub(crate) fn newest_only(&self) -> bool {
+        self.queue == 1 && self.when_full == WhenFull::DropOldest
+    }
+}

@@ -1,0 +1,130 @@
+//! The bounded queue of a connection or gate, with the policy that the topology declares. Both ends use this one.
+
+use crate::spec::WhenFull;
+use std::collections::VecDeque;
+
+/// How many messages may wait, and what happens to one more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct QueuePolicy {
+    pub(crate) capacity: usize,
+    /// `Wait` concerns the sender, which asks [`Queue::is_full`] first; a message pushed all the same replaces the oldest.
+    pub(crate) when_full: WhenFull,
+}
+
+/// Messages that wait, oldest first.
+pub(crate) struct Queue<T> {
+    items: VecDeque<T>,
+    policy: QueuePolicy,
+    pub(crate) dropped_oldest: u64,
+    pub(crate) dropped_newest: u64,
+}
+
+/// What happened to a message that was pushed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pushed {
+    Stored,
+    /// It was stored, and the oldest was dropped.
+    ReplacedOldest,
+    /// It was dropped.
+    Dropped,
+}
+
+impl<T> Queue<T> {
+    pub(crate) fn new(policy: QueuePolicy) -> Self {
+        Self { items: VecDeque::new(), policy, dropped_oldest: 0, dropped_newest: 0 }
+    }
+
+    pub(crate) fn push(&mut self, item: T) -> Pushed {
+        let pushed = self.replace(item);
+        match pushed {
+            Pushed::Stored => {}
+            Pushed::ReplacedOldest => self.dropped_oldest += 1,
+            Pushed::Dropped => self.dropped_newest += 1,
+        }
+        pushed
+    }
+
+    /// Like [`push`](Self::push), but counts no drop: somebody else has taken the message.
+    pub(crate) fn replace(&mut self, item: T) -> Pushed {
+        if !self.is_full() {
+            self.items.push_back(item);
+            return Pushed::Stored;
+        }
+        if self.policy.when_full == WhenFull::DropNewest {
+            return Pushed::Dropped;
+        }
+        self.items.pop_front();
+        self.items.push_back(item);
+        Pushed::ReplacedOldest
+    }
+
+    pub(crate) fn pop(&mut self) -> Option<T> {
+        self.items.pop_front()
+    }
+
+    /// Returns the newest message and discards the others, which its caller has passed over.
+    pub(crate) fn pop_newest(&mut self) -> Option<T> {
+        let newest = self.items.pop_back();
+        self.items.clear();
+        newest
+    }
+
+    pub(crate) fn items(&self) -> &VecDeque<T> {
+        &self.items
+    }
+
+    /// The messages themselves, for a link that takes several at once.
+    pub(crate) fn items_mut(&mut self) -> &mut VecDeque<T> {
+        &mut self.items
+    }
+
+    pub(crate) fn policy(&self) -> QueuePolicy {
+        self.policy
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+
+    pub(crate) fn is_full(&self) -> bool {
+        self.items.len() >= self.policy.capacity
+    }
+
+    /// Returns true if a full queue makes the sender wait.
+    pub(crate) fn waits(&self) -> bool {
+        self.policy.when_full == WhenFull::Wait
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_queue_does_what_was_declared() {
+        let cases = [
+            (WhenFull::DropOldest, Pushed::ReplacedOldest, [2, 3], (1, 0)),
+            (WhenFull::DropNewest, Pushed::Dropped, [1, 2], (0, 1)),
+            (WhenFull::Wait, Pushed::ReplacedOldest, [2, 3], (1, 0)),
+        ];
+        for (when_full, expected, left, dropped) in cases {
+            let mut queue = Queue::new(QueuePolicy { capacity: 2, when_full });
+            assert_eq!([queue.push(1), queue.push(2)], [Pushed::Stored; 2], "{when_full:?}");
+            assert_eq!(queue.push(3), expected, "{when_full:?}");
+            assert_eq!(queue.items(), &left, "{when_full:?}");
+            assert_eq!((queue.dropped_oldest, queue.dropped_newest), dropped, "{when_full:?}");
+        }
+    }
+
+    #[test]
+    fn what_somebody_else_has_taken_is_not_counted_as_dropped() {
+        let mut queue = Queue::new(QueuePolicy { capacity: 1, when_full: WhenFull::DropOldest });
+        queue.replace(1);
+        assert_eq!(queue.replace(2), Pushed::ReplacedOldest);
+        assert_eq!((queue.items()[0], queue.dropped_oldest), (2, 0));
+    }
+}

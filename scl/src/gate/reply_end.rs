@@ -1,0 +1,130 @@
+//! The end of a `rep` gate, shared by its calls, its requests and its background task.
+
+use super::io_waker::IoWaker;
+use crate::error::Unflushed;
+use crate::state::{ComponentState, SendingEnd};
+use crate::sync::{AbortOnDrop, lock};
+use crate::transport::{IncomingRequest, Replier};
+use std::future::poll_fn;
+use std::sync::{Arc, Mutex};
+use std::task::{Context, Poll, Waker};
+
+pub(super) struct ReplyEnd {
+    link: Arc<Mutex<Link>>,
+    io: Arc<IoWaker>,
+    _task: AbortOnDrop,
+}
+
+struct Link {
+    replier: Box<dyn Replier>,
+    waker: Waker,
+    written: bool,
+    peers: usize,
+    /// A dropped gate and the component's flush may both wait.
+    waiting_flushes: Vec<Waker>,
+}
+
+impl ReplyEnd {
+    /// Starts to listen. Needs a tokio runtime.
+    pub(super) fn open(replier: Box<dyn Replier>, state: &Arc<ComponentState>) -> Arc<Self> {
+        let io = Arc::new(IoWaker::default());
+        let waker = Waker::from(Arc::clone(&io));
+        let link = Arc::new(Mutex::new(Link { replier, waker, written: true, peers: 0, waiting_flushes: Vec::new() }));
+        state.register(Arc::clone(&link) as _);
+        // Weak, so that the end is gone with the gate, and not only when the runtime drops the task.
+        let (driven, task_io, changes) = (Arc::downgrade(&link), Arc::clone(&io), state.changes());
+        let task = tokio::spawn(poll_fn(move |cx| {
+            task_io.set_task(cx.waker());
+            let Some(link) = driven.upgrade() else { return Poll::Ready(()) };
+            if lock(&link).drive_by_task() {
+                changes.report();
+            }
+            task_io.wake_call();
+            Poll::Pending
+        }));
+        Arc::new(Self { link, io, _task: AbortOnDrop(task.abort_handle()) })
+    }
+
+    /// Returns the next request, or registers the call and returns `Pending`. `may_vanish`: see [`IoWaker::wait`].
+    pub(super) fn poll_next(&self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<IncomingRequest> {
+        let mut link = lock(&self.link);
+        let polled = link.poll_next();
+        if polled.is_pending() {
+            self.io.wait(cx.waker(), may_vanish);
+        }
+        polled
+    }
+
+    pub(super) fn try_next(&self) -> Option<IncomingRequest> {
+        match lock(&self.link).poll_next() {
+            Poll::Ready(request) => Some(request),
+            Poll::Pending => None,
+        }
+    }
+
+    /// A call gave up.
+    pub(super) fn cancel(&self) {
+        self.io.cancel();
+    }
+
+    pub(super) fn peers(&self) -> usize {
+        lock(&self.link).replier.peers()
+    }
+
+    pub(super) fn malformed(&self) -> u64 {
+        lock(&self.link).replier.malformed()
+    }
+
+    /// The end itself, which the component keeps until the last reply is written.
+    pub(super) fn link(&self) -> Arc<Mutex<dyn SendingEnd>> {
+        Arc::clone(&self.link) as _
+    }
+}
+
+impl Link {
+    fn poll_next(&mut self) -> Poll<IncomingRequest> {
+        self.replier.poll_request(&mut Context::from_waker(&self.waker))
+    }
+
+    /// Returns true if requesters came or left.
+    fn drive_by_task(&mut self) -> bool {
+        let waker = self.waker.clone();
+        self.drive(&mut Context::from_waker(&waker));
+        let peers = self.replier.peers();
+        std::mem::replace(&mut self.peers, peers) != peers
+    }
+}
+
+impl SendingEnd for Link {
+    fn poll_flushed(&mut self, _acknowledged: bool, cx: &mut Context<'_>) -> Poll<()> {
+        let waker = self.waker.clone();
+        self.written = self.replier.drive(&mut Context::from_waker(&waker));
+        if self.written {
+            return Poll::Ready(());
+        }
+        if !self.waiting_flushes.iter().any(|known| known.will_wake(cx.waker())) {
+            self.waiting_flushes.push(cx.waker().clone());
+        }
+        Poll::Pending
+    }
+
+    fn waits_for_absent_peer(&self) -> Option<Unflushed> {
+        None
+    }
+
+    /// Which requester did not read its reply is not known here; it learns that by its timeout.
+    fn leftover(&self, _acknowledged: bool) -> Option<Unflushed> {
+        None
+    }
+
+    fn drive(&mut self, cx: &mut Context<'_>) {
+        self.written = self.replier.drive(cx);
+        if self.written {
+            self.waiting_flushes.drain(..).for_each(Waker::wake);
+        }
+    }
+
+    fn detach(&mut self) {
+        self.replier.detach();
+    }
+}

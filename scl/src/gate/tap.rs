@@ -1,0 +1,124 @@
+//! Where tools observe a gate: every message of a `pub`, `pull` or `rep` gate, with its number and time.
+
+use crate::sync::{AbortOnDrop, lock};
+use crate::transport::Tap;
+use bytes::Bytes;
+use rustix::time::{ClockId, clock_gettime};
+use std::future::poll_fn;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
+use std::task::{Context, Poll, Waker};
+
+/// Length of the second frame of a message at a tap, in bytes.
+const META: usize = 32;
+
+/// What a message at a tap is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Observed {
+    Message = 0,
+    Request = 1,
+    Reply = 2,
+}
+
+/// The tap of one gate, shared by everything that the gate's messages pass through.
+pub(crate) struct GateTap {
+    shared: Option<Arc<Shared>>,
+    _task: Option<AbortOnDrop>,
+}
+
+struct Shared {
+    end: Mutex<End>,
+    /// Whether anybody observes; without, a message costs no more than a look at this and its number.
+    observed: AtomicBool,
+    sequence: AtomicU64,
+}
+
+struct End {
+    tap: Box<dyn Tap>,
+    task: Waker,
+}
+
+impl GateTap {
+    /// Opens the tap; a transport without taps gives `None`.
+    pub(crate) fn new(tap: Option<Box<dyn Tap>>) -> Self {
+        let Some(tap) = tap else { return Self { shared: None, _task: None } };
+        let end = Mutex::new(End { tap, task: Waker::noop().clone() });
+        let shared = Arc::new(Shared { end, observed: AtomicBool::new(false), sequence: AtomicU64::new(0) });
+        // Weak, so that the socket is gone with the gate, and not only when the runtime drops the task.
+        let driven = Arc::downgrade(&shared);
+        let task = tokio::spawn(poll_fn(move |cx| match driven.upgrade() {
+            Some(shared) => {
+                shared.drive(cx);
+                Poll::Pending
+            }
+            None => Poll::Ready(()),
+        }));
+        Self { shared: Some(shared), _task: Some(AbortOnDrop(task.abort_handle())) }
+    }
+
+    /// Shows a message to the observers, if there are any.
+    pub(crate) fn observe(&self, what: Observed, call_id: u64, payload: &Bytes) {
+        if let Some(shared) = &self.shared {
+            shared.observe(what, call_id, payload);
+        }
+    }
+
+    /// Number of messages dropped because an observer reads slowly.
+    pub(crate) fn dropped(&self) -> u64 {
+        self.shared.as_ref().map_or(0, |shared| lock(&shared.end).tap.dropped())
+    }
+
+    /// Keeps the tap from being dropped in a forked child, where that would disturb the parent.
+    pub(crate) fn leak(&self) {
+        std::mem::forget(self.shared.clone());
+    }
+}
+
+impl Shared {
+    fn drive(&self, cx: &mut Context<'_>) {
+        let mut end = lock(&self.end);
+        if !end.task.will_wake(cx.waker()) {
+            end.task = cx.waker().clone();
+        }
+        self.observed.store(end.tap.drive(cx), Ordering::Release);
+    }
+
+    fn observe(&self, what: Observed, call_id: u64, payload: &Bytes) {
+        // Counted also while nobody observes, so that an observer can tell a gap from its own absence.
+        let sequence = self.sequence.fetch_add(1, Ordering::Relaxed);
+        if !self.observed.load(Ordering::Acquire) {
+            return;
+        }
+        let mut end = lock(&self.end);
+        let End { tap, task } = &mut *end;
+        tap.observe(&mut Context::from_waker(task), payload, &meta(sequence, now_ns(), call_id, what));
+    }
+}
+
+/// Sequence, time of sending, call id (each u64), kind (u8) and 7 zero bytes, little endian.
+fn meta(sequence: u64, sent_ns: u64, call_id: u64, what: Observed) -> [u8; META] {
+    let mut meta = [0; META];
+    for (place, value) in [sequence, sent_ns, call_id].into_iter().enumerate() {
+        meta[8 * place..8 * (place + 1)].copy_from_slice(&value.to_le_bytes());
+    }
+    meta[24] = what as u8;
+    meta
+}
+
+fn now_ns() -> u64 {
+    let now = clock_gettime(ClockId::Realtime);
+    now.tv_sec.unsigned_abs() * 1_000_000_000 + now.tv_nsec.unsigned_abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_second_frame_is_laid_out_as_documented() {
+        let meta = meta(1, 0x0203, 0x04 << 56, Observed::Reply);
+        let expected = [[1, 0, 0, 0, 0, 0, 0, 0], [3, 2, 0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0, 4]].concat();
+        assert_eq!(meta[..24], expected);
+        assert_eq!(meta[24..], [2, 0, 0, 0, 0, 0, 0, 0]);
+    }
+}

@@ -1,0 +1,22 @@
+//! What the listening gates of a component listen on.
+
+/// What a component listens on. Connecting gates find either by themselves, so the components of a system may differ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Medium {
+    /// Unix sockets in the runtime folder.
+    #[default]
+    Ipc,
+    /// TCP on 127.0.0.1, with the ports in the runtime folder.
+    Tcp,
+}
+
+impl Medium {
+    /// Parses the value of `SCL_TRANSPORT`.
+    pub(crate) fn parse(word: &str) -> Option<Self> {
+        match word {
+            "ipc" => Some(Self::Ipc),
+            "tcp" => Some(Self::Tcp),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! The registration of a running component in the runtime folder.
+
+use crate::process_mark::ProcessMark;
+use crate::runtime_dir::{
+    Announcement, ComponentLock, FolderWatch, Holder, OwnedPath, QUIET, RuntimeDirError, SystemDir, check_peer,
+    explain_missing, publish_schema,
+};
+use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::sync::lock;
+use crate::transport::PeerCheck;
+use std::error::Error;
+use std::sync::{Arc, Mutex, Weak};
+
+/// What makes this process the one that runs a component. Dropped after everything that the component has bound: then
+/// another process may run it.
+///
+/// A component on a transport of the user's choice has no files; nothing is known about its peers then.
+#[derive(Debug)]
+pub(crate) struct Registration {
+    files: Option<Arc<Files>>,
+}
+
+/// The component's files in the folder of its system.
+#[derive(Debug)]
+struct Files {
+    dir: SystemDir,
+    spec: &'static ComponentSpec,
+    announcement: Announcement,
+    /// `None` once the component is closed.
+    held: Mutex<Option<Held>>,
+    process: ProcessMark,
+}
+
+/// Dropped in this order: the lock is released last.
+#[derive(Debug)]
+struct Held {
+    announcement: OwnedPath,
+    lock: ComponentLock,
+}
+
+impl Registration {
+    /// Takes the component's lock, removes what a killed process left behind, and publishes the messages and the
+    /// announcement. The gates are opened after that.
+    pub(crate) fn in_folder(spec: &'static ComponentSpec, dir: SystemDir) -> Result<Self, RuntimeDirError> {
+        let lock = ComponentLock::take(&dir, spec.name)?;
+        lock.clear_leftovers()?;
+        let announcement = Announcement::of(spec);
+        // Readers of the announcement must find the messages.
+        publish_messages(&dir, spec)?;
+        let held = Held { announcement: announcement.publish(&dir)?, lock };
+        let files = Files { dir, spec, announcement, held: Mutex::new(Some(held)), process: ProcessMark::new() };
+        Ok(Self { files: Some(Arc::new(files)) })
+    }
+
+    /// For a component on a transport of the user's choice.
+    pub(crate) fn without_files() -> Self {
+        Self { files: None }
+    }
+
+    /// The folder of the system.
+    #[cfg(test)]
+    pub(crate) fn dir(&self) -> Option<&SystemDir> {
+        self.files.as_ref().map(|files| &files.dir)
+    }
+
+    /// Keeps the registration while the program runs: if the folder or files in it are removed, creates them again and
+    /// reports that through [`SystemDir::poll_restored`]. For a task of the component.
+    ///
+    /// Returns if the files cannot be watched, or if they cannot be created again because another process has taken the
+    /// component's lock in the meantime.
+    pub(crate) fn keep(&self) -> impl Future<Output = ()> + Send + use<> {
+        let files = self.files.as_ref().map(Arc::downgrade);
+        async {
+            if let Some(files) = files {
+                keep(files).await;
+            }
+        }
+    }
+
+    /// What a connecting end calls before it connects.
+    pub(crate) fn peer_check(&self, gate: &'static GateSpec, link: &'static LinkSpec) -> Option<PeerCheck> {
+        let files = self.files.as_ref()?;
+        let (dir, spec) = (files.dir.clone(), files.spec);
+        Some(Arc::new(move || check_peer(&dir, spec, gate, link)))
+    }
+
+    /// The process that holds the lock of a component of this system.
+    pub(crate) fn holder(&self, component: &str) -> Option<Holder> {
+        ComponentLock::holder(&self.files.as_ref()?.dir, component)
+    }
+
+    /// Why a peer is not connected, to follow its name in a text: `is not running`.
+    pub(crate) fn explain_missing(&self, gate: &GateSpec, link: &LinkSpec) -> String {
+        match &self.files {
+            Some(files) => explain_missing(&files.dir, files.spec, gate, link),
+            None => "is not connected".to_owned(),
+        }
+    }
+}
+
+impl Drop for Registration {
+    fn drop(&mut self) {
+        // The task in `keep` may be restoring the files at this moment, so dropping the reference is not enough. In a
+        // forked child, the mutex may be locked by a thread that does not exist there.
+        if let Some(files) = self.files.as_ref().filter(|files| files.process.is_own()) {
+            *lock(&files.held) = None;
+        }
+    }
+}
+
+impl Files {
+    fn watch(&self) -> Result<FolderWatch, RuntimeDirError> {
+        FolderWatch::start(&self.dir, self.spec.name, self.spec.schema.map(|schema| schema.hash))
+    }
+
+    fn are_in_place(&self) -> bool {
+        let held = lock(&self.held);
+        held.as_ref().is_none_or(|held| held.lock.is_in_place() && held.announcement.is_ours())
+    }
+
+    /// Returns true if the lock's file or the announcement was missing. Sockets are restored by their owners, which
+    /// this wakes.
+    fn restore(&self) -> Result<bool, RuntimeDirError> {
+        let mut held = lock(&self.held);
+        let Some(held) = held.as_mut() else { return Ok(false) };
+        self.dir.create_again()?;
+        let (locked, announced) = (held.lock.is_in_place(), held.announcement.is_ours());
+        if !locked {
+            held.lock = ComponentLock::take(&self.dir, self.spec.name)?;
+        }
+        publish_messages(&self.dir, self.spec)?;
+        if !announced {
+            held.announcement = self.announcement.publish(&self.dir)?;
+        }
+        self.dir.mark_restored();
+        Ok(!locked || !announced)
+    }
+}
+
+fn publish_messages(dir: &SystemDir, spec: &ComponentSpec) -> Result<(), RuntimeDirError> {
+    spec.schema.as_ref().map_or(Ok(()), |schema| publish_schema(dir, schema))
+}
+
+async fn keep(files: Weak<Files>) {
+    loop {
+        let Some(current) = files.upgrade() else { return };
+        // Watching starts before looking, so that no removal in between is missed.
+        let watch = current.watch();
+        let in_place = current.are_in_place();
+        // The component may be closed while this task waits.
+        drop(current);
+        match watch {
+            Ok(watch) if in_place => match watch.removal().await {
+                Ok(()) => {}
+                Err(error) => return tracing::debug!(%error, "cannot watch the runtime folder any longer"),
+            },
+            Err(error) if in_place => {
+                let error = &error as &(dyn Error + 'static);
+                return tracing::debug!(error, "the runtime folder is not restored if it is removed");
+            }
+            _ => tokio::time::sleep(QUIET).await,
+        }
+        let Some(current) = files.upgrade().filter(|files| files.process.is_own()) else { return };
+        let component = current.spec.name;
+        match current.restore() {
+            Ok(true) => tracing::info!("created the files of component `{component}` again; they had been removed"),
+            Ok(false) => {}
+            Err(error) => {
+                let error = &error as &(dyn Error + 'static);
+                return tracing::error!(
+                    error,
+                    "peers that restart will not find component `{component}`: its files in the runtime folder were \
+                     removed and cannot be created again"
+                );
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,272 @@
+//! What a running component offers, for tools and for error texts.
+
+use super::SystemDir;
+use super::error::RuntimeDirError;
+use super::owned_path::OwnedPath;
+use super::small_file::{read_file, write_temp};
+use crate::spec::{ComponentSpec, GateKind, GateSpec};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::time::{Duration, SystemTime};
+
+/// The format's version. It grows when readers have to know; new keys alone do not need that.
+const VERSION: u32 = 1;
+
+/// Far more than any component announces.
+const LIMIT: u64 = 1 << 20;
+
+/// What a running component says about itself in `<component>.json`.
+///
+/// It is published before the component's endpoints are opened. A connecting end reads it to name what differs between
+/// two builds; addresses are not in it. When reading, keys that are missing because the writer is older are left empty,
+/// and unknown keys are ignored.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Announcement {
+    /// The version of the file's format.
+    pub version: u32,
+    /// The component.
+    pub component: String,
+    /// The id of its process, as that process sees it: another number outside of its container.
+    pub pid: u32,
+    /// When it was opened; written in whole milliseconds.
+    pub started: SystemTime,
+    /// The program. Characters that are not UTF-8 are lost in the file.
+    pub program: PathBuf,
+    /// The hash of the protobuf messages it was built with, which are in `<hash>.schema`.
+    pub schema: Option<String>,
+    /// All endpoints of all its gates, in file order.
+    pub endpoints: Vec<AnnouncedEndpoint>,
+}
+
+/// One endpoint of a gate, and what it was built for.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct AnnouncedEndpoint {
+    /// The gate.
+    pub gate: String,
+    /// What the gate does: `pub`, `sub`, `req`, `rep`, `push` or `pull`.
+    pub kind: String,
+    /// Whether this is the gate's tap, where tools observe it.
+    pub tap: bool,
+    /// The endpoint's name, contract included.
+    pub endpoint: String,
+    /// The contract.
+    pub contract: String,
+    /// The type as in the topology file.
+    pub payload: String,
+    /// The codec as in the topology file.
+    pub codec: String,
+    /// The gates that it connects to, as `<component>.<gate>`.
+    pub peers: Vec<String>,
+}
+
+impl Announcement {
+    /// An announcement of this process, opened now, without endpoints.
+    pub fn of_this_process(component: impl Into<String>) -> Self {
+        Self {
+            version: VERSION,
+            component: component.into(),
+            pid: std::process::id(),
+            started: SystemTime::now(),
+            program: std::env::current_exe().unwrap_or_default(),
+            schema: None,
+            endpoints: Vec::new(),
+        }
+    }
+
+    /// An announcement of this process, opened now, with the endpoints of a component.
+    pub(crate) fn of(spec: &ComponentSpec) -> Self {
+        Self {
+            schema: spec.schema.map(|schema| schema.hash.to_owned()),
+            endpoints: spec.gates.iter().flat_map(endpoints).collect(),
+            ..Self::of_this_process(spec.name)
+        }
+    }
+
+    /// Writes the file, with mode 0600 and in one step. Dropping the returned value removes it, unless it was replaced.
+    ///
+    /// # Errors
+    ///
+    /// [`RuntimeDirError`] if the component's name cannot be the name of a file, or the file cannot be written.
+    #[doc(hidden)]
+    pub fn publish(&self, dir: &SystemDir) -> Result<OwnedPath, RuntimeDirError> {
+        let path = dir.file_of(&self.component, ".json")?;
+        write_temp(dir.folder(), &path, format!("{:#}\n", self.to_json()).as_bytes())?.rename(&path)
+    }
+
+    /// Reads the announcement of a component, if there is one and it can be understood.
+    ///
+    /// It may be that of a killed process.
+    pub fn read(dir: &SystemDir, component: &str) -> Option<Self> {
+        let path = dir.file_of(component, ".json").ok()?;
+        Self::from_json(&serde_json::from_slice(&read_file(&path, LIMIT).ok()?).ok()?)
+    }
+
+    fn to_json(&self) -> Value {
+        let started = self.started.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default().as_millis();
+        json!({
+            "version": self.version,
+            "component": self.component,
+            "pid": self.pid,
+            "started_ms": u64::try_from(started).unwrap_or(u64::MAX),
+            "program": self.program.to_string_lossy(),
+            "schema": self.schema,
+            "endpoints": self.endpoints.iter().map(AnnouncedEndpoint::to_json).collect::<Vec<_>>(),
+        })
+    }
+
+    fn from_json(json: &Value) -> Option<Self> {
+        let started = Duration::from_millis(json["started_ms"].as_u64()?);
+        let endpoints = json["endpoints"].as_array()?.iter().map(AnnouncedEndpoint::from_json);
+        Some(Self {
+            version: json["version"].as_u64().and_then(|version| version.try_into().ok()).unwrap_or(0),
+            component: text(json, "component")?,
+            pid: json["pid"].as_u64()?.try_into().ok()?,
+            started: SystemTime::UNIX_EPOCH.checked_add(started)?,
+            program: text(json, "program")?.into(),
+            schema: text(json, "schema"),
+            endpoints: endpoints.collect::<Option<_>>()?,
+        })
+    }
+}
+
+impl AnnouncedEndpoint {
+    fn to_json(&self) -> Value {
+        json!({
+            "gate": self.gate,
+            "kind": self.kind,
+            "tap": self.tap,
+            "endpoint": self.endpoint,
+            "contract": self.contract,
+            "payload": self.payload,
+            "codec": self.codec,
+            "peers": self.peers,
+        })
+    }
+
+    fn from_json(json: &Value) -> Option<Self> {
+        let peers = json["peers"].as_array().into_iter().flatten();
+        Some(Self {
+            gate: text(json, "gate")?,
+            kind: text(json, "kind").unwrap_or_default(),
+            tap: json["tap"].as_bool().unwrap_or(false),
+            endpoint: text(json, "endpoint")?,
+            contract: text(json, "contract")?,
+            payload: text(json, "payload")?,
+            codec: text(json, "codec")?,
+            peers: peers.filter_map(|peer| Some(peer.as_str()?.to_owned())).collect(),
+        })
+    }
+}
+
+fn endpoints(gate: &GateSpec) -> Vec<AnnouncedEndpoint> {
+    let peers = || gate.links.iter().map(|link| format!("{}.{}", link.peer_component, link.peer_gate));
+    let endpoint = |name: &str, contract: &str, peers: Vec<String>| AnnouncedEndpoint {
+        gate: gate.name.to_owned(),
+        kind: kind_word(gate.kind).to_owned(),
+        tap: false,
+        endpoint: name.to_owned(),
+        contract: contract.to_owned(),
+        payload: gate.payload.to_owned(),
+        codec: gate.codec.to_owned(),
+        peers,
+    };
+    let mut endpoints = if gate.endpoint.is_empty() {
+        let links = gate.links.iter().zip(peers());
+        links.map(|(link, peer)| endpoint(link.endpoint, link.contract, vec![peer])).collect()
+    } else {
+        vec![endpoint(gate.endpoint, gate.contract, peers().collect())]
+    };
+    if !gate.tap.is_empty() {
+        endpoints.push(AnnouncedEndpoint { tap: true, ..endpoint(gate.tap, gate.contract, Vec::new()) });
+    }
+    endpoints
+}
+
+pub(super) fn kind_word(kind: GateKind) -> &'static str {
+    match kind {
+        GateKind::Pub => "pub",
+        GateKind::Sub => "sub",
+        GateKind::Req => "req",
+        GateKind::Rep => "rep",
+        GateKind::Push => "push",
+        GateKind::Pull => "pull",
+    }
+}
+
+fn text(json: &Value, key: &str) -> Option<String> {
+    json[key].as_str().map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::{LinkSpec, Schema, WhenFull};
+
+    const fn link(peer_component: &'static str, endpoint: &'static str) -> LinkSpec {
+        LinkSpec {
+            peer_component,
+            peer_gate: "peer",
+            endpoint,
+            contract: "aaaa",
+            required: true,
+            queue: 1,
+            when_full: WhenFull::Wait,
+            max_size: 1,
+        }
+    }
+
+    const fn gate(kind: GateKind, endpoint: &'static str, tap: &'static str, links: &'static [LinkSpec]) -> GateSpec {
+        GateSpec {
+            name: "gate",
+            kind,
+            payload: "nav.Position",
+            codec: "protobuf",
+            declared_at: "nav.yaml:3:4",
+            endpoint,
+            tap,
+            contract: "aaaa",
+            max_size: 1,
+            queue: 1,
+            when_full: WhenFull::Wait,
+            backpressure: false,
+            timeout: Duration::ZERO,
+            links,
+        }
+    }
+
+    #[test]
+    fn all_endpoints_of_a_component_are_announced() {
+        static PUB: [LinkSpec; 2] = [link("one", "gps.gate--one.peer.aaaa"), link("two", "gps.gate--two.peer.aaaa")];
+        static REP: [LinkSpec; 2] = [link("one", "gps.gate.aaaa"), link("two", "gps.gate.aaaa")];
+        static REQ: [LinkSpec; 1] = [link("map", "map.peer.aaaa")];
+        static GATES: [GateSpec; 3] = [
+            gate(GateKind::Pub, "", "gps.gate.tap", &PUB),
+            gate(GateKind::Rep, "gps.gate.aaaa", "gps.gate.tap", &REP),
+            gate(GateKind::Req, "", "", &REQ),
+        ];
+        let schema = Some(Schema { hash: "1111", descriptors: b"" });
+        let spec = ComponentSpec { system: "nav", name: "gps", declared_at: "nav.yaml:1:2", gates: &GATES, schema };
+        let announcement = Announcement::of(&spec);
+        assert_eq!((announcement.version, announcement.pid), (VERSION, std::process::id()));
+        assert_eq!(announcement.schema.as_deref(), Some("1111"));
+        let said = announcement.endpoints.iter().map(|found| {
+            assert_eq!((&*found.gate, &*found.contract), ("gate", "aaaa"));
+            assert_eq!((&*found.payload, &*found.codec), ("nav.Position", "protobuf"));
+            format!("{} {} {} [{}]", found.kind, found.tap, found.endpoint, found.peers.join(" "))
+        });
+        let said: Vec<_> = said.collect();
+        assert_eq!(
+            said,
+            [
+                "pub false gps.gate--one.peer.aaaa [one.peer]",
+                "pub false gps.gate--two.peer.aaaa [two.peer]",
+                "pub true gps.gate.tap []",
+                "rep false gps.gate.aaaa [one.peer two.peer]",
+                "rep true gps.gate.tap []",
+                "req false map.peer.aaaa [map.peer]",
+            ]
+        );
+    }
+}

@@ -1,0 +1,246 @@
+//! The runtime folder and the folders of systems: which they are, creating them, and verifying that they are safe.
+
+use super::SOCKET_PATH_LIMIT;
+#[cfg(feature = "protobuf")]
+use super::compared::Compared;
+use super::error::RuntimeDirError;
+use super::restored::{Restored, Seen};
+use super::temp_entry::{NAME_BYTES, remove_stale_entries};
+use std::ffi::OsString;
+use std::fs::{self, DirBuilder};
+use std::io;
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::fs::{DirBuilderExt, MetadataExt};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use std::time::SystemTime;
+
+/// The endings of SCL's own files. An endpoint with one of them would replace such a file.
+const RESERVED: [&str; 4] = [".lock", ".json", ".tcp", ".schema"];
+
+/// The runtime folder, which contains a folder for each system. It is verified to be safe from other users.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RuntimeDir {
+    path: PathBuf,
+    origin: Origin,
+}
+
+/// How the runtime folder was chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    /// By `SCL_RUNTIME_DIR`: parents are created too, and other users may read.
+    Variable,
+    /// By default: only this user has access.
+    Default,
+}
+
+impl RuntimeDir {
+    /// Finds, creates and verifies the runtime folder.
+    ///
+    /// It is the first of these that applies: `$SCL_RUNTIME_DIR`; `scl` in `$XDG_RUNTIME_DIR` if that is a folder of
+    /// this user; `scl-<uid>` in `$TMPDIR`, else in `/tmp`. Empty variables count as unset, as do relative paths in
+    /// `XDG_RUNTIME_DIR` and `TMPDIR`. Missing folders are created with mode 0700. The path must lead to a folder, not
+    /// to a link, that belongs to this user. Other users may read but not write to the one from `$SCL_RUNTIME_DIR`, and
+    /// have no access to the other two.
+    ///
+    /// `env` returns the value of a variable: `&|name| std::env::var_os(name)`.
+    ///
+    /// # Errors
+    ///
+    /// [`RuntimeDirError`] if the folder cannot be created or is not safe. The next candidate is not tried then,
+    /// because components that fall back to different folders would never find each other.
+    pub fn locate(env: &dyn Fn(&str) -> Option<OsString>) -> Result<Self, RuntimeDirError> {
+        let variable = |name| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+        let absolute = |name| variable(name).filter(|path| path.is_absolute());
+        let (path, origin) = if let Some(path) = variable("SCL_RUNTIME_DIR") {
+            if !path.is_absolute() {
+                return Err(RuntimeDirError::RelativeFolder { variable: "SCL_RUNTIME_DIR", path });
+            }
+            // Removes a slash at the end, which would make the verification follow a link.
+            (path.components().collect(), Origin::Variable)
+        } else if let Some(session) = absolute("XDG_RUNTIME_DIR").filter(|path| is_own_folder(path)) {
+            (session.join("scl"), Origin::Default)
+        } else {
+            let temporary = absolute("TMPDIR").unwrap_or_else(|| "/tmp".into());
+            (temporary.join(format!("scl-{}", own_user())), Origin::Default)
+        };
+        let dir = Self { path, origin };
+        dir.create()?;
+        Ok(dir)
+    }
+
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Creates and verifies the folder of a system, and removes temporary files that killed processes left there.
+    ///
+    /// # Errors
+    ///
+    /// [`RuntimeDirError`] if the name cannot be the name of a folder, or the folder cannot be created or is not safe.
+    pub fn system(&self, name: &str) -> Result<SystemDir, RuntimeDirError> {
+        let path = self.path.join(plain("a system", name)?);
+        let shared = Shared {
+            runtime_dir: self.clone(),
+            restored: Restored::default(),
+            #[cfg(feature = "protobuf")]
+            compared: Compared::default(),
+        };
+        let dir = SystemDir { path, shared: Arc::new(shared) };
+        dir.create()?;
+        remove_stale_entries(&dir.path, SystemTime::now());
+        Ok(dir)
+    }
+
+    fn create(&self) -> Result<(), RuntimeDirError> {
+        create_folder(&self.path, self.origin == Origin::Variable)?;
+        verify_folder(&self.path, self.origin == Origin::Variable)
+    }
+}
+
+/// The folder where the components of one system find each other.
+#[derive(Debug, Clone)]
+pub struct SystemDir {
+    path: PathBuf,
+    shared: Arc<Shared>,
+}
+
+#[derive(Debug)]
+struct Shared {
+    runtime_dir: RuntimeDir,
+    restored: Restored,
+    #[cfg(feature = "protobuf")]
+    compared: Compared,
+}
+
+impl SystemDir {
+    /// Its path.
+    pub fn folder(&self) -> &Path {
+        &self.path
+    }
+
+    /// The path of an endpoint's socket.
+    ///
+    /// # Errors
+    ///
+    /// [`RuntimeDirError::PathTooLong`] if it does not fit a socket address; [`RuntimeDirError::BadName`] and
+    /// [`RuntimeDirError::ReservedName`] if the endpoint cannot be the name of a socket.
+    pub fn path(&self, endpoint: &str) -> Result<PathBuf, RuntimeDirError> {
+        if let Some(ending) = RESERVED.into_iter().find(|ending| endpoint.ends_with(ending)) {
+            return Err(RuntimeDirError::ReservedName { endpoint: endpoint.to_owned(), ending });
+        }
+        let path = self.path.join(plain("an endpoint", endpoint)?);
+        // The socket is bound under a temporary name, which may be the longer of the two.
+        let name = endpoint.len().max(NAME_BYTES);
+        let length = self.path.as_os_str().as_bytes().len() + 1 + name;
+        if length > SOCKET_PATH_LIMIT {
+            let system = self.path.file_name().map_or(0, |name| name.as_bytes().len());
+            let room = SOCKET_PATH_LIMIT.saturating_sub(system + name + 2);
+            return Err(RuntimeDirError::PathTooLong { path, length, room });
+        }
+        Ok(path)
+    }
+
+    /// The path of one of a component's own files; `ending` starts with a full stop.
+    pub(super) fn file_of(&self, component: &str, ending: &str) -> Result<PathBuf, RuntimeDirError> {
+        Ok(self.path.join(format!("{}{ending}", plain("a component", component)?)))
+    }
+
+    pub(super) fn schema_file(&self, hash: &str) -> Result<PathBuf, RuntimeDirError> {
+        Ok(self.path.join(format!("{}.schema", plain("a schema", hash)?)))
+    }
+
+    /// The path of the runtime folder above.
+    pub(super) fn runtime_folder(&self) -> &Path {
+        &self.shared.runtime_dir.path
+    }
+
+    /// Ready when the folder, or a file in it, was restored since `seen`, which is updated then: listening ends whose
+    /// socket is gone bind it again. Otherwise registers the task's waker.
+    #[cfg_attr(not(feature = "zeromq"), expect(dead_code, reason = "only that transport has sockets"))]
+    pub(crate) fn poll_restored(&self, seen: &mut Seen, cx: &mut Context<'_>) -> Poll<()> {
+        self.shared.restored.poll(seen, cx)
+    }
+
+    /// Wakes those who wait in [`poll_restored`](Self::poll_restored) at any clone of this value.
+    pub(crate) fn mark_restored(&self) {
+        self.shared.restored.mark();
+    }
+
+    /// The comparisons of messages made so far.
+    #[cfg(feature = "protobuf")]
+    pub(super) fn compared(&self) -> &Compared {
+        &self.shared.compared
+    }
+
+    /// Creates and verifies the folder again, and the runtime folder above it, if they were removed.
+    pub(crate) fn create_again(&self) -> Result<(), RuntimeDirError> {
+        self.shared.runtime_dir.create()?;
+        self.create()
+    }
+
+    fn create(&self) -> Result<(), RuntimeDirError> {
+        create_folder(&self.path, false)?;
+        verify_folder(&self.path, false)
+    }
+}
+
+fn create_folder(path: &Path, parents: bool) -> Result<(), RuntimeDirError> {
+    match DirBuilder::new().mode(0o700).recursive(parents).create(path) {
+        // Whatever exists there is verified next.
+        Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
+            Err(RuntimeDirError::io("create the runtime folder", path, error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Verifying once is enough: other users cannot change a folder that is ours and not writable for them, in a parent
+/// that is ours too, or sticky as folders for temporary files are.
+fn verify_folder(path: &Path, others_may_read: bool) -> Result<(), RuntimeDirError> {
+    let found =
+        fs::symlink_metadata(path).map_err(|error| RuntimeDirError::io("examine the runtime folder", path, error))?;
+    let path = path.to_owned();
+    if !found.is_dir() {
+        let found = if found.is_symlink() { "a symbolic link" } else { "a file" };
+        return Err(RuntimeDirError::NotAFolder { path, found });
+    }
+    if found.uid() != own_user() {
+        return Err(RuntimeDirError::ForeignOwner { path, owner: found.uid(), user: own_user() });
+    }
+    match too_open(found.mode(), others_may_read) {
+        Some((who, may)) => Err(RuntimeDirError::OpenToOthers { path, mode: found.mode() & 0o7777, who, may }),
+        None => Ok(()),
+    }
+}
+
+fn too_open(mode: u32, others_may_read: bool) -> Option<(&'static str, &'static str)> {
+    let permissions = [
+        (0o002, "every user", "write to", true),
+        (0o020, "the group", "write to", true),
+        (0o005, "every user", "access", !others_may_read),
+        (0o050, "the group", "access", !others_may_read),
+    ];
+    let mut refused = permissions.into_iter().filter(|&(bits, _, _, refused)| refused && mode & bits != 0);
+    refused.next().map(|(_, who, may, _)| (who, may))
+}
+
+fn is_own_folder(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| found.is_dir() && found.uid() == own_user())
+}
+
+fn own_user() -> u32 {
+    rustix::process::geteuid().as_raw()
+}
+
+/// A name that stays inside its folder and differs from temporary names, which start with a full stop. Shortened names
+/// of connections contain `~`.
+fn plain<'n>(what: &'static str, name: &'n str) -> Result<&'n str, RuntimeDirError> {
+    let fits = |c: char| c.is_ascii_alphanumeric() || "_-.~".contains(c);
+    if name.is_empty() || name.starts_with('.') || !name.chars().all(fits) {
+        return Err(RuntimeDirError::BadName { what, name: name.to_owned() });
+    }
+    Ok(name)
+}

@@ -1,0 +1,154 @@
+//! Noticing that a component's files in the folder of its system, or the folder itself, were removed.
+
+use super::SystemDir;
+use super::error::RuntimeDirError;
+use rustix::fs::inotify::{self, CreateFlags, Event, ReadFlags, Reader, WatchFlags};
+use rustix::io::Errno;
+use std::ffi::{CStr, OsString};
+use std::io;
+use std::mem::MaybeUninit;
+use std::os::fd::OwnedFd;
+use std::os::unix::ffi::OsStrExt;
+use std::path::Path;
+use std::time::Duration;
+use tokio::io::unix::AsyncFd;
+use tokio::time::{Instant, timeout};
+
+/// Removing a folder takes several steps and fails if files appear in it meanwhile. So nothing is created again until
+/// no file was removed for this long.
+pub(crate) const QUIET: Duration = Duration::from_millis(100);
+
+/// Maximum time to wait for quiet.
+const LONGEST_UNREST: Duration = Duration::from_secs(2);
+
+/// Watches the files of one component with inotify.
+///
+/// The task is woken only when something in the folder is removed.
+#[derive(Debug)]
+pub(crate) struct FolderWatch {
+    inotify: AsyncFd<OwnedFd>,
+    runtime_folder: i32,
+    /// The name of the folder.
+    system: OsString,
+    /// The component's files start with this: `sensor.`.
+    prefix: String,
+    schema: Option<String>,
+}
+
+impl FolderWatch {
+    /// Starts watching. Must be called inside a tokio runtime.
+    ///
+    /// # Errors
+    /// A folder or the component's lock file does not exist, or the limits for inotify are reached.
+    pub(crate) fn start(dir: &SystemDir, component: &str, schema: Option<&str>) -> Result<Self, RuntimeDirError> {
+        let failed = |error: io::Error| RuntimeDirError::io("watch", dir.folder(), error);
+        let lock_file = dir.file_of(component, ".lock")?;
+        let start = || {
+            let inotify = inotify::init(CreateFlags::CLOEXEC | CreateFlags::NONBLOCK)?;
+            let watch = |path: &Path, events| inotify::add_watch(&inotify, path, events | WatchFlags::DONT_FOLLOW);
+            let removed = WatchFlags::DELETE | WatchFlags::DELETE_SELF | WatchFlags::MOVE_SELF;
+            let runtime_folder = watch(dir.runtime_folder(), removed)?;
+            watch(dir.folder(), removed)?;
+            // Replacing a file by another one changes the number of its links, which is one of its attributes.
+            watch(&lock_file, WatchFlags::ATTRIB | WatchFlags::MOVE_SELF)?;
+            Ok((inotify, runtime_folder))
+        };
+        let (inotify, runtime_folder) = start().map_err(|errno: Errno| failed(errno.into()))?;
+        #[expect(deprecated, reason = "unsound only for types that change their descriptor; an `OwnedFd` keeps it")]
+        let inotify = AsyncFd::new(inotify).map_err(failed)?;
+        Ok(Self {
+            inotify,
+            runtime_folder,
+            system: dir.folder().file_name().unwrap_or_default().to_owned(),
+            prefix: format!("{component}."),
+            schema: schema.map(|hash| format!("{hash}.schema")),
+        })
+    }
+
+    /// Returns when the folder, the runtime folder or a file of the component was removed or moved, and no file has
+    /// been removed for a while.
+    pub(crate) async fn removal(&self) -> io::Result<()> {
+        while !self.next_events().await? {}
+        let deadline = Instant::now() + LONGEST_UNREST;
+        while Instant::now() < deadline && matches!(timeout(QUIET, self.next_events()).await, Ok(Ok(_))) {}
+        Ok(())
+    }
+
+    /// Waits for events. Returns true if at least one of them is about this component.
+    async fn next_events(&self) -> io::Result<bool> {
+        loop {
+            let mut ready = self.inotify.readable().await?;
+            if let Ok(concerned) = ready.try_io(|inotify| self.read_events(inotify.get_ref())) {
+                return concerned;
+            }
+        }
+    }
+
+    fn read_events(&self, inotify: &OwnedFd) -> io::Result<bool> {
+        let mut buffer = [MaybeUninit::uninit(); 4096];
+        let mut events = Reader::new(inotify, &mut buffer);
+        let mut concerned = self.is_about_component(&events.next()?);
+        while !events.is_buffer_empty() {
+            concerned |= self.is_about_component(&events.next()?);
+        }
+        Ok(concerned)
+    }
+
+    fn is_about_component(&self, event: &Event<'_>) -> bool {
+        if !event.events().contains(ReadFlags::DELETE) {
+            return true;
+        }
+        let name = event.file_name().map_or(&[][..], CStr::to_bytes);
+        if event.wd() == self.runtime_folder {
+            // The removal of another system only shows that there is no quiet yet.
+            return name == self.system.as_bytes();
+        }
+        name.starts_with(self.prefix.as_bytes()) || self.schema.as_ref().is_some_and(|file| name == file.as_bytes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::runtime_dir::{ComponentLock, RuntimeDir};
+    use std::fs;
+
+    #[tokio::test]
+    async fn only_removals_of_the_components_own_files_concern_it() {
+        let root = tempfile::tempdir().unwrap();
+        let variable = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| root.path().into());
+        let runtime_dir = RuntimeDir::locate(&variable).unwrap();
+        let [dir, other] = ["rover", "other"].map(|system| runtime_dir.system(system).unwrap());
+        let _lock = ComponentLock::take(&dir, "sensor").unwrap();
+        let watch = FolderWatch::start(&dir, "sensor", Some("1111")).unwrap();
+        let cases = [
+            ("sensor2.a.aaaa", false),
+            ("controller.a.aaaa", false),
+            ("2222.schema", false),
+            (".00000a", false),
+            ("sensor.a.aaaa", true),
+            ("sensor.json", true),
+            ("1111.schema", true),
+            ("sensor.lock", true),
+        ];
+        for (name, concerned) in cases {
+            let path = dir.folder().join(name);
+            // Creating and replacing files causes no events.
+            for _ in 0..2 {
+                fs::write(dir.folder().join("new"), "").unwrap();
+                fs::rename(dir.folder().join("new"), &path).unwrap();
+            }
+            if name != "sensor.lock" {
+                assert!(watch.read_events(watch.inotify.get_ref()).is_err(), "{name}");
+            }
+            fs::remove_file(&path).unwrap();
+            assert_eq!(watch.next_events().await.unwrap(), concerned, "{name}");
+        }
+        fs::remove_dir(other.folder()).unwrap();
+        assert!(!watch.next_events().await.unwrap());
+        fs::remove_dir(dir.folder()).unwrap();
+        let removed = Instant::now();
+        watch.removal().await.unwrap();
+        assert!(removed.elapsed() >= QUIET);
+    }
+}

@@ -1,0 +1,246 @@
+//! Comparing the shapes of protobuf messages: whether two programs mean the same by the same bytes.
+//!
+//! Fields and enum values may be added and removed, as protobuf promises. A number that both programs use must have the
+//! same name and type in both, and a name that both use must have the same number: a renumbered field would arrive as
+//! its default value, without an error.
+
+use super::foreign_text::shown;
+use prost_types::field_descriptor_proto::{Label, Type};
+use prost_types::{DescriptorProto, EnumDescriptorProto, FieldDescriptorProto, FileDescriptorSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::fmt;
+
+/// What differs between the messages of this program and those of a peer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Difference {
+    /// ``message `nav.Position`: field 1 is``
+    subject: String,
+    /// `` `lat` (double)``
+    here: String,
+    there: String,
+}
+
+impl Difference {
+    /// The whole text; `peer` is the peer's name.
+    pub(super) fn text(&self, peer: &str) -> String {
+        format!("{} {} here, but {} in {peer}", self.subject, self.here, self.there)
+    }
+}
+
+/// Compares a message, or the two of a call (`A -> B`), and all messages and enums in it. Those that only one program
+/// knows are not compared.
+///
+/// # Errors
+/// The first difference.
+pub(super) fn compare(payload: &str, here: &FileDescriptorSet, there: &FileDescriptorSet) -> Result<(), Difference> {
+    let (here, there) = (Index::of(here), Index::of(there));
+    let mut names: Vec<&str> = payload.split("->").map(str::trim).collect();
+    let mut seen: HashSet<&str> = names.iter().copied().collect();
+    while let Some(name) = names.pop() {
+        match (here.find(name), there.find(name)) {
+            (Some(Item::Message(ours)), Some(Item::Message(theirs))) => {
+                let (ours, theirs) = (fields(ours, &here), fields(theirs, &there));
+                compare_fields(name, &ours, &theirs)?;
+                let shared = ours.into_iter().filter(|(number, _)| theirs.contains_key(number));
+                names.extend(shared.filter_map(|(_, field)| field.named).filter(|name| seen.insert(name)));
+            }
+            (Some(Item::Enum(ours)), Some(Item::Enum(theirs))) => compare_values(name, ours, theirs)?,
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// What must be the same in both programs.
+#[derive(PartialEq, Eq)]
+struct Field<'d> {
+    name: &'d str,
+    kind: Kind<'d>,
+    oneof: Option<&'d str>,
+    /// The message or enum to compare next.
+    named: Option<&'d str>,
+}
+
+#[derive(PartialEq, Eq)]
+enum Kind<'d> {
+    Single(Plain<'d>),
+    Repeated(Plain<'d>),
+    Map(Plain<'d>, Plain<'d>),
+}
+
+/// A scalar type, or the kind and name of another.
+#[derive(PartialEq, Eq)]
+struct Plain<'d>(Type, &'d str);
+
+fn fields<'d>(message: &'d DescriptorProto, index: &Index<'d>) -> BTreeMap<i32, Field<'d>> {
+    let field = |field: &'d FieldDescriptorProto| {
+        let number = field.number();
+        let named = field.type_name.as_deref().map(without_dot);
+        let field = Field { name: field.name(), kind: kind(field, index), oneof: oneof(field, message), named };
+        (number, field)
+    };
+    message.field.iter().map(field).collect()
+}
+
+fn kind<'d>(field: &'d FieldDescriptorProto, index: &Index<'d>) -> Kind<'d> {
+    let plain = |field: &'d FieldDescriptorProto| Plain(field.r#type(), without_dot(field.type_name()));
+    if field.label() != Label::Repeated {
+        return Kind::Single(plain(field));
+    }
+    match index.find(without_dot(field.type_name())) {
+        Some(Item::Message(entry)) if entry.options.as_ref().is_some_and(|options| options.map_entry()) => {
+            match entry.field.as_slice() {
+                [key, value] => Kind::Map(plain(key), plain(value)),
+                _ => Kind::Repeated(plain(field)),
+            }
+        }
+        _ => Kind::Repeated(plain(field)),
+    }
+}
+
+/// `optional` in proto3 is stored as a oneof too, but on the wire it is the same as without.
+fn oneof<'d>(field: &FieldDescriptorProto, message: &'d DescriptorProto) -> Option<&'d str> {
+    let index = field.oneof_index.filter(|_| !field.proto3_optional())?;
+    Some(message.oneof_decl.get(usize::try_from(index).ok()?)?.name())
+}
+
+fn compare_fields(
+    message: &str,
+    here: &BTreeMap<i32, Field<'_>>,
+    there: &BTreeMap<i32, Field<'_>>,
+) -> Result<(), Difference> {
+    for (number, ours) in here {
+        if let Some(theirs) = there.get(number).filter(|theirs| *theirs != ours) {
+            let subject = format!("message `{message}`: field {number} is");
+            return Err(Difference { subject, here: ours.to_string(), there: theirs.to_string() });
+        }
+    }
+    let numbers: HashMap<&str, i32> = there.iter().map(|(number, field)| (field.name, *number)).collect();
+    for (number, Field { name, .. }) in here {
+        if let Some(other) = numbers.get(name).filter(|other| *other != number) {
+            let subject = format!("message `{message}`: field `{name}` has number");
+            return Err(Difference { subject, here: number.to_string(), there: other.to_string() });
+        }
+    }
+    Ok(())
+}
+
+/// With `allow_alias`, one number may have several names; one that both programs know is enough.
+fn compare_values(name: &str, here: &EnumDescriptorProto, there: &EnumDescriptorProto) -> Result<(), Difference> {
+    let (ours, theirs) = (names(here), names(there));
+    for (number, our_names) in &ours {
+        let Some(their_names) = theirs.get(number) else { continue };
+        if our_names.is_disjoint(their_names) {
+            let subject = format!("enum `{name}`: value {number} is");
+            let text =
+                |names: &BTreeSet<&str>| format!("`{}`", names.first().map(|name| shown(name)).unwrap_or_default());
+            return Err(Difference { subject, here: text(our_names), there: text(their_names) });
+        }
+    }
+    let numbers: HashMap<&str, i32> = there.value.iter().map(|value| (value.name(), value.number())).collect();
+    for value in &here.value {
+        if let Some(other) = numbers.get(value.name()).filter(|other| **other != value.number()) {
+            let subject = format!("enum `{name}`: value `{}` has number", value.name());
+            return Err(Difference { subject, here: value.number().to_string(), there: other.to_string() });
+        }
+    }
+    Ok(())
+}
+
+fn names(values: &EnumDescriptorProto) -> BTreeMap<i32, BTreeSet<&str>> {
+    let mut names: BTreeMap<i32, BTreeSet<&str>> = BTreeMap::new();
+    for value in &values.value {
+        names.entry(value.number()).or_default().insert(value.name());
+    }
+    names
+}
+
+/// Displayed as in ``field 1 is `tags` (map<string, nav.Tag>)``.
+impl fmt::Display for Field<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` (", shown(self.name))?;
+        match &self.kind {
+            Kind::Single(plain) => write!(f, "{plain}")?,
+            Kind::Repeated(plain) => write!(f, "repeated {plain}")?,
+            Kind::Map(key, value) => write!(f, "map<{key}, {value}>")?,
+        }
+        match self.oneof {
+            Some(oneof) => write!(f, " in oneof `{}`)", shown(oneof)),
+            None => f.write_str(")"),
+        }
+    }
+}
+
+impl fmt::Display for Plain<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(kind, name) = self;
+        match kind {
+            Type::Message => f.write_str(&shown(name)),
+            Type::Enum => write!(f, "enum {}", shown(name)),
+            Type::Group => write!(f, "group {}", shown(name)),
+            scalar => f.write_str(&scalar.as_str_name().trim_start_matches("TYPE_").to_ascii_lowercase()),
+        }
+    }
+}
+
+fn without_dot(name: &str) -> &str {
+    name.strip_prefix('.').unwrap_or(name)
+}
+
+#[derive(Clone, Copy)]
+enum Item<'d> {
+    Message(&'d DescriptorProto),
+    Enum(&'d EnumDescriptorProto),
+}
+
+/// Finds messages and enums by their full names. Names are kept in parts: whole ones could take far more memory than
+/// the descriptors, if a message with a long name contains many others.
+struct Index<'d> {
+    /// The scope of each package.
+    packages: HashMap<&'d str, usize>,
+    /// The items in a scope, and the scope of their own if they are messages.
+    items: HashMap<(usize, &'d str), (Item<'d>, usize)>,
+}
+
+impl<'d> Index<'d> {
+    fn of(descriptors: &'d FileDescriptorSet) -> Self {
+        let mut index = Self { packages: HashMap::new(), items: HashMap::new() };
+        let mut next_scope = 0;
+        let mut new_scope = || {
+            next_scope += 1;
+            next_scope
+        };
+        for file in &descriptors.file {
+            let package = *index.packages.entry(file.package()).or_insert_with(&mut new_scope);
+            index.add_enums(package, &file.enum_type);
+            let mut messages: Vec<_> = file.message_type.iter().map(|message| (package, message)).collect();
+            while let Some((scope, message)) = messages.pop() {
+                let own = new_scope();
+                index.items.insert((scope, message.name()), (Item::Message(message), own));
+                index.add_enums(own, &message.enum_type);
+                messages.extend(message.nested_type.iter().map(|nested| (own, nested)));
+            }
+        }
+        index
+    }
+
+    fn add_enums(&mut self, scope: usize, enums: &'d [EnumDescriptorProto]) {
+        self.items.extend(enums.iter().map(|found| ((scope, found.name()), (Item::Enum(found), 0))));
+    }
+
+    /// Where the package ends in a full name is not known, so the longest package is tried first.
+    fn find(&self, name: &str) -> Option<Item<'d>> {
+        let dots = name.rmatch_indices('.').map(|(at, _)| (&name[..at], &name[at + 1..]));
+        dots.chain([("", name)]).find_map(|(package, path)| {
+            let mut found = (None, *self.packages.get(package)?);
+            for part in path.split('.') {
+                let (item, scope) = *self.items.get(&(found.1, part))?;
+                found = (Some(item), scope);
+            }
+            found.0
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,346 @@
+//! What all gates of a component share: its registration, its runtime if it was opened without async, and the ends that
+//! may still have something to send.
+
+mod flush;
+mod runtime;
+
+pub(crate) use flush::{Flush, LINGER, SendingEnd};
+pub(crate) use runtime::OwnedRuntime;
+
+use crate::error::{BlockingError, Missing, NotFlushed, PeerName, Unflushed};
+use crate::process_mark::ProcessMark;
+use crate::registration::Registration;
+use crate::runtime_dir::Holder;
+use crate::spec::{ComponentSpec, GateSpec};
+use crate::sync::{AbortOnDrop, lock};
+use std::future::poll_fn;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::task::{Context, Poll, Waker};
+use std::time::{Duration, Instant};
+use tokio::runtime::Handle;
+use tokio::sync::Notify;
+use tokio::sync::futures::Notified;
+
+/// The part of a component that lives as long as any of its gates.
+pub(crate) struct ComponentState {
+    spec: &'static ComponentSpec,
+    process: ProcessMark,
+    changes: Changes,
+    ends: Mutex<Vec<Registered>>,
+    /// Messages of dropped gates that their peers did not take in time.
+    given_up: Mutex<Vec<Unflushed>>,
+    flushed: Mutex<bool>,
+    runtime: Option<Arc<OwnedRuntime>>,
+    /// The runtime on which the ends do I/O.
+    handle: Handle,
+    /// Whether that runtime has ended. Its timers and sockets must not be polled any more then.
+    runtime_ended: Arc<AtomicBool>,
+    /// Keeps the registration if the runtime folder is removed.
+    _keeper: AbortOnDrop,
+    /// Dropped last: once the lock is released, another process may run this component.
+    registration: Registration,
+}
+
+/// How long the component's runtime may stand still while a call waits for its own socket.
+const DIRECT_WAIT: Duration = Duration::from_millis(2);
+
+/// A sending end and the task that drives it.
+struct Registered {
+    end: Arc<Mutex<dyn SendingEnd>>,
+    _task: Option<AbortOnDrop>,
+}
+
+/// What generated code holds of a component besides its gates.
+#[derive(Clone)]
+pub struct ComponentHandle(pub(crate) Arc<ComponentState>);
+
+struct SetOnDrop(Arc<AtomicBool>);
+
+impl Drop for SetOnDrop {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
+    }
+}
+
+/// Reports that a peer connected or disconnected.
+#[derive(Clone, Default)]
+pub(crate) struct Changes(Arc<Notify>);
+
+impl Changes {
+    pub(crate) fn report(&self) {
+        self.0.notify_waiters();
+    }
+
+    pub(crate) fn next(&self) -> Notified<'_> {
+        self.0.notified()
+    }
+}
+
+impl ComponentState {
+    /// Needs a tokio runtime.
+    pub(crate) fn new(
+        spec: &'static ComponentSpec,
+        registration: Registration,
+        runtime: Option<Arc<OwnedRuntime>>,
+    ) -> Self {
+        let handle = Handle::current();
+        let runtime_ended = Arc::new(AtomicBool::new(false));
+        let (keep, ended) = (registration.keep(), SetOnDrop(Arc::clone(&runtime_ended)));
+        let keeper = handle.spawn(async move {
+            keep.await;
+            // Held by a task that never ends, so it is dropped with the runtime.
+            let _ended = ended;
+            std::future::pending::<()>().await;
+        });
+        let keeper = AbortOnDrop(keeper.abort_handle());
+        Self {
+            spec,
+            process: ProcessMark::new(),
+            changes: Changes::default(),
+            ends: Mutex::default(),
+            given_up: Mutex::default(),
+            flushed: Mutex::default(),
+            runtime,
+            handle,
+            runtime_ended,
+            _keeper: keeper,
+            registration,
+        }
+    }
+
+    pub(crate) fn spec(&self) -> &'static ComponentSpec {
+        self.spec
+    }
+
+    pub(crate) fn registration(&self) -> &Registration {
+        &self.registration
+    }
+
+    pub(crate) fn changes(&self) -> Changes {
+        self.changes.clone()
+    }
+
+    /// Keeps a connection moving, whether its gate is used or not.
+    pub(crate) fn drive<E: SendingEnd + 'static>(&self, end: E) -> Arc<Mutex<E>> {
+        let end = Arc::new(Mutex::new(end));
+        // Weak, so that the end is gone with its gate, and not only when the runtime drops the task.
+        let driven = Arc::downgrade(&end);
+        let task = self.handle.spawn(poll_fn(move |cx| match driven.upgrade() {
+            Some(end) => {
+                lock(&end).drive(cx);
+                Poll::Pending
+            }
+            None => Poll::Ready(()),
+        }));
+        let task = Some(AbortOnDrop(task.abort_handle()));
+        lock(&self.ends).push(Registered { end: Arc::clone(&end) as _, _task: task });
+        end
+    }
+
+    /// Makes an end that its gate drives take part in flushing.
+    pub(crate) fn register(&self, end: Arc<Mutex<dyn SendingEnd>>) {
+        lock(&self.ends).push(Registered { end, _task: None });
+    }
+
+    /// A gate was dropped. Its end is dropped too, as soon as its peer has taken everything, or after [`LINGER`].
+    pub(crate) fn release(self: &Arc<Self>, end: Arc<Mutex<dyn SendingEnd>>) {
+        if self.runtime_ended.load(Ordering::Acquire) {
+            // Handed over when the component is dropped.
+            return;
+        }
+        if self.is_done(&end) {
+            // What waits for a peer that is not running is reported when the component is closed.
+            let waiting = lock(&end).waits_for_absent_peer();
+            lock(&self.given_up).extend(waiting);
+            return self.remove(&end);
+        }
+        // Weak, so that the socket is freed when the component is dropped, and not only when the runtime drops the task.
+        let (state, end) = (Arc::downgrade(self), Arc::downgrade(&end));
+        self.handle.spawn(async move {
+            let done = poll_fn(|cx| match (state.upgrade(), end.upgrade()) {
+                (Some(state), Some(end)) => state.poll_done(&end, cx),
+                _ => Poll::Ready(()),
+            });
+            let _in_time = tokio::time::timeout(LINGER, done).await;
+            if let (Some(state), Some(end)) = (state.upgrade(), end.upgrade()) {
+                let left = flush::leftover(&mut *lock(&end), Flush::Running, true);
+                lock(&state.given_up).extend(left);
+                state.remove(&end);
+            }
+        });
+    }
+
+    fn remove(&self, end: &Arc<Mutex<dyn SendingEnd>>) {
+        let removed = {
+            let mut ends = lock(&self.ends);
+            let place = ends.iter().position(|one| Arc::ptr_eq(&one.end, end));
+            place.map(|place| ends.swap_remove(place))
+        };
+        drop(removed);
+    }
+
+    /// Returns true in a forked child: the component belongs to its parent.
+    pub(crate) fn is_inherited(&self) -> bool {
+        !self.process.is_own()
+    }
+
+    /// Fails if the component cannot be used any more, or not by this process.
+    pub(crate) fn check(&self) -> Result<(), BlockingError> {
+        if self.is_inherited() {
+            return Err(BlockingError::Forked);
+        }
+        if self.runtime_ended.load(Ordering::Acquire) { Err(BlockingError::RuntimeEnded) } else { Ok(()) }
+    }
+
+    /// Returns true if the program was told to stop and leaves that to SCL: its calls then stay pending or fail.
+    pub(crate) fn is_stopped(&self) -> bool {
+        crate::stop::gates_stopped()
+    }
+
+    /// Fails if a call that does not wait must not be made any more.
+    pub(crate) fn may_proceed(&self) -> Result<(), BlockingError> {
+        self.check()?;
+        if self.is_stopped() { Err(BlockingError::Stopped) } else { Ok(()) }
+    }
+
+    /// Fails if a call that may block the thread must not be made here and now.
+    pub(crate) fn may_block(&self) -> Result<(), BlockingError> {
+        self.may_proceed()?;
+        runtime::refuse_inside_async()
+    }
+
+    /// Waits for a future from a plain thread, or until the program is told to stop.
+    pub(crate) fn block_on<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
+        self.may_block()?;
+        let future = crate::stop::until_stopped(future);
+        match &self.runtime {
+            Some(runtime) => runtime.block_on(future)?,
+            None => runtime::park_until(future),
+        }
+    }
+
+    /// Like [`block_on`](Self::block_on), but gives up after a given time and then returns `None`.
+    pub(crate) fn block_on_for<F: Future>(
+        &self,
+        time: Duration,
+        future: F,
+    ) -> Result<Option<F::Output>, BlockingError> {
+        self.may_block()?;
+        let future = crate::stop::until_stopped(future);
+        let done = match &self.runtime {
+            Some(runtime) => runtime.block_on(async { tokio::time::timeout(time, future).await.ok() })?,
+            None => runtime::park_until_or(time, future),
+        };
+        done.transpose()
+    }
+
+    /// How long a blocking call may wait for its socket itself before it drives the component's runtime, if the component
+    /// owns one. That spares the event loop of the runtime, which costs as much as everything else of a round trip.
+    pub(crate) fn direct_wait(&self) -> Option<Duration> {
+        self.runtime.as_ref().map(|_| DIRECT_WAIT)
+    }
+
+    /// Gives the component's own runtime a turn if one is due, after a call that did not wait.
+    pub(crate) fn take_turn(&self) {
+        if let Some(runtime) = &self.runtime {
+            runtime.take_turn();
+        }
+    }
+
+    /// Why peers are missing, for error texts: `` `sensor` is not running ``.
+    pub(crate) fn why_missing(&self, gate: &GateSpec, missing: &[Missing]) -> Option<String> {
+        let reasons = missing.iter().map(|missing| self.explain(gate, missing));
+        let reasons: Vec<String> = reasons.collect();
+        (!reasons.is_empty()).then(|| reasons.join("; "))
+    }
+
+    /// Why a peer is missing, as a sentence.
+    pub(crate) fn explain(&self, gate: &GateSpec, missing: &Missing) -> String {
+        let explain =
+            || format!("{} {}", PeerName::of(missing.link), self.registration.explain_missing(gate, missing.link));
+        missing.refusal.clone().unwrap_or_else(explain)
+    }
+
+    /// Returns true if another process runs a component. One of this process cannot be waited for while its thread may be
+    /// the one that waits.
+    fn runs_elsewhere(&self, component: &str) -> bool {
+        self.registration.holder(component).is_some_and(|holder| holder != Holder::ThisProcess)
+    }
+
+    /// Waits until peers have taken everything, at most for a given time.
+    pub(crate) async fn flush(&self, flush: Flush, timeout: Duration) -> Result<(), NotFlushed> {
+        *lock(&self.flushed) = true;
+        let started = Instant::now();
+        let ends = self.ends();
+        let mut left = flush::flush(&ends, flush, timeout, &|component| self.runs_elsewhere(component)).await;
+        let mut given_up = std::mem::take(&mut *lock(&self.given_up));
+        if flush == Flush::Running {
+            left.append(&mut given_up);
+        }
+        NotFlushed::of(self.spec.name, left, started.elapsed(), &|component| self.runs_elsewhere(component))
+    }
+
+    /// [`flush`](Self::flush) from a plain thread. Also after a stop request.
+    pub(crate) fn flush_blocking(&self, flush: Flush, timeout: Duration) -> Result<(), NotFlushed> {
+        if runtime::refuse_inside_async().is_err() {
+            return Ok(());
+        }
+        match &self.runtime {
+            Some(runtime) => runtime.block_on(self.flush(flush, timeout)).unwrap_or(Ok(())),
+            None => {
+                *lock(&self.flushed) = true;
+                let started = Instant::now();
+                let is_running = |component: &str| self.runs_elsewhere(component);
+                let left = flush::flush_detached(&self.ends(), flush, true, timeout, &is_running);
+                NotFlushed::of(self.spec.name, left, started.elapsed(), &is_running)
+            }
+        }
+    }
+
+    fn ends(&self) -> Vec<Arc<Mutex<dyn SendingEnd>>> {
+        lock(&self.ends).iter().map(|one| Arc::clone(&one.end)).collect()
+    }
+
+    fn is_done(&self, end: &Mutex<dyn SendingEnd>) -> bool {
+        self.poll_done(end, &mut Context::from_waker(Waker::noop())).is_ready()
+    }
+
+    fn poll_done(&self, end: &Mutex<dyn SendingEnd>, cx: &mut Context<'_>) -> Poll<()> {
+        let mut end = lock(end);
+        let flushed = end.poll_flushed(true, cx).is_ready();
+        let awaited = end.waits_for_absent_peer().is_some_and(|left| self.runs_elsewhere(left.peer.component()));
+        if flushed && !awaited { Poll::Ready(()) } else { Poll::Pending }
+    }
+}
+
+/// Hands over what is left, within [`LINGER`], on the calling thread and without a runtime.
+impl Drop for ComponentState {
+    fn drop(&mut self) {
+        let ends = std::mem::take(&mut *lock(&self.ends));
+        if self.is_inherited() {
+            // The sockets and their runtime are the parent's.
+            return std::mem::forget(ends);
+        }
+        let ends: Vec<_> = ends.into_iter().map(|one| one.end).collect();
+        if !*lock(&self.flushed) {
+            let is_running = |component: &str| self.runs_elsewhere(component);
+            let left = flush::flush_detached(&ends, Flush::Running, false, LINGER, &is_running);
+            for left in lock(&self.given_up).drain(..).chain(left) {
+                tracing::warn!("component `{}` was dropped with messages left: {left}", self.spec.name);
+            }
+        }
+    }
+}
+
+impl std::fmt::Debug for ComponentState {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("ComponentState").field(&self.spec.name).finish()
+    }
+}
+
+impl std::fmt::Debug for ComponentHandle {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.fmt(f)
+    }
+}

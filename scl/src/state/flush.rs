@@ -1,0 +1,114 @@
+//! Handing over what is left when a gate is dropped, a component closed, or a program ends.
+
+use crate::error::Unflushed;
+use crate::sync::lock;
+use std::future::poll_fn;
+use std::pin::pin;
+use std::sync::{Arc, Mutex};
+use std::task::{Context, Poll, Waker};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How long a gate or component that is dropped, or a program that ends, waits for its peers.
+pub(crate) const LINGER: Duration = Duration::from_secs(1);
+/// How often a flush looks whether an absent peer is still running.
+const LOOK: Duration = Duration::from_millis(20);
+/// The pause between two attempts of a component that is dropped, which has no runtime to be woken by.
+const PAUSE: Duration = Duration::from_micros(500);
+
+/// Whom a flush waits for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Flush {
+    /// Peers that are connected. For programs that were told to stop: their peers may be stopping too.
+    Connected,
+    /// Peers that are connected, and those that are running but not connected yet.
+    Running,
+}
+
+/// The end of a gate that sends.
+pub(crate) trait SendingEnd: Send {
+    /// Ready when connected peers have everything: it is written, and, if `acknowledged`, the peer's program has taken
+    /// it. Wakes the task when that may have changed.
+    fn poll_flushed(&mut self, acknowledged: bool, cx: &mut Context<'_>) -> Poll<()>;
+
+    /// What waits for a peer that is not connected.
+    fn waits_for_absent_peer(&self) -> Option<Unflushed>;
+
+    /// What a connected peer has not taken.
+    fn leftover(&self, acknowledged: bool) -> Option<Unflushed>;
+
+    /// Does background work.
+    fn drive(&mut self, cx: &mut Context<'_>);
+
+    /// Prepares for `drive` without a runtime.
+    fn detach(&mut self);
+}
+
+type Ends = [Arc<Mutex<dyn SendingEnd>>];
+
+/// Waits until peers have taken everything, at most for a given time. Returns what they did not take, and what waits for
+/// peers that are not running.
+pub(super) async fn flush(
+    ends: &Ends,
+    flush: Flush,
+    timeout: Duration,
+    is_running: &(dyn Fn(&str) -> bool + Sync),
+) -> Vec<Unflushed> {
+    let mut deadline = pin!(tokio::time::sleep(timeout));
+    let mut look = pin!(tokio::time::sleep(LOOK));
+    poll_fn(|cx| {
+        // All are asked, so that each of them wakes this task.
+        let unflushed = ends.iter().filter(|end| lock(end).poll_flushed(true, cx).is_pending()).count();
+        let absent = || ends.iter().filter_map(|end| lock(end).waits_for_absent_peer());
+        let awaited = flush == Flush::Running && absent().any(|left| is_running(left.peer.component()));
+        if unflushed == 0 && !awaited {
+            return Poll::Ready(());
+        }
+        // A peer that dies before it connects tells nobody.
+        while awaited && look.as_mut().poll(cx).is_ready() {
+            look.as_mut().reset(tokio::time::Instant::now() + LOOK);
+        }
+        deadline.as_mut().poll(cx)
+    })
+    .await;
+    leftovers(ends, flush, true)
+}
+
+/// The same on the calling thread, without a runtime. The ends are of no use for anything else afterwards.
+pub(super) fn flush_detached(
+    ends: &Ends,
+    flush: Flush,
+    acknowledged: bool,
+    timeout: Duration,
+    is_running: &dyn Fn(&str) -> bool,
+) -> Vec<Unflushed> {
+    // First of all: the runtime that the ends were opened on may have ended, and must not be asked for anything.
+    ends.iter().for_each(|end| lock(end).detach());
+    let cx = &mut Context::from_waker(Waker::noop());
+    let mut is_done = |end: &Arc<Mutex<dyn SendingEnd>>| {
+        let mut end = lock(end);
+        let awaited = |left: Unflushed| flush == Flush::Running && is_running(left.peer.component());
+        end.poll_flushed(acknowledged, cx).is_ready() && !end.waits_for_absent_peer().is_some_and(awaited)
+    };
+    // Before the first poll: the runtime may have ended.
+    ends.iter().for_each(|end| lock(end).detach());
+    let mut open: Vec<_> = ends.iter().filter(|end| !is_done(end)).collect();
+    let started = Instant::now();
+    while !open.is_empty() && started.elapsed() < timeout {
+        open.iter().for_each(|end| lock(end).drive(&mut Context::from_waker(Waker::noop())));
+        open.retain(|end| !is_done(end));
+        if !open.is_empty() {
+            thread::sleep(PAUSE);
+        }
+    }
+    leftovers(ends, flush, acknowledged)
+}
+
+fn leftovers(ends: &Ends, flush: Flush, acknowledged: bool) -> Vec<Unflushed> {
+    ends.iter().filter_map(|end| leftover(&mut *lock(end), flush, acknowledged)).collect()
+}
+
+/// What a peer did not take, or what waits for one that is not connected.
+pub(super) fn leftover(end: &mut dyn SendingEnd, flush: Flush, acknowledged: bool) -> Option<Unflushed> {
+    end.leftover(acknowledged).or_else(|| end.waits_for_absent_peer().filter(|_| flush == Flush::Running))
+}

@@ -1,0 +1,320 @@
+//! Waiting for gates in a program without async.
+//!
+//! The component owns a current-thread runtime. Every blocking call drives it itself, so that no message crosses a
+//! thread; calls from several threads share it: one of them drives, and when that one returns, the next takes over. While
+//! no call is under way, a thread of the component drives it, so that late peers are served and queues drain. That thread
+//! takes over [`IDLE`] after the last call: in a loop at 1 kHz it never does. Calls that have nothing to wait for give
+//! the runtime a turn now and then, or late peers would never be accepted.
+
+use crate::error::{BlockingError, OpenError};
+use crate::sync::lock;
+use std::future::poll_fn;
+use std::pin::pin;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::task::{Context, Poll, Wake, Waker};
+use std::thread::{self, Thread};
+use std::time::{Duration, Instant};
+use tokio::runtime::{Builder, EnterGuard, Handle, Runtime};
+use tokio::sync::Notify;
+use tokio::task::yield_now;
+
+const IDLE: Duration = Duration::from_millis(2);
+/// The longest pause of the idle thread while calls follow each other; each look at them costs one a wake-up.
+const LONGEST_REST: Duration = Duration::from_millis(16);
+/// How long calls that wait for nothing may follow each other without a turn of the runtime.
+const TURN: Duration = Duration::from_millis(1);
+
+/// The runtime of a component that was opened without async.
+#[derive(Debug)]
+pub(crate) struct OwnedRuntime {
+    shared: Arc<Shared>,
+    handle: Handle,
+}
+
+#[derive(Debug)]
+struct Shared {
+    runtime: SharedRuntime,
+    /// Number of calls that drive the runtime or want to.
+    callers: AtomicUsize,
+    /// Whether the idle thread drives the runtime, and must be told to give it back.
+    idle_drives: AtomicBool,
+    wanted: Notify,
+    ended: AtomicBool,
+    opened: Instant,
+    last_call: Moment,
+    last_turn: Moment,
+    /// What the idle thread rests on, and whether the end of a call must wake it.
+    rest: Mutex<()>,
+    awaits_end: AtomicBool,
+    called: Condvar,
+}
+
+/// A runtime that may be dropped anywhere.
+#[derive(Debug)]
+struct SharedRuntime(Option<Runtime>);
+
+impl Drop for SharedRuntime {
+    fn drop(&mut self) {
+        // Waiting for its threads would panic inside async code; it has none that matter.
+        if let Some(runtime) = self.0.take() {
+            runtime.shutdown_background();
+        }
+    }
+}
+
+/// A time since the component was opened.
+#[derive(Debug, Default)]
+struct Moment(AtomicU64);
+
+impl Moment {
+    fn set(&self, since_opened: Duration) {
+        self.0.store(since_opened.as_nanos() as u64, Ordering::SeqCst);
+    }
+
+    fn get(&self) -> Duration {
+        Duration::from_nanos(self.0.load(Ordering::SeqCst))
+    }
+}
+
+impl OwnedRuntime {
+    pub(crate) fn start(component: &'static str) -> Result<Arc<Self>, OpenError> {
+        let failed = |source| OpenError::Runtime { component, source };
+        let runtime = Builder::new_current_thread().enable_all().build().map_err(failed)?;
+        let handle = runtime.handle().clone();
+        let shared = Arc::new(Shared {
+            runtime: SharedRuntime(Some(runtime)),
+            callers: AtomicUsize::new(0),
+            idle_drives: AtomicBool::new(false),
+            wanted: Notify::new(),
+            ended: AtomicBool::new(false),
+            opened: Instant::now(),
+            last_call: Moment::default(),
+            last_turn: Moment::default(),
+            rest: Mutex::default(),
+            awaits_end: AtomicBool::new(false),
+            called: Condvar::new(),
+        });
+        let idle = Arc::clone(&shared);
+        thread::Builder::new().name("scl-idle".to_owned()).spawn(move || idle.drive_while_idle()).map_err(failed)?;
+        Ok(Arc::new(Self { shared, handle }))
+    }
+
+    pub(crate) fn enter(&self) -> EnterGuard<'_> {
+        self.handle.enter()
+    }
+
+    /// Drives the runtime until a future is ready.
+    pub(super) fn block_on<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
+        refuse_inside_async()?;
+        Ok(self.shared.call(|runtime| runtime.block_on(self.shared.with_a_turn(future))))
+    }
+
+    /// Gives the runtime a turn if one is due. Inside async code, where it cannot be driven, the idle thread does that a
+    /// little later.
+    pub(super) fn take_turn(&self) {
+        if self.shared.is_turn_due() && refuse_inside_async().is_ok() {
+            self.shared.call(|runtime| runtime.block_on(self.shared.with_a_turn(async {})));
+        }
+    }
+}
+
+impl Drop for OwnedRuntime {
+    fn drop(&mut self) {
+        self.shared.ended.store(true, Ordering::SeqCst);
+        self.shared.wanted.notify_one();
+        self.shared.wake_idle_thread();
+    }
+}
+
+impl Shared {
+    /// Lets a call use the runtime, which the idle thread gives back for it.
+    fn call<R>(&self, call: impl FnOnce(&Runtime) -> R) -> R {
+        self.callers.fetch_add(1, Ordering::SeqCst);
+        // In its own block so that a call that panics is counted out too.
+        let _called = Called(self);
+        if self.idle_drives.load(Ordering::SeqCst) {
+            self.wanted.notify_one();
+        }
+        call(self.runtime.get())
+    }
+
+    fn is_turn_due(&self) -> bool {
+        self.opened.elapsed().saturating_sub(self.last_turn.get()) >= TURN
+    }
+
+    /// The future's result; if it had nothing to wait for, then after a turn of the runtime where one is due.
+    async fn with_a_turn<F: Future>(&self, future: F) -> F::Output {
+        let mut future = pin!(future);
+        let mut waited = false;
+        let ready = poll_fn(|cx| {
+            let polled = future.as_mut().poll(cx);
+            waited |= polled.is_pending();
+            polled
+        })
+        .await;
+        let now = self.opened.elapsed();
+        let due = now.saturating_sub(self.last_turn.get()) >= TURN;
+        if waited || due {
+            self.last_turn.set(now);
+        }
+        if due && !waited {
+            // The first turn polls the I/O driver; the second runs the tasks it woke.
+            yield_now().await;
+            yield_now().await;
+        }
+        ready
+    }
+
+    fn drive_while_idle(&self) {
+        while !self.ended.load(Ordering::SeqCst) {
+            self.wait_until_idle();
+            self.idle_drives.store(true, Ordering::SeqCst);
+            // A call that starts from now on sees that it has to ask for the runtime.
+            if self.callers.load(Ordering::SeqCst) == 0 && !self.ended.load(Ordering::SeqCst) {
+                self.runtime.get().block_on(self.wanted.notified());
+            }
+            self.idle_drives.store(false, Ordering::SeqCst);
+        }
+    }
+
+    /// Returns when no call has been made for a while.
+    fn wait_until_idle(&self) {
+        let mut rest = lock(&self.rest);
+        let (mut pause, mut seen) = (IDLE, self.last_call.get());
+        while !self.ended.load(Ordering::SeqCst) {
+            let last_call = self.last_call.get();
+            let busy = self.callers.load(Ordering::SeqCst) > 0;
+            if !busy && self.opened.elapsed().saturating_sub(last_call) >= IDLE {
+                return;
+            }
+            let calls_follow = std::mem::replace(&mut seen, last_call) != last_call;
+            pause = if calls_follow { LONGEST_REST.min(pause * 2) } else { IDLE };
+            rest = if busy && !calls_follow {
+                self.wait_for_end_of_call(rest)
+            } else {
+                self.called.wait_timeout(rest, pause).unwrap_or_else(PoisonError::into_inner).0
+            };
+        }
+    }
+
+    /// Waits however long a call takes.
+    fn wait_for_end_of_call<'r>(&self, rest: MutexGuard<'r, ()>) -> MutexGuard<'r, ()> {
+        self.awaits_end.store(true, Ordering::SeqCst);
+        // A call that has ended before it could see this is not waited for.
+        let awaits = |_: &mut ()| self.callers.load(Ordering::SeqCst) > 0 && !self.ended.load(Ordering::SeqCst);
+        let rest = self.called.wait_while(rest, awaits).unwrap_or_else(PoisonError::into_inner);
+        self.awaits_end.store(false, Ordering::SeqCst);
+        rest
+    }
+
+    fn wake_idle_thread(&self) {
+        let _rest = lock(&self.rest);
+        self.called.notify_one();
+    }
+}
+
+impl SharedRuntime {
+    fn get(&self) -> &Runtime {
+        match &self.0 {
+            Some(runtime) => runtime,
+            None => unreachable!("the runtime is taken only when it is dropped"),
+        }
+    }
+}
+
+/// Counts a call out.
+struct Called<'a>(&'a Shared);
+
+impl Drop for Called<'_> {
+    fn drop(&mut self) {
+        let shared = self.0;
+        shared.callers.fetch_sub(1, Ordering::SeqCst);
+        shared.last_call.set(shared.opened.elapsed());
+        if shared.awaits_end.load(Ordering::SeqCst) {
+            shared.wake_idle_thread();
+        }
+    }
+}
+
+/// Waits on a plain thread while the runtime of the component runs elsewhere.
+pub(super) fn park_until<F: Future>(future: F) -> F::Output {
+    let mut future = pin!(future);
+    let waker = unparks_this_thread();
+    let mut cx = Context::from_waker(&waker);
+    loop {
+        if let Poll::Ready(ready) = future.as_mut().poll(&mut cx) {
+            return ready;
+        }
+        thread::park();
+    }
+}
+
+/// The same, but no longer than a given time. The runtime may have ended, so its timers are of no use here.
+pub(super) fn park_until_or<F: Future>(time: Duration, future: F) -> Option<F::Output> {
+    let started = Instant::now();
+    let mut future = pin!(future);
+    let waker = unparks_this_thread();
+    let mut cx = Context::from_waker(&waker);
+    loop {
+        if let Poll::Ready(ready) = future.as_mut().poll(&mut cx) {
+            return Some(ready);
+        }
+        let left = time.checked_sub(started.elapsed()).filter(|left| !left.is_zero())?;
+        thread::park_timeout(left);
+    }
+}
+
+fn unparks_this_thread() -> Waker {
+    struct Unpark(Thread);
+    impl Wake for Unpark {
+        fn wake(self: Arc<Self>) {
+            self.0.unpark();
+        }
+    }
+    Arc::new(Unpark(thread::current())).into()
+}
+
+pub(super) fn refuse_inside_async() -> Result<(), BlockingError> {
+    // A thread that only entered a runtime, as opening does, could wait; but nothing waits then.
+    if Handle::try_current().is_ok() { Err(BlockingError::InsideAsync) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn calls_that_wait_for_nothing_give_the_runtime_its_turns() {
+        let owned = OwnedRuntime::start("sensor").unwrap();
+        // As if the idle thread never got around to it.
+        let _held = lock(&owned.shared.rest);
+        let ran = Arc::new(AtomicBool::new(false));
+        let task = Arc::clone(&ran);
+        owned.handle.spawn(async move {
+            yield_now().await;
+            task.store(true, Ordering::SeqCst);
+        });
+        let call_until_it_ran = || {
+            (0..10_000_000).any(|_| {
+                owned.take_turn();
+                ran.load(Ordering::SeqCst)
+            })
+        };
+        assert!(call_until_it_ran());
+    }
+
+    #[test]
+    fn several_threads_wait_at_the_same_time() {
+        let owned = OwnedRuntime::start("sensor").unwrap();
+        let (first, second) = (Notify::new(), Notify::new());
+        thread::scope(|threads| {
+            threads.spawn(|| {
+                owned.block_on(first.notified()).unwrap();
+                second.notify_one();
+            });
+            threads.spawn(|| owned.block_on(second.notified()).unwrap());
+            owned.block_on(async { first.notify_one() }).unwrap();
+        });
+    }
+}

@@ -1,0 +1,48 @@
+//! Waiting, without a runtime, for what senders hold back.
+
+use crate::transport::Receiver;
+use bytes::Bytes;
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake, Waker};
+use std::thread::{self, Thread};
+use std::time::{Duration, Instant};
+
+/// Receives until `end` has caught up with its senders or the time is over, and returns the messages.
+///
+/// A sender that uses this very thread cannot answer meanwhile.
+pub(super) fn catch_up(end: &mut dyn Receiver, within: Duration) -> VecDeque<Bytes> {
+    let started = Instant::now();
+    let waker = Waker::from(Arc::new(Unpark(thread::current())));
+    let mut cx = Context::from_waker(&waker);
+    let mut fetched = VecDeque::new();
+    loop {
+        fetch(end, &mut cx, &mut fetched);
+        if end.poll_caught_up(&mut cx).is_ready() {
+            fetch(end, &mut cx, &mut fetched);
+            return fetched;
+        }
+        match within.checked_sub(started.elapsed()) {
+            Some(left) if !left.is_zero() => thread::park_timeout(left),
+            _ => return fetched,
+        }
+    }
+}
+
+/// Receives what has arrived, but not more than a connection holds: a busy sender could keep this going for ever.
+fn fetch(end: &mut dyn Receiver, cx: &mut Context<'_>, fetched: &mut VecDeque<Bytes>) {
+    for _ in 0..=super::IN_FLIGHT {
+        match end.poll_recv(cx) {
+            Poll::Ready(message) => fetched.push_back(message),
+            Poll::Pending => return,
+        }
+    }
+}
+
+struct Unpark(Thread);
+
+impl Wake for Unpark {
+    fn wake(self: Arc<Self>) {
+        self.0.unpark();
+    }
+}

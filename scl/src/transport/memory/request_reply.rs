@@ -1,0 +1,171 @@
+//! The ends for requests and replies.
+
+use super::IN_FLIGHT;
+use super::pipe::{PipeReader, PipeWriter, pipe};
+use super::round_robin::RoundRobin;
+use super::switchboard::{Connector, Listener, NewestOnly};
+use crate::transport::{Answer, Endpoint, IncomingRequest, Replier, ReplyPath, Requester, RequesterGone};
+use bytes::{BufMut, Bytes, BytesMut};
+use std::sync::Arc;
+use std::task::{Context, Poll, Waker, ready};
+
+/// A request or a reply, with the request's number.
+struct Numbered {
+    id: u64,
+    body: Bytes,
+}
+
+/// The replier's half of a connection.
+pub(super) struct ToRequester {
+    requests: PipeReader<Numbered>,
+    replies: Arc<Replies>,
+    envelopes: BytesMut,
+}
+
+/// The requester's half of a connection.
+pub(super) struct ToReplier {
+    requests: PipeWriter<Numbered>,
+    replies: PipeReader<Numbered>,
+}
+
+/// Replies are not limited in number: each belongs to a request, and requesters discard old ones before the next
+/// request.
+pub(super) fn connect(_newest_only: NewestOnly) -> (ToRequester, ToReplier) {
+    let (request, requests) = pipe(IN_FLIGHT);
+    let (reply, replies) = pipe(usize::MAX);
+    let to_requester = ToRequester { requests, replies: Arc::new(Replies(reply)), envelopes: BytesMut::new() };
+    (to_requester, ToReplier { requests: request, replies })
+}
+
+pub(super) struct MemoryRequester {
+    connector: Connector<ToRequester, ToReplier>,
+    replier: Option<ToReplier>,
+    max_size: usize,
+}
+
+impl MemoryRequester {
+    pub(super) fn new(connector: Connector<ToRequester, ToReplier>, endpoint: &Endpoint) -> Self {
+        Self { connector, replier: None, max_size: endpoint.max_size }
+    }
+
+    fn disconnect(&mut self) {
+        self.replier = None;
+        self.connector.connect_again();
+    }
+}
+
+impl Requester for MemoryRequester {
+    fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        loop {
+            let Some(replier) = &self.replier else {
+                self.replier = Some(ready!(self.connector.poll_connection(cx)));
+                continue;
+            };
+            match replier.replies.poll_recv(cx) {
+                Poll::Ready(Some(reply)) if reply.body.len() <= self.max_size => {}
+                Poll::Ready(_) => self.disconnect(),
+                Poll::Pending if replier.requests.has_room(cx) => return Poll::Ready(()),
+                Poll::Pending => return Poll::Pending,
+            }
+        }
+    }
+
+    fn request(&mut self, cx: &mut Context<'_>, id: u64, body: Bytes) -> Result<(), Bytes> {
+        let Some(replier) = &self.replier else { return Err(body) };
+        replier.requests.send(cx, Numbered { id, body }).map_err(|refused| refused.body)
+    }
+
+    fn is_connected(&self) -> bool {
+        self.replier.as_ref().is_some_and(ToReplier::is_open) || self.connector.has_connection(ToReplier::is_open)
+    }
+
+    fn poll_answer(&mut self, cx: &mut Context<'_>) -> Poll<Answer> {
+        let Some(replier) = &self.replier else { return Poll::Ready(Answer::Lost) };
+        Poll::Ready(match ready!(replier.replies.poll_recv(cx)) {
+            Some(Numbered { id, body }) if body.len() <= self.max_size => Answer::Reply { id, body },
+            _ => {
+                self.disconnect();
+                Answer::Lost
+            }
+        })
+    }
+
+    fn refusal(&self) -> Option<String> {
+        self.connector.refusal()
+    }
+}
+
+impl ToReplier {
+    fn is_open(&self) -> bool {
+        self.replies.is_open()
+    }
+}
+
+pub(super) struct MemoryReplier {
+    listener: Listener<ToRequester, ToReplier>,
+    requesters: RoundRobin<ToRequester>,
+    max_size: usize,
+}
+
+impl MemoryReplier {
+    pub(super) fn new(listener: Listener<ToRequester, ToReplier>, endpoint: &Endpoint) -> Self {
+        Self { listener, requesters: RoundRobin::new(), max_size: endpoint.max_size }
+    }
+}
+
+impl Replier for MemoryReplier {
+    fn poll_request(&mut self, cx: &mut Context<'_>) -> Poll<IncomingRequest> {
+        self.drive(cx);
+        let max_size = self.max_size;
+        self.requesters.poll(|requester| {
+            let request = requester.requests.poll_recv(cx);
+            // Without a request, the requester is removed and thereby disconnected.
+            request
+                .map(|request| request.filter(|request| request.body.len() <= max_size).map(|it| requester.receive(it)))
+        })
+    }
+
+    /// What was sent can be received even after this end is dropped.
+    fn drive(&mut self, cx: &mut Context<'_>) -> bool {
+        while let Poll::Ready(requester) = self.listener.poll_connection(cx) {
+            self.requesters.add(requester);
+        }
+        true
+    }
+
+    fn peers(&self) -> usize {
+        let open = self.requesters.iter().filter(|requester| requester.is_open()).count();
+        open + self.listener.count(ToRequester::is_open)
+    }
+}
+
+impl ToRequester {
+    fn is_open(&self) -> bool {
+        self.requests.is_open()
+    }
+
+    fn receive(&mut self, request: Numbered) -> IncomingRequest {
+        // Envelopes are cut from a larger piece of memory, which is used again once they are dropped.
+        self.envelopes.put_u64(request.id);
+        let envelope = self.envelopes.split().freeze();
+        let path = Arc::clone(&self.replies);
+        IncomingRequest { body: request.body, envelope, path }
+    }
+}
+
+/// Tells the requester and those who hold unanswered requests that the replier is gone.
+impl Drop for ToRequester {
+    fn drop(&mut self) {
+        self.replies.0.close();
+    }
+}
+
+struct Replies(PipeWriter<Numbered>);
+
+impl ReplyPath for Replies {
+    fn reply(&self, envelope: &Bytes, body: Bytes) -> Result<(), RequesterGone> {
+        let id = envelope[..].try_into().map(u64::from_be_bytes).map_err(|_not_from_here| RequesterGone)?;
+        let cx = Context::from_waker(Waker::noop());
+        self.0.send(&cx, Numbered { id, body }).map_err(|_gone| RequesterGone)
+    }
+}

@@ -1,0 +1,115 @@
+//! The sending ends: publish and push.
+
+use super::pipe::{PipeReader, PipeWriter};
+use super::switchboard::{Connector, Listener};
+use crate::transport::{Disconnected, Link, Peer, PeerKind, Sender};
+use bytes::Bytes;
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::task::{Context, Poll, ready};
+
+pub(super) struct Publisher {
+    subscribers: Listener<PipeWriter<Bytes>, PipeReader<Bytes>>,
+}
+
+impl Publisher {
+    pub(super) fn new(subscribers: Listener<PipeWriter<Bytes>, PipeReader<Bytes>>) -> Self {
+        Self { subscribers }
+    }
+}
+
+impl Sender for Publisher {
+    fn poll_peer(&mut self, cx: &mut Context<'_>) -> Poll<Peer> {
+        loop {
+            let subscriber = ready!(self.subscribers.poll_connection(cx));
+            if subscriber.is_open() {
+                return Poll::Ready(peer(MemoryLink { pipe: subscriber, _only_link: None }));
+            }
+        }
+    }
+}
+
+pub(super) struct Pusher {
+    puller: Connector<PipeReader<Bytes>, PipeWriter<Bytes>>,
+    has_link: Arc<AtomicBool>,
+}
+
+impl Pusher {
+    pub(super) fn new(puller: Connector<PipeReader<Bytes>, PipeWriter<Bytes>>) -> Self {
+        Self { puller, has_link: Arc::default() }
+    }
+}
+
+impl Sender for Pusher {
+    fn poll_peer(&mut self, cx: &mut Context<'_>) -> Poll<Peer> {
+        if self.has_link.load(Ordering::SeqCst) {
+            return Poll::Pending;
+        }
+        loop {
+            let puller = ready!(self.puller.poll_connection(cx));
+            if puller.is_open() {
+                // Once the link has been dropped, the same puller is connected to again.
+                self.puller.connect_again();
+                let only_link = OnlyLink::of(&self.has_link);
+                return Poll::Ready(peer(MemoryLink { pipe: puller, _only_link: Some(only_link) }));
+            }
+        }
+    }
+
+    fn refusal(&self) -> Option<String> {
+        self.puller.refusal()
+    }
+}
+
+/// Lets a pusher know whether its link still exists.
+struct OnlyLink(Arc<AtomicBool>);
+
+impl OnlyLink {
+    fn of(has_link: &Arc<AtomicBool>) -> Self {
+        has_link.store(true, Ordering::SeqCst);
+        Self(Arc::clone(has_link))
+    }
+}
+
+impl Drop for OnlyLink {
+    fn drop(&mut self) {
+        self.0.store(false, Ordering::SeqCst);
+    }
+}
+
+fn peer(link: MemoryLink) -> Peer {
+    Peer { kind: PeerKind::Component, link: Box::new(link) }
+}
+
+struct MemoryLink {
+    pipe: PipeWriter<Bytes>,
+    _only_link: Option<OnlyLink>,
+}
+
+impl Link for MemoryLink {
+    fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Disconnected> {
+        if self.pipe.poll_open(cx) { Ok(()) } else { Err(Disconnected) }
+    }
+
+    fn send(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes> {
+        self.pipe.send(cx, message)
+    }
+
+    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, sent: &mut dyn FnMut(usize)) {
+        self.pipe.send_all(cx, queue, |message| sent(message.len()));
+    }
+
+    /// What was sent can be received even after this end is dropped.
+    fn is_written(&self) -> bool {
+        true
+    }
+
+    fn unacknowledged(&self) -> u64 {
+        self.pipe.untaken()
+    }
+
+    fn request_acknowledgement(&mut self, cx: &mut Context<'_>) {
+        self.pipe.wake_when_empty(cx);
+    }
+}

@@ -1,0 +1,255 @@
+//! Accepting connections and their handshakes.
+//!
+//! A process without free descriptors cannot accept, not even to learn that nobody is waiting any more, and would try
+//! again forever. So one descriptor is kept in reserve, with which waiting peers are accepted and closed at once; they
+//! see that and come again.
+
+use super::Medium;
+use super::connection::{Closed, Connection};
+use super::listener::{BindError, Listener};
+use super::stream::{Stream, is_blocked};
+use super::timer::Timer;
+use super::zmtp::{Decoder, Item, PeerReady, SclReady, SocketType, hello};
+use crate::runtime_dir::{OwnedPath, Seen, SystemDir};
+use crate::transport::{Endpoint, TransportError};
+use bytes::Bytes;
+use rustix::io::Errno;
+use std::collections::VecDeque;
+use std::fs::File;
+use std::io;
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use std::time::Duration;
+use tokio::runtime::Handle;
+use tokio::time::Instant;
+
+/// How long a peer may take for its handshake.
+pub(super) const HANDSHAKE_LIMIT: Duration = Duration::from_secs(5);
+/// Maximum number of connections without a completed handshake. The oldest are closed first.
+const MOST_HANDSHAKES: usize = 64;
+/// Maximum number of connections of one endpoint.
+const MOST_CONNECTIONS: usize = 1024;
+/// How many connections are accepted before other work gets its turn.
+const ACCEPTS: usize = 64;
+/// Delay before accepting again after an error that is likely to last.
+const PAUSE: Duration = Duration::from_millis(50);
+/// Delay before binding again in a restored folder after that failed.
+const RETRY: Duration = Duration::from_secs(1);
+
+pub(super) struct Acceptor {
+    dir: Arc<SystemDir>,
+    medium: Medium,
+    endpoint: Endpoint,
+    socket: SocketType,
+    hello: Bytes,
+    runtime: Option<Handle>,
+    listener: Listener,
+    guard: OwnedPath,
+    /// How often the folder had been restored when the listener was bound.
+    restored: Seen,
+    /// When to bind again after that failed.
+    retry: Timer,
+    reserve: Option<File>,
+    pause: Timer,
+    handshakes: VecDeque<Handshake>,
+    limit: Timer,
+}
+
+struct Handshake {
+    connection: Connection,
+    deadline: Instant,
+}
+
+impl Acceptor {
+    /// Binds the endpoint. Called inside a runtime.
+    pub(super) fn open(
+        dir: &Arc<SystemDir>,
+        medium: Medium,
+        endpoint: &Endpoint,
+        socket: SocketType,
+        scl: SclReady,
+    ) -> Result<Self, TransportError> {
+        let (listener, guard) = Listener::bind(dir, medium, &endpoint.name).map_err(|error| match error {
+            BindError::RuntimeDir(error) => error.into(),
+            BindError::Io(error) => refused(endpoint, &error),
+        })?;
+        Ok(Self {
+            dir: Arc::clone(dir),
+            medium,
+            endpoint: endpoint.clone(),
+            socket,
+            hello: hello(socket, scl).into(),
+            runtime: Handle::try_current().ok(),
+            listener,
+            guard,
+            restored: Seen::default(),
+            retry: Timer::new(),
+            reserve: Some(reserve().map_err(|error| refused(endpoint, &error))?),
+            pause: Timer::new(),
+            handshakes: VecDeque::new(),
+            limit: Timer::new(),
+        })
+    }
+
+    /// Prepares for calls without a runtime.
+    pub(super) fn detach(&mut self) {
+        self.runtime = None;
+        self.pause.detach();
+        self.limit.detach();
+        self.handshakes.iter_mut().for_each(|handshake| handshake.connection.detach());
+    }
+
+    /// Returns the next connection whose handshake is done. `open` is the number of those in use.
+    pub(super) fn poll_connection(&mut self, cx: &mut Context<'_>, open: usize) -> Poll<(Connection, PeerReady)> {
+        self.bind_again_if_restored(cx);
+        self.accept(cx, open);
+        self.poll_handshakes(cx)
+    }
+
+    /// Binds again in a runtime folder that was removed. Connections stay.
+    fn bind_again_if_restored(&mut self, cx: &mut Context<'_>) {
+        let Some(runtime) = &self.runtime else { return };
+        let mut is_due = self.retry.is_set() && self.retry.poll(cx).is_ready();
+        while self.dir.poll_restored(&mut self.restored, cx).is_ready() {
+            is_due = true;
+        }
+        // Also reported when only other files in the folder were removed.
+        while is_due && !self.guard.is_ours() {
+            let _inside = runtime.enter();
+            match Listener::bind(&self.dir, self.medium, &self.endpoint.name) {
+                Ok((listener, guard)) => (self.listener, self.guard) = (listener, guard),
+                Err(error) => {
+                    tracing::warn!(endpoint = %self.endpoint.name, %error, "cannot listen again");
+                    self.retry.set(RETRY);
+                    is_due = self.retry.poll(cx).is_ready();
+                }
+            }
+        }
+    }
+
+    fn accept(&mut self, cx: &mut Context<'_>, open: usize) {
+        for _ in 0..ACCEPTS {
+            if self.pause.poll(cx).is_pending() {
+                return;
+            }
+            match self.poll_accept(cx) {
+                Poll::Ready(Ok(stream)) if open + self.handshakes.len() < MOST_CONNECTIONS => self.start(stream),
+                Poll::Ready(Ok(_one_too_many)) => {}
+                Poll::Ready(Err(error)) => {
+                    if self.handle_failure(cx, &error) {
+                        return;
+                    }
+                }
+                Poll::Pending => return,
+            }
+        }
+        cx.waker().wake_by_ref();
+    }
+
+    fn poll_accept(&self, cx: &mut Context<'_>) -> Poll<io::Result<Stream>> {
+        if let Some(runtime) = &self.runtime {
+            let _inside = runtime.enter();
+            return self.listener.poll_accept(cx);
+        }
+        let accepted = self.listener.accept_raw();
+        if is_blocked(&accepted) { Poll::Pending } else { Poll::Ready(accepted) }
+    }
+
+    fn start(&mut self, stream: Stream) {
+        let decoder = Decoder::new(self.socket, self.endpoint.max_size);
+        let connection = Connection::new(stream, decoder, &self.hello);
+        self.handshakes.push_back(Handshake { connection, deadline: Instant::now() + HANDSHAKE_LIMIT });
+        if self.handshakes.len() > MOST_HANDSHAKES {
+            self.handshakes.pop_front();
+        }
+    }
+
+    /// Returns true if nobody is waiting to be accepted; the task is woken for the next one.
+    fn handle_failure(&mut self, cx: &mut Context<'_>, error: &io::Error) -> bool {
+        tracing::debug!(endpoint = %self.endpoint.name, %error, "cannot accept a connection");
+        match Errno::from_io_error(error) {
+            Some(Errno::MFILE | Errno::NFILE) => return self.turn_away(cx),
+            // The peer has gone again, or belongs to another user.
+            Some(Errno::CONNABORTED | Errno::INTR | Errno::NOTCONN | Errno::INVAL) => {}
+            None => {}
+            _ => self.pause.set(PAUSE),
+        }
+        false
+    }
+
+    /// Accepts and closes all pending connections, keeping the spare descriptor free for the next time. Returns true if
+    /// none is left: without a free descriptor, the operating system would report an error even then.
+    fn turn_away(&mut self, cx: &mut Context<'_>) -> bool {
+        // Connections without a handshake are dropped as well; real peers will retry.
+        self.handshakes.clear();
+        self.reserve = None;
+        let mut turned_away = 0;
+        let none_left = loop {
+            match self.poll_accept(cx) {
+                Poll::Ready(Ok(_)) if turned_away < ACCEPTS => turned_away += 1,
+                Poll::Ready(_) => break false,
+                Poll::Pending => break true,
+            }
+        };
+        self.reserve = reserve().ok();
+        if self.reserve.is_none() || !none_left {
+            self.pause.set(PAUSE);
+        }
+        if turned_away > 0 {
+            tracing::warn!(turned_away, "no file descriptors are left for new connections; see `ulimit -n`");
+        }
+        none_left && self.reserve.is_some()
+    }
+
+    fn poll_handshakes(&mut self, cx: &mut Context<'_>) -> Poll<(Connection, PeerReady)> {
+        let mut index = 0;
+        while let Some(handshake) = self.handshakes.get_mut(index) {
+            match poll_handshake(&mut handshake.connection, cx) {
+                Poll::Ready(Ok(peer)) => {
+                    if let Some(handshake) = self.handshakes.remove(index) {
+                        return Poll::Ready((handshake.connection, peer));
+                    }
+                }
+                Poll::Ready(Err(error)) => {
+                    tracing::debug!(endpoint = %self.endpoint.name, %error, "dropping a connection");
+                    self.handshakes.remove(index);
+                }
+                Poll::Pending => index += 1,
+            }
+        }
+        self.drop_silent_peers(cx);
+        Poll::Pending
+    }
+
+    fn drop_silent_peers(&mut self, cx: &mut Context<'_>) {
+        while let Some(oldest) = self.handshakes.front() {
+            self.limit.set_at(oldest.deadline);
+            if self.limit.poll(cx).is_pending() {
+                return;
+            }
+            self.handshakes.pop_front();
+        }
+        self.limit.clear();
+    }
+}
+
+/// Ready when the peer has introduced itself.
+pub(super) fn poll_handshake(connection: &mut Connection, cx: &mut Context<'_>) -> Poll<Result<PeerReady, Closed>> {
+    if !connection.is_written() {
+        connection.flush(cx)?;
+    }
+    match connection.poll_item(cx) {
+        Poll::Ready(Ok(Item::Ready(peer))) => Poll::Ready(Ok(peer)),
+        Poll::Ready(Ok(_)) => Poll::Ready(Err(super::zmtp::ProtocolError::NotReady.into())),
+        Poll::Ready(Err(error)) => Poll::Ready(Err(error)),
+        Poll::Pending => Poll::Pending,
+    }
+}
+
+fn refused(endpoint: &Endpoint, error: &io::Error) -> TransportError {
+    TransportError::Refused { endpoint: endpoint.name.clone().into_owned(), reason: error.to_string() }
+}
+
+fn reserve() -> io::Result<File> {
+    File::open("/dev/null")
+}

@@ -1,0 +1,102 @@
+//! Credit between SCL ends: how much may be in flight, and what has been acknowledged.
+
+use super::zmtp::{ProtocolError, SclReady, Window};
+use std::collections::VecDeque;
+
+/// What an ordinary receiving end allows in flight.
+pub(super) const WINDOW: Window = Window { messages: 4096, bytes: 1 << 20 };
+/// The same if only the newest message matters: little enough for the socket to hold it, so that a message is either
+/// there or announced as waiting.
+const NEWEST_WINDOW: Window = Window { messages: 64, bytes: 32 << 10 };
+/// No window that a peer announces lets more messages than this be remembered.
+const MOST_MESSAGES: u64 = 1 << 16;
+
+/// What a receiving end announces.
+pub(super) fn receiving(newest_only: bool) -> SclReady {
+    SclReady { window: Some(window(newest_only)), newest_only }
+}
+
+fn window(newest_only: bool) -> Window {
+    if newest_only { NEWEST_WINDOW } else { WINDOW }
+}
+
+/// At a sending end: what is in flight.
+pub(super) struct SendCredit {
+    window: Window,
+    sent: u64,
+    /// Lengths of the messages that are not acknowledged, the oldest first.
+    in_flight: VecDeque<usize>,
+    bytes: u64,
+}
+
+impl SendCredit {
+    pub(super) fn new(mut window: Window) -> Self {
+        window.messages = window.messages.min(MOST_MESSAGES);
+        Self { window, sent: 0, in_flight: VecDeque::new(), bytes: 0 }
+    }
+
+    /// Returns true if another message may be sent after so many others of a total length. One that is longer than the
+    /// window may be sent as well.
+    pub(super) fn is_open_after(&self, messages: usize, bytes: usize) -> bool {
+        ((self.in_flight.len() + messages) as u64) < self.window.messages
+            && self.bytes + (bytes as u64) < self.window.bytes
+    }
+
+    pub(super) fn count_sent(&mut self, length: usize) {
+        self.sent += 1;
+        self.in_flight.push_back(length);
+        self.bytes += length as u64;
+    }
+
+    pub(super) fn sent(&self) -> u64 {
+        self.sent
+    }
+
+    pub(super) fn unacknowledged(&self) -> u64 {
+        self.in_flight.len() as u64
+    }
+
+    /// Handles an acknowledgement of all messages up to a number.
+    pub(super) fn acknowledge(&mut self, acknowledged: u64) -> Result<(), ProtocolError> {
+        let remaining = self
+            .sent
+            .checked_sub(acknowledged)
+            .ok_or(ProtocolError::Acknowledgement { acknowledged, sent: self.sent })?;
+        while self.in_flight.len() as u64 > remaining {
+            self.bytes -= self.in_flight.pop_front().unwrap_or_default() as u64;
+        }
+        Ok(())
+    }
+}
+
+/// At a receiving end: what has been taken and not acknowledged yet.
+pub(super) struct ReceiveCredit {
+    window: Window,
+    taken: u64,
+    unacknowledged: u64,
+    unacknowledged_bytes: u64,
+}
+
+impl ReceiveCredit {
+    pub(super) fn new(newest_only: bool) -> Self {
+        Self { window: window(newest_only), taken: 0, unacknowledged: 0, unacknowledged_bytes: 0 }
+    }
+
+    /// Counts a message. Returns true if half of the window waits to be acknowledged.
+    pub(super) fn count_taken(&mut self, length: usize) -> bool {
+        self.taken += 1;
+        self.unacknowledged += 1;
+        self.unacknowledged_bytes += length as u64;
+        2 * self.unacknowledged >= self.window.messages || 2 * self.unacknowledged_bytes >= self.window.bytes
+    }
+
+    pub(super) fn unacknowledged(&self) -> u64 {
+        self.unacknowledged
+    }
+
+    /// Returns the number to acknowledge.
+    pub(super) fn acknowledge(&mut self) -> u64 {
+        (self.unacknowledged, self.unacknowledged_bytes) = (0, 0);
+        self.taken
+    }
+}

@@ -1,0 +1,202 @@
+//! Connecting to the listening side of an endpoint, again and again at a constant pace.
+
+use super::acceptor::{HANDSHAKE_LIMIT, poll_handshake};
+use super::connection::{Closed, Connection};
+use super::stream::{Socket, Stream};
+use super::tcp_user;
+use super::timer::Timer;
+use super::zmtp::{Decoder, PeerReady, SclReady, SocketType, hello};
+use crate::runtime_dir::{self, Address, SystemDir};
+use crate::transport::Endpoint;
+use bytes::Bytes;
+use rustix::io::Errno;
+use rustix::net::{AddressFamily, SocketAddrUnix, SocketFlags, SocketType as Kind, socket_with};
+use std::io;
+use std::net::SocketAddr;
+use std::os::fd::OwnedFd;
+use std::path::Path;
+use std::sync::Arc;
+use std::task::{Context, Poll, ready};
+use std::time::Duration;
+use tokio::net::{TcpStream, UnixStream};
+use tokio::runtime::Handle;
+
+/// Delay between connection attempts. The jitter keeps components from retrying in lockstep.
+const RETRY: Duration = Duration::from_millis(20);
+const JITTER: Duration = Duration::from_millis(4);
+/// How often a peer that does not listen is checked: every half second.
+const ATTEMPTS_PER_CHECK: u32 = 24;
+
+pub(super) struct Dialler {
+    dir: Arc<SystemDir>,
+    endpoint: Endpoint,
+    socket: SocketType,
+    hello: Bytes,
+    runtime: Option<Handle>,
+    /// Until the next attempt may be made, counted from the one before.
+    pause: Timer,
+    handshake: Option<Connection>,
+    limit: Timer,
+    /// Number of failed attempts since the last connection.
+    attempts: u32,
+    refusal: Option<String>,
+    /// The last reason that was logged, so that it is logged once.
+    warned: Option<String>,
+}
+
+impl Dialler {
+    /// Called inside a runtime.
+    pub(super) fn new(dir: &Arc<SystemDir>, endpoint: &Endpoint, socket: SocketType, scl: SclReady) -> Self {
+        Self {
+            dir: Arc::clone(dir),
+            endpoint: endpoint.clone(),
+            socket,
+            hello: hello(socket, scl).into(),
+            runtime: Handle::try_current().ok(),
+            pause: Timer::new(),
+            handshake: None,
+            limit: Timer::new(),
+            attempts: 0,
+            refusal: None,
+            warned: None,
+        }
+    }
+
+    /// Prepares for calls without a runtime.
+    pub(super) fn detach(&mut self) {
+        self.runtime = None;
+        self.pause.detach();
+        self.limit.detach();
+        if let Some(connection) = &mut self.handshake {
+            connection.detach();
+        }
+    }
+
+    pub(super) fn endpoint(&self) -> &Endpoint {
+        &self.endpoint
+    }
+
+    pub(super) fn refusal(&self) -> Option<String> {
+        self.refusal.clone()
+    }
+
+    /// Returns a connection whose handshake is done. After it broke, call this again for the next one: at once if it
+    /// lasted longer than the delay between two attempts.
+    pub(super) fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<(Connection, PeerReady)> {
+        loop {
+            match ready!(self.poll_attempt(cx)) {
+                Ok(connected) => {
+                    self.attempts = 0;
+                    self.warned = None;
+                    return Poll::Ready(connected);
+                }
+                Err(error) => self.handle_failure(&error),
+            }
+        }
+    }
+
+    fn poll_attempt(&mut self, cx: &mut Context<'_>) -> Poll<Result<(Connection, PeerReady), Closed>> {
+        let mut connection = match self.handshake.take() {
+            Some(connection) => connection,
+            None => {
+                ready!(self.pause.poll(cx));
+                self.pause.set(RETRY + JITTER.mul_f64(jitter(&self.endpoint.name, self.attempts)));
+                self.limit.set(HANDSHAKE_LIMIT);
+                self.connect()?
+            }
+        };
+        match poll_handshake(&mut connection, cx) {
+            Poll::Ready(ready) => {
+                // A timer that goes on would wake a task that has nothing to do.
+                self.limit.clear();
+                Poll::Ready(ready.map(|peer| (connection, peer)))
+            }
+            Poll::Pending => {
+                if self.limit.poll(cx).is_ready() {
+                    return Poll::Ready(Err(Closed::SilentPeer));
+                }
+                self.handshake = Some(connection);
+                Poll::Pending
+            }
+        }
+    }
+
+    fn connect(&mut self) -> io::Result<Connection> {
+        let address = runtime_dir::find(&self.dir, &self.endpoint.name);
+        // A peer with another type or codec listens elsewhere, so it is looked for now and then even if nobody is here.
+        if address.is_some() || self.attempts % ATTEMPTS_PER_CHECK == ATTEMPTS_PER_CHECK - 1 {
+            self.refusal = self.endpoint.check.as_ref().and_then(|check| check().err());
+        }
+        if let Some(refusal) = self.refusal.clone() {
+            self.warn_once(&refusal);
+            return Err(io::ErrorKind::PermissionDenied.into());
+        }
+        let stream = match address.ok_or(io::ErrorKind::NotFound)? {
+            Address::Ipc(path) => self.adopt_unix(connect_unix(&path)?)?,
+            Address::Tcp(address) => {
+                tcp_user::check_listener(address).inspect_err(|error| {
+                    if error.kind() == io::ErrorKind::PermissionDenied {
+                        self.warn_once(&error.to_string());
+                    }
+                })?;
+                self.adopt_tcp(connect_tcp(address)?)?
+            }
+        };
+        let decoder = Decoder::new(self.socket, self.endpoint.max_size);
+        Ok(Connection::new(stream, decoder, &self.hello))
+    }
+
+    fn adopt_unix(&self, descriptor: OwnedFd) -> io::Result<Stream> {
+        let Some(runtime) = &self.runtime else { return Ok(Stream::new(Socket::Plain(descriptor))) };
+        let _inside = runtime.enter();
+        Ok(Stream::new(Socket::Unix(UnixStream::from_std(descriptor.into())?)))
+    }
+
+    fn adopt_tcp(&self, descriptor: OwnedFd) -> io::Result<Stream> {
+        let Some(runtime) = &self.runtime else { return Ok(Stream::new(Socket::Plain(descriptor))) };
+        let _inside = runtime.enter();
+        Ok(Stream::new(Socket::Tcp(TcpStream::from_std(descriptor.into())?)))
+    }
+
+    fn handle_failure(&mut self, error: &Closed) {
+        tracing::trace!(endpoint = %self.endpoint.name, %error, "not connected yet");
+        if let Closed::Protocol(error) = error {
+            self.warn_once(&error.to_string());
+        }
+        self.attempts = self.attempts.saturating_add(1);
+    }
+
+    fn warn_once(&mut self, reason: &str) {
+        if self.warned.as_deref() != Some(reason) {
+            tracing::warn!("not connecting to `{}`: {reason}", self.endpoint.name);
+            self.warned = Some(reason.to_owned());
+        }
+    }
+}
+
+fn connect_unix(path: &Path) -> io::Result<OwnedFd> {
+    let socket = socket_with(AddressFamily::UNIX, Kind::STREAM, flags(), None)?;
+    rustix::net::connect(&socket, &SocketAddrUnix::new(path)?)?;
+    Ok(socket)
+}
+
+/// Starts connecting; reading and writing report how that ends.
+fn connect_tcp(address: SocketAddr) -> io::Result<OwnedFd> {
+    let family = if address.is_ipv4() { AddressFamily::INET } else { AddressFamily::INET6 };
+    let socket = socket_with(family, Kind::STREAM, flags(), None)?;
+    rustix::net::sockopt::set_tcp_nodelay(&socket, true)?;
+    match rustix::net::connect(&socket, &address) {
+        Ok(()) | Err(Errno::INPROGRESS) => Ok(socket),
+        Err(error) => Err(error.into()),
+    }
+}
+
+fn flags() -> SocketFlags {
+    SocketFlags::CLOEXEC | SocketFlags::NONBLOCK
+}
+
+/// A number from 0 to 1 that differs between endpoints and attempts.
+fn jitter(endpoint: &str, attempt: u32) -> f64 {
+    let mix = |hash: u32, byte: u8| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+    f64::from(endpoint.bytes().fold(attempt.wrapping_mul(0x9E37_79B9), mix)) / f64::from(u32::MAX)
+}

@@ -1,0 +1,267 @@
+//! The receiving side of a connection, of a subscriber or of a puller.
+
+use super::connection::{Closed, Connection};
+use super::credit::ReceiveCredit;
+use super::timer::Timer;
+use super::zmtp::{Command, Item, Message, PeerReady, acknowledgement, catch_up};
+use bytes::Bytes;
+use std::collections::VecDeque;
+use std::pin::pin;
+use std::task::{Context, Poll, ready};
+use std::time::{Duration, Instant};
+use tokio::task::coop;
+
+/// How long a receiver waits for the messages that the sender has announced: a stopped sender must not stop a control
+/// loop.
+const CATCH_UP_LIMIT: Duration = Duration::from_millis(100);
+/// For how long the answer of a sender that had to be asked counts at most.
+const FRESH: Duration = Duration::from_millis(1);
+/// How much is read ahead of the caller without a runtime, or a single message that is longer.
+const READ_AHEAD: usize = 256 << 10;
+/// After how many messages read ahead no more are fetched.
+const MOST_AHEAD: usize = 4096;
+
+pub(super) struct Inbound {
+    connection: Connection,
+    credit: Option<ReceiveCredit>,
+    newest_only: bool,
+    /// Messages read while looking for the newest.
+    ahead: VecDeque<Bytes>,
+    /// Why no more will follow after those read ahead.
+    closed: Option<Closed>,
+    malformed: u64,
+    /// Whether the sender holds messages until earlier ones are acknowledged.
+    behind: bool,
+    /// Whether the socket was empty when `poll_next` last looked, just now.
+    emptied: bool,
+    /// Whether the sender has let the time for catching up pass.
+    gave_up: bool,
+    /// Number of the last question whether newer messages wait, and of the last that the sender has answered.
+    question: u64,
+    answered: u64,
+    answered_at: Option<Instant>,
+    /// How often `poll_next` has found nothing since the caller was told, if it was.
+    idle_polls: Option<u32>,
+    timer: Timer,
+}
+
+impl Inbound {
+    pub(super) fn new(connection: Connection, peer: &PeerReady, newest_only: bool) -> Self {
+        Self {
+            connection,
+            credit: peer.scl.map(|_| ReceiveCredit::new(newest_only)),
+            newest_only,
+            ahead: VecDeque::new(),
+            closed: None,
+            malformed: 0,
+            behind: false,
+            emptied: false,
+            gave_up: false,
+            question: 0,
+            answered: 0,
+            answered_at: None,
+            idle_polls: None,
+            timer: Timer::new(),
+        }
+    }
+
+    /// Returns the number of malformed messages since the last call.
+    pub(super) fn take_malformed(&mut self) -> u64 {
+        std::mem::take(&mut self.malformed)
+    }
+
+    pub(super) fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<Result<Bytes, Closed>> {
+        if let Some(message) = self.ahead.pop_front() {
+            return Poll::Ready(Ok(message));
+        }
+        loop {
+            match self.next_buffered() {
+                Ok(Some(message)) => return Poll::Ready(Ok(message)),
+                Ok(None) => {}
+                Err(closed) => return Poll::Ready(Err(closed)),
+            }
+            if let Some(closed) = self.closed.take() {
+                return Poll::Ready(Err(closed));
+            }
+            match self.connection.poll_fill(cx) {
+                Poll::Ready(Ok(())) => {}
+                Poll::Ready(Err(closed)) => return Poll::Ready(Err(closed)),
+                Poll::Pending => break,
+            }
+        }
+        if !self.connection.is_written() {
+            // A peer that does not take acknowledgements any more may still have sent messages.
+            let _reported_by_reading = self.connection.flush(cx);
+        }
+        self.emptied = self.connection.take_emptied();
+        self.idle_polls = self.idle_polls.map(|polls| polls.saturating_add(1));
+        Poll::Pending
+    }
+
+    /// Returns the next message that has been read, and handles the commands before it.
+    #[inline]
+    fn next_buffered(&mut self) -> Result<Option<Bytes>, Closed> {
+        while let Some(item) = self.connection.buffered_item()? {
+            match item {
+                Item::Message(Message { envelope, body }) => {
+                    self.count_taken(body.len());
+                    if envelope.is_empty() {
+                        return Ok(Some(body));
+                    }
+                    self.malformed += 1;
+                }
+                Item::Command(Command::Behind) => (self.behind, self.gave_up) = (true, false),
+                Item::Command(Command::CaughtUp(number)) => self.handle_caught_up(number),
+                Item::Command(Command::Flush) => self.acknowledge(),
+                Item::Command(_) | Item::Ready(_) => {}
+            }
+        }
+        Ok(None)
+    }
+
+    fn handle_caught_up(&mut self, number: u64) {
+        (self.behind, self.gave_up) = (false, false);
+        if number == self.question && self.question != self.answered {
+            self.answered = number;
+            self.answered_at = Some(Instant::now());
+            self.idle_polls = None;
+        }
+    }
+
+    fn count_taken(&mut self, length: usize) {
+        if let Some(credit) = &mut self.credit
+            && credit.count_taken(length)
+        {
+            self.acknowledge();
+        }
+    }
+
+    fn acknowledge(&mut self) {
+        if let Some(credit) = &mut self.credit {
+            // A peer that does not take acknowledgements any more may still have sent messages.
+            let _reported_by_reading = self.connection.write(&acknowledgement(credit.acknowledge()));
+        }
+    }
+
+    /// Ready when the sender has nothing newer than what `poll_next` has returned or will return at once.
+    pub(super) fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        if !self.newest_only {
+            return Poll::Ready(());
+        }
+        // The runtime may not have looked for a while. It must get its turn even if something new is always there.
+        if !std::mem::take(&mut self.emptied) && self.fill_raw() {
+            ready!(pin!(coop::consume_budget()).poll(cx));
+        }
+        if self.question == self.answered {
+            self.ask();
+        }
+        loop {
+            self.read_ahead();
+            if !self.may_be_behind() || self.gave_up {
+                break;
+            }
+            self.acknowledge_all();
+            match self.connection.poll_fill(cx) {
+                Poll::Ready(Ok(())) => {}
+                Poll::Ready(Err(closed)) => self.closed = Some(closed),
+                Poll::Pending => {
+                    if !self.timer.is_set() {
+                        self.timer.set(CATCH_UP_LIMIT);
+                    }
+                    if self.timer.poll(cx).is_pending() {
+                        return Poll::Pending;
+                    }
+                    self.gave_up = true;
+                }
+            }
+        }
+        self.timer.unset();
+        self.idle_polls.get_or_insert(0);
+        if !self.ahead.is_empty() || self.closed.is_some() {
+            // The runtime does not report what was read without it.
+            cx.waker().wake_by_ref();
+        }
+        Poll::Ready(())
+    }
+
+    /// Fetches what has arrived without the runtime. If only the newest message matters, waits for what the sender holds.
+    pub(super) fn catch_up(&mut self, within: Duration) {
+        let deadline = Instant::now() + within;
+        self.fill_raw();
+        if !self.newest_only {
+            return;
+        }
+        // Not content with the answer to an earlier question, which may still be on its way.
+        self.ask();
+        self.read_ahead();
+        while self.may_be_behind() && !self.gave_up {
+            self.acknowledge_all();
+            let left = deadline.saturating_duration_since(Instant::now());
+            if !self.connection.wait_readable(left) {
+                self.gave_up = within >= CATCH_UP_LIMIT;
+                return;
+            }
+            self.fill_raw();
+            self.read_ahead();
+        }
+    }
+
+    /// Asks the sender whether newer messages wait, if that cannot be known without asking.
+    fn ask(&mut self) {
+        if self.credit.is_none() || self.connection.is_immediate() || self.gave_up {
+            return;
+        }
+        // A caller that has several senders, or looks again after it was told, asks once.
+        let is_same_call =
+            self.idle_polls.is_none_or(|polls| polls <= 1) && self.answered_at.is_some_and(|at| at.elapsed() < FRESH);
+        if !is_same_call {
+            self.question += 1;
+            let _reported_by_reading = self.connection.write(&catch_up(self.question));
+        }
+    }
+
+    /// Waits on the calling thread until something has arrived.
+    pub(super) fn wait(&mut self, within: Duration) -> bool {
+        self.connection.wait(within)
+    }
+
+    /// Whether the sender may hold messages that are newer than those read.
+    fn may_be_behind(&self) -> bool {
+        // A peer without credit cannot be asked; one that ignores the window is not worth waiting for.
+        let can_catch_up = self.credit.is_some() && self.closed.is_none() && self.ahead.len() < MOST_AHEAD;
+        can_catch_up && (self.behind || self.question != self.answered || self.connection.buffered() > 0)
+    }
+
+    fn acknowledge_all(&mut self) {
+        if self.credit.as_ref().is_some_and(|credit| credit.unacknowledged() > 0) {
+            self.acknowledge();
+        }
+    }
+
+    /// Reads without the runtime. Returns true if something had arrived.
+    fn fill_raw(&mut self) -> bool {
+        let before = self.connection.buffered();
+        while self.closed.is_none()
+            && self.ahead.len() < MOST_AHEAD
+            && (self.connection.buffered() < READ_AHEAD || self.connection.is_in_frame())
+        {
+            match self.connection.fill_raw() {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(closed) => self.closed = Some(closed),
+            }
+        }
+        self.connection.buffered() > before
+    }
+
+    /// Decodes what has been read, so that what the sender says about newer messages is known.
+    fn read_ahead(&mut self) {
+        loop {
+            match self.next_buffered() {
+                Ok(Some(message)) => self.ahead.push_back(message),
+                Ok(None) => return,
+                Err(closed) => return self.closed = Some(closed),
+            }
+        }
+    }
+}

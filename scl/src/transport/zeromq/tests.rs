@@ -1,0 +1,10 @@
+//! Tests of roles over real sockets.
+
+mod credit;
+mod ends;
+mod hostile;
+mod plain;
+mod roles;
+mod stage;
+mod subject;
+mod witness;

@@ -1,0 +1,129 @@
+//! Commands: subscriptions, heartbeats, and SCL's acknowledgements.
+
+use super::ProtocolError;
+use super::frame::{COMMAND, Header};
+use bytes::{Buf, Bytes};
+
+/// The longest context that an answer to a heartbeat repeats.
+const CONTEXT: usize = 16;
+
+/// The message by which a 3.0 subscriber subscribes to everything.
+pub(in crate::transport::zeromq) const SUBSCRIBE_ALL: &[u8] = b"\0\x01\x01";
+
+/// From a sending end: the window is full, and newer messages wait for an acknowledgement.
+pub(in crate::transport::zeromq) const BEHIND: &[u8] = b"\x04\x0d\x0cX-SCL-BEHIND";
+/// From a sending end: acknowledge everything sent before this.
+pub(in crate::transport::zeromq) const FLUSH: &[u8] = b"\x04\x0c\x0bX-SCL-FLUSH";
+
+/// A command of a peer that has introduced itself.
+#[derive(Debug, PartialEq, Eq)]
+pub(in crate::transport::zeromq) enum Command {
+    Subscription(Subscription),
+    /// A heartbeat to be answered with its context.
+    Ping(Bytes),
+    /// The peer closes the connection for this reason.
+    Error(String),
+    /// Number of messages that the peer has taken so far.
+    Acknowledged(u64),
+    /// Newer messages wait for an acknowledgement.
+    Behind,
+    /// The peer wants to be told when no newer message waits, under this number.
+    CatchUp(u64),
+    /// No newer message waits. The number is that of the last [`CatchUp`](Self::CatchUp), or 0.
+    CaughtUp(u64),
+    /// The peer wants everything acknowledged that it has sent.
+    Flush,
+    Unknown,
+}
+
+/// What a subscriber wants.
+#[derive(Debug, PartialEq, Eq)]
+pub(in crate::transport::zeromq) enum Subscription {
+    /// It wants messages that begin so.
+    Add(Bytes),
+    /// It no longer wants messages that begin so.
+    Cancel(Bytes),
+}
+
+/// Splits the body of a command into name and content.
+pub(super) fn split(mut body: Bytes) -> Result<(Bytes, Bytes), ProtocolError> {
+    let length = body.try_get_u8().map_err(|_empty| ProtocolError::MalformedCommand)?.into();
+    if body.len() < length {
+        return Err(ProtocolError::MalformedCommand);
+    }
+    let content = body.split_off(length);
+    Ok((body, content))
+}
+
+impl Command {
+    pub(super) fn parse(body: Bytes) -> Result<Self, ProtocolError> {
+        let (name, mut content) = split(body)?;
+        Ok(match &*name {
+            b"X-SCL-ACK" => Self::Acknowledged(number(content)?),
+            b"X-SCL-BEHIND" => Self::Behind,
+            b"X-SCL-CATCH-UP" => Self::CatchUp(number(content)?),
+            b"X-SCL-CAUGHT-UP" => Self::CaughtUp(number(content)?),
+            b"X-SCL-FLUSH" => Self::Flush,
+            b"SUBSCRIBE" => Self::Subscription(Subscription::Add(content)),
+            b"CANCEL" => Self::Subscription(Subscription::Cancel(content)),
+            b"PING" => {
+                // Two bytes say how long the peer waits for anything.
+                content.advance(content.len().min(2));
+                content.truncate(CONTEXT);
+                Self::Ping(content)
+            }
+            b"ERROR" => Self::Error(error_text(&content)),
+            _ => Self::Unknown,
+        })
+    }
+}
+
+/// Reads the reason of an ERROR, which a length precedes.
+pub(super) fn error_text(content: &[u8]) -> String {
+    let reason = content.get(1..).unwrap_or_default();
+    let shown = &reason[..reason.len().min(255)];
+    shown.escape_ascii().to_string()
+}
+
+/// The subscription in a message, which is how ZMTP 3.0 carries it.
+pub(in crate::transport::zeromq) fn subscription(mut body: Bytes) -> Option<Subscription> {
+    match body.try_get_u8() {
+        Ok(1) => Some(Subscription::Add(body)),
+        Ok(0) => Some(Subscription::Cancel(body)),
+        _ => None,
+    }
+}
+
+/// The answer to a heartbeat.
+pub(in crate::transport::zeromq) fn pong(context: &[u8]) -> Vec<u8> {
+    [Header::new(COMMAND, 5 + context.len()).as_bytes(), b"\x04PONG", context].concat()
+}
+
+/// From a receiving end: the number of messages taken so far.
+pub(in crate::transport::zeromq) fn acknowledgement(taken: u64) -> [u8; 20] {
+    numbered(b"\x09X-SCL-ACK", taken)
+}
+
+/// From a receiving end: report when no newer message waits.
+pub(in crate::transport::zeromq) fn catch_up(number: u64) -> [u8; 25] {
+    numbered(b"\x0eX-SCL-CATCH-UP", number)
+}
+
+/// From a sending end: no newer message waits.
+pub(in crate::transport::zeromq) fn caught_up(number: u64) -> [u8; 26] {
+    numbered(b"\x0fX-SCL-CAUGHT-UP", number)
+}
+
+/// A command with a number, of known length, so that it takes no memory.
+fn numbered<const LENGTH: usize>(name: &[u8], number: u64) -> [u8; LENGTH] {
+    let mut command = [0; LENGTH];
+    command[..2].copy_from_slice(&[COMMAND, (LENGTH - 2) as u8]);
+    command[2..2 + name.len()].copy_from_slice(name);
+    command[2 + name.len()..].copy_from_slice(&number.to_be_bytes());
+    command
+}
+
+/// What follows the number belongs to a later version.
+fn number(mut content: Bytes) -> Result<u64, ProtocolError> {
+    content.try_get_u64().map_err(|_too_short| ProtocolError::MalformedCommand)
+}

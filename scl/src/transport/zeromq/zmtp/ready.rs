@@ -1,0 +1,154 @@
+//! READY: what both sides say about themselves after the greeting.
+
+use super::frame::{COMMAND, Header};
+use super::{ProtocolError, greeting};
+use bytes::Buf;
+
+/// The socket types that SCL's ends are to their peers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::transport::zeromq) enum SocketType {
+    /// A publishing end.
+    XPub,
+    /// A subscribing end.
+    Sub,
+    /// A pushing end.
+    Push,
+    /// A pulling end.
+    Pull,
+    /// A requesting end.
+    Dealer,
+    /// A replying end.
+    Router,
+}
+
+impl SocketType {
+    pub(super) const ALL: [Self; 6] = [Self::XPub, Self::Sub, Self::Push, Self::Pull, Self::Dealer, Self::Router];
+
+    pub(in crate::transport::zeromq) fn name(self) -> &'static str {
+        match self {
+            Self::XPub => "XPUB",
+            Self::Sub => "SUB",
+            Self::Push => "PUSH",
+            Self::Pull => "PULL",
+            Self::Dealer => "DEALER",
+            Self::Router => "ROUTER",
+        }
+    }
+
+    fn peers(self) -> &'static [&'static [u8]] {
+        match self {
+            Self::XPub => &[b"SUB", b"XSUB"],
+            Self::Sub => &[b"PUB", b"XPUB"],
+            Self::Push => &[b"PULL"],
+            Self::Pull => &[b"PUSH"],
+            Self::Dealer => &[b"REP", b"ROUTER"],
+            Self::Router => &[b"REQ", b"DEALER"],
+        }
+    }
+}
+
+/// The property that tells SCL's ends from other ZeroMQ programs.
+const SCL_PROPERTY: &[u8] = b"X-SCL";
+/// The version of SCL's additions. One that differs in it is treated as a plain ZeroMQ program.
+const SCL_VERSION: &str = "1";
+
+/// What a peer has said about itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(in crate::transport::zeromq) struct PeerReady {
+    /// Present if the peer is an SCL end whose version is known.
+    pub(in crate::transport::zeromq) scl: Option<SclReady>,
+}
+
+/// The value of the property `X-SCL`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(in crate::transport::zeromq) struct SclReady {
+    /// How much may be sent to this end without acknowledgement.
+    pub(in crate::transport::zeromq) window: Option<Window>,
+    /// Whether only the newest message matters to this end.
+    pub(in crate::transport::zeromq) newest_only: bool,
+}
+
+/// How much may be in flight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::transport::zeromq) struct Window {
+    pub(in crate::transport::zeromq) messages: u64,
+    pub(in crate::transport::zeromq) bytes: u64,
+}
+
+impl SclReady {
+    fn encode(self) -> String {
+        let window =
+            self.window.map_or_else(String::new, |Window { messages, bytes }| format!(" window={messages},{bytes}"));
+        let newest = if self.newest_only { " newest" } else { "" };
+        format!("{SCL_VERSION}{window}{newest}")
+    }
+
+    /// Returns `None` for another version. Unknown words are ignored, so that the value can grow.
+    fn parse(value: &[u8]) -> Option<Self> {
+        let mut words = std::str::from_utf8(value).ok()?.split(' ');
+        if words.next() != Some(SCL_VERSION) {
+            return None;
+        }
+        let mut ready = Self::default();
+        for word in words {
+            if let Some(window) = word.strip_prefix("window=") {
+                ready.window = Window::parse(window);
+            } else if word == "newest" {
+                ready.newest_only = true;
+            }
+        }
+        Some(ready)
+    }
+}
+
+impl Window {
+    /// A window of nothing would never let a message pass, so it counts as none.
+    fn parse(text: &str) -> Option<Self> {
+        let (messages, bytes) = text.split_once(',')?;
+        let number = |text: &str| text.parse().ok().filter(|&number: &u64| number > 0);
+        Some(Self { messages: number(messages)?, bytes: number(bytes)? })
+    }
+}
+
+/// What an end sends as soon as it is connected: greeting and READY.
+pub(in crate::transport::zeromq) fn hello(socket: SocketType, scl: SclReady) -> Vec<u8> {
+    let mut body = b"\x05READY".to_vec();
+    put_property(&mut body, b"Socket-Type", socket.name().as_bytes());
+    put_property(&mut body, SCL_PROPERTY, scl.encode().as_bytes());
+    [&greeting::greeting()[..], Header::new(COMMAND, body.len()).as_bytes(), &body].concat()
+}
+
+fn put_property(body: &mut Vec<u8>, name: &[u8], value: &[u8]) {
+    body.push(name.len() as u8);
+    body.extend_from_slice(name);
+    body.extend_from_slice(&(value.len() as u32).to_be_bytes());
+    body.extend_from_slice(value);
+}
+
+/// Reads the properties of a peer's READY.
+pub(super) fn parse(socket: SocketType, mut properties: &[u8]) -> Result<PeerReady, ProtocolError> {
+    let (mut peer, mut scl) = (None, None);
+    while !properties.is_empty() {
+        let (name, value, rest) = split_property(properties).ok_or(ProtocolError::MalformedReady)?;
+        if name.eq_ignore_ascii_case(b"Socket-Type") {
+            peer = Some(value);
+        } else if name.eq_ignore_ascii_case(SCL_PROPERTY) {
+            scl = SclReady::parse(value);
+        }
+        properties = rest;
+    }
+    let peer = peer.ok_or(ProtocolError::MalformedReady)?;
+    if !socket.peers().contains(&peer) {
+        let shown = &peer[..peer.len().min(16)];
+        return Err(ProtocolError::SocketType { own: socket, peer: shown.escape_ascii().to_string() });
+    }
+    Ok(PeerReady { scl })
+}
+
+fn split_property(properties: &[u8]) -> Option<(&[u8], &[u8], &[u8])> {
+    let (&length, rest) = properties.split_first()?;
+    let (name, mut rest) = rest.split_at_checked(length.into())?;
+    let length = rest.try_get_u32().ok()?;
+    let (value, rest) = rest.split_at_checked(length as usize)?;
+    Some((name, value, rest))
+}

@@ -1,0 +1,19 @@
+//! The integration tests of the crate, in one binary.
+
+#[cfg(all(feature = "json", feature = "memory"))]
+mod auto_traits;
+#[cfg(feature = "conformance")]
+mod conformance_codecs;
+#[cfg(all(feature = "conformance", feature = "memory"))]
+mod conformance_memory;
+#[cfg(all(feature = "conformance", feature = "zeromq"))]
+mod conformance_zeromq;
+#[cfg(all(feature = "json", feature = "memory"))]
+mod memory_components;
+#[cfg(all(feature = "json", feature = "memory"))]
+mod memory_queues;
+#[cfg(all(feature = "memory", feature = "zeromq"))]
+mod model;
+mod runtime_dir_files;
+mod runtime_dir_folder;
+mod runtime_dir_processes;

@@ -1,0 +1,68 @@
+//! The counterpart of [`Process`](crate::Process) inside a test program: reads commands line by line and answers each
+//! with a line.
+
+use std::io::Write;
+use std::ops::Range;
+use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
+
+/// The commands that a test gives to this program.
+pub struct Commands(UnboundedReceiver<String>);
+
+impl Commands {
+    /// Starts reading this program's standard input.
+    pub fn listen() -> Self {
+        let (sender, receiver) = unbounded_channel();
+        std::thread::spawn(move || {
+            for line in std::io::stdin().lines().map_while(Result::ok) {
+                let _program_ends = sender.send(line);
+            }
+        });
+        Self(receiver)
+    }
+
+    /// The next command, split into words; `None` when the test has closed the input.
+    pub async fn next(&mut self) -> Option<Vec<String>> {
+        self.0.recv().await.map(|line| words(&line))
+    }
+
+    /// [`next`](Self::next) for a program without async.
+    pub fn next_blocking(&mut self) -> Option<Vec<String>> {
+        self.0.blocking_recv().map(|line| words(&line))
+    }
+}
+
+fn words(line: &str) -> Vec<String> {
+    line.split_whitespace().map(str::to_owned).collect()
+}
+
+/// Answers the test with a line.
+pub fn say(line: impl std::fmt::Display) {
+    let mut output = std::io::stdout().lock();
+    // The test may have ended.
+    let _written = writeln!(output, "{line}").and_then(|()| output.flush());
+}
+
+/// Answers the test with an error and its causes, on one line.
+pub fn say_error(error: impl Into<scl::Error>) {
+    let error = error.into();
+    say(format!("error: {error:?}").replace("\n  caused by", ""));
+}
+
+/// Stops this program (SIGSTOP) until the test resumes it.
+pub fn stop_self() {
+    if rustix::process::kill_process(rustix::process::getpid(), rustix::process::Signal::STOP).is_err() {
+        say("cannot stop");
+    }
+}
+
+/// Values in order of arrival, with consecutive ones merged: `0..10 12..13`.
+pub fn ranges(values: &[u64]) -> String {
+    let mut ranges: Vec<Range<u64>> = Vec::new();
+    for &value in values {
+        match ranges.last_mut() {
+            Some(last) if last.end == value => last.end += 1,
+            _ => ranges.push(value..value + 1),
+        }
+    }
+    ranges.iter().map(|range| format!("{}..{}", range.start, range.end)).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,109 @@
+//! The folder in which the programs of one test meet.
+
+use crate::{Address, Process};
+use scl::{Medium, OpenOptions};
+use std::ffi::OsStr;
+use std::fs::DirBuilder;
+use std::os::unix::fs::DirBuilderExt;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// A runtime folder for one test, with a path short enough for any socket.
+pub struct System {
+    folder: TempDir,
+    medium: Medium,
+}
+
+/// Runs a test with listening gates on Unix sockets, then on TCP.
+pub fn on_each_medium(test: impl Fn(System)) {
+    for medium in [Medium::Ipc, Medium::Tcp] {
+        test(System::with_medium(medium));
+    }
+}
+
+impl System {
+    /// A fresh folder; gates listen on Unix sockets.
+    pub fn new() -> Self {
+        Self::with_medium(Medium::Ipc)
+    }
+
+    /// A fresh folder; gates listen on a medium.
+    pub fn with_medium(medium: Medium) -> Self {
+        Self { folder: TempDir::with_prefix("scl").expect("a folder for the test"), medium }
+    }
+
+    /// The runtime folder.
+    pub fn runtime_dir(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// What the gates listen on.
+    pub fn medium(&self) -> Medium {
+        self.medium
+    }
+
+    /// For components that the test opens itself.
+    pub fn options(&self) -> OpenOptions {
+        OpenOptions::new().runtime_dir(self.folder.path()).medium(self.medium)
+    }
+
+    /// Starts a program in this runtime folder.
+    pub fn start(&self, program: &str, arguments: &[&str]) -> Process {
+        self.start_with(program, arguments, &[])
+    }
+
+    /// Starts a program in this runtime folder with more environment variables.
+    pub fn start_with(&self, program: &str, arguments: &[&str], more: &[(&str, &str)]) -> Process {
+        let medium = match self.medium {
+            Medium::Tcp => "tcp",
+            _ => "ipc",
+        };
+        let mut environment =
+            vec![("SCL_RUNTIME_DIR", self.folder.path().as_os_str()), ("SCL_TRANSPORT", OsStr::new(medium))];
+        environment.extend(more.iter().map(|(name, value)| (*name, OsStr::new(value))));
+        Process::start(program, arguments, &environment)
+    }
+
+    /// Starts a program from a shell after some preparation, for example `ulimit -n 40`.
+    pub fn start_after(&self, preparation: &str, program: &str, arguments: &[&str]) -> Process {
+        let script = format!("{preparation} && exec {program} {}", arguments.join(" "));
+        self.start("sh", &["-c", &script])
+    }
+
+    /// Where an endpoint of a system listens: `sink.jobs.` and a contract of 8 characters, or a whole name.
+    #[track_caller]
+    pub fn address(&self, system: &str, endpoint: &str) -> Address {
+        let path = self.entry(system, endpoint);
+        if path.extension().is_none_or(|extension| extension != "tcp") {
+            return Address::Unix(path);
+        }
+        let text = std::fs::read_to_string(&path).expect("the address of the endpoint");
+        Address::Tcp(text.trim().parse().unwrap_or_else(|error| panic!("{text:?}: {error}")))
+    }
+
+    /// The path of an endpoint, for listening in place of an SCL program.
+    pub fn path(&self, system: &str, endpoint: &str) -> PathBuf {
+        let folder = self.folder.path().join(system);
+        DirBuilder::new().recursive(true).mode(0o700).create(&folder).expect("the system's folder");
+        folder.join(endpoint)
+    }
+
+    #[track_caller]
+    fn entry(&self, system: &str, endpoint: &str) -> PathBuf {
+        let folder = self.folder.path().join(system);
+        let entries = std::fs::read_dir(&folder).expect("the system's folder");
+        let mut paths = entries.flatten().map(|entry| entry.path());
+        let matches = |path: &PathBuf| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let contract = name.strip_prefix(endpoint).map(|rest| rest.strip_suffix(".tcp").unwrap_or(rest));
+            contract.is_some_and(|contract| contract.is_empty() || contract.len() == 8)
+        };
+        paths.find(matches).unwrap_or_else(|| panic!("no endpoint `{endpoint}` in {}", folder.display()))
+    }
+}
+
+impl Default for System {
+    fn default() -> Self {
+        Self::new()
+    }
+}

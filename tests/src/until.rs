@@ -1,0 +1,18 @@
+//! Waiting for what has no event of its own, such as a file that appears or a counter in `/proc`.
+
+use crate::HANG_LIMIT;
+use std::thread::park_timeout;
+use std::time::{Duration, Instant};
+
+/// Checks a condition again and again until it holds.
+///
+/// # Panics
+/// With `what` if it does not hold within [`HANG_LIMIT`].
+#[track_caller]
+pub fn wait_until(what: &str, mut condition: impl FnMut() -> bool) {
+    let started = Instant::now();
+    while !condition() {
+        assert!(started.elapsed() < HANG_LIMIT, "still not true: {what}");
+        park_timeout(Duration::from_millis(1));
+    }
+}

@@ -1,0 +1,31 @@
+//! Tests across processes, media and languages. One binary, so that its programs are linked once.
+
+mod bad_input;
+mod bounded;
+mod children;
+mod descriptors;
+mod drop;
+mod exit;
+mod freshness;
+mod fuzz;
+mod interoperability;
+mod kill;
+mod listing1;
+mod max_size;
+mod opening;
+mod pause;
+mod programs;
+mod realtime;
+mod restart;
+mod runtime_folder;
+mod second_user;
+mod shapes;
+mod signals;
+mod six_kinds;
+mod sizes;
+mod strangers;
+mod subscribers;
+mod taps;
+mod threads;
+mod unit;
+mod without_async;
