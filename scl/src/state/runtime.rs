@@ -17,7 +17,6 @@ use std::thread::{self, Thread};
 use std::time::{Duration, Instant};
 use tokio::runtime::{Builder, EnterGuard, Handle, Runtime};
 use tokio::sync::Notify;
-use tokio::task::yield_now;
 
 const IDLE: Duration = Duration::from_millis(2);
 /// The longest pause of the idle thread while calls follow each other; each look at them costs one a wake-up.
@@ -107,7 +106,9 @@ impl OwnedRuntime {
     /// Drives the runtime until a future is ready.
     pub(super) fn block_on<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
         refuse_inside_async()?;
-        Ok(self.shared.call(|runtime| runtime.block_on(self.shared.with_a_turn(future))))
+        // Pinned here because tokio would allocate memory for a long future.
+        let future = pin!(self.shared.with_a_turn(future));
+        Ok(self.shared.call(|runtime| runtime.block_on(future)))
     }
 
     /// Gives the runtime a turn if one is due. Inside async code, where it cannot be driven, the idle thread does that a
@@ -160,8 +161,8 @@ impl Shared {
         }
         if due && !waited {
             // The first turn polls the I/O driver; the second runs the tasks it woke.
-            yield_now().await;
-            yield_now().await;
+            give_a_turn().await;
+            give_a_turn().await;
         }
         ready
     }
@@ -237,6 +238,19 @@ impl Drop for Called<'_> {
     }
 }
 
+/// Like tokio's `yield_now`, which allocates memory.
+async fn give_a_turn() {
+    let mut had_turn = false;
+    poll_fn(|cx| {
+        if std::mem::replace(&mut had_turn, true) {
+            return Poll::Ready(());
+        }
+        cx.waker().wake_by_ref();
+        Poll::Pending
+    })
+    .await;
+}
+
 /// Waits on a plain thread while the runtime of the component runs elsewhere.
 pub(super) fn park_until<F: Future>(future: F) -> F::Output {
     let mut future = pin!(future);
@@ -292,7 +306,7 @@ mod tests {
         let ran = Arc::new(AtomicBool::new(false));
         let task = Arc::clone(&ran);
         owned.handle.spawn(async move {
-            yield_now().await;
+            tokio::task::yield_now().await;
             task.store(true, Ordering::SeqCst);
         });
         let call_until_it_ran = || {
