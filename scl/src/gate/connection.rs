@@ -279,6 +279,12 @@ impl Connection {
         }
     }
 
+    /// Returns true if all connected peers were given everything.
+    fn is_written(&self) -> bool {
+        self.peer.as_ref().is_none_or(|link| self.queue.is_empty() && link.is_written())
+            && self.foreign.iter().all(ForeignPeer::is_flushed)
+    }
+
     fn unacknowledged(&self) -> u64 {
         self.peer.as_ref().map_or(0, |link| link.unacknowledged())
     }
@@ -316,18 +322,16 @@ impl SendingEnd for Connection {
         if !self.waiting_flushes.iter().any(|known| known.will_wake(cx.waker())) {
             self.waiting_flushes.push(cx.waker().clone());
         }
-        let foreign = self.foreign.iter().all(ForeignPeer::is_flushed);
-        let component = match &mut self.peer {
-            Some(link) => {
-                let written = self.queue.is_empty() && link.is_written();
-                if written && acknowledged && link.unacknowledged() > 0 {
-                    link.request_acknowledgement(&mut Context::from_waker(&self.task));
-                }
-                written && !(acknowledged && link.unacknowledged() > 0)
-            }
-            None => true,
-        };
-        if foreign && component { Poll::Ready(()) } else { Poll::Pending }
+        if acknowledged
+            && let Some(link) = &mut self.peer
+            && self.queue.is_empty()
+            && link.is_written()
+            && link.unacknowledged() > 0
+        {
+            link.request_acknowledgement(&mut Context::from_waker(&self.task));
+        }
+        let taken = !acknowledged || self.unacknowledged() == 0;
+        if taken && self.is_written() { Poll::Ready(()) } else { Poll::Pending }
     }
 
     fn waits_for_absent_peer(&self) -> Option<Unflushed> {
@@ -342,6 +346,14 @@ impl SendingEnd for Connection {
 
     fn drive(&mut self, cx: &mut Context<'_>) {
         Self::drive(self, cx);
+    }
+
+    fn write_out(&mut self) -> bool {
+        if !self.is_written() {
+            let task = self.task.clone();
+            Self::drive(self, &mut Context::from_waker(&task));
+        }
+        self.is_written()
     }
 
     fn detach(&mut self) {
