@@ -102,7 +102,7 @@ struct Stranger {
 }
 
 impl Stranger {
-    /// `None` if this test is not run by root; it says so then.
+    /// Returns `None`, and prints why, if this test is not run by root.
     fn new() -> Option<Self> {
         if !rustix::process::geteuid().is_root() {
             println!("skipped: needs root to start a program as another user");
