@@ -110,7 +110,7 @@ fn crowd(size: usize) -> String {
 fn circle(size: usize, length: usize) -> String {
     let count = size / 110 / length * length;
     let components = (0..count).map(|at| format!("  - name: c{at:06}\n    gates:\n      - o: req\n      - i: rep\n"));
-    let next = |at: usize| if (at + 1) % length == 0 { at + 1 - length } else { at + 1 };
+    let next = |at: usize| if (at + 1).is_multiple_of(length) { at + 1 - length } else { at + 1 };
     let lines = (0..count).map(|at| format!("  - [c{at:06}.o, c{:06}.i]\n", next(at)));
     format!("components:\n{}connections:\n{}", components.collect::<String>(), lines.collect::<String>())
 }
