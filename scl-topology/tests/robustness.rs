@@ -1,6 +1,6 @@
 //! Whatever the text: no panic, every problem can be shown, and the time grows with the text and no faster.
 
-use scl_topology::diagnostic::{Diagnostic, Diagnostics, limit, render, to_json};
+use scl_topology::diagnostic::{Diagnostic, Diagnostics, limit, render};
 use scl_topology::model::Model;
 use scl_topology::parse::parse;
 use scl_topology::source::Sources;
@@ -16,7 +16,6 @@ fn run(text: &str) -> (Model, Vec<Diagnostic>) {
     let problems = problems.into_sorted();
     for problem in limit(problems.clone(), "topology.yaml") {
         assert!(render(&problem, &sources).contains(problem.code()));
-        assert!(!to_json(&problem, &sources).contains('\n'));
     }
     (model, problems)
 }
