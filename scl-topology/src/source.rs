@@ -36,6 +36,7 @@ pub struct Spanned<T> {
 pub struct SourceFile {
     path: String,
     text: String,
+    has_byte_order_mark: bool,
     line_starts: Vec<u32>,
     /// Number of characters before each block of [`BLOCK`] bytes: lines may be as long as the file.
     characters_before: Vec<u32>,
@@ -64,6 +65,11 @@ impl SourceFile {
         &self.text
     }
 
+    /// Whether the file starts with a byte order mark, which [`text`](Self::text) leaves out.
+    pub fn has_byte_order_mark(&self) -> bool {
+        self.has_byte_order_mark
+    }
+
     /// Line and column of a byte; a byte past the end counts as the end.
     pub fn line_column(&self, byte: u32) -> LineColumn {
         let line = self.line_starts.partition_point(|&start| start <= byte).max(1);
@@ -80,6 +86,11 @@ impl SourceFile {
         let block = byte / BLOCK;
         let before = self.characters_before.get(block).copied().unwrap_or_default();
         before + characters_in(&self.text.as_bytes()[block * BLOCK..byte])
+    }
+
+    /// A line, counted from 1, without its line break; empty past the end.
+    pub fn line_text(&self, line: u32) -> &str {
+        if line == 0 || line as usize > self.line_starts.len() { "" } else { &self.text[self.range_of_line(line)] }
     }
 
     /// The line of a byte, from 1.
@@ -121,7 +132,8 @@ impl Sources {
     /// Adds a text. A leading byte order mark is taken off, so that no position counts it.
     pub fn add(&mut self, path: impl Into<String>, text: impl Into<String>) -> FileId {
         let mut text = text.into();
-        if text.starts_with('\u{feff}') {
+        let has_byte_order_mark = text.starts_with('\u{feff}');
+        if has_byte_order_mark {
             text.drain(..'\u{feff}'.len_utf8());
         }
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at as u32 + 1)).collect();
@@ -131,7 +143,7 @@ impl Sources {
                 Some(*sum)
             }))
             .collect();
-        self.files.push(SourceFile { path: path.into(), text, line_starts, characters_before });
+        self.files.push(SourceFile { path: path.into(), text, has_byte_order_mark, line_starts, characters_before });
         FileId((self.files.len() - 1) as u16)
     }
 
@@ -143,6 +155,14 @@ impl Sources {
     /// The text that a span covers.
     pub fn snippet(&self, span: Span) -> &str {
         self.file(span.file).text().get(span.start as usize..span.end as usize).unwrap_or("")
+    }
+
+    /// `text` in the quotes of what a span covers, if there are any: how to replace a scalar by another one.
+    pub fn quoted_as(&self, span: Span, text: &str) -> String {
+        match self.snippet(span).chars().next().filter(|first| matches!(first, '"' | '\'')) {
+            Some(quote) => format!("{quote}{text}{quote}"),
+            None => text.to_owned(),
+        }
     }
 
     /// `path:line:column` of the start of a span.

@@ -47,7 +47,7 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     let headline = format!("component `{component}` has no gate `{gate}`");
     if let Some(swapped) = draft.gate(gate, component) {
         draft.gates[swapped].named = true;
-        return problems.push(swap(headline, text.span, gate, component));
+        return problems.push(swap(draft, headline, text.span, [gate, component]));
     }
     // The gate may be one of those that could not be read.
     if draft.declarations(component).any(|twin| twin.gates_unread) {
