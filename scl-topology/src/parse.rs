@@ -49,9 +49,11 @@ pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Mod
     let mut reader = Reader { source, file, problems: Diagnostics::new(), model: Model::default() };
     reader.read_root(&tree);
     reader.read_controls(tree.root.as_ref());
-    let Reader { model, problems: found, .. } = reader;
+    let Reader { mut model, problems: found, .. } = reader;
+    let is_partial = tree.is_partial() || text.has_conflict;
+    model.cut_off |= is_partial;
     // What is wrong with the shape may be a consequence, so it waits until the text can be read to its end.
-    match tree.error.is_some() || tree.too_deep.is_some() {
+    match is_partial {
         true => found.discard(),
         false => problems.append(found),
     }
@@ -68,7 +70,7 @@ struct Reader<'s> {
 
 impl Reader<'_> {
     fn read_root(&mut self, tree: &Tree) {
-        self.model.cut_off = tree.error.is_some() || tree.too_deep.is_some();
+        self.model.cut_off = tree.is_partial();
         match &tree.root {
             Some(Node { kind: NodeKind::Mapping { entries, .. }, .. }) => self.read_sections(entries),
             Some(root) if !root.is_null() && !matches!(root.kind, NodeKind::Unread) => {

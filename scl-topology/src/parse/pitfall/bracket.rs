@@ -57,7 +57,7 @@ pub(super) fn find_open(error: &SyntaxError, text: &str, place: &Place<'_>) -> O
     }
 }
 
-fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(super) fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let bracket = &text[open..open + 1];
     let next = next_item(open, text, place);
     let inside = &text[open + 1..next.as_ref().map_or(text.len(), |item| item.start)];
@@ -73,18 +73,42 @@ fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     })
 }
 
-fn never_opened(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(super) fn never_opened(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let bracket = &text[at..at + 1];
     RULE.at(format!("this `{bracket}` closes nothing"), place.span(at..at + 1), "no bracket is open here")
         .help("remove it, or add the opening bracket")
 }
 
-fn mismatched(open: usize, at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(super) fn mismatched(open: usize, at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let (bracket, found) = (&text[open..open + 1], &text[at..at + 1]);
     let close = closing(bracket);
     RULE.at(format!("this `{found}` does not close `{bracket}`"), place.span(at..at + 1), "")
         .label(place.span(open..open + 1), "opened here")
         .help(format!("write `{close}` instead"))
+}
+
+/// A bracket that should be closed after a word.
+pub(super) fn close_after(open: usize, word: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let bracket = &text[open..open + 1];
+    let close = closing(bracket);
+    let mut problem = never_closed(open, text, place);
+    if place.line(open) != place.line(word.start) {
+        problem.secondary.clear();
+        problem = problem.label(place.span(word.clone()), format!("expected `{close}` after this"));
+    }
+    if !word.is_empty() {
+        problem.helps.clear();
+        problem = problem.help(format!("add `{close}` after `{}`", &text[word.clone()]));
+    }
+    problem
+}
+
+/// A bracket that should be opened before a word.
+pub(super) fn open_before(close: usize, word: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let found = &text[close..close + 1];
+    let open = if found == "]" { '[' } else { '{' };
+    RULE.at(format!("this `{found}` closes nothing"), place.span(close..close + 1), "no bracket is open here")
+        .help(format!("add `{open}` before `{}`", &text[word.clone()]))
 }
 
 fn closing(open: &str) -> char {

@@ -41,6 +41,13 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     Some(RULE.at("this quoted string is never closed", span, "opened here").help(help))
 }
 
+/// A quote without a partner in its line.
+pub(super) fn alone(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+    let quote = &text[at..at + 1];
+    RULE.at("this quote has no partner", place.span(at..at + 1), "the only one in its line")
+        .help(format!("remove it, or add the other `{quote}`"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::RULE;

@@ -1,0 +1,143 @@
+//! What single change would make a text readable: the way from "the parser stops here" to what was meant.
+//!
+//! A parser stops where it can no longer go on, often lines after the mistake. So every small change near that place is
+//! tried (a comma, a bracket, a column, a word less), and the change that leaves the least to complain about is taken
+//! for what is missing. Bounded in the text that is read again, and in the number of changes.
+
+mod candidates;
+mod line;
+mod tell;
+mod window;
+
+use super::{CheckedText, Place};
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
+use crate::model::Model;
+use crate::parse::gate::is_kind;
+use crate::parse::{Reader, shape};
+use crate::source::Sources;
+use crate::yaml::{self, SyntaxError};
+use std::ops::Range;
+
+/// A change of the text, and what it means.
+#[derive(Debug, Clone)]
+struct Edit {
+    kind: Kind,
+    /// What is replaced by what; in file order, without overlap.
+    changes: Vec<(Range<usize>, String)>,
+    /// How far-fetched it is; among changes that mend as much, the smallest is taken.
+    cost: usize,
+}
+
+/// What a change says about the mistake.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Kind {
+    /// A comma is missing after the first and before the second.
+    Comma(Range<usize>, Range<usize>),
+    /// A colon is missing after a word.
+    Colon(Range<usize>),
+    /// A bracket is never closed; the place after which it should be.
+    Close(usize, Range<usize>),
+    /// A bracket closes nothing; the word before which it should be opened.
+    Open(usize, Range<usize>),
+    /// One mark stands in the place of another.
+    Instead(Range<usize>, char),
+    /// A bracket is closed by one of the other kind.
+    Partner(usize, usize),
+    /// Something stands where nothing may stand.
+    Surplus(Range<usize>),
+    /// Brackets behind a type, as in `A[]`; the type with them.
+    ArrayType(Range<usize>),
+    /// A `#` without a space before it.
+    CommentSpace(usize),
+    /// A list item without its dash, from its first character to the end of its line.
+    Dash(Range<usize>),
+    /// A dash without a space after it.
+    DashSpace(Range<usize>),
+    /// A list item in the line of another.
+    Break(usize),
+    /// A quote without a partner.
+    Quote(usize),
+    /// A line in the wrong column: its first word, and the column meant.
+    Indent(Range<usize>, usize),
+    /// Characters that look like marks of YAML.
+    LookAlike(Range<usize>),
+}
+
+/// Changes that leave more to complain about than this explain nothing.
+const MOST_PROBLEMS: usize = 2;
+
+/// No text is read again more often.
+const MOST_TRIES: usize = 240;
+
+/// What the best change explains.
+pub(super) struct Repair {
+    pub(super) problem: Diagnostic,
+    /// Nothing is left to complain about, so this is what was meant.
+    pub(super) is_sure: bool,
+}
+
+/// The problem that the best change stands for, if any change makes the text readable.
+pub(super) fn find(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> Option<Repair> {
+    let text = &text.text;
+    let window = window::around(error, text, place)?;
+    let lines = window::suspects(error, text, place, &window);
+    let mut edits: Vec<(usize, Edit)> = Vec::new();
+    for edit in lines.iter().flat_map(|line| candidates::of_line(line, text, place)) {
+        if edit.changes.iter().all(|(range, _)| range.start >= window.range.start && range.end <= window.range.end) {
+            let distance = edit.changes.first().map_or(0, |(range, _)| range.start.abs_diff(error.at));
+            edits.push((distance, edit));
+        }
+    }
+    edits.sort_by_key(|(distance, edit)| (edit.cost, *distance));
+    let mut best: Option<(usize, &Edit)> = None;
+    for (_, edit) in edits.iter().take(MOST_TRIES) {
+        let most = best.map_or(MOST_PROBLEMS, |(left, _)| left - 1);
+        if let Some(left) = problems_left(&window.with(edit, text)).filter(|left| *left <= most) {
+            best = Some((left, edit));
+            // The others are no smaller, and mend no more.
+            if left == 0 {
+                break;
+            }
+        }
+    }
+    best.map(|(left, edit)| Repair { problem: tell::tell(edit, text, place), is_sure: left == 0 })
+}
+
+/// How much there is to complain about in a text; none if it cannot be read.
+fn problems_left(text: &str) -> Option<usize> {
+    let mut sources = Sources::new();
+    let file = sources.add("", text);
+    let tree = yaml::read(sources.file(file).text(), file);
+    if tree.error.is_some() || tree.too_deep.is_some() {
+        return None;
+    }
+    let odd = tree.anchors.len() + tree.tags.len() + usize::from(tree.second_document.is_some());
+    let mut reader = Reader { source: sources.file(file), file, problems: Diagnostics::new(), model: Model::default() };
+    reader.read_root(&tree);
+    let Reader { model, problems, .. } = reader;
+    let found = problems.into_sorted();
+    // The window may show one section only.
+    let counts =
+        |found: &&Diagnostic| found.severity == Severity::Error && found.code != shape::missing_section::RULE.code;
+    Some(odd + found.iter().filter(counts).count() + implausible(&model))
+}
+
+/// Words that have a shape and yet no meaning.
+fn implausible(model: &Model) -> usize {
+    let is_name = |name: &str| name.chars().all(|letter| letter.is_alphanumeric() || matches!(letter, '_' | '-'));
+    let is_type = |written: &str| {
+        written.split("->").all(|part| !part.trim().contains(|c: char| c.is_whitespace() || "[]{},;#".contains(c)))
+    };
+    let gates = model.components.iter().flat_map(|component| &component.gates);
+    let odd_gates = gates.filter(|gate| {
+        let kind = &gate.kind.value;
+        !is_name(&gate.name.value)
+            || !kind.is_empty() && !is_kind(kind)
+            || gate.payload.as_ref().is_some_and(|payload| !is_type(&payload.value))
+    });
+    let odd_components = model.components.iter().filter(|component| !is_name(&component.name.value));
+    let is_end =
+        |end: &str| end.split('.').count() == 2 && end.split('.').all(|name| !name.is_empty() && is_name(name));
+    let odd_ends = model.connections.iter().flat_map(|pair| &pair.ends).filter(|end| !is_end(&end.value));
+    odd_gates.count() + odd_components.count() + odd_ends.count()
+}
