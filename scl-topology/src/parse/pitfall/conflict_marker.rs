@@ -1,8 +1,8 @@
 //! SCL0126: the marks that git leaves where two versions contradict each other.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0126.

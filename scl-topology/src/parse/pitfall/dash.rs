@@ -1,8 +1,8 @@
 //! SCL0124: a list item without its dash, or with an odd one.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0124.

@@ -1,8 +1,8 @@
 //! SCL0127: a character that looks like a mark of YAML and is another.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
 use crate::source::Span;
 use std::ops::Range;
 

@@ -1,8 +1,8 @@
 //! SCL0123: no colon after a key.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0123.

@@ -1,8 +1,8 @@
 //! SCL0122: no comma between two entries in brackets.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0122.

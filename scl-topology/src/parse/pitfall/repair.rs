@@ -63,6 +63,17 @@ enum Kind {
     LookAlike(Range<usize>),
 }
 
+impl Edit {
+    /// Whether a tool may apply the change: it adds a mark or moves a line, and takes no word of anybody away.
+    fn is_meant(&self) -> bool {
+        let is_removal = matches!(self.kind, Kind::Surplus(_) | Kind::ArrayType(_) | Kind::Quote(_));
+        !is_removal && self.cost < DOUBTFUL
+    }
+}
+
+/// A change of this cost is told, but left to people.
+const DOUBTFUL: usize = 4;
+
 /// Changes that leave more to complain about than this explain nothing.
 const MOST_PROBLEMS: usize = 2;
 
@@ -75,6 +86,9 @@ pub(super) struct Repair {
     /// Nothing is left to complain about, so this is what was meant.
     pub(super) is_sure: bool,
 }
+
+/// How many changes of the same size are compared with the best; a second way leaves the choice to people.
+const MOST_RIVALS: usize = 40;
 
 /// The problem that the best change stands for, if any change makes the text readable.
 pub(super) fn find(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> Option<Repair> {
@@ -89,18 +103,28 @@ pub(super) fn find(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -
         }
     }
     edits.sort_by_key(|(distance, edit)| (edit.cost, *distance));
-    let mut best: Option<(usize, &Edit)> = None;
-    for (_, edit) in edits.iter().take(MOST_TRIES) {
+    let mut best: Option<(usize, usize)> = None;
+    for (at, (_, edit)) in edits.iter().take(MOST_TRIES).enumerate() {
         let most = best.map_or(MOST_PROBLEMS, |(left, _)| left - 1);
         if let Some(left) = problems_left(&window.with(edit, text)).filter(|left| *left <= most) {
-            best = Some((left, edit));
+            best = Some((left, at));
             // The others are no smaller, and mend no more.
             if left == 0 {
                 break;
             }
         }
     }
-    best.map(|(left, edit)| Repair { problem: tell::tell(edit, text, place), is_sure: left == 0 })
+    let (left, at) = best?;
+    let edit = &edits[at].1;
+    let rivals = edits[at + 1..].iter().map(|(_, rival)| rival).take_while(|rival| rival.cost == edit.cost);
+    let mended = window.with(edit, text);
+    let mut rivals = rivals.take(MOST_RIVALS).map(|rival| window.with(rival, text)).filter(|other| *other != mended);
+    let is_meant = left == 0 && edit.is_meant() && !rivals.any(|other| problems_left(&other) == Some(0));
+    let problem = edit.changes.iter().fold(tell::tell(edit, text, place), |problem, (range, with)| match is_meant {
+        true => problem.fix(place.span(range.clone()), with),
+        false => problem.maybe_fix(place.span(range.clone()), with),
+    });
+    Some(Repair { problem, is_sure: left == 0 })
 }
 
 /// How much there is to complain about in a text; none if it cannot be read.
@@ -118,7 +142,7 @@ fn problems_left(text: &str) -> Option<usize> {
     let found = problems.into_sorted();
     // The window may show one section only.
     let counts =
-        |found: &&Diagnostic| found.severity == Severity::Error && found.code != shape::missing_section::RULE.code;
+        |found: &&Diagnostic| found.severity == Severity::Error && found.code() != shape::missing_section::RULE.code;
     Some(odd + found.iter().filter(counts).count() + implausible(&model))
 }
 

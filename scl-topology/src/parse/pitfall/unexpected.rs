@@ -1,8 +1,8 @@
 //! SCL0125: something behind a value, or between two, that belongs to neither.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0125.

@@ -51,7 +51,7 @@ pub(super) fn tokens(line: &Range<usize>, text: &str) -> (Vec<Token>, Vec<usize>
     while let Some(first) = content[at..].chars().next() {
         let length = length(&content[at..], first);
         let range = line.start + at..line.start + at + length;
-        if first == '#' && content[..at].ends_with([' ', '\t']) || first == '#' && at == 0 {
+        if first == '#' && (at == 0 || content[..at].ends_with([' ', '\t'])) {
             break;
         }
         if !first.is_whitespace() {
