@@ -185,10 +185,13 @@ impl Diagnostics {
         self.items.iter().any(|item| item.severity == Severity::Error)
     }
 
-    /// All of them, sorted by position; those without a place come first.
+    /// All of them, sorted by position, at one position the errors first; those without a place come first.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
         let mut items = std::mem::take(&mut self.items);
-        items.sort_by_key(|item| item.primary.as_ref().map(|label| (label.span, item.code())));
+        items.sort_by_key(|item| {
+            let span = item.primary.as_ref().map(|label| label.span);
+            span.map(|span| (span.file, span.start, item.severity, span.end, item.code()))
+        });
         items
     }
 }

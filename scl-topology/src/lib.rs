@@ -60,6 +60,7 @@
 mod cases;
 pub mod catalogue;
 pub mod check;
+mod confusable;
 pub mod diagnostic;
 pub mod external;
 pub mod fingerprint;

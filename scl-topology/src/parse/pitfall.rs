@@ -4,14 +4,14 @@ mod anchor;
 pub(super) mod boolean_word;
 mod bracket;
 mod conflict_marker;
-mod dash;
+pub(super) mod dash;
 mod depth;
 mod directive;
 pub(super) mod duplicate_key;
 mod empty_file;
 mod indentation;
 mod invisible;
-pub(crate) mod look_alike;
+pub(super) mod look_alike;
 pub(super) mod merge_key;
 mod missing_colon;
 mod missing_comma;
@@ -76,7 +76,11 @@ pub(super) struct Place<'s> {
     file: FileId,
 }
 
-impl Place<'_> {
+impl<'s> Place<'s> {
+    pub(super) fn new(source: &'s SourceFile, file: FileId) -> Self {
+        Place { source, file }
+    }
+
     /// The span of some bytes of the file.
     fn span(&self, range: std::ops::Range<usize>) -> Span {
         Span { file: self.file, start: range.start as u32, end: range.end as u32 }

@@ -1,9 +1,12 @@
-//! SCL0127: a character that looks like a mark of YAML and is another.
+//! SCL0127: a character that looks like a mark of YAML and is another. SCL0304: a letter of another script that looks
+//! like an ASCII letter.
 
 use super::Place;
+use crate::confusable;
 use crate::diagnostic::Diagnostic;
 use crate::rule::{Examples, Rule, Severity};
-use crate::source::Span;
+use crate::source::{SourceFile, Span};
+use crate::yaml::Node;
 use std::ops::Range;
 
 /// SCL0127.
@@ -25,78 +28,65 @@ pub(crate) const RULE: Rule = Rule {
     },
 };
 
-/// What each character is called, and the mark it is taken for.
-const MARKS: [(char, &str, &str); 34] = [
-    ('：', "a fullwidth colon", ":"),
-    ('，', "a fullwidth comma", ","),
-    ('、', "an ideographic comma", ","),
-    ('؛', "an Arabic semicolon", ","),
-    ('；', "a fullwidth semicolon", ","),
-    ('．', "a fullwidth full stop", "."),
-    ('。', "an ideographic full stop", "."),
-    ('·', "a middle dot", "."),
-    ('［', "a fullwidth bracket", "["),
-    ('］', "a fullwidth bracket", "]"),
-    ('【', "a black bracket", "["),
-    ('】', "a black bracket", "]"),
-    ('｛', "a fullwidth brace", "{"),
-    ('｝', "a fullwidth brace", "}"),
-    ('＃', "a fullwidth number sign", "#"),
-    ('＿', "a fullwidth low line", "_"),
-    ('“', "a curly quote", "\""),
-    ('”', "a curly quote", "\""),
-    ('„', "a low quote", "\""),
-    ('«', "an angle quote", "\""),
-    ('»', "an angle quote", "\""),
-    ('‘', "a curly quote", "'"),
-    ('’', "a curly quote", "'"),
-    ('＂', "a fullwidth quote", "\""),
-    ('‐', "a typographic hyphen", "-"),
-    ('‑', "a non-breaking hyphen", "-"),
-    ('–', "an en dash", "-"),
-    ('—', "an em dash", "-"),
-    ('−', "a minus sign", "-"),
-    ('－', "a fullwidth hyphen", "-"),
-    ('•', "a bullet", "-"),
-    ('→', "an arrow", "->"),
-    ('⇒', "a double arrow", "->"),
-    ('꞉', "a letter colon", ":"),
-];
+/// SCL0304.
+pub(crate) const LETTER: Rule = Rule {
+    code: "SCL0304",
+    severity: Severity::Error,
+    title: "look-alike character in a name",
+    explanation: "The name has a letter outside of ASCII, perhaps one that looks exactly like an ASCII letter: two \
+                  names on the screen would look alike and differ. Retype it.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sеnsor
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
 
 /// The characters of a text that look like a mark: place, character, mark.
-pub(in crate::parse) fn marks(text: &str) -> impl Iterator<Item = (usize, char, &'static str)> {
-    text.char_indices().filter(|(_, letter)| !letter.is_ascii()).filter_map(|(at, letter)| {
-        let (_, _, mark) = MARKS.iter().find(|(other, _, _)| *other == letter)?;
-        Some((at, letter, *mark))
-    })
-}
-
-/// A text with the marks that were meant.
-pub(in crate::parse) fn retyped(text: &str) -> String {
-    let mut out = String::new();
-    for letter in text.chars() {
-        match MARKS.iter().find(|(other, _, _)| *other == letter) {
-            Some((_, _, mark)) => out.push_str(mark),
-            None => out.push(letter),
-        }
-    }
-    out
+pub(super) fn marks(text: &str) -> impl Iterator<Item = (usize, char, &'static str)> {
+    let letters = text.char_indices().filter(|(_, letter)| !letter.is_ascii());
+    letters.filter_map(|(at, letter)| Some((at, letter, confusable::mark(letter)?.1)))
 }
 
 /// The character at a place.
 pub(super) fn diagnose(mark: &Range<usize>, place: &Place<'_>) -> Diagnostic {
-    at(place.source.text()[mark.clone()].chars().next().unwrap_or(' '), place.span(mark.clone()))
+    let letter = place.source.text()[mark.clone()].chars().next().unwrap_or(' ');
+    look_alike_mark(letter, place.span(mark.clone()))
 }
 
-/// The first such character in a span of the file.
-pub(crate) fn first_in(written: &str, span: Span) -> Option<Diagnostic> {
-    let (offset, mark, _) = marks(written).next()?;
-    let start = span.start + offset as u32;
-    Some(at(mark, Span { start, end: start + mark.len_utf8() as u32, ..span }))
+/// The first such character of a word; `what` is the word's part in a message, for example `gate name`.
+pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &SourceFile) -> Option<Diagnostic> {
+    let (_, letter) = confusable::first(text)?;
+    let written = source.text().get(node.span.start as usize..node.span.end as usize).unwrap_or("");
+    let span = match written.find(letter) {
+        Some(at) => {
+            let start = node.span.start + at as u32;
+            Span { start, end: start + letter.len_utf8() as u32, ..node.span }
+        }
+        None => node.span,
+    };
+    Some(match confusable::twin(letter) {
+        Some((script, twin)) => {
+            let word = text.lines().next().unwrap_or("");
+            let code = u32::from(letter);
+            let message = format!(
+                "{what} `{word}` contains the {script} letter `{letter}` (U+{code:04X}), which looks like `{twin}`"
+            );
+            LETTER
+                .at(message, node.span, format!("not the Latin `{twin}`"))
+                .help(format!("retype the name in ASCII: `{}`", confusable::retyped(word)))
+                .note("names are ASCII, so that the file, the socket paths and all language bindings agree")
+        }
+        None => look_alike_mark(letter, span),
+    })
 }
 
-fn at(letter: char, span: Span) -> Diagnostic {
-    let (_, name, mark) = MARKS.iter().copied().find(|(other, _, _)| *other == letter).unwrap_or((letter, "", ""));
+fn look_alike_mark(letter: char, span: Span) -> Diagnostic {
+    let (name, mark) = confusable::mark(letter).unwrap_or(("another character", ""));
     let message = format!("`{letter}` (U+{:04X}) is {name}, not `{mark}`", u32::from(letter));
     let help = match mark {
         "\"" | "'" => "remove the quotes, which names do not need, or retype them as `\"`".to_owned(),

@@ -10,7 +10,7 @@ mod tell;
 mod window;
 
 use super::{CheckedText, Place};
-use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::model::Model;
 use crate::parse::gate::is_kind;
 use crate::parse::{Reader, shape};
@@ -47,6 +47,8 @@ enum Kind {
     Surplus(Range<usize>),
     /// Brackets behind a type, as in `A[]`; the type with them.
     ArrayType(Range<usize>),
+    /// A key, its colon and the start of its value, without a space between them.
+    Space(Range<usize>),
     /// A `#` without a space before it.
     CommentSpace(usize),
     /// A list item without its dash, from its first character to the end of its line.
@@ -136,7 +138,7 @@ fn problems_left(text: &str) -> Option<usize> {
         return None;
     }
     let odd = tree.anchors.len() + tree.tags.len() + usize::from(tree.second_document.is_some());
-    let mut reader = Reader { source: sources.file(file), file, problems: Diagnostics::new(), model: Model::default() };
+    let mut reader = Reader::new(sources.file(file), file);
     reader.read_root(&tree);
     let Reader { model, problems, .. } = reader;
     let found = problems.into_sorted();

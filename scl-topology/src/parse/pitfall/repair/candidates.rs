@@ -19,6 +19,7 @@ pub(super) fn of_line(line: &Range<usize>, text: &str, place: &Place<'_>) -> Vec
     let (tokens, open_after) = tokens(line, text);
     let mut edits = Vec::new();
     look_alikes(line, text, &mut edits);
+    glued_colons(&tokens, text, &mut edits);
     for at in 0..tokens.len() {
         let next = tokens.get(at + 1);
         between(&tokens, at, next, text, &mut edits);
@@ -49,6 +50,19 @@ fn look_alikes(line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
         (range, format!("{meant}{space}"))
     });
     edits.push(Edit { kind: Kind::LookAlike(first), changes: changes.collect(), cost: 0 });
+}
+
+/// Colons in brackets without a space after them, all of a line at once.
+fn glued_colons(tokens: &[Token], text: &str, edits: &mut Vec<Edit>) {
+    let is_glued = |pair: &&[Token]| {
+        pair[0].class == Class::Colon && pair[0].range.end == pair[1].range.start && !pair[0].open.is_empty()
+    };
+    let glued: Vec<&[Token]> = tokens.windows(2).filter(is_glued).collect();
+    let Some(first) = glued.first() else { return };
+    let start = text[..first[0].range.start].rfind([' ', '{', '[', ',', '\n']).map_or(0, |at| at + 1);
+    let kind = Kind::Space(start..first[1].range.end);
+    let changes = glued.iter().map(|pair| (pair[0].range.end..pair[0].range.end, " ".to_owned()));
+    edits.push(Edit { kind, changes: changes.collect(), cost: 0 });
 }
 
 /// What may be missing after a token.
@@ -226,9 +240,9 @@ fn columns(tokens: &[Token], line: &Range<usize>, text: &str, place: &Place<'_>,
     meant.push(text[below.clone()].len() - text[below].trim_start_matches(' ').len());
     meant.sort_unstable();
     meant.dedup();
-    let moved = with_lines_below(line, indent, text);
     let word = text[first.range.clone()].len();
     for column in meant.into_iter().filter(|column| *column != indent) {
+        let moved = with_lines_below(line, indent, column, text);
         let kind = Kind::Indent(first.range.start..first.range.start + word, column);
         let is_dash = first.class == Class::Dash;
         let is_rarer = is_dash && used(column, text) < used(indent, text);
@@ -252,14 +266,16 @@ fn used(column: usize, text: &str) -> usize {
     text.lines().take(MOST_LINES).filter(stands_there).count()
 }
 
-/// The starts of a line and of those below it that are indented deeper.
-fn with_lines_below(line: &Range<usize>, indent: usize, text: &str) -> Vec<usize> {
+/// The starts of a line and of those below it that are indented deeper, up to an item that would stand beside it in the
+/// new column.
+fn with_lines_below(line: &Range<usize>, indent: usize, column: usize, text: &str) -> Vec<usize> {
     let mut starts = vec![line.start];
     let mut start = line.start;
     for (number, below) in text[line.start..].split_inclusive('\n').take(MOST_BELOW).enumerate() {
         let own = below.len() - below.trim_start_matches(' ').len();
         if number > 0 && !below.trim().is_empty() {
-            if own <= indent {
+            let is_sibling = own <= column && below.trim_start().starts_with("- ");
+            if own <= indent || is_sibling {
                 break;
             }
             starts.push(start);

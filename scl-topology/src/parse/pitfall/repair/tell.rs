@@ -1,6 +1,8 @@
 //! What a change says to whoever has to make it.
 
-use super::super::{Place, bracket, dash, indentation, look_alike, missing_colon, missing_comma, unexpected};
+use super::super::{
+    Place, bracket, dash, indentation, look_alike, missing_colon, missing_comma, missing_space, unexpected,
+};
 use super::{Edit, Kind};
 use crate::diagnostic::Diagnostic;
 use std::ops::Range;
@@ -16,6 +18,7 @@ pub(super) fn tell(edit: &Edit, text: &str, place: &Place<'_>) -> Diagnostic {
         Kind::Instead(range, _) => missing_colon::instead(range, text, place),
         Kind::Surplus(range) => surplus(range, text, place),
         Kind::ArrayType(range) => unexpected::brackets_after_type(range, text, place),
+        Kind::Space(glued) => missing_space::in_brackets(glued, text, place),
         Kind::CommentSpace(hash) => unexpected::glued_comment(*hash, text, place),
         Kind::Break(dash) => unexpected::item_in_line(*dash, text, place),
         Kind::Dash(item) => dash::missing(item, text, place),

@@ -86,9 +86,14 @@ pub(super) fn suspects(error: &SyntaxError, text: &str, place: &Place<'_>, windo
         let content = text[line.clone()].trim();
         content.is_empty() || content.starts_with('#')
     };
-    let above =
-        lines_up(text, here.start).filter(|line| !is_blank(line)).take_while(|line| line.end > window.range.start);
-    lines.extend(above.take(2).map(|line| place.line_range(line.start)));
+    let above: Vec<Range<usize>> = lines_up(text, here.start)
+        .take(MOST_ABOVE)
+        .filter(|line| !is_blank(line))
+        .take_while(|line| line.end > window.range.start)
+        .map(|line| place.line_range(line.start))
+        .collect();
+    let items = above.iter().filter(|line| text[(*line).clone()].trim_start().starts_with("- ")).take(2);
+    lines.extend(above.iter().take(2).chain(items).cloned());
     lines.extend(unbalanced(error, text, place, window));
     let mut seen = Vec::new();
     lines.retain(|line| {
