@@ -3,7 +3,7 @@
 use strsim::damerau_levenshtein;
 
 /// No message offers more names than this.
-const MOST: usize = 3;
+pub(crate) const MOST: usize = 3;
 
 /// The start of a name is a hint only from this many letters on.
 const ABBREVIATION: usize = 3;
@@ -13,6 +13,13 @@ const ABBREVIATION: usize = 3;
 /// A candidate that differs only in case is the nearest; the others are within a third of the word's length of edits,
 /// at least one, or start with the word. All that are given are equally near, and keep their order.
 pub fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut nearest = nearest(word, candidates);
+    nearest.truncate(MOST);
+    nearest
+}
+
+/// Like [`similar`], but all that are equally near, so that the caller can choose among them.
+pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let lower = word.to_lowercase();
     let limit = (word.chars().count() / 3).max(1);
     let mut near: Vec<(usize, &'a str)> = candidates
@@ -27,7 +34,6 @@ pub fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     let nearest = near.first().map_or(0, |(distance, _)| *distance);
     near.retain(|(distance, _)| *distance == nearest);
     near.dedup();
-    near.truncate(MOST);
     near.into_iter().map(|(_, candidate)| candidate).collect()
 }
 

@@ -5,7 +5,7 @@ use super::draft::Draft;
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::{Examples, Rule};
-use crate::suggest::similar;
+use crate::suggest::{MOST, nearest, similar};
 use crate::wording::{either, listed};
 
 /// SCL0501.
@@ -114,7 +114,7 @@ pub(super) fn swap(headline: String, span: crate::source::Span, component: &str,
 /// whose gate fits the other end and is unconnected.
 fn meant(draft: &Draft<'_>, link: usize, end: usize, [component, gate]: [&str; 2]) -> Vec<String> {
     let other = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind);
-    let near = similar(component, draft.component_names.iter().copied());
+    let near = nearest(component, draft.component_names.iter().copied());
     let has_similar = |other: &str| {
         let gates = draft.gates_of(other).map(|at| draft.gates[at].model.name.value.as_str());
         !similar(gate, gates).is_empty() || draft.declarations(other).any(|twin| twin.gates_unread)
@@ -131,7 +131,7 @@ fn meant(draft: &Draft<'_>, link: usize, end: usize, [component, gate]: [&str; 2
     let is_open = |name: &str| found(name).is_none_or(|gate| !gate.named);
     keep_if_any(&mut best, fits);
     keep_if_any(&mut best, is_open);
-    best.into_iter().map(str::to_owned).collect()
+    best.into_iter().take(MOST).map(str::to_owned).collect()
 }
 
 /// Leaves those that pass, unless none does.

@@ -7,7 +7,7 @@ use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
-use crate::suggest::similar;
+use crate::suggest::{MOST, nearest};
 use crate::wording::{either, shortened};
 
 /// SCL0502.
@@ -69,9 +69,10 @@ fn meant(draft: &Draft<'_>, link: usize, end: usize, component: &str, gate: &str
     };
     let candidates = draft.gates_of(component).filter(fits).map(|at| draft.gates[at].model.name.value.as_str());
     let near: Vec<usize> =
-        similar(gate, candidates).into_iter().filter_map(|name| draft.gate(component, name)).collect();
+        nearest(gate, candidates).into_iter().filter_map(|name| draft.gate(component, name)).collect();
     let open: Vec<usize> = near.iter().copied().filter(|at| !draft.gates[*at].named).collect();
-    if open.is_empty() { near } else { open }
+    let best = if open.is_empty() { near } else { open };
+    best.into_iter().take(MOST).collect()
 }
 
 fn report(

@@ -144,7 +144,7 @@ impl Reader<'_> {
                 key if fields.get("name").is_none() && shape::component_key::is_misnamed(key) => {}
                 "doc" => component.doc = self.text(*field),
                 "optional" => component.optional = self.boolean(*field).unwrap_or(false),
-                "gates" => fields.all("gates").for_each(|gates| self.read_gates(gates, &mut component)),
+                "gates" => self.read_all_gates(&fields, &mut component),
                 _ => self.read_unknown_key(*field, &mut component),
             }
         }
@@ -153,6 +153,22 @@ impl Reader<'_> {
             self.problems.extend(shape::gateless::find(&component.name, gates));
         }
         self.model.components.push(component);
+    }
+
+    /// The gates, and those of a repeated list. Two lists with gates in them belong to two components, of which the
+    /// second has lost its name.
+    fn read_all_gates(&mut self, fields: &Fields<'_>, component: &mut ComponentModel) {
+        let has_items =
+            |gates: &Field<'_>| matches!(&gates.value.kind, NodeKind::Sequence { items } if !items.is_empty());
+        let is_two = fields.all("gates").filter(has_items).count() > 1;
+        self.model.components_unread |= is_two;
+        component.gates_unread |= is_two;
+        let read = if is_two { 1 } else { usize::MAX };
+        fields
+            .all("gates")
+            .filter(|gates| !is_two || has_items(gates))
+            .take(read)
+            .for_each(|gates| self.read_gates(gates, component));
     }
 
     fn read_unknown_key(&mut self, field: Field<'_>, component: &mut ComponentModel) {

@@ -65,7 +65,10 @@ impl Reader<'_> {
             };
             let field = Field { key, key_span: key_node.span, key_node, value };
             if let Some(&first) = seen.get(key) {
-                self.report(pitfall::duplicate_key::diagnose(&field, first, owner));
+                // One look at a component that runs into the next is enough.
+                if fields.repeated.is_empty() {
+                    self.report(pitfall::duplicate_key::diagnose(&field, first, owner));
+                }
                 fields.repeated.push(field);
                 continue;
             }

@@ -111,6 +111,15 @@ pub(super) fn open_before(close: usize, word: &Range<usize>, text: &str, place: 
         .help(format!("add `{open}` before `{}`", &text[word.clone()]))
 }
 
+/// A list that is closed but never opened, after the colon of its key.
+pub(super) fn open_after(colon: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let line = place.line_range(colon.start);
+    let key = text[line.start..colon.start].trim_start_matches([' ', '{', ',']).trim_end();
+    let start = colon.start - text[line.start..colon.start].trim_end().len().min(key.len());
+    RULE.at(format!("the list of {key} is never opened"), place.span(start..colon.end), "no bracket after this")
+        .help("add `[` after the colon")
+}
+
 fn closing(open: &str) -> char {
     if open == "[" { ']' } else { '}' }
 }

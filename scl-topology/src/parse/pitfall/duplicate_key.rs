@@ -35,6 +35,9 @@ pub(crate) const RULE: Rule = Rule {
 pub(in crate::parse) fn diagnose(second: &Field<'_>, first: Span, owner: &str) -> Diagnostic {
     let message = format!("the key `{}` is written twice in {owner}", second.key);
     let help = match second.value.kind {
+        NodeKind::Sequence { .. } if second.key == "gates" => {
+            "merge the two lists, or write the `- name: ...` of another component above the second"
+        }
         NodeKind::Sequence { .. } => "merge the two lists",
         _ => "remove one of them",
     };

@@ -59,6 +59,10 @@ enum Kind {
     Break(usize),
     /// A quote without a partner.
     Quote(usize),
+    /// The place of a quote that is missing.
+    Unquoted(usize),
+    /// A colon after which a list should be opened.
+    OpenAfter(Range<usize>),
     /// A line in the wrong column: its first word, and the column meant.
     Indent(Range<usize>, usize),
     /// Characters that look like marks of YAML.
@@ -80,7 +84,7 @@ const DOUBTFUL: usize = 4;
 const MOST_PROBLEMS: usize = 2;
 
 /// No text is read again more often.
-const MOST_TRIES: usize = 240;
+const MOST_TRIES: usize = 160;
 
 /// What the best change explains.
 pub(super) struct Repair {
@@ -90,7 +94,7 @@ pub(super) struct Repair {
 }
 
 /// How many changes of the same size are compared with the best; a second way leaves the choice to people.
-const MOST_RIVALS: usize = 40;
+const MOST_RIVALS: usize = 16;
 
 /// The problem that the best change stands for, if any change makes the text readable.
 pub(super) fn find(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> Option<Repair> {

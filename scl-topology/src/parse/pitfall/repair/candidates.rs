@@ -29,6 +29,7 @@ pub(super) fn of_line(line: &Range<usize>, text: &str, place: &Place<'_>) -> Vec
         at_end(last, &open_after, line, text, &mut edits);
     }
     surplus(&tokens, line, text, &mut edits);
+    quotes(line, text, &mut edits);
     dash(&tokens, line, text, &mut edits);
     columns(&tokens, line, text, place, &mut edits);
     edits
@@ -165,6 +166,9 @@ fn at_end(last: &Token, open: &[usize], line: &Range<usize>, text: &str, edits: 
             edits.push(edit(Kind::Colon(last.range.clone()), end..end, ":", 0));
         }
     }
+    if last.class == Class::Colon && !open.is_empty() {
+        edits.push(edit(Kind::OpenAfter(last.range.clone()), end..end, " [", 2));
+    }
     let after = if last.class == Class::Comma { last.range.start } else { end };
     let below = text[line.end..].trim_start();
     if !open.is_empty() && last.ends_value() && !below.starts_with([',', ']', '}', '#']) && !below.is_empty() {
@@ -207,6 +211,29 @@ fn surplus(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Ed
         if token.open.is_empty() && follows && at + 1 < tokens.len() {
             let rest = token.range.start..text[line.clone()].trim_end().len() + line.start;
             edits.push(edit(Kind::Surplus(rest.clone()), rest, "", 3));
+        }
+    }
+}
+
+/// A quote too many or too few, in a line with an odd number of them.
+fn quotes(line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
+    let content = &text[line.clone()];
+    if content.matches('"').count() % 2 == 0 {
+        return;
+    }
+    let is_word = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.' | b'-');
+    let bytes = content.as_bytes();
+    for at in 0..bytes.len() {
+        let place = line.start + at;
+        if bytes[at] == b'"' {
+            edits.push(edit(Kind::Quote(place), place..place + 1, "", 2));
+        }
+        let starts = is_word(bytes[at]) && (at == 0 || !is_word(bytes[at - 1]) && bytes[at - 1] != b'"');
+        let ends = is_word(bytes[at]) && bytes.get(at + 1).is_none_or(|next| !is_word(*next) && *next != b'"');
+        for (is_edge, place) in [(starts, place), (ends, place + 1)] {
+            if is_edge {
+                edits.push(edit(Kind::Unquoted(place), place..place, "\"", 1));
+            }
         }
     }
 }

@@ -24,6 +24,8 @@ pub(super) fn tell(edit: &Edit, text: &str, place: &Place<'_>) -> Diagnostic {
         Kind::Dash(item) => dash::missing(item, text, place),
         Kind::DashSpace(mark) => dash::without_space(mark, text, place),
         Kind::Quote(at) => super::super::quote::alone(*at, text, place),
+        Kind::Unquoted(at) => super::super::quote::missing(*at, text, place),
+        Kind::OpenAfter(colon) => bracket::open_after(colon, text, place),
         Kind::Indent(word, column) => indentation::in_wrong_column(word, *column, text, place),
         Kind::LookAlike(mark) => look_alike::diagnose(mark, place),
     }
