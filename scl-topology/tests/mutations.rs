@@ -235,10 +235,8 @@ fn mutations_of_files_that_were_not_written_for_it() {
     }
     tally.print();
     assert!(tally.cascades.is_empty(), "too many errors:\n{}", tally.cascades.join("\n"));
-        println!("ELSE\n{}\nUNEX\n{}", tally.elsewhere.join("\n"), tally.unexplained.join("\n"));
-    }
     let told = tally.share(tally.on_line + tally.shown);
-    assert!(told > 98.0, "{told:.1} % show the line; elsewhere:\n{}", tally.elsewhere.join("\n"));
+    assert!(told > 99.0, "{told:.1} % show the line; elsewhere:\n{}", tally.elsewhere.join("\n"));
     let unexplained = 100.0 * tally.unexplained.len() as f64 / tally.syntax_errors as f64;
-    assert!(unexplained < 2.0, "{unexplained:.1} % unexplained:\n{}", tally.unexplained.join("\n"));
+    assert!(unexplained < 0.5, "{unexplained:.1} % unexplained:\n{}", tally.unexplained.join("\n"));
 }

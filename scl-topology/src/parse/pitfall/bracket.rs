@@ -28,10 +28,10 @@ connections: []
 /// A bracket problem that the parser noticed as such.
 pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
     match text.as_bytes().get(error.at) {
-        Some(b'[' | b'{') => Some(match wrong_close(error.at, text, place) {
-            Some(close) => mismatched(error.at, close, text, place),
-            None => never_closed(error.at, text, place),
-        }),
+        Some(b'[' | b'{') => match wrong_close(error.at, text, place) {
+            Some(close) => Some(mismatched(error.at, close, text, place)),
+            None => (!is_closed(error.at, text, place)).then(|| never_closed(error.at, text, place)),
+        },
         Some(b']' | b'}') if scan::scan(&text[..error.at]).open_brackets.is_empty() => {
             Some(never_opened(error.at, text, place))
         }
@@ -53,8 +53,24 @@ pub(super) fn find_open(error: &SyntaxError, text: &str, place: &Place<'_>) -> O
     let open = scan::scan(text.get(..error.at)?).open_brackets.pop()?;
     match text.as_bytes().get(error.at) {
         Some(b']' | b'}') => Some(mismatched(open, error.at, text, place)),
-        _ => Some(never_closed(open, text, place)),
+        _ => (!is_closed(open, text, place)).then(|| never_closed(open, text, place)),
     }
+}
+
+/// Whether a bracket is closed in its line, so that it is not what is wrong.
+fn is_closed(open: usize, text: &str, place: &Place<'_>) -> bool {
+    let mut depth = 0_usize;
+    for letter in text[open..place.line_range(open).end].bytes() {
+        match letter {
+            b'[' | b'{' => depth += 1,
+            b']' | b'}' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return true;
+        }
+    }
+    false
 }
 
 pub(super) fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
@@ -148,7 +164,11 @@ fn last_word(inside: &str) -> Option<&str> {
         let line = line.trim();
         !line.is_empty() && !line.starts_with('#')
     })?;
-    line.split([' ', ',', '[', ']', '{', '}']).rfind(|word| !word.is_empty())
+    let code = line.trim_end();
+    match code.ends_with([']', '}']) {
+        true => code.get(code.len() - 1..),
+        false => code.split([' ', ',', '[', ']', '{', '}']).rfind(|word| !word.is_empty()),
+    }
 }
 
 #[cfg(test)]

@@ -55,7 +55,8 @@ pub(super) fn doubled(dashes: &Range<usize>, text: &str, place: &Place<'_>) -> D
 /// A dash where no item can start.
 pub(super) fn surplus(dash: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let line = place.line_range(dash.start);
-    let is_doubled = text[line.start..dash.start].trim_start().starts_with('-');
+    let is_doubled =
+        text[line.start..dash.start].trim_start().starts_with('-') || text[dash.end..line.end].starts_with('-');
     let message = match is_doubled {
         true => "a list item starts with one `-`, not with two",
         false => "no list item can start here",

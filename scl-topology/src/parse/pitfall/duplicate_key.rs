@@ -58,17 +58,17 @@ mod tests {
         check(
             &RULE,
             expect![[r#"
-            error: [SCL0107] the key `gates` is written twice in this component
-             --> topology.yaml:5:5
-              |
-            3 |     gates:
-              |     ----- first time
-            4 |       - measurements: pub
-            5 |     gates:
-              |     ^^^^^ second time
-              |
-              = help: merge the two lists
-              = note: YAML tools disagree which one wins: PyYAML silently keeps the second"#]],
+                error: [SCL0107] the key `gates` is written twice in this component
+                 --> topology.yaml:5:5
+                  |
+                3 |     gates:
+                  |     ----- first time
+                4 |       - measurements: pub
+                5 |     gates:
+                  |     ^^^^^ second time
+                  |
+                  = help: merge the two lists, or write the `- name: ...` of another component above the second
+                  = note: YAML tools disagree which one wins: PyYAML silently keeps the second"#]],
         );
     }
 }

@@ -61,6 +61,8 @@ enum Kind {
     Quote(usize),
     /// The place of a quote that is missing.
     Unquoted(usize),
+    /// The first key of a component that has no name.
+    Nameless(Range<usize>),
     /// A colon after which a list should be opened.
     OpenAfter(Range<usize>),
     /// A line in the wrong column: its first word, and the column meant.
@@ -72,7 +74,8 @@ enum Kind {
 impl Edit {
     /// Whether a tool may apply the change: it adds a mark or moves a line, and takes no word of anybody away.
     fn is_meant(&self) -> bool {
-        let is_removal = matches!(self.kind, Kind::Surplus(_) | Kind::ArrayType(_) | Kind::Quote(_));
+        let is_removal =
+            matches!(self.kind, Kind::Surplus(_) | Kind::ArrayType(_) | Kind::Quote(_) | Kind::Nameless(_));
         !is_removal && self.cost < DOUBTFUL
     }
 }

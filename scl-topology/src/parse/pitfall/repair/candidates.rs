@@ -30,6 +30,7 @@ pub(super) fn of_line(line: &Range<usize>, text: &str, place: &Place<'_>) -> Vec
     }
     surplus(&tokens, line, text, &mut edits);
     quotes(line, text, &mut edits);
+    first_of_line(&tokens, line, text, &mut edits);
     dash(&tokens, line, text, &mut edits);
     columns(&tokens, line, text, place, &mut edits);
     edits
@@ -78,7 +79,8 @@ fn between(tokens: &[Token], at: usize, next: Option<&Token>, text: &str, edits:
             let space = if next.range.start == end { ", " } else { "," };
             edits.push(edit(Kind::Comma(token.range.clone(), next.range.clone()), end..end, space, 1));
         }
-        if !open.is_empty() && (token.ends_value() || token.class == Class::Colon) && next.class != Class::Colon {
+        let ends = matches!(next.class, Class::Comma | Class::Close);
+        if !open.is_empty() && (token.ends_value() || token.class == Class::Colon) && ends {
             close(open, token, text, 1, edits);
         }
         // A key stands first in its line, or after a bracket or a comma.
@@ -139,7 +141,7 @@ fn marks(token: &Token, next: Option<&Token>, text: &str, edits: &mut Vec<Edit>)
             }
         }
         (Class::Quote, _) => edits.push(edit(Kind::Quote(range.start), range.clone(), "", 1)),
-        (Class::Word, word) if word.starts_with('-') && word.len() > 1 => {
+        (Class::Word, word) if word.starts_with('-') && (word.len() > 1 || is_followed(next, &range)) => {
             let dash = range.start..range.start + 1;
             edits.push(edit(Kind::DashSpace(dash), range.start + 1..range.start + 1, " ", 1));
         }
@@ -155,6 +157,11 @@ fn marks(token: &Token, next: Option<&Token>, text: &str, edits: &mut Vec<Edit>)
         let before = range.end..dash.range.start;
         edits.push(edit(Kind::Break(dash.range.start), before, format!("\n{indent}"), 2));
     }
+}
+
+/// Whether a token follows at once.
+fn is_followed(next: Option<&Token>, range: &Range<usize>) -> bool {
+    next.is_some_and(|next| next.range.start == range.end && next.begins_value())
 }
 
 /// What may be missing at the end of a line: a comma before the next, a bracket, the colon of a known key.
@@ -200,7 +207,12 @@ fn surplus(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Ed
                 edits.push(edit(Kind::ArrayType(all), range.start..end, "", 1));
             }
         }
+        if word == "::" {
+            let second = range.start + 1..range.end;
+            edits.push(edit(Kind::Surplus(second.clone()), second, "", 1));
+        }
         match token.class {
+            Class::Word if word == "-" => edits.push(edit(Kind::Surplus(range.clone()), range, "", 1)),
             Class::Word => edits.push(edit(Kind::Surplus(range.clone()), range, "", 4)),
             Class::Quote => {}
             Class::Close => edits.push(edit(Kind::Surplus(range.clone()), range, "", 1)),
@@ -235,6 +247,23 @@ fn quotes(line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
                 edits.push(edit(Kind::Unquoted(place), place..place, "\"", 1));
             }
         }
+    }
+}
+
+/// What may be missing before a line: a bracket before a comma, the name of the component whose keys these are.
+fn first_of_line(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
+    let Some(first) = tokens.first() else { return };
+    let above = text[..line.start].trim_end();
+    if let (Class::Comma | Class::Close, Some(&open)) = (first.class, first.open.last()) {
+        let bracket = if text[open..].starts_with('[') { "]" } else { "}" };
+        let last = above.char_indices().next_back().map_or(0, |(at, _)| at);
+        edits.push(edit(Kind::Close(open, last..above.len()), first.range.start..first.range.start, bracket, 1));
+    }
+    let indent = first.range.start - line.start;
+    let is_key = component::KEYS.contains(&&text[first.range.clone()]);
+    if is_key && indent > 1 && above.ends_with("components:") {
+        let name = format!("{}- name: name\n", " ".repeat(indent - 2));
+        edits.push(edit(Kind::Nameless(first.range.clone()), line.start..line.start, name, 4));
     }
 }
 

@@ -26,6 +26,7 @@ pub(super) fn tell(edit: &Edit, text: &str, place: &Place<'_>) -> Diagnostic {
         Kind::Quote(at) => super::super::quote::alone(*at, text, place),
         Kind::Unquoted(at) => super::super::quote::missing(*at, text, place),
         Kind::OpenAfter(colon) => bracket::open_after(colon, text, place),
+        Kind::Nameless(key) => crate::parse::shape::nameless::above(place.span(key.clone())),
         Kind::Indent(word, column) => indentation::in_wrong_column(word, *column, text, place),
         Kind::LookAlike(mark) => look_alike::diagnose(mark, place),
     }

@@ -15,6 +15,9 @@ const WHOLE_IN_NEED: usize = 4096;
 /// A larger part is not read again and again.
 const LARGEST: usize = 8192;
 
+/// A part reaches at least so far above the error, because a text may go on over several items.
+const LEAST_ABOVE: usize = 600;
+
 /// How many lines may be at fault.
 const MOST_LINES: usize = 12;
 
@@ -65,7 +68,8 @@ fn of_section(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Wind
     let starts_item =
         |line: &str| line.trim_start().starts_with("- ") && line.len() - line.trim_start().len() == indent;
     let starts = lines_up(text, at).take_while(|line| line.start > head.start);
-    let from = starts.filter(|line| starts_item(&text[line.clone()])).nth(2).map_or(head.end, |line| line.start);
+    let mut starts = starts.filter(|line| starts_item(&text[line.clone()])).skip(2);
+    let from = starts.find(|line| at - line.start > LEAST_ABOVE).map_or(head.end, |line| line.start);
     let mut to = at;
     let mut items = 0;
     for line in text[at..].split_inclusive('\n') {
@@ -93,7 +97,13 @@ pub(super) fn suspects(error: &SyntaxError, text: &str, place: &Place<'_>, windo
         .map(|line| place.line_range(line.start))
         .collect();
     let items = above.iter().filter(|line| text[(*line).clone()].trim_start().starts_with("- ")).take(2);
-    lines.extend(above.iter().take(2).chain(items).cloned());
+    // A text that goes on over several lines begins where its list begins.
+    let list = above.iter().position(|line| text[line.clone()].trim_end().ends_with(':'));
+    let start = match list {
+        Some(at) => &above[at.saturating_sub(1)..=at],
+        None => &above[above.len().saturating_sub(1)..],
+    };
+    lines.extend(above.iter().take(2).chain(items).chain(start).cloned());
     lines.extend(unbalanced(error, text, place, window));
     let mut seen = Vec::new();
     lines.retain(|line| {
@@ -121,7 +131,8 @@ fn unbalanced(error: &SyntaxError, text: &str, place: &Place<'_>, window: &Windo
             b'}' => [square, curly - 1],
             _ => [square, curly],
         });
-        if balance != [0, 0] {
+        let content = line.trim();
+        if balance != [0, 0] || content.ends_with(':') || content.starts_with([',', ']', '}']) {
             found.push(place.line_range(start));
         }
         start += line.len();
