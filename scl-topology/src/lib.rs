@@ -60,6 +60,7 @@
 mod cases;
 pub mod catalogue;
 pub mod check;
+mod confusable;
 #[cfg(test)]
 mod cost;
 pub mod diagnostic;

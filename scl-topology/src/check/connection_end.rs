@@ -46,13 +46,14 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
             let found = resolved(draft, &text.value);
             draft.links[link].ends[end] = found;
         }
-        for end in 0..2 {
-            if draft.links[link].ends[end].is_none() {
-                report(draft, link, end, problems);
-            }
+    }
+    // A suggestion prefers gates that no other connection names.
+    name_all(draft);
+    for (link, end) in (0..draft.links.len()).flat_map(|link| [(link, 0), (link, 1)]) {
+        if draft.links[link].ends[end].is_none() {
+            report(draft, link, end, problems);
         }
     }
-    name_all(draft);
 }
 
 fn resolved(draft: &Draft<'_>, text: &str) -> Option<usize> {

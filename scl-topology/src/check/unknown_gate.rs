@@ -7,7 +7,7 @@ use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
-use crate::suggest::similar;
+use crate::suggest::{MOST, nearest};
 use crate::wording::{either, shortened};
 
 /// SCL0502.
@@ -62,7 +62,7 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     }
 }
 
-/// Similar gates of the component that would fit the other end.
+/// Similar gates of the component that would fit the other end; of equally similar ones those that are unconnected.
 fn meant(draft: &Draft<'_>, link: usize, end: usize, component: &str, gate: &str) -> Vec<usize> {
     let other = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind);
     let fits = |at: &usize| match (other, draft.gates[*at].kind) {
@@ -70,7 +70,11 @@ fn meant(draft: &Draft<'_>, link: usize, end: usize, component: &str, gate: &str
         _ => true,
     };
     let candidates = draft.gates_of(component).filter(fits).map(|at| draft.gates[at].model.name.value.as_str());
-    similar(gate, candidates).into_iter().filter_map(|name| draft.gate(component, name)).collect()
+    let near: Vec<usize> =
+        nearest(gate, candidates).into_iter().filter_map(|name| draft.gate(component, name)).collect();
+    let open: Vec<usize> = near.iter().copied().filter(|at| !draft.gates[*at].named).collect();
+    let best = if open.is_empty() { near } else { open };
+    best.into_iter().take(MOST).collect()
 }
 
 fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &str, meant: &[usize]) -> Diagnostic {
@@ -82,6 +86,11 @@ fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &st
     if !meant.is_empty() {
         let names: Vec<&str> = meant.iter().map(|&at| draft.gates[at].model.name.value.as_str()).collect();
         found = found.help(format!("did you mean {}?", either(&names)));
+        found = match meant {
+            // A gate that nothing is connected to, and that looks like this one, is certainly the one meant.
+            [only] if !draft.gates[*only].named && draft.sources.snippet(place) == gate => found.fix(place, names[0]),
+            _ => names.iter().fold(found, |found, name| found.maybe_fix(place, *name)),
+        };
     }
     found
 }
