@@ -2,19 +2,29 @@
 //! wrong with it follows from that, or goes when it is mended.
 
 use crate::diagnostic::Diagnostics;
+use crate::parse::MISREAD;
 use crate::source::Span;
 
 pub(super) fn tell_once(problems: &mut Diagnostics) {
     let mut misread: Vec<Span> = Vec::new();
     problems.retain(|found| {
-        let is_misread = matches!(found.code, "SCL0108" | "SCL0109" | "SCL0117" | "SCL0119");
+        let is_misread = MISREAD.contains(&found.rule);
         misread.extend(found.primary.as_ref().filter(|_| is_misread).map(|label| label.span));
         true
     });
     misread.sort_unstable();
     problems.retain(|found| {
-        let follows = found.code.starts_with("SCL03") || found.code.starts_with("SCL05");
-        !(follows && found.primary.as_ref().is_some_and(|label| meets(label.span, &misread)))
+        if MISREAD.contains(&found.rule) {
+            return true;
+        }
+        let at = found.primary.iter().map(|label| label.span);
+        let others = found.secondary.iter().map(|label| label.span);
+        match found.code().get(..5) {
+            Some("SCL03" | "SCL04" | "SCL05") => !at.into_iter().any(|span| meets(span, &misread)),
+            // Types that differ because one of them is no type.
+            Some("SCL06") => !at.chain(others).any(|span| meets(span, &misread)),
+            _ => true,
+        }
     });
 }
 

@@ -1,12 +1,13 @@
 //! SCL0210: a gate that is not written as `name: kind` or `name: {kind: type, option: value}`.
 
 use super::ticked;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::model::GateModel;
 use crate::parse::fields::{Field, Fields};
 use crate::parse::gate::is_kind;
 use crate::parse::scalar;
+use crate::rule::{Examples, Rule};
 use crate::source::{Span, Spanned};
 use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};
@@ -48,6 +49,44 @@ pub(in crate::parse) fn without_kind(name: &str, at: Span) -> Diagnostic {
 pub(in crate::parse) fn without_colon(name: &str, kind: &str, at: Span) -> Diagnostic {
     RULE.at(format!("missing `:` after the name of gate `{name}`"), at, "name and kind in one word")
         .help(format!("write `- {name}: {kind}`"))
+}
+
+/// `- measurements = pub`.
+pub(in crate::parse) fn equals_sign(name: &str, kind: &str, at: Span) -> Diagnostic {
+    RULE.at(format!("`=` stands where the `:` of gate `{name}` is expected"), at, "YAML reads this as one word")
+        .help(format!("write `- {name}: {kind}`"))
+        .fix(at, format!("{name}: {kind}"))
+}
+
+/// `{pub Type}`, `{pub: Type, queue=4}`.
+pub(in crate::parse) fn key_without_colon(field: Field<'_>, word: &str) -> Diagnostic {
+    let value = field.key[word.len()..].trim_matches([' ', '=']);
+    let message = match field.key.contains('=') {
+        true => format!("`=` stands where the `:` after `{word}` is expected"),
+        false => format!("missing `:` after `{word}`"),
+    };
+    RULE.at(message, field.key_span, "YAML reads this as one word")
+        .help(format!("write `{word}: {value}`"))
+        .fix(field.key_span, format!("{word}: {value}"))
+}
+
+/// `{rep: Request, Reply}`.
+pub(in crate::parse) fn comma_between_types(gate: &GateModel, answer: Field<'_>) -> Diagnostic {
+    let (name, kind) = (&gate.name.value, &gate.kind.value);
+    let types = gate.payload.as_ref().map_or("", |payload| &payload.value);
+    RULE.at(format!("the two types of gate `{name}` are joined by `->`"), answer.key_span, "after a comma stands a key")
+        .help(format!("write `{name}: {{{kind}: {types}}}`"))
+}
+
+/// `{rep: Request => Reply}`.
+pub(in crate::parse) fn odd_arrow(kind: Field<'_>, arrow: &str, meant: &str) -> Diagnostic {
+    let message = match arrow {
+        "" => "`->` is missing between the two types".to_owned(),
+        _ => format!("`{arrow}` does not join two types"),
+    };
+    RULE.at(message, kind.value.span, "expected `->` between the two")
+        .help(format!("write `{}: {meant}`", kind.key))
+        .fix(kind.value.span, meant)
 }
 
 /// `- measurements: {queue: 4}`.
