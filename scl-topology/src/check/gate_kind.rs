@@ -4,6 +4,7 @@ use super::draft::Draft;
 use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::grammar::{PATTERNS, Pattern};
 use crate::source::Spanned;
 use crate::suggest;
 use crate::topology::GateKind;
@@ -29,13 +30,10 @@ pub(crate) const RULE: Rule = Rule {
     },
 };
 
-const KINDS: &str = "kinds: `pub` and `sub` (one to many, no answer), `req` and `rep` (question and answer), `push` and \
-                     `pull` (many to one, no answer)";
-
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     for gate in &mut draft.gates {
         let word = &gate.model.kind;
-        gate.kind = kind_of(&word.value);
+        gate.kind = GateKind::of(&word.value);
         // An empty word stands for a gate that could not be read, which has its own problem.
         if gate.kind.is_none() && !word.value.is_empty() {
             problems.push(report(word));
@@ -60,8 +58,13 @@ fn poison_contradictions(draft: &mut Draft<'_>) {
     }
 }
 
-fn kind_of(word: &str) -> Option<GateKind> {
-    GateKind::ALL.into_iter().find(|kind| kind.word() == word)
+/// The kinds in pairs, each pair with what it is for.
+fn kinds() -> String {
+    let pair = |pattern: &Pattern| {
+        let ends = [pattern.source.word(), pattern.source.opposite().word()];
+        format!("{} ({})", crate::wording::all_of(&ends), pattern.summary)
+    };
+    format!("kinds: {}", PATTERNS.iter().map(pair).collect::<Vec<_>>().join(", "))
 }
 
 fn report(word: &Spanned<String>) -> Diagnostic {
@@ -71,7 +74,7 @@ fn report(word: &Spanned<String>) -> Diagnostic {
         [one] => found.help(format!("the kind is called `{one}`")),
         several => found.help(format!("did you mean {}?", crate::wording::either(several))),
     };
-    found.note(KINDS)
+    found.note(kinds())
 }
 
 #[cfg(test)]

@@ -200,7 +200,7 @@ impl Reader<'_> {
 }
 
 pub(super) fn is_kind(word: &str) -> bool {
-    GateKind::ALL.iter().any(|kind| kind.word() == word)
+    GateKind::of(word).is_some()
 }
 
 fn bare_gate(name: Spanned<String>, kind: Spanned<String>, span: Span) -> GateModel {
