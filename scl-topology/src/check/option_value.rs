@@ -2,11 +2,11 @@
 
 use super::draft::Draft;
 use super::option_fit;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::grammar::{self, GateKind, GateOption, OutOfRange};
 use crate::model::OptionModel;
+use crate::rule::{Examples, Rule};
 
 /// SCL0409.
 pub(crate) const RULE: Rule = Rule {

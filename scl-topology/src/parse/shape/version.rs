@@ -1,13 +1,12 @@
 //! SCL0213: a format version that this version of scl does not read.
 
 use super::option_value;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::grammar::{FORMAT, Shape, is_whole_number};
 use crate::parse::fields::Field;
 use crate::parse::is_plain;
-
+use crate::rule::{Examples, Rule};
 use crate::yaml::NodeKind;
 
 /// SCL0213.
