@@ -15,6 +15,7 @@ mod shape;
 pub use codec::{Codec, CodecRow};
 pub use kind::{GateKind, KindRow, PATTERNS, Pattern};
 pub use option::{GateOption, GateOptions, OPTIONS, option};
+pub use page::{Entry, entries, explain, page, without_references};
 
 pub use queue_policy::WhenFull;
 pub use section::{COMPONENT_KEYS, FORMAT, Key, OWN_PREFIX, SECTIONS, component_key, section, words};

@@ -28,6 +28,8 @@ pub struct CodecRow {
     pub rust: &'static str,
     /// Whether the cargo feature is on by default.
     pub is_default_feature: bool,
+    /// Whether it carries the messages of `schemas`, not only Rust types.
+    pub carries_schema_types: bool,
     /// Which messages it supports, in one sentence.
     pub messages: &'static str,
     /// When to choose it, in one sentence.
@@ -56,6 +58,7 @@ impl Codec {
                 word: "protobuf",
                 rust: "Protobuf",
                 is_default_feature: true,
+                carries_schema_types: true,
                 messages: "Messages of the file's `schemas`, and types that derive `prost::Message`.",
                 summary: "Binary, understood in every language; the default.",
                 remedy: "derive `prost::Message` for it, or name a `.proto` file in `schemas:`",
@@ -65,7 +68,9 @@ impl Codec {
                 word: "json",
                 rust: "Json",
                 is_default_feature: true,
-                messages: SERDE_TYPES,
+                carries_schema_types: true,
+                messages: "Messages of `schemas` in protobuf's canonical form, and types that derive \
+                           `serde::Serialize` and `serde::Deserialize`.",
                 summary: "Text, readable in every tool and language.",
                 remedy: SERDE_REMEDY,
                 synonyms: &[],
@@ -74,6 +79,7 @@ impl Codec {
                 word: "cbor",
                 rust: "Cbor",
                 is_default_feature: false,
+                carries_schema_types: false,
                 messages: SERDE_TYPES,
                 summary: "Binary and self-describing, a standard of the IETF.",
                 remedy: SERDE_REMEDY,
@@ -83,6 +89,7 @@ impl Codec {
                 word: "msgpack",
                 rust: "Msgpack",
                 is_default_feature: false,
+                carries_schema_types: false,
                 messages: SERDE_TYPES,
                 summary: "Binary and self-describing, known in many languages.",
                 remedy: SERDE_REMEDY,
@@ -92,6 +99,7 @@ impl Codec {
                 word: "postcard",
                 rust: "Postcard",
                 is_default_feature: false,
+                carries_schema_types: false,
                 messages: SERDE_TYPES,
                 summary: "Binary and small, between Rust programs.",
                 remedy: SERDE_REMEDY,
@@ -101,6 +109,7 @@ impl Codec {
                 word: "raw",
                 rust: "Raw",
                 is_default_feature: true,
+                carries_schema_types: false,
                 messages: "Types of fixed layout that derive the traits of `zerocopy`.",
                 summary: "The bytes of the type as they lie in memory: the fastest, for one kind of processor.",
                 remedy: "derive the traits of `zerocopy` for it; it must have a fixed layout",
@@ -108,6 +117,11 @@ impl Codec {
             },
             Codec::Path(_) => return None,
         })
+    }
+
+    /// Whether it can carry the messages of `schemas`; a codec of the user's own is taken to.
+    pub fn carries_schema_types(&self) -> bool {
+        self.row().is_none_or(|row| row.carries_schema_types)
     }
 
     /// The codec of the framework with this word.

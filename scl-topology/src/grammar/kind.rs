@@ -71,7 +71,7 @@ impl GateKind {
                 opposite: GateKind::Pub,
                 is_source: false,
                 summary: "Receives messages from one or several publishers.",
-                peers: "Any number of `pub` gates; several share one queue.",
+                peers: "Any number of `pub` gates; their messages arrive mixed, in the order of arrival.",
                 synonyms: &["subscribe", "subscriber", "subscribes", "in", "input", "sink", "receiver", "listener"],
             },
             GateKind::Req => &KindRow {

@@ -30,7 +30,7 @@ impl Default for GateOptions {
     fn default() -> Self {
         Self {
             queue: 100,
-            when_full: WhenFull::DropOldest,
+            when_full: WhenFull::default(),
             backpressure: false,
             max_size: 64 << 20,
             timeout: Duration::from_secs(1),
@@ -72,7 +72,7 @@ pub static OPTIONS: [GateOption; 9] = [
         summary: "How messages become bytes; without it, the codec of the other end, or that of the file.",
         text: "Both ends of a connection have the same codec, so one of them is enough to say it. A gate without a type \
                carries bytes as they are, whatever its `codec`. See [codecs](#codecs).",
-        examples: &["attitude: {pub: Attitude, codec: json}", "attitude: {pub: Attitude, codec: my_crate::Flat}"],
+        examples: &["attitude: {pub: Attitude, codec: json}", "position: {pub: Position, codec: my_crate::Flat}"],
         absent: &[],
         limits: ["", ""],
     },
@@ -167,8 +167,8 @@ pub static OPTIONS: [GateOption; 9] = [
             write: |options, word| options.unconnected_ok = word == "ok",
         },
         summary: "`ok`: this gate is meant to have no peer, so nothing warns about it.",
-        text: "Without it, a gate without a connection is a warning, and an error where it could never work: a `sub`, \
-               `pull` or `req` gate.",
+        text: "Without it, a gate without a connection is a warning, and an error at a `req` gate, whose calls could only \
+               fail.",
         examples: &["debug: {pub: Trace, unconnected: ok}"],
         absent: &[],
         limits: ["", ""],

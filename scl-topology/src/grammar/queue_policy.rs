@@ -3,9 +3,10 @@
 use super::Word;
 
 /// What a full queue does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum WhenFull {
     /// The oldest waiting message is dropped.
+    #[default]
     DropOldest,
     /// The new message is dropped.
     DropNewest,
@@ -42,7 +43,7 @@ impl WhenFull {
                 summary: "makes the sender wait",
                 text: "No message is dropped. A call that sends waits until the queue has room; the sender allows that \
                        with `backpressure: true`. Suits recorders and work that must be done. Components that wait for \
-                       each other in a circle can block for ever.",
+                       each other in a circle can deadlock.",
             },
         }
     }

@@ -81,7 +81,7 @@ connections:
         is_required: false,
         default: "`protobuf`",
         summary: "The codec of typed gates that name none.",
-        text: "See [codecs](#codecs).",
+        text: "A gate without a type carries bytes as they are. See [codecs](#codecs).",
         example: "codec: json\n",
     },
     Key {
@@ -113,7 +113,7 @@ pub static COMPONENT_KEYS: [Key; 4] = [
         is_required: false,
         default: "none",
         summary: "The gates, each a field of the component's Rust type.",
-        text: "See [gates](#gates).",
+        text: "A component without gates is a warning. See [gates](#gates).",
         example: "components:
   - name: controller
     gates:

@@ -2,7 +2,7 @@
 
 use crate::duration::{self, DurationError};
 use crate::size::{self, SizeError};
-use crate::wording::either;
+use crate::wording::{either, listed};
 use std::time::Duration;
 
 /// What a value looks like, and its range. The parser refuses another look, the checks another range.
@@ -96,10 +96,14 @@ impl Shape {
             Shape::Codec => "a codec or a Rust path".to_owned(),
             Shape::Number { least, most } if least == most => least.to_string(),
             Shape::Number { least, most } => format!("{least} to {most}"),
-            Shape::Duration { most } => format!("1us to {}", duration::text(most)),
-            Shape::Size { most } => format!("1B to {}", size::text(most)),
+            Shape::Duration { most } => {
+                format!("1us to {} (units: {})", duration::text(most), listed(duration::UNITS.map(|(unit, _)| unit)))
+            }
+            Shape::Size { most } => {
+                format!("1B to {} (units: {})", size::text(most), listed(size::UNITS.map(|(unit, _)| unit)))
+            }
             Shape::Boolean => "`true`, `false`".to_owned(),
-            Shape::Word(words) => words.iter().map(|word| format!("`{}`", word.word)).collect::<Vec<_>>().join(", "),
+            Shape::Word(words) => listed(words.iter().map(|word| word.word)),
             Shape::List(Item::Component) => "a list of components".to_owned(),
             Shape::List(Item::Connection) => "a list of pairs".to_owned(),
             Shape::List(Item::File) => "a list of files".to_owned(),
