@@ -147,14 +147,25 @@ impl Codec {
 mod tests {
     use super::Codec;
 
+    /// A file of the crate `scl`.
+    fn runtime(path: &str) -> String {
+        std::fs::read_to_string(format!("{}/../scl/{path}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+    }
+
     #[test]
-    fn each_codec_has_a_feature_of_the_runtime() {
-        let manifest = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scl/Cargo.toml")).unwrap();
+    fn each_codec_exists_in_the_runtime() {
+        let manifest = runtime("Cargo.toml");
         let default = manifest.lines().find(|line| line.starts_with("default = ")).unwrap();
         for row in Codec::BUILT_IN.iter().filter_map(Codec::row) {
-            let word = row.word;
+            let (word, rust) = (row.word, row.rust);
             assert!(manifest.contains(&format!("\n{word} = [")), "no feature `{word}`");
             assert_eq!(default.contains(&format!("\"{word}\"")), row.is_default_feature, "{word}");
+            let implementation = runtime(&format!("src/codec/{word}.rs"));
+            assert!(implementation.contains(&format!("pub struct {rust};")), "{word}");
+            assert!(implementation.contains(&format!("NAME: &'static str = \"{word}\";")), "{word}");
+            assert!(runtime("src/codec.rs").contains(&format!("::{rust};")), "{rust} is not public");
+            assert!(runtime("src/lib.rs").contains(&format!("`{word}`")), "{word} is not in the list of features");
+            assert!(runtime("tests/conformance_codecs.rs").contains(&format!("scl::codec::{rust}")), "{rust}");
             assert_eq!(Codec::of(word).map(|codec| codec.word().to_owned()).as_deref(), Some(word));
         }
     }
