@@ -42,7 +42,12 @@ impl Reader<'_> {
             _ if super::name::is_empty(field.value) => {
                 pitfall::no_value::in_field(field, &format!("value of `{}`", field.key), self.source)
             }
-            NodeKind::Scalar { text, .. } if expected.fits(text, is_plain(field.value)) => return scalar(field.value),
+            NodeKind::Scalar { text, .. } if expected.fits(text, is_plain(field.value)) => {
+                match pitfall::leading_zero::find(field, text) {
+                    Some(problem) if matches!(expected, Shape::Number { .. }) => problem,
+                    _ => return scalar(field.value),
+                }
+            }
             _ => shape::option_value::diagnose(field, expected),
         };
         self.report(problem);

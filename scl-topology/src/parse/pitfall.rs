@@ -9,6 +9,7 @@ pub(super) mod duplicate_key;
 mod empty_file;
 mod indentation;
 mod invisible;
+pub(super) mod leading_zero;
 pub(super) mod merge_key;
 pub(super) mod missing_space;
 pub(super) mod no_value;
@@ -20,6 +21,7 @@ mod reserved_character;
 mod scan;
 mod second_document;
 mod tab;
+mod tab_separator;
 mod tag;
 pub(super) mod text_block_name;
 
@@ -29,7 +31,7 @@ use crate::source::{FileId, SourceFile, Span};
 use crate::yaml::{SyntaxError, SyntaxErrorKind, Tree};
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 21] = [
+pub(crate) const RULES: [&Rule; 23] = [
     &tab::RULE,
     &bracket::RULE,
     &missing_space::RULE,
@@ -51,6 +53,8 @@ pub(crate) const RULES: [&Rule; 21] = [
     &text_block_name::RULE,
     &odd_key::RULE,
     &not_yaml::RULE,
+    &leading_zero::RULE,
+    &tab_separator::RULE,
 ];
 
 /// The rules about words that YAML reads as something else, or that hold an invisible character.
@@ -96,6 +100,7 @@ pub(super) fn check_text(source: &SourceFile, file: FileId, problems: &mut Diagn
     let is_cleaned = invisible::check(&place, &scan, &mut text, problems);
     directive::check(&place, &mut text, problems);
     let has_tabs = tab::check(&place, &scan, &mut text, problems);
+    tab_separator::check(&place, &scan, &mut text, problems);
     CheckedText { text, is_mended: is_cleaned || has_tabs }
 }
 

@@ -6,6 +6,7 @@ use crate::diagnostic::Severity;
 use crate::grammar::{FORMAT, Shape, is_whole_number};
 use crate::parse::fields::Field;
 use crate::parse::is_plain;
+use crate::parse::pitfall::leading_zero;
 use crate::rule::{Examples, Rule};
 use crate::yaml::NodeKind;
 
@@ -29,9 +30,9 @@ components: []
 pub(in crate::parse) fn find(field: Field<'_>) -> Option<Diagnostic> {
     match &field.value.kind {
         NodeKind::Unread => None,
-        NodeKind::Scalar { text, .. } if is_plain(field.value) && text.parse() == Ok(FORMAT) => None,
+        NodeKind::Scalar { text, .. } if is_plain(field.value) && *text == FORMAT.to_string() => None,
         NodeKind::Scalar { text, .. } if is_plain(field.value) && is_whole_number(text) => {
-            Some(unsupported(field, text))
+            Some(leading_zero::find(field, text).unwrap_or_else(|| unsupported(field, text)))
         }
         _ => Some(option_value::diagnose(field, Shape::Number { least: FORMAT, most: FORMAT })),
     }
