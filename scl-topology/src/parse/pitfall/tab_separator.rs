@@ -95,6 +95,7 @@ mod tests {
         let text = text.replace("gates: [", "gates:\t[").replace("x: {pub", "x:\t{pub").replace("[]\n", "[]\t\n\t\n");
         expect![[r#"
             SCL0129 7:11 a tab character is used as white space
-        "#]].assert_eq(&headlines(&text));
+        "#]]
+        .assert_eq(&headlines(&text));
     }
 }
