@@ -17,6 +17,7 @@ mod duplicate_gate;
 mod exchange_type;
 mod finish;
 mod fitting_sender;
+mod foreign_keyword;
 mod gate_kind;
 mod inference;
 mod island;
@@ -65,7 +66,7 @@ pub use all_rules::{ALL, find};
 pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
 
 /// The rules of this stage, by their codes.
-pub(crate) const RULES: [&Rule; 61] = [
+pub(crate) const RULES: [&Rule; 62] = [
     &duplicate_component::RULE,
     &duplicate_gate::RULE,
     &name_characters::RULE,
@@ -80,6 +81,7 @@ pub(crate) const RULES: [&Rule; 61] = [
     &name_length::RULE,
     &prelude_type::RULE,
     &snake_case::RULE,
+    &foreign_keyword::RULE,
     &gate_kind::RULE,
     &inference::UNTYPED,
     &payload_type::NO_TYPE_NAME,
@@ -208,4 +210,5 @@ fn check_names(model: &Model, problems: &mut Diagnostics) {
     name_length::check(model, problems);
     prelude_type::check(model, problems);
     snake_case::check(model, problems);
+    foreign_keyword::check(model, problems);
 }
