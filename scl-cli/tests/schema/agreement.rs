@@ -30,7 +30,7 @@ fn errors(text: &str) -> Vec<&'static str> {
     let file = sources.add("topology.yaml", text);
     let mut problems = Diagnostics::new();
     let model = parse(&sources, file, &mut problems);
-    check(&model, &Facts { default_system: "t".to_owned(), messages: None }, &sources, &mut problems);
+    check(&model, &Facts { default_system: "t".to_owned(), ..Facts::default() }, &sources, &mut problems);
     let found = problems.into_sorted().into_iter().filter(|found| found.severity == Severity::Error);
     found.map(|found| found.rule.code).collect()
 }
