@@ -50,7 +50,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::check(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         Command::Diff(arguments) => diff::diff(&arguments),
-        Command::Explain(arguments) => explain::explain_code(&arguments),
+        Command::Explain(arguments) => explain::explain(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

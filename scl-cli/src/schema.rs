@@ -3,6 +3,7 @@
 mod file;
 mod gate;
 mod names;
+mod shape;
 
 use crate::load::{MaxSize, load_file, show_errors};
 use crate::print::print_out;

@@ -17,6 +17,7 @@ mod duplicate_gate;
 mod exchange_type;
 mod finish;
 mod fitting_sender;
+mod foreign_keyword;
 mod gate_kind;
 mod inference;
 mod island;
@@ -29,6 +30,7 @@ mod name_length;
 mod name_start;
 mod named;
 mod needless_mark;
+mod no_effect;
 mod option_fit;
 mod option_value;
 mod pair_kinds;
@@ -42,6 +44,7 @@ mod rust_name_collision;
 mod schema_type;
 mod self_connection;
 mod shared_socket;
+mod short_timeout;
 mod snake_case;
 mod system_name;
 #[cfg(test)]
@@ -63,7 +66,7 @@ pub use all_rules::{ALL, find};
 pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
 
 /// The rules of this stage, by their codes.
-pub(crate) const RULES: [&Rule; 59] = [
+pub(crate) const RULES: [&Rule; 62] = [
     &duplicate_component::RULE,
     &duplicate_gate::RULE,
     &name_characters::RULE,
@@ -78,6 +81,7 @@ pub(crate) const RULES: [&Rule; 59] = [
     &name_length::RULE,
     &prelude_type::RULE,
     &snake_case::RULE,
+    &foreign_keyword::RULE,
     &gate_kind::RULE,
     &inference::UNTYPED,
     &payload_type::NO_TYPE_NAME,
@@ -87,6 +91,8 @@ pub(crate) const RULES: [&Rule; 59] = [
     &option_fit::RULE,
     &option_value::RULE,
     &backpressure::RULE,
+    &no_effect::RULE,
+    &short_timeout::RULE,
     &unknown_component::UNKNOWN,
     &unknown_gate::RULE,
     &connection_end::RULE,
@@ -172,6 +178,8 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     message_type::check(&draft, facts.messages.is_some(), problems);
     exchange_type::check(&draft, facts.messages.is_some(), problems);
     codec_agreement::check(&draft, problems);
+    no_effect::check(&draft, problems);
+    short_timeout::check(&draft, problems);
 
     if !model.connections_unread {
         unconnected::check(&draft, problems);
@@ -202,4 +210,5 @@ fn check_names(model: &Model, problems: &mut Diagnostics) {
     name_length::check(model, problems);
     prelude_type::check(model, problems);
     snake_case::check(model, problems);
+    foreign_keyword::check(model, problems);
 }

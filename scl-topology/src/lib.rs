@@ -64,8 +64,10 @@ mod confusable;
 #[cfg(test)]
 mod cost;
 pub mod diagnostic;
+pub mod duration;
 pub mod external;
 pub mod fingerprint;
+pub mod grammar;
 pub mod model;
 pub mod parse;
 pub mod resolve;

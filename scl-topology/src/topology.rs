@@ -1,12 +1,6 @@
 //! The checked topology: indices instead of names, no error left. Only [`check`](crate::check) makes one.
 
-mod codec;
-mod kind;
-mod options;
-
-pub use codec::Codec;
-pub use kind::GateKind;
-pub use options::{GateOptions, WhenFull};
+pub use crate::grammar::{Codec, GateKind, GateOptions, WhenFull};
 
 use crate::source::Span;
 use std::fmt;

@@ -176,28 +176,17 @@ fn capitalized(word: &str) -> String {
 }
 
 fn remedy(codec: &Codec) -> String {
-    match codec {
-        Codec::Protobuf => "derive `prost::Message` for it, or name a `.proto` file in `schemas:`".to_owned(),
-        Codec::Json | Codec::Cbor | Codec::Msgpack | Codec::Postcard => {
-            "derive `serde::Serialize` and `serde::Deserialize` for it".to_owned()
-        }
-        Codec::Raw => "derive the traits of `zerocopy` for it; it must have a fixed layout".to_owned(),
-        Codec::Path(path) => format!("implement `scl::codec::Codec<..>` for `{path}`"),
+    match codec.row() {
+        Some(row) => row.remedy.to_owned(),
+        None => format!("implement `scl::codec::Codec<..>` for `{}`", codec.word()),
     }
 }
 
 /// The codec's Rust type.
 fn codec_path(context: &Context<'_>, codec: &Codec) -> TokenStream {
     let private = &context.private;
-    let name = match codec {
-        Codec::Protobuf => format_ident!("Protobuf"),
-        Codec::Json => format_ident!("Json"),
-        Codec::Cbor => format_ident!("Cbor"),
-        Codec::Msgpack => format_ident!("Msgpack"),
-        Codec::Postcard => format_ident!("Postcard"),
-        Codec::Raw => format_ident!("Raw"),
-        Codec::Path(path) => return user_codec(path, context.span),
-    };
+    let Some(row) = codec.row() else { return user_codec(codec.word(), context.span) };
+    let name = format_ident!("{}", row.rust);
     quote!(#private::codec::#name)
 }
 
