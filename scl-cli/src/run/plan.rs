@@ -4,7 +4,7 @@ use super::cargo_package::{BuiltProgram, build_package};
 use super::launch_file::{LaunchComponent, LaunchFile, parse_launch_file};
 use super::problem::{Problem, quoted_list};
 use super::program::{Program, check_programs};
-use crate::load::{load_file, show_errors};
+use crate::load::{MaxSize, load_file, show_errors};
 use crate::print::print_err;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -49,7 +49,7 @@ fn component_names(folder: &Path) -> Result<Option<Vec<String>>, Vec<Problem>> {
     if !path.is_file() {
         return Ok(None);
     }
-    let loaded = load_file(&path);
+    let loaded = load_file(&path, MaxSize::default());
     let Some(topology) = &loaded.topology else {
         show_errors(&loaded);
         return Err(vec![

@@ -5,6 +5,7 @@ use super::draft::Draft;
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::{Examples, Rule};
+use crate::source::Span;
 use crate::suggest::{MOST, nearest, similar};
 use crate::wording::{either, listed};
 
@@ -76,7 +77,7 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     let headline = format!("unknown component `{component}`");
     if let Some(swapped) = draft.gate(gate, component) {
         draft.gates[swapped].named = true;
-        return problems.push(swap(headline, text.span, gate, component));
+        return problems.push(swap(draft, headline, text.span, [gate, component]));
     }
     if draft.model.components_unread {
         return;
@@ -106,8 +107,12 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
 }
 
 /// The report of an end whose two names are in the wrong order.
-pub(super) fn swap(headline: String, span: crate::source::Span, component: &str, gate: &str) -> Diagnostic {
-    SWAPPED.at(headline, span, "component and gate are swapped").help(format!("write `{component}.{gate}`"))
+pub(super) fn swap(draft: &Draft<'_>, headline: String, span: Span, [component, gate]: [&str; 2]) -> Diagnostic {
+    let meant = format!("{component}.{gate}");
+    SWAPPED
+        .at(headline, span, "component and gate are swapped")
+        .help(format!("write `{meant}`"))
+        .fix(span, draft.sources.quoted_as(span, &meant))
 }
 
 /// Similar components that have the gate; without such, those that have a similar gate. Of equally similar ones those

@@ -47,22 +47,23 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     let headline = format!("component `{component}` has no gate `{gate}`");
     if let Some(swapped) = draft.gate(gate, component) {
         draft.gates[swapped].named = true;
-        return problems.push(swap(headline, text.span, gate, component));
+        return problems.push(swap(draft, headline, text.span, [gate, component]));
     }
     // The gate may be one of those that could not be read.
     if draft.declarations(component).any(|twin| twin.gates_unread) {
         return;
     }
-    let meant = meant(draft, link, end, component, gate);
-    let mut found = report(draft, text, headline, [component, gate], &meant);
+    let may_search = draft.may_search();
+    let meant = if may_search { meant(draft, link, end, component, gate) } else { Vec::new() };
+    let mut found = report(draft, text, headline, gate, &meant);
     // Another name altogether; if a single gate is left for it, that one is not unconnected as well.
-    let left = if meant.is_empty() { only_left(draft, link, end, component) } else { None };
+    let left = if may_search && meant.is_empty() { only_left(draft, link, end, component) } else { None };
     if let Some(left) = left {
         let place = draft.part(text.span, gate, true);
         let name = &draft.gates[left].model.name.value;
         found = found.help(format!("{} fits and is not connected yet", described(draft, left))).maybe_fix(place, name);
     }
-    problems.push(found);
+    problems.push(if may_search { found.note(known(draft, component)) } else { found });
     for gate in meant.into_iter().chain(left) {
         draft.gates[gate].named = true;
     }
@@ -95,13 +96,7 @@ fn fits(draft: &Draft<'_>, link: usize, end: usize, gate: usize) -> bool {
     }
 }
 
-fn report(
-    draft: &Draft<'_>,
-    text: &Spanned<String>,
-    headline: String,
-    [component, gate]: [&str; 2],
-    meant: &[usize],
-) -> Diagnostic {
+fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &str, meant: &[usize]) -> Diagnostic {
     let place = draft.part(text.span, gate, true);
     let mut found = RULE.at(headline, place, "unknown gate");
     if let [only] = meant {
@@ -116,10 +111,14 @@ fn report(
             _ => names.iter().fold(found, |found, name| found.maybe_fix(place, *name)),
         };
     }
+    found
+}
+
+fn known(draft: &Draft<'_>, component: &str) -> String {
     let all: Vec<String> = draft.gates_of(component).map(|at| described(draft, at)).collect();
     match all.is_empty() {
-        true => found.note(format!("`{component}` has no gates")),
-        false => found.note(format!("gates of `{component}`: {}", shortened(&all))),
+        true => format!("`{component}` has no gates"),
+        false => format!("gates of `{component}`: {}", shortened(&all)),
     }
 }
 
