@@ -184,7 +184,7 @@ impl Diagnostics {
         let mut items = std::mem::take(&mut self.items);
         items.sort_by_key(|item| {
             let span = item.primary.as_ref().map(|label| label.span);
-            span.map(|span| (span.file, span.start, item.severity, span.end, item.code()))
+            (span.map(|span| (span.file, span.start)), item.severity, span, item.code())
         });
         items
     }

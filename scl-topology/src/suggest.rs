@@ -26,7 +26,9 @@ pub fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 /// Like [`similar`], but all that are equally near, so that the caller can choose among them.
 pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let lower = word.to_lowercase();
-    let limit = (word.chars().count() / 3).max(1);
+    // Every other word of one letter is one edit away.
+    let length = word.chars().count();
+    let limit = (length / 3).max(1).min(length.saturating_sub(1));
     let mut near: Vec<(usize, &'a str)> = candidates
         .into_iter()
         .filter(|candidate| *candidate != word)
@@ -153,7 +155,7 @@ mod tests {
             ("measuremnets", &["measurements"], &["measurements"]),
             ("que", &["share", "queue"], &["queue"]),
             ("xyz", &["measurements"], &[]),
-            ("a", &["b", "c", "d", "e"], &["b", "c", "d"]),
+            ("ab", &["b", "ac", "ad", "ae"], &["b", "ac", "ad"]),
             ("pub", &["pub"], &[]),
             ("sensor1_lef", &["sensor2_left", "sensor1_left"], &["sensor1_left"]),
             ("vehicle1_filte", &["vehicle0_filter", "vehicle1_filter", "vehicle2_filter"], &["vehicle1_filter"]),

@@ -93,7 +93,7 @@ fn unusable(noun: Noun, name: &Spanned<String>) -> Diagnostic {
     let rust = rust_name(noun, word);
     let becomes = if noun == Noun::Component { "type" } else { "field" };
     let headline = match word.as_str() {
-        "_" => "`_` stands for no name in Rust, so nothing can be called that".to_owned(),
+        "_" => "`_` is not a name in Rust".to_owned(),
         _ if is_unescapable(word) => {
             format!("`{word}` is a Rust keyword that cannot be used as a name, not even as `r#{word}`")
         }
@@ -103,7 +103,7 @@ fn unusable(noun: Noun, name: &Spanned<String>) -> Diagnostic {
     HARD_KEYWORD
         .at(headline, name.span, "")
         .help("choose another name")
-        .note(format!("the others: {}", crate::wording::listed(others)))
+        .note(format!("not usable either: {}", crate::wording::listed(others)))
 }
 
 fn escaped(component: &str, name: &Spanned<String>) -> Diagnostic {
@@ -146,15 +146,15 @@ mod tests {
         rule_example(
             &HARD_KEYWORD,
             expect![[r#"
-            error: [SCL0307] `crate` is a Rust keyword that cannot be used as a name, not even as `r#crate`
-             --> topology.yaml:2:11
-              |
-            2 |   - name: crate
-              |           ^^^^^
-              |
-              = help: choose another name
-              = note: the others: `self`, `Self`, `super`, `_`
-        "#]],
+                error: [SCL0307] `crate` is a Rust keyword that cannot be used as a name, not even as `r#crate`
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: crate
+                  |           ^^^^^
+                  |
+                  = help: choose another name
+                  = note: not usable either: `self`, `Self`, `super`, `_`
+            "#]],
         );
     }
 }

@@ -55,26 +55,45 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     }
     let may_search = draft.may_search();
     let meant = if may_search { meant(draft, link, end, component, gate) } else { Vec::new() };
-    let found = report(draft, text, headline, gate, &meant);
+    let mut found = report(draft, text, headline, gate, &meant);
+    // Another name altogether; if a single gate is left for it, that one is not unconnected as well.
+    let left = if may_search && meant.is_empty() { only_left(draft, link, end, component) } else { None };
+    if let Some(left) = left {
+        let place = draft.part(text.span, gate, true);
+        let name = &draft.gates[left].model.name.value;
+        found = found.help(format!("{} fits and is not connected yet", described(draft, left))).maybe_fix(place, name);
+    }
     problems.push(if may_search { found.note(known(draft, component)) } else { found });
-    for gate in meant {
+    for gate in meant.into_iter().chain(left) {
         draft.gates[gate].named = true;
     }
 }
 
 /// Similar gates of the component that would fit the other end; of equally similar ones those that are unconnected.
 fn meant(draft: &Draft<'_>, link: usize, end: usize, component: &str, gate: &str) -> Vec<usize> {
-    let other = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind);
-    let fits = |at: &usize| match (other, draft.gates[*at].kind) {
-        (Some(other), Some(kind)) => kind == other.opposite(),
-        _ => true,
-    };
-    let candidates = draft.gates_of(component).filter(fits).map(|at| draft.gates[at].model.name.value.as_str());
+    let fitting = draft.gates_of(component).filter(|at| fits(draft, link, end, *at));
+    let candidates = fitting.map(|at| draft.gates[at].model.name.value.as_str());
     let near: Vec<usize> =
         nearest(gate, candidates).into_iter().filter_map(|name| draft.gate(component, name)).collect();
     let open: Vec<usize> = near.iter().copied().filter(|at| !draft.gates[*at].named).collect();
     let best = if open.is_empty() { near } else { open };
     best.into_iter().take(MOST).collect()
+}
+
+/// The gate that fits and has no connection, if there is one only.
+fn only_left(draft: &Draft<'_>, link: usize, end: usize, component: &str) -> Option<usize> {
+    draft.links[link].ends[1 - end]?;
+    let mut open = draft.gates_of(component).filter(|at| !draft.gates[*at].named && fits(draft, link, end, *at));
+    open.next().filter(|_| open.next().is_none())
+}
+
+/// Whether the kind of a gate fits that at the other end, as far as both are known.
+fn fits(draft: &Draft<'_>, link: usize, end: usize, gate: usize) -> bool {
+    let other = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind);
+    match (other, draft.gates[gate].kind) {
+        (Some(other), Some(kind)) => kind == other.opposite(),
+        _ => true,
+    }
 }
 
 fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &str, meant: &[usize]) -> Diagnostic {

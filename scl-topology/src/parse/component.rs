@@ -200,13 +200,16 @@ impl Reader<'_> {
         }
     }
 
-    /// The problem of a missing space after `:` if that explains why a mapping is missing, else `otherwise`.
+    /// The problem of a missing space after `:`, or of a character that looks like another, if that explains why a list
+    /// or mapping is missing; else `otherwise`.
     pub(super) fn glued_or(
         &self,
         node: &Node,
         otherwise: crate::diagnostic::Diagnostic,
     ) -> crate::diagnostic::Diagnostic {
-        pitfall::missing_space::in_node(node, self.source).unwrap_or(otherwise)
+        let look_alike =
+            || scalar(node).and_then(|text| pitfall::look_alike::in_word(node, &text.value, "the text", self.source));
+        pitfall::missing_space::in_node(node, self.source).or_else(look_alike).unwrap_or(otherwise)
     }
 }
 

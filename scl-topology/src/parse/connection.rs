@@ -18,8 +18,9 @@ impl Reader<'_> {
             _ if section.value.is_null() => {}
             _ => {
                 self.remember_broken_ends(section.value);
-                let problem =
-                    self.glued_dash(section.value).unwrap_or_else(|| shape::section_kind::connections(section));
+                let problem = self
+                    .glued_dash(section.value)
+                    .unwrap_or_else(|| self.glued_or(section.value, shape::section_kind::connections(section)));
                 self.report(problem);
             }
         }

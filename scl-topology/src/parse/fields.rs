@@ -2,10 +2,12 @@
 
 use super::{Reader, pitfall};
 use crate::confusable;
+use crate::diagnostic::Diagnostic;
 use crate::grammar::{self, GateKind};
 use crate::source::Span;
 use crate::yaml::{Node, NodeKind};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// One key and its value.
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +50,7 @@ impl Reader<'_> {
     pub(super) fn fields<'n>(&mut self, entries: &'n [(Node, Node)], owner: &str) -> Fields<'n> {
         let mut fields = Fields::default();
         let mut seen: HashMap<&str, Span> = HashMap::new();
+        let mut repeated: HashMap<&str, Diagnostic> = HashMap::new();
         for (key_node, value) in entries {
             let glued = match &key_node.kind {
                 _ if value.span.start == value.span.end => pitfall::missing_space::in_node(key_node, self.source),
@@ -65,9 +68,9 @@ impl Reader<'_> {
             };
             let field = Field { key, key_span: key_node.span, key_node, value };
             if let Some(&first) = seen.get(key) {
-                // One look at a component that runs into the next is enough.
-                if fields.repeated.is_empty() {
-                    self.report(pitfall::duplicate_key::diagnose(&field, first, owner));
+                match repeated.entry(key) {
+                    Entry::Occupied(found) => found.into_mut().add_label(field.key_span, "and here"),
+                    Entry::Vacant(none) => _ = none.insert(pitfall::duplicate_key::diagnose(&field, first, owner)),
                 }
                 fields.repeated.push(field);
                 continue;
@@ -75,7 +78,19 @@ impl Reader<'_> {
             seen.insert(key, key_node.span);
             fields.list.push(field);
         }
+        self.report_repeated(repeated.into_values().collect());
         fields
+    }
+
+    /// Several repeated keys are one mistake, mostly a piece that was copied, or two that have run into one.
+    fn report_repeated(&mut self, mut repeated: Vec<Diagnostic>) {
+        repeated.sort_by_key(|problem| problem.primary.as_ref().map(|label| label.span));
+        let mut repeated = repeated.into_iter();
+        let Some(mut first) = repeated.next() else { return };
+        for other in repeated {
+            other.primary.iter().for_each(|label| first.add_label(label.span, "repeated too"));
+        }
+        self.report(first);
     }
 
     /// The key as written, or the one that it looks like.

@@ -189,6 +189,10 @@ impl Reader<'_> {
         let fields = self.fields(entries, "this gate");
         let mut gate = unread_gate(name);
         gate.span = field.key_span.to(field.value.span);
+        if let Some(problem) = self.look_alike_key(&fields) {
+            self.report(problem);
+            return gate;
+        }
         if let Some(glued) = glued_key(&fields) {
             self.report(shape::gate::key_without_colon(glued, first_word(glued.key)));
             return gate;
@@ -212,6 +216,12 @@ impl Reader<'_> {
             }
         }
         gate
+    }
+
+    /// A key without a value that has a look-alike in it, such as another colon.
+    fn look_alike_key(&self, fields: &Fields<'_>) -> Option<Diagnostic> {
+        let mut empty = fields.list.iter().filter(|field| field.value.is_null() && !field.key.is_ascii());
+        empty.find_map(|field| pitfall::look_alike::in_word(field.key_node, field.key, "the key", self.source))
     }
 
     /// `{rep: Request, Reply}`: the second type of an exchange, as a key.

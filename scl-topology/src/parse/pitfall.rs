@@ -95,6 +95,13 @@ impl<'s> Place<'s> {
         self.source.line(at as u32)
     }
 
+    /// The bytes of the line below one that ends at a byte, without the line break; at the end of the file, nothing.
+    fn line_below(&self, end: usize) -> std::ops::Range<usize> {
+        let text = self.source.text();
+        let next = text[end..].find('\n').map_or(text.len(), |at| end + at + 1);
+        self.line_range(next)
+    }
+
     /// The bytes of the line of a byte, without the line break.
     fn line_range(&self, at: usize) -> std::ops::Range<usize> {
         self.source.line_range(at as u32)

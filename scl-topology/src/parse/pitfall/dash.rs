@@ -52,6 +52,14 @@ pub(super) fn doubled(dashes: &Range<usize>, text: &str, place: &Place<'_>) -> D
     RULE.at(message, place.span(dashes.clone()), "starts no list item").help(write_item(rest))
 }
 
+/// `* item`.
+pub(super) fn other_mark(at: usize, place: &Place<'_>) -> Diagnostic {
+    let text = place.source.text();
+    let (mark, rest) = (&text[at..at + 1], text[at + 1..place.line_range(at).end].trim());
+    let message = format!("a list item starts with `-`, not with `{mark}`");
+    RULE.at(message, place.span(at..at + 1), "expected `-`").help(write_item(rest)).fix(place.span(at..at + 1), "-")
+}
+
 /// A dash where no item can start.
 pub(super) fn surplus(dash: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let line = place.line_range(dash.start);

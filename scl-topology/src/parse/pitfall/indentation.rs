@@ -87,7 +87,10 @@ pub(super) fn in_wrong_column(word: &Range<usize>, column: usize, text: &str, pl
     }
     let name = &text[own.word.clone()];
     let what = if own.is_dash { "this list item".to_owned() } else { format!("`{name}`") };
-    let message = format!("{what} is indented by {} instead of {}", spaces(own.indent), spaces(column));
+    let message = match column {
+        0 => format!("{what} is indented by {}, and starts in column 1", spaces(own.indent)),
+        _ => format!("{what} is indented by {} instead of {}", spaces(own.indent), spaces(column)),
+    };
     let problem = RULE.at(message, place.span(own.word.clone()), spaces(own.indent));
     let problem = match meant.or_else(|| above.iter().find(|level| level.indent == column)) {
         Some(meant) if column > 0 => problem.label(place.span(meant.word.clone()), spaces(column)),
@@ -100,6 +103,7 @@ fn way_out(line: &Level, column: usize, text: &str) -> String {
     let word = &text[line.word.clone()];
     match column {
         0 => format!("move `{word}` to column 1"),
+        _ if line.is_dash => format!("indent this item by {}", spaces(column)),
         _ => format!("indent `{word}` by {}", spaces(column)),
     }
 }
@@ -107,7 +111,7 @@ fn way_out(line: &Level, column: usize, text: &str) -> String {
 /// A key that is indented deeper than the one above it, which has a value in its line: YAML takes both lines for one
 /// text, and stumbles over the colon.
 fn deeper_below(line: &Range<usize>, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
-    let below = place.line_range((line.end + 1).min(text.len()));
+    let below = place.line_below(line.end);
     let key = levels_of(&text[below.clone()], below.start).pop().filter(|key| !key.is_dash)?;
     let own = levels_of(&text[line.clone()], line.start).pop().filter(|own| has_value(own, text, place))?;
     let is_key = text[key.word.end..].starts_with(':') && below.start > line.start;

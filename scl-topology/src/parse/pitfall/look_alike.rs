@@ -76,10 +76,14 @@ pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &So
             let message = format!(
                 "{what} `{word}` contains the {script} letter `{letter}` (U+{code:04X}), which looks like `{twin}`"
             );
-            LETTER
-                .at(message, node.span, format!("not the Latin `{twin}`"))
-                .help(format!("retype the name in ASCII: `{}`", confusable::retyped(word)))
-                .note("names are ASCII, so that the file, the socket paths and all language bindings agree")
+            let problem = LETTER.at(message, node.span, format!("not the Latin `{twin}`"));
+            let retyped = confusable::retyped(word);
+            match what.starts_with("the ") {
+                true => problem.help(format!("retype it: `{retyped}`")),
+                false => problem
+                    .help(format!("retype the name in ASCII: `{retyped}`"))
+                    .note("names are ASCII, so that the file, the socket paths and all language bindings agree"),
+            }
         }
         None => look_alike_mark(letter, span),
     })

@@ -30,7 +30,10 @@ pub(crate) const RULE: Rule = Rule {
 pub(super) fn between(before: &Range<usize>, after: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let (first, second) = (&text[before.clone()], &text[after.clone()]);
     let message = format!("a comma is missing before {}", described(second));
-    let help = format!("add `,` after `{first}`");
+    let help = match first {
+        ":" => format!("add `,` before `{second}`"),
+        _ => format!("add `,` after `{first}`"),
+    };
     match place.line(before.start) == place.line(after.start) {
         true => RULE.at(message, place.span(after.clone()), "a new entry starts here").help(help),
         false => RULE

@@ -32,13 +32,10 @@ const SHOWN: usize = 10;
 
 /// The words of a text that stands for a pair, without the marks around them and between them.
 pub(in crate::parse) fn words(text: &str) -> Vec<&str> {
-    const MARKS: [char; 13] = ['[', ']', '{', '}', '(', ')', '"', '\'', ',', ';', '=', '|', '&'];
+    const MARKS: [char; 17] = ['[', ']', '{', '}', '(', ')', '"', '\'', ',', ';', '=', '|', '&', '-', '<', '>', ':'];
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '|'));
     let parts = words.flat_map(|word| word.split("->").flat_map(|part| part.split("=>")));
-    parts
-        .map(|word| word.trim_matches(MARKS).trim_matches(['-', '<', '>', ':']))
-        .filter(|word| !word.is_empty())
-        .collect()
+    parts.map(|word| word.trim_matches(MARKS)).filter(|word| !word.is_empty()).collect()
 }
 
 /// A list of one, three or more.

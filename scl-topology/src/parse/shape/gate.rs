@@ -119,7 +119,7 @@ pub(in crate::parse) fn kind_and_type(gate: Field<'_>, value: &str) -> Option<Di
     let (kind, payload) = value.split_once(char::is_whitespace).filter(|(kind, _)| is_kind(kind))?;
     let message = format!("gate `{}` has its type outside of braces", gate.key);
     let problem = RULE.at(message, gate.value.span, "kind and type in one word");
-    Some(problem.help(format!("write `{}: {{{kind}: {}}}`", gate.key, payload.trim())))
+    Some(problem.help(format!("write `{}: {{{kind}: {}}}`", gate.key, payload.trim().trim_end_matches("[]"))))
 }
 
 /// `- measurements: {kind: pub, type: Type}`.

@@ -292,7 +292,7 @@ fn columns(tokens: &[Token], line: &Range<usize>, text: &str, place: &Place<'_>,
         meant.extend([dash, word].into_iter().filter(|_| !content.trim().is_empty()));
         at = above.start;
     }
-    let below = place.line_range((line.end + 1).min(text.len()));
+    let below = place.line_below(line.end);
     meant.push(text[below.clone()].len() - text[below].trim_start_matches(' ').len());
     meant.sort_unstable();
     meant.dedup();

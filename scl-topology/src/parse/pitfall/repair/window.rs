@@ -103,7 +103,9 @@ pub(super) fn suspects(error: &SyntaxError, text: &str, place: &Place<'_>, windo
         Some(at) => &above[at.saturating_sub(1)..=at],
         None => &above[above.len().saturating_sub(1)..],
     };
-    lines.extend(above.iter().take(2).chain(items).chain(start).cloned());
+    let section = above.iter().position(|line| !text[line.clone()].starts_with([' ', '-'])).unwrap_or(above.len());
+    let first = section.checked_sub(1).and_then(|at| above.get(at));
+    lines.extend(above.iter().take(2).chain(items).chain(start).chain(first).cloned());
     lines.extend(unbalanced(error, text, place, window));
     let mut seen = Vec::new();
     lines.retain(|line| {
