@@ -2,18 +2,19 @@
 
 mod backpressure;
 mod cardinality;
-mod circle;
+mod circles;
 mod codec_agreement;
 mod codec_name;
-mod component_graph;
 mod connection_end;
 mod control;
 mod crowd;
+mod deadlock;
 mod draft;
 mod duplicate_component;
 mod duplicate_connection;
 mod duplicate_gate;
 mod exchange_type;
+mod feedback;
 mod finish;
 mod fitting_sender;
 mod gate_kind;
@@ -50,6 +51,7 @@ mod together;
 mod unconnected;
 mod unknown_component;
 mod unknown_gate;
+mod waits;
 
 use crate::catalogue::Rule;
 use crate::diagnostic::Diagnostics;
@@ -90,7 +92,7 @@ pub(crate) const RULES: [&Rule; 59] = [
     &pair_kinds::SAME_DIRECTION,
     &pair_kinds::OTHER_PATTERN,
     &self_connection::ITSELF,
-    &self_connection::ASKS_ITSELF,
+    &self_connection::WAITS_FOR_ITSELF,
     &self_connection::HEARS_ITSELF,
     &duplicate_connection::RULE,
     &cardinality::SEVERAL_PUBLISHERS,
@@ -108,9 +110,9 @@ pub(crate) const RULES: [&Rule; 59] = [
     &unconnected::NO_REQUESTER,
     &unconnected::LONELY_COMPONENT,
     &island::RULE,
-    &circle::REQUESTS,
-    &circle::PUSHES,
-    &circle::PUBLISHERS,
+    &deadlock::RULE,
+    &feedback::PUSHES,
+    &feedback::LOOP,
     &crowd::RULE,
     &needless_mark::RULE,
     &path_length::RULE,
@@ -173,7 +175,8 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
         unconnected::check(&draft, problems);
     }
     needless_mark::check(&draft, problems);
-    circle::check(&draft, problems);
+    deadlock::check(&draft, problems);
+    feedback::check(&draft, problems);
     island::check(&draft, problems);
     crowd::check(&draft, problems);
     path_length::check(&draft, &system, problems);

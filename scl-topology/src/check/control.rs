@@ -85,6 +85,16 @@ pub(super) fn threshold(model: &Model, code: &str) -> Option<u32> {
     })
 }
 
+/// The lines about which a comment allows a check.
+pub(super) fn allowed_lines(model: &Model, code: &str) -> HashSet<u32> {
+    let mut told_later = Vec::new();
+    let allows = model.controls.iter().filter(|control| match read(control, &mut told_later) {
+        Some(Command::Allow { rules, .. }) => rules.iter().any(|rule| rule.code == code),
+        _ => false,
+    });
+    allows.map(|control| control.line).collect()
+}
+
 /// What all comments together ask for.
 struct Wishes<'m> {
     /// By code and line.
@@ -139,10 +149,9 @@ impl<'m> Wishes<'m> {
     }
 }
 
-/// The lines of a problem: that of its place; of a circle, those of all its connections.
+/// The lines of a problem: that of its place; of a loop of messages, those of all its connections.
 fn lines(problem: &Diagnostic, sources: &Sources) -> Vec<u32> {
-    let is_circle = matches!(problem.code, "SCL0707" | "SCL0708" | "SCL0709");
-    let others = problem.secondary.iter().filter(|_| is_circle);
+    let others = problem.secondary.iter().filter(|_| super::feedback::CODES.contains(&problem.code));
     let labels = problem.primary.iter().chain(others);
     labels.map(|label| sources.file(label.span.file).line(label.span.start)).collect()
 }
