@@ -3,9 +3,9 @@
 use super::circles::{self, Circle, Graph, Step};
 use super::draft::Draft;
 use super::waits;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 use crate::topology::GateKind;
 
@@ -82,12 +82,6 @@ connections:
     },
 };
 
-/// The checks of this file: a comment at any connection of a loop is about the loop.
-pub(super) const CODES: [&str; 2] = [PUSHES.code, LOOP.code];
-
-/// A problem shows no more connections.
-const MOST: usize = 8;
-
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     let pushes = circles(draft, &[GateKind::Push]);
     let lossy = pushes.iter().filter(|circle| !circle.steps.iter().any(|step| is_decided(draft, step)));
@@ -121,7 +115,7 @@ fn work(draft: &Draft<'_>, Circle { steps, .. }: &Circle) -> Diagnostic {
     let label = |step: &Step| format!("work is lost while the queue of `{}` is full", path(step));
     let headline = format!("push gates form a circle: {}", circles::round(draft, steps));
     let mut found = PUSHES.at(headline, place(draft, &steps[0]), label(&steps[0]));
-    for step in steps[1..].iter().take(MOST - 1) {
+    for step in &steps[1..] {
         found = found.label(place(draft, step), label(step));
     }
     found
@@ -132,7 +126,7 @@ fn work(draft: &Draft<'_>, Circle { steps, .. }: &Circle) -> Diagnostic {
 fn messages(draft: &Draft<'_>, Circle { steps, .. }: &Circle) -> Diagnostic {
     let headline = format!("messages go round in a loop: {}", circles::round(draft, steps));
     let mut found = LOOP.at(headline, place(draft, &steps[0]), "");
-    for step in steps[1..].iter().take(MOST - 1) {
+    for step in &steps[1..] {
         found = found.label(place(draft, step), "");
     }
     found.note(

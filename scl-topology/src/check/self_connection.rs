@@ -4,9 +4,9 @@
 use super::deadlock::drop_messages;
 use super::draft::Draft;
 use super::waits::{self, Wait};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 use std::collections::HashSet;
 
@@ -97,9 +97,6 @@ connections:
     },
 };
 
-/// A problem shows no more connections.
-const MOST: usize = 8;
-
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for link in &draft.links {
         if let [Some(a), Some(b)] = link.ends
@@ -138,12 +135,12 @@ fn waits_for_itself(draft: &Draft<'_>, wait: &Wait, receivers: &[usize]) -> Opti
     };
     let headline = format!("component `{name}` waits for itself");
     let mut found = WAITS_FOR_ITSELF.at(headline, draft.links[first].model.span, label(sink));
-    for step in wait.steps[1..].iter().take(MOST - 1) {
+    for step in &wait.steps[1..] {
         let (_, sink) = draft.links[step.link].flow?;
         found = found.label(draft.links[step.link].model.span, label(sink));
     }
     let found = found.help("keep the value in the component");
-    Some(found.help(format!("or {}", drop_messages(draft, source, sink, receivers[source]))))
+    Some(drop_messages(draft, found, source, sink, receivers[source]))
 }
 
 fn hears_itself(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
@@ -159,7 +156,7 @@ fn hears_itself(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
 #[cfg(test)]
 mod tests {
     use super::{HEARS_ITSELF, ITSELF, WAITS_FOR_ITSELF};
-    use crate::check::testing::rule_example;
+    use crate::check::testing::{example, rule_example};
     use expect_test::expect;
 
     #[test]
@@ -191,6 +188,32 @@ mod tests {
                   |
                   = help: call a function inside the component instead
             "#]],
+        );
+    }
+
+    #[test]
+    fn component_waits_for_room_in_its_own_queue() {
+        let yaml = "components:
+  - name: planner
+    gates:
+      - plan: {pub: Plan, backpressure: true}
+      - old_plan: {sub: Plan, when_full: wait}
+connections:
+  - [planner.plan, planner.old_plan]
+";
+        example(
+            "SCL0508",
+            yaml,
+            expect![[r#"
+            error: [SCL0508] component `planner` waits for itself
+             --> topology.yaml:7:5
+              |
+            7 |   - [planner.plan, planner.old_plan]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `planner` waits while the queue of `planner.old_plan` is full, and only `planner` can empty it
+              |
+              = help: keep the value in the component
+              = help: let `planner.old_plan` drop messages: `when_full: drop_oldest`, and remove `backpressure` from `planner.plan`
+        "#]],
         );
     }
 
