@@ -10,7 +10,7 @@ use std::process::ExitCode;
 /// Exit code: there is no such check.
 const UNKNOWN: u8 = 2;
 
-/// Explains a code of the checker, with an example; without a code, lists them all.
+/// Explain a code of the checker, with an example; without a code, list them all.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
