@@ -179,7 +179,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
         unconnected::check(&draft, problems);
     }
     needless_mark::check(&draft, problems);
-    deadlock::check(&draft, problems);
+    deadlock::check(&draft, |rule| control::allowed_lines(model, rule), problems);
     feedback::check(&draft, problems);
     island::check(&draft, problems);
     crowd::check(&draft, problems);

@@ -3,7 +3,6 @@
 mod search;
 
 use super::circles::{self, Step};
-use super::control::allowed_lines;
 use super::draft::Draft;
 use super::feedback::PUSHES;
 use super::waits::{self, Call, Wait};
@@ -57,9 +56,10 @@ connections:
     },
 };
 
-pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
+/// `allowed_lines` tells about which lines a comment allows a rule.
+pub(super) fn check(draft: &Draft<'_>, allowed_lines: impl Fn(&Rule) -> HashSet<u32>, problems: &mut Diagnostics) {
     let waits: Vec<Wait> = waits::all(draft).into_iter().filter(|wait| !wait.is_for_itself()).collect();
-    let allowed = Allowed::of(draft);
+    let allowed = Allowed { waiting: allowed_lines(&RULE), pushing: allowed_lines(&PUSHES) };
     let judged: Vec<Wait> = waits.iter().filter(|wait| !allowed.any(draft, wait)).cloned().collect();
     let components = draft.components.len();
     let mut found = search::find(components, &requests(&judged), |_| true);
@@ -94,11 +94,6 @@ struct Allowed {
 }
 
 impl Allowed {
-    fn of(draft: &Draft<'_>) -> Self {
-        let [waiting, pushing] = [&RULE, &PUSHES].map(|rule| allowed_lines(draft.model, rule));
-        Self { waiting, pushing }
-    }
-
     /// The rule that is allowed. A comment that allows a circle of push gates allows it to wait, too.
     fn rule(&self, draft: &Draft<'_>, step: &Step) -> Option<&'static Rule> {
         let span = place(draft, step);
