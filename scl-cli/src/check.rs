@@ -2,10 +2,11 @@
 
 mod checked;
 mod deny;
+mod fix;
 mod report;
 mod watch;
 
-use crate::load::STDIN;
+use crate::load::{MaxSize, STDIN};
 use crate::print::print_err;
 use checked::{Checked, check_file};
 use clap::{Args, ValueEnum};
@@ -24,6 +25,8 @@ Examples:
   scl check a.yaml b.yaml --lints   two files, and what is off by default
   scl check --deny warnings         for continuous integration: nothing to complain about, or exit code 1
   scl check --deny SCL0402          untyped connections are errors here
+  scl check --fix --dry-run         what would be fixed, as a diff
+  scl check --fix                   fix what is sure, and say what is left
   scl check --watch                 again whenever the file, or a schema that it names, changes
   scl check --format json           for programs: one object a line
   scl check --format sarif > s.json for code hosts
@@ -47,6 +50,14 @@ pub(crate) struct CheckArguments {
     /// Check again whenever a file changes, until Ctrl-C; then the exit code is that of the last check.
     #[arg(long)]
     watch: bool,
+    /// Apply every fix that is sure, then check what is left. With `-`, print the fixed text.
+    #[arg(long, conflicts_with = "watch")]
+    fix: bool,
+    /// Print the fixes as a unified diff, change no file, and check it as it is.
+    #[arg(long, requires = "fix")]
+    dry_run: bool,
+    #[command(flatten)]
+    max_size: MaxSize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -64,14 +75,18 @@ enum Format {
 /// The body of `scl check`: the worst of all files is the exit code.
 pub(crate) fn check(arguments: &CheckArguments) -> ExitCode {
     let from_stdin = arguments.files.iter().filter(|file| file.as_os_str() == STDIN).count();
+    let prints_text = arguments.fix && (arguments.dry_run || from_stdin > 0);
     let refusal = match from_stdin {
+        _ if prints_text && arguments.format != Format::Text => {
+            Some(("the fixed text and the problems cannot both go to standard output", "leave `--format` out"))
+        }
         0 => None,
-        1 if arguments.watch => Some("standard input cannot be watched"),
+        1 if arguments.watch => Some(("standard input cannot be watched", "name a file instead of `-`")),
         1 => None,
-        _ => Some("standard input can be read only once"),
+        _ => Some(("standard input can be read only once", "name a file instead of `-`")),
     };
-    if let Some(refusal) = refusal {
-        print_err(&format!("error: {refusal}\n  = help: name a file instead of `-`\n"));
+    if let Some((refusal, help)) = refusal {
+        print_err(&format!("error: {refusal}\n  = help: {help}\n"));
         return ExitCode::from(COULD_NOT_RUN);
     }
     if arguments.watch {

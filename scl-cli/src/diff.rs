@@ -5,7 +5,7 @@ mod facts;
 mod rebuild;
 mod report;
 
-use crate::load::{STDIN, load_file, show_errors};
+use crate::load::{MaxSize, STDIN, load_file, show_errors};
 use crate::print::{print_err, print_out};
 use change::find_changes;
 use clap::{Args, ValueEnum};
@@ -41,6 +41,8 @@ pub(crate) struct DiffArguments {
     /// How to say it.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    #[command(flatten)]
+    max_size: MaxSize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -58,7 +60,7 @@ pub(crate) fn diff(arguments: &DiffArguments) -> ExitCode {
         return ExitCode::from(TROUBLE);
     }
     // Both are read, so that the problems of both are told.
-    let (old, new) = (read(&arguments.old), read(&arguments.new));
+    let (old, new) = (read(&arguments.old, arguments), read(&arguments.new, arguments));
     let (Some(old), Some(new)) = (old, new) else { return ExitCode::from(TROUBLE) };
     let (changes, rebuilds) = (find_changes(&old, &new), find_rebuilds(&old, &new));
     let report = match arguments.format {
@@ -76,8 +78,8 @@ struct Side {
     system: String,
 }
 
-fn read(path: &Path) -> Option<Side> {
-    let loaded = load_file(path);
+fn read(path: &Path, arguments: &DiffArguments) -> Option<Side> {
+    let loaded = load_file(path, arguments.max_size);
     if loaded.topology.is_none() {
         show_errors(&loaded);
     }

@@ -4,7 +4,7 @@ mod dot;
 mod edge;
 mod mermaid;
 
-use crate::load::{load_file, show_errors};
+use crate::load::{MaxSize, load_file, show_errors};
 use crate::print::print_out;
 use clap::{Args, ValueEnum};
 use dot::draw_dot;
@@ -29,6 +29,8 @@ pub(crate) struct GraphArguments {
     /// For which program the text is.
     #[arg(long, value_enum, default_value_t = Format::Mermaid)]
     format: Format,
+    #[command(flatten)]
+    max_size: MaxSize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -41,7 +43,7 @@ enum Format {
 
 /// The body of `scl graph`.
 pub(crate) fn graph(arguments: &GraphArguments) -> ExitCode {
-    let loaded = load_file(&arguments.file);
+    let loaded = load_file(&arguments.file, arguments.max_size);
     let Some(topology) = &loaded.topology else {
         show_errors(&loaded);
         return ExitCode::from(if loaded.file.is_some() { 1 } else { 2 });

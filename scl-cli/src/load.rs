@@ -2,9 +2,11 @@
 
 use crate::print::print_err;
 use anstream::{AutoStream, ColorChoice};
+use clap::Args;
 use scl_loader::{Loaded, Request, load, load_bytes};
 use scl_topology::diagnostic::{Diagnostic, Severity, render, render_styled};
 use scl_topology::external::UNREADABLE_FILE;
+use scl_topology::size;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -19,13 +21,37 @@ pub(crate) fn shown_path(path: &Path) -> String {
     if path.as_os_str() == STDIN { STDIN_NAME.to_owned() } else { path.display().to_string() }
 }
 
-/// Reads and checks a file, or standard input for `-`.
-pub(crate) fn load_file(path: &Path) -> Loaded {
+/// How large a file may be.
+#[derive(Debug, Clone, Copy, Default, Args)]
+pub(crate) struct MaxSize {
+    /// Accept files up to this size, for example 8MiB, as `max_size` of the macro does [default: 1MiB].
+    #[arg(long, value_name = "SIZE", value_parser = parse_size)]
+    max_size: Option<u64>,
+}
+
+fn parse_size(text: &str) -> Result<u64, String> {
+    size::parse(text).map_err(|_| match size::suggestions(text).as_slice() {
+        [] => "expected a whole number and a unit, for example `8MiB`".to_owned(),
+        likely => format!("did you mean `{}`?", likely.join("` or `")),
+    })
+}
+
+/// What to load for a path; `-` is standard input.
+pub(crate) fn request(path: &Path, max_size: MaxSize) -> Request {
+    let max_size = max_size.max_size.unwrap_or(Request::MAX_SIZE);
     if path.as_os_str() != STDIN {
-        return load(&Request::new(path));
+        return Request { max_size, ..Request::new(path) };
     }
     // Schemas are looked for in the working folder, and the system is called like that of `topology.yaml`.
-    let request = Request { shown_as: STDIN_NAME.to_owned(), ..Request::new("topology.yaml") };
+    Request { shown_as: STDIN_NAME.to_owned(), max_size, ..Request::new("topology.yaml") }
+}
+
+/// Reads and checks a file, or standard input for `-`.
+pub(crate) fn load_file(path: &Path, max_size: MaxSize) -> Loaded {
+    let request = request(path, max_size);
+    if path.as_os_str() != STDIN {
+        return load(&request);
+    }
     let mut bytes = Vec::new();
     match io::stdin().lock().take(request.max_size.saturating_add(1)).read_to_end(&mut bytes) {
         Ok(_) => load_bytes(&request, bytes),

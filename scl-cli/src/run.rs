@@ -1,7 +1,7 @@
 //! `scl run`: starts the program of every component, shows what they print, and stops them together.
 
 use crate::duration::parse_duration;
-use crate::load::{load_file, show_errors};
+use crate::load::{MaxSize, load_file, show_errors};
 use crate::print::print_err;
 use clap::Args;
 use std::ffi::OsString;
@@ -88,7 +88,7 @@ pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
 }
 
 fn component_names(topology: &Path) -> Option<Vec<String>> {
-    let loaded = load_file(topology);
+    let loaded = load_file(topology, MaxSize::default());
     let Some(topology) = &loaded.topology else {
         show_errors(&loaded);
         return None;

@@ -4,7 +4,7 @@ mod file;
 mod gate;
 mod names;
 
-use crate::load::{load_file, show_errors};
+use crate::load::{MaxSize, load_file, show_errors};
 use crate::print::print_out;
 use clap::Args;
 use file::file_schema;
@@ -33,6 +33,8 @@ pub(crate) struct SchemaArguments {
     /// The topology file whose names are completed; it may have errors. `-` is standard input.
     #[arg(value_name = "FILE")]
     file: Option<PathBuf>,
+    #[command(flatten)]
+    max_size: MaxSize,
 }
 
 /// The body of `scl schema`.
@@ -40,7 +42,7 @@ pub(crate) fn schema(arguments: &SchemaArguments) -> ExitCode {
     let names = match &arguments.file {
         None => Names::default(),
         Some(path) => {
-            let loaded = load_file(path);
+            let loaded = load_file(path, arguments.max_size);
             if loaded.file.is_none() {
                 show_errors(&loaded);
                 return ExitCode::from(COULD_NOT_RUN);

@@ -4,6 +4,7 @@
 #[cfg(feature = "bench")]
 mod bench;
 mod check;
+mod check_fix;
 mod check_formats;
 mod check_inputs;
 mod check_watch;

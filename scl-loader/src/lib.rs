@@ -62,7 +62,7 @@ pub fn load(request: &Request) -> Loaded {
             loaded.files_read.push(request.path.clone());
             check_text(request, text, &mut loaded, &mut problems);
         }
-        Err(cause) => problems.push(unreadable::diagnose(request, cause)),
+        Err(cause) => problems.push(unreadable::diagnose(request, cause, &mut loaded.sources)),
     }
     loaded.diagnostics = problems.into_sorted();
     loaded
@@ -77,7 +77,7 @@ pub fn load_bytes(request: &Request, bytes: Vec<u8>) -> Loaded {
     let mut problems = Diagnostics::new();
     match read::decode(bytes, request.max_size) {
         Ok(text) => check_text(request, text, &mut loaded, &mut problems),
-        Err(cause) => problems.push(unreadable::diagnose(request, cause)),
+        Err(cause) => problems.push(unreadable::diagnose(request, cause, &mut loaded.sources)),
     }
     loaded.diagnostics = problems.into_sorted();
     loaded

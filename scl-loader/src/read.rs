@@ -17,13 +17,15 @@ pub(crate) enum Unreadable {
     Refused(io::Error),
     /// More bytes than allowed; as many as the file says that it has.
     TooLarge(u64),
-    /// No UTF-8.
+    /// Not UTF-8.
     NotUtf8(BadByte),
 }
 
-/// The first byte that is no UTF-8.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The first byte that is not UTF-8.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct BadByte {
+    /// The whole text, with U+FFFD in place of what is not UTF-8.
+    pub(crate) text: String,
     /// Its value.
     pub(crate) value: u8,
     /// The byte after it.
@@ -97,7 +99,14 @@ fn first_bad_byte(bytes: &[u8], error: std::str::Utf8Error) -> BadByte {
     let line = valid.matches('\n').count() + 1;
     let column = valid.rsplit('\n').next().unwrap_or("").chars().count() + 1;
     let value = bytes.get(offset).copied().unwrap_or_default();
-    BadByte { value, next: bytes.get(offset + 1).copied(), offset, line, column }
+    BadByte {
+        text: String::from_utf8_lossy(bytes).into_owned(),
+        value,
+        next: bytes.get(offset + 1).copied(),
+        offset,
+        line,
+        column,
+    }
 }
 
 #[cfg(test)]
@@ -108,7 +117,8 @@ mod tests {
     fn first_bad_byte_is_counted_in_lines_and_characters() {
         let text = [b"a\n".as_slice(), "äb".as_bytes(), &[0xff, 0xfe]].concat();
         let error = std::str::from_utf8(&text).unwrap_err();
-        let expected = BadByte { value: 0xff, next: Some(0xfe), offset: 5, line: 2, column: 3 };
+        let shown = "a\näb\u{fffd}\u{fffd}".to_owned();
+        let expected = BadByte { text: shown, value: 0xff, next: Some(0xfe), offset: 5, line: 2, column: 3 };
         assert_eq!(first_bad_byte(&text, error), expected);
     }
 }

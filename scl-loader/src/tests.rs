@@ -116,10 +116,32 @@ fn bytes_that_are_no_text_are_named() {
     fs::write(folder.path().join("t.yaml"), b"\xff\xfec\0").unwrap();
     expect![[r#"
         error: [SCL0003] the topology file `t.yaml` is not valid UTF-8
-         |
-         = help: save the file as UTF-8 (without or with a BOM)
-         = note: the first invalid byte is 0xFF, at byte 0 (line 1, column 1)
-         = note: 0xFF 0xFE is the mark of UTF-16; Windows Notepad writes it as "Unicode"
+         --> t.yaml:1:1
+          |
+        1 | ��c␀
+          | ^ invalid byte 0xFF
+          |
+          = help: save the file as UTF-8 (without or with a BOM)
+          = note: the first invalid byte is byte 0 of the file, counted from 0
+          = note: 0xFF 0xFE is the mark of UTF-16; Windows Notepad writes it as "Unicode"
+    "#]]
+    .assert_eq(&rendered(&load_from(&folder, "t.yaml")));
+}
+
+#[test]
+fn the_first_bad_byte_is_shown() {
+    let folder = folder(&[]);
+    let latin_1 = [b"\xef\xbb\xbf# \xc3\xa9\nsystem: caf".as_slice(), b"\xe9\n", GOOD.as_bytes()].concat();
+    fs::write(folder.path().join("t.yaml"), latin_1).unwrap();
+    expect![[r#"
+        error: [SCL0003] the topology file `t.yaml` is not valid UTF-8
+         --> t.yaml:2:12
+          |
+        2 | system: caf�
+          |            ^ invalid byte 0xE9
+          |
+          = help: save the file as UTF-8 (without or with a BOM)
+          = note: the first invalid byte is byte 19 of the file, counted from 0
     "#]]
     .assert_eq(&rendered(&load_from(&folder, "t.yaml")));
 }
@@ -132,7 +154,7 @@ fn a_large_file_is_not_read() {
         error: [SCL0004] the topology file `t.yaml` is 176 bytes; the limit is 100 bytes
          |
          = help: is this the right file? a topology of 1000 components is about 200 KiB
-         = note: the limit protects the compiler process, in which this macro runs; raise it with `scl::topology!("t.yaml", max_size = "8MiB")`
+         = note: the limit protects the compiler process, in which this macro runs; raise it with `scl::topology!("t.yaml", max_size = "8MiB")` and `scl check --max-size 8MiB`
     "#]].assert_eq(&rendered(&load(&request)));
 }
 

@@ -4,6 +4,7 @@ use crate::read::{BadByte, Unreadable};
 use crate::request::Request;
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::{FILE_NOT_FOUND, FILE_TOO_LARGE, NOT_UTF8, UNREADABLE_FILE};
+use scl_topology::source::{Sources, Span};
 use scl_topology::suggest::similar;
 use std::ffi::OsStr;
 use std::fs;
@@ -12,8 +13,11 @@ use std::path::Path;
 /// No folder is searched further than this for a similar name: it may be a very full one.
 const MOST_ENTRIES: usize = 1_000;
 
+/// Length of a byte order mark, which positions in a text do not count.
+const BYTE_ORDER_MARK: usize = '\u{feff}'.len_utf8();
+
 /// Says why the file cannot be read and what to do.
-pub(crate) fn diagnose(request: &Request, cause: Unreadable) -> Diagnostic {
+pub(crate) fn diagnose(request: &Request, cause: Unreadable, sources: &mut Sources) -> Diagnostic {
     let shown = &request.shown_as;
     match cause {
         Unreadable::Missing => missing(request),
@@ -26,7 +30,7 @@ pub(crate) fn diagnose(request: &Request, cause: Unreadable) -> Diagnostic {
             UNREADABLE_FILE.without_place(format!("the topology file `{shown}` cannot be read")).note(error.to_string())
         }
         Unreadable::TooLarge(size) => too_large(request, size),
-        Unreadable::NotUtf8(bad) => not_utf8(request, bad),
+        Unreadable::NotUtf8(bad) => not_utf8(request, bad, sources),
     }
 }
 
@@ -69,17 +73,21 @@ fn too_large(request: &Request, size: u64) -> Diagnostic {
         .help("is this the right file? a topology of 1000 components is about 200 KiB")
         .note(
             "the limit protects the compiler process, in which this macro runs; \
-             raise it with `scl::topology!(\"t.yaml\", max_size = \"8MiB\")`",
+             raise it with `scl::topology!(\"t.yaml\", max_size = \"8MiB\")` and `scl check --max-size 8MiB`",
         )
 }
 
-fn not_utf8(request: &Request, bad: BadByte) -> Diagnostic {
-    let BadByte { value, next, offset, line, column } = bad;
+fn not_utf8(request: &Request, bad: BadByte, sources: &mut Sources) -> Diagnostic {
+    let BadByte { text, value, next, offset, .. } = bad;
+    let file = sources.add(&request.shown_as, text);
+    let mark = if sources.file(file).has_byte_order_mark() { BYTE_ORDER_MARK } else { 0 };
+    let start = (offset - mark) as u32;
+    let place = Span { file, start, end: start + char::REPLACEMENT_CHARACTER.len_utf8() as u32 };
     let message = format!("the topology file `{}` is not valid UTF-8", request.shown_as);
     let problem = NOT_UTF8
-        .without_place(message)
+        .at(message, place, format!("invalid byte {value:#04X}"))
         .help("save the file as UTF-8 (without or with a BOM)")
-        .note(format!("the first invalid byte is {value:#04X}, at byte {offset} (line {line}, column {column})"));
+        .note(format!("the first invalid byte is byte {offset} of the file, counted from 0"));
     match (offset, value, next) {
         (0, 0xFF, Some(0xFE)) | (0, 0xFE, Some(0xFF)) => problem.note(format!(
             "{value:#04X} {:#04X} is the mark of UTF-16; Windows Notepad writes it as \"Unicode\"",

@@ -13,6 +13,7 @@
 
 mod file;
 pub(crate) mod flow;
+mod verdicts;
 
 use crate::check::testing::{USUAL, problems};
 use crate::diagnostic::{Diagnostic, Severity};

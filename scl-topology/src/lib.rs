@@ -60,6 +60,9 @@
 mod cases;
 pub mod catalogue;
 pub mod check;
+mod confusable;
+#[cfg(test)]
+mod cost;
 pub mod diagnostic;
 pub mod external;
 pub mod fingerprint;
@@ -73,4 +76,5 @@ pub mod source;
 pub mod suggest;
 pub mod topology;
 mod wording;
+mod work;
 mod yaml;

@@ -16,6 +16,7 @@ mod shape;
 #[cfg(test)]
 mod testing;
 
+pub(crate) use pitfall::look_alike::{LETTER, RULE as LOOK_ALIKE};
 pub(crate) use pitfall::{MISREAD, RULES as PITFALLS};
 pub(crate) use shape::RULES as SHAPES;
 
@@ -46,12 +47,14 @@ pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Mod
     let text = pitfall::check_text(source, file, problems);
     let tree = yaml::read(&text.text, file);
     pitfall::check_tree(&tree, &text, source, file, problems);
-    let mut reader = Reader { source, file, problems: Diagnostics::new(), model: Model::default() };
+    let mut reader = Reader::new(source, file);
     reader.read_root(&tree);
     reader.read_controls(tree.root.as_ref());
-    let Reader { model, problems: found, .. } = reader;
+    let Reader { mut model, problems: found, .. } = reader;
+    let is_partial = tree.is_partial() || text.has_conflict;
+    model.cut_off |= is_partial;
     // What is wrong with the shape may be a consequence, so it waits until the text can be read to its end.
-    match tree.error.is_some() || tree.too_deep.is_some() {
+    match is_partial {
         true => found.discard(),
         false => problems.append(found),
     }
@@ -64,11 +67,18 @@ struct Reader<'s> {
     file: FileId,
     problems: Diagnostics,
     model: Model,
+    /// Connections stand where they do not belong, and a problem says so.
+    has_stray_connections: bool,
 }
 
-impl Reader<'_> {
+impl<'s> Reader<'s> {
+    fn new(source: &'s SourceFile, file: FileId) -> Self {
+        let (problems, model) = (Diagnostics::new(), Model::default());
+        Reader { source, file, problems, model, has_stray_connections: false }
+    }
+
     fn read_root(&mut self, tree: &Tree) {
-        self.model.cut_off = tree.error.is_some() || tree.too_deep.is_some();
+        self.model.cut_off = tree.is_partial();
         match &tree.root {
             Some(Node { kind: NodeKind::Mapping { entries, .. }, .. }) => self.read_sections(entries),
             Some(root) if !root.is_null() && !matches!(root.kind, NodeKind::Unread) => {

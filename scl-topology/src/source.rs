@@ -36,8 +36,14 @@ pub struct Spanned<T> {
 pub struct SourceFile {
     path: String,
     text: String,
+    has_byte_order_mark: bool,
     line_starts: Vec<u32>,
+    /// Number of characters before each block of [`BLOCK`] bytes: lines may be as long as the file.
+    characters_before: Vec<u32>,
 }
+
+/// Size of the blocks of a text that are counted once.
+const BLOCK: usize = 512;
 
 /// A place as people count: line and column from 1, the column in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,6 +65,11 @@ impl SourceFile {
         &self.text
     }
 
+    /// Whether the file starts with a byte order mark, which [`text`](Self::text) leaves out.
+    pub fn has_byte_order_mark(&self) -> bool {
+        self.has_byte_order_mark
+    }
+
     /// Line and column of a byte; a byte past the end counts as the end.
     pub fn line_column(&self, byte: u32) -> LineColumn {
         let line = self.line_starts.partition_point(|&start| start <= byte).max(1);
@@ -67,22 +78,43 @@ impl SourceFile {
         while !self.text.is_char_boundary(end) {
             end -= 1;
         }
-        let column = self.text[start..end].chars().count() + 1;
-        LineColumn { line: line as u32, column: column as u32 }
+        LineColumn { line: line as u32, column: self.characters(end) - self.characters(start) + 1 }
     }
 
-    /// The line of a byte, from 1, without the time that the column takes on a very long line.
+    /// Number of characters that begin before a byte.
+    fn characters(&self, byte: usize) -> u32 {
+        let block = byte / BLOCK;
+        let before = self.characters_before.get(block).copied().unwrap_or_default();
+        before + characters_in(&self.text.as_bytes()[block * BLOCK..byte])
+    }
+
+    /// A line, counted from 1, without its line break; empty past the end.
+    pub fn line_text(&self, line: u32) -> &str {
+        if line == 0 || line as usize > self.line_starts.len() { "" } else { &self.text[self.range_of_line(line)] }
+    }
+
+    /// The line of a byte, from 1.
     pub(crate) fn line(&self, byte: u32) -> u32 {
         self.line_starts.partition_point(|&start| start <= byte).max(1) as u32
     }
 
     /// The bytes of the line in which a byte lies, without the line break.
     pub(crate) fn line_range(&self, byte: u32) -> std::ops::Range<usize> {
-        let line = self.line_starts.partition_point(|&start| start <= byte).max(1);
+        self.range_of_line(self.line(byte))
+    }
+
+    /// The bytes of a line, counted from 1, without the line break.
+    pub(crate) fn range_of_line(&self, line: u32) -> std::ops::Range<usize> {
+        let line = line as usize;
         let start = self.line_starts[line - 1] as usize;
         let end = self.line_starts.get(line).map_or(self.text.len(), |&next| next as usize);
         start..start + self.text[start..end].trim_end_matches(['\r', '\n']).len()
     }
+}
+
+/// Counts the bytes that begin a character.
+fn characters_in(bytes: &[u8]) -> u32 {
+    bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32
 }
 
 /// All texts of one run: the topology file, and the schema files it names.
@@ -100,11 +132,18 @@ impl Sources {
     /// Adds a text. A leading byte order mark is taken off, so that no position counts it.
     pub fn add(&mut self, path: impl Into<String>, text: impl Into<String>) -> FileId {
         let mut text = text.into();
-        if text.starts_with('\u{feff}') {
+        let has_byte_order_mark = text.starts_with('\u{feff}');
+        if has_byte_order_mark {
             text.drain(..'\u{feff}'.len_utf8());
         }
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at as u32 + 1)).collect();
-        self.files.push(SourceFile { path: path.into(), text, line_starts });
+        let characters_before = std::iter::once(0)
+            .chain(text.as_bytes().chunks(BLOCK).scan(0, |sum, block| {
+                *sum += characters_in(block);
+                Some(*sum)
+            }))
+            .collect();
+        self.files.push(SourceFile { path: path.into(), text, has_byte_order_mark, line_starts, characters_before });
         FileId((self.files.len() - 1) as u16)
     }
 
@@ -116,6 +155,14 @@ impl Sources {
     /// The text that a span covers.
     pub fn snippet(&self, span: Span) -> &str {
         self.file(span.file).text().get(span.start as usize..span.end as usize).unwrap_or("")
+    }
+
+    /// `text` in the quotes of what a span covers, if there are any: how to replace a scalar by another one.
+    pub fn quoted_as(&self, span: Span, text: &str) -> String {
+        match self.snippet(span).chars().next().filter(|first| matches!(first, '"' | '\'')) {
+            Some(quote) => format!("{quote}{text}{quote}"),
+            None => text.to_owned(),
+        }
     }
 
     /// `path:line:column` of the start of a span.

@@ -1,20 +1,33 @@
 //! The names that a misspelt word may have meant.
 
+use crate::work;
 use strsim::damerau_levenshtein;
 
 /// No message offers more names than this.
-const MOST: usize = 3;
+pub(crate) const MOST: usize = 3;
+
+/// Longer words, in bytes, are not compared: the comparison takes quadratic time.
+const LONGEST: usize = 128;
 
 /// The start of a name is a hint only from this many letters on.
 const ABBREVIATION: usize = 3;
 
-/// The candidates that look like `word`, the nearest first, at most three.
+/// The candidates that look most like `word`, at most three.
 ///
-/// A candidate that differs only in case comes first; the others are within a third of the word's length of edits,
-/// at least one, or start with the word. Candidates that are equally near keep their order.
+/// A candidate that differs only in case is the nearest; the others are within a third of the word's length of edits,
+/// at least one, or start with the word. All that are given are equally near, and keep their order.
 pub fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut nearest = nearest(word, candidates);
+    nearest.truncate(MOST);
+    nearest
+}
+
+/// Like [`similar`], but all that are equally near, so that the caller can choose among them.
+pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let lower = word.to_lowercase();
-    let limit = (word.chars().count() / 3).max(1);
+    // Every other word of one letter is one edit away.
+    let length = word.chars().count();
+    let limit = (length / 3).max(1).min(length.saturating_sub(1));
     let mut near: Vec<(usize, &'a str)> = candidates
         .into_iter()
         .filter(|candidate| *candidate != word)
@@ -23,11 +36,10 @@ pub fn similar<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         })
         .collect();
     near.sort_by_key(|(distance, _)| *distance);
-    // Beside one that is much nearer, the others are noise.
+    // Beside one that is nearer, the others are noise.
     let nearest = near.first().map_or(0, |(distance, _)| *distance);
-    near.retain(|(distance, _)| *distance <= 2 * nearest);
+    near.retain(|(distance, _)| *distance == nearest);
     near.dedup();
-    near.truncate(MOST);
     near.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
@@ -74,20 +86,37 @@ fn sorted_parts(dotted: &str) -> Vec<String> {
 
 /// How far two lower-case words are apart, if not more than `limit`.
 fn distance(word: &str, candidate: &str, limit: usize) -> Option<usize> {
-    // An abbreviation, such as `que` for `queue`, is as good as the last typing error that we accept.
+    // An abbreviation, such as `que` for `queue`, is as good as the last typing error that we accept, or better.
     if word.len() >= ABBREVIATION && candidate.len() > word.len() && candidate.starts_with(word) {
-        return Some(limit);
+        return Some(limit.min(candidate.chars().count() - word.chars().count()));
     }
     // A difference in length is a lower bound, and cheap: it keeps long lists of names fast.
-    if word.chars().count().abs_diff(candidate.chars().count()) > limit {
+    if word.len().max(candidate.len()) > LONGEST || word.chars().count().abs_diff(candidate.chars().count()) > limit {
         return None;
     }
-    Some(damerau_levenshtein(word, candidate)).filter(|distance| *distance <= limit)
+    let (word, candidate) = without_common_ends(word, candidate);
+    work::add(1 + word.len() * candidate.len());
+    let distance = match word.is_empty() || candidate.is_empty() {
+        true => word.chars().count().max(candidate.chars().count()),
+        false => damerau_levenshtein(word, candidate),
+    };
+    Some(distance).filter(|distance| *distance <= limit)
+}
+
+/// What is left of two words without their common start and end, which do not change the distance: names of one file
+/// often differ by a number only, and the comparison takes quadratic time.
+fn without_common_ends<'a>(one: &'a str, other: &'a str) -> (&'a str, &'a str) {
+    let same = |(one, other): &(char, char)| one == other;
+    let start: usize = one.chars().zip(other.chars()).take_while(same).map(|(letter, _)| letter.len_utf8()).sum();
+    let (one, other) = (&one[start..], &other[start..]);
+    let end: usize =
+        one.chars().rev().zip(other.chars().rev()).take_while(same).map(|(letter, _)| letter.len_utf8()).sum();
+    (&one[..one.len() - end], &other[..other.len() - end])
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{kind, same_parts, similar};
+    use super::{LONGEST, kind, same_parts, similar, without_common_ends};
 
     #[test]
     fn kinds_have_other_names() {
@@ -113,16 +142,37 @@ mod tests {
     }
 
     #[test]
+    fn only_what_differs_is_compared() {
+        for (one, other, left) in [
+            ("sensor_12", "sensor_21", ("12", "21")),
+            ("aab", "aba", ("ab", "ba")),
+            ("aa", "a", ("a", "")),
+            ("größe", "grüße", ("ö", "ü")),
+            ("same", "same", ("", "")),
+        ] {
+            assert_eq!(without_common_ends(one, other), left, "{one} {other}");
+        }
+        assert!(similar(&"a".repeat(LONGEST + 1), ["a".repeat(LONGEST).as_str()]).is_empty());
+    }
+
+    #[test]
     fn nearest_names_come_first() {
-        let cases: [(&str, &[&str], &[&str]); 8] = [
+        let cases: [(&str, &[&str], &[&str]); 11] = [
             ("publ", &["pub", "sub", "push", "pull"], &["pub", "pull"]),
             ("Gates", &["name", "gates"], &["gates"]),
             ("conections", &["components", "connections"], &["connections"]),
             ("measuremnets", &["measurements"], &["measurements"]),
             ("que", &["share", "queue"], &["queue"]),
             ("xyz", &["measurements"], &[]),
-            ("a", &["b", "c", "d", "e"], &["b", "c", "d"]),
+            ("ab", &["b", "ac", "ad", "ae"], &["b", "ac", "ad"]),
             ("pub", &["pub"], &[]),
+            ("sensor1_lef", &["sensor2_left", "sensor1_left"], &["sensor1_left"]),
+            ("vehicle1_filte", &["vehicle0_filter", "vehicle1_filter", "vehicle2_filter"], &["vehicle1_filter"]),
+            (
+                "sensor3_left",
+                &["sensor1_left", "sensor2_left", "sensor33_left"],
+                &["sensor1_left", "sensor2_left", "sensor33_left"],
+            ),
         ];
         for (word, candidates, expected) in cases {
             assert_eq!(similar(word, candidates.iter().copied()), expected, "{word}");

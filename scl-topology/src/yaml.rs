@@ -81,6 +81,13 @@ pub(crate) struct Tree {
     pub(crate) too_deep: Option<Span>,
 }
 
+impl Tree {
+    /// Whether a part of the text could not be read, so that what seems to be missing may be in it.
+    pub(crate) fn is_partial(&self) -> bool {
+        self.error.is_some() || self.too_deep.is_some() || self.second_document.is_some()
+    }
+}
+
 /// Reads a text. Takes linear time and never fails: what is wrong is part of the answer.
 pub(crate) fn read(text: &str, file: FileId) -> Tree {
     let mut builder = build::Builder::new(text, file);

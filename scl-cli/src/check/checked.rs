@@ -1,6 +1,7 @@
 //! One file, checked: what is shown of it, and its exit code.
 
 use super::deny::deny;
+use super::fix::{Outcome, fix_file};
 use super::{COULD_NOT_RUN, CheckArguments};
 use crate::load::load_file;
 use scl_loader::Loaded;
@@ -11,24 +12,28 @@ use std::path::{Path, PathBuf};
 pub(super) struct Checked {
     /// As the user named it.
     pub(super) path: PathBuf,
-    /// What it holds.
+    /// What it holds; with `--fix`, after the fixes.
     pub(super) loaded: Loaded,
     /// What is said about it.
     pub(super) shown: Vec<Diagnostic>,
+    /// What `--fix` did.
+    pub(super) outcome: Option<Outcome>,
 }
 
-/// Checks a file and chooses what is shown.
+/// Checks a file, fixes it if asked to, and chooses what is shown.
 pub(super) fn check_file(path: &Path, arguments: &CheckArguments) -> Checked {
-    let mut loaded = load_file(path);
+    let mut loaded = load_file(path, arguments.max_size);
+    let outcome = arguments.fix.then(|| fix_file(path, &mut loaded, arguments)).flatten();
     let all = std::mem::take(&mut loaded.diagnostics).into_iter().map(|it| deny(it, &arguments.deny));
     let shown = all.filter(|it| arguments.lints || it.severity != Severity::Lint).collect();
-    Checked { path: path.to_path_buf(), loaded, shown }
+    Checked { path: path.to_path_buf(), loaded, shown, outcome }
 }
 
 impl Checked {
     pub(super) fn code(&self) -> u8 {
         match &self.loaded {
             Loaded { file: None, .. } => COULD_NOT_RUN,
+            _ if self.outcome.as_ref().is_some_and(|outcome| outcome.error.is_some()) => COULD_NOT_RUN,
             Loaded { topology: None, .. } => 1,
             _ => u8::from(self.number_of(Severity::Error) > 0),
         }

@@ -1,15 +1,31 @@
 //! The result of a check, in each format.
 
+mod cargo;
+mod json;
+mod sarif;
+#[cfg(test)]
+mod testing;
+
 use super::Format;
 use super::checked::Checked;
+use super::fix::Outcome;
 use crate::load::{show_diagnostics, shown_path};
 use crate::print::{print_err, print_out};
-use scl_topology::diagnostic::{CargoUnit, CheckedFile, Severity, cargo_end, cargo_start, to_cargo, to_json, to_sarif};
+use cargo::{CargoUnit, cargo_end, cargo_start, to_cargo};
+use json::to_json;
+use sarif::{CheckedFile, to_sarif};
+use scl_topology::diagnostic::Severity;
 use scl_topology::topology::Topology;
 use std::path::{Path, PathBuf};
 
 /// Says what was found: text to standard error, everything else to standard output.
 pub(super) fn report(checked: &[Checked], format: Format) {
+    for it in checked {
+        let error = it.outcome.as_ref().and_then(|outcome| outcome.error.as_ref());
+        error
+            .into_iter()
+            .for_each(|error| print_err(&format!("error: cannot write `{}`: {error}\n", it.path.display())));
+    }
     match format {
         Format::Text => checked.iter().for_each(report_text),
         Format::Json => checked.iter().for_each(report_json),
@@ -19,6 +35,10 @@ pub(super) fn report(checked: &[Checked], format: Format) {
 }
 
 fn report_text(checked: &Checked) {
+    if let Some(outcome) = &checked.outcome {
+        print_out(&outcome.out);
+        print_err(&fixes_line(outcome, checked));
+    }
     show_diagnostics(&checked.loaded, &checked.shown);
     print_err(&closing_line(checked));
 }
@@ -56,6 +76,17 @@ fn cargo_unit(path: &Path, folder: &Path) -> CargoUnit {
     let manifest = manifests.into_iter().find(|it| it.is_file()).unwrap_or_else(|| file.clone());
     let text = |path: PathBuf| path.display().to_string();
     CargoUnit { file: text(file), folder: text(folder.to_path_buf()), manifest: text(manifest) }
+}
+
+/// `topology.yaml: 2 problems fixed`; empty if there was nothing to fix.
+fn fixes_line(outcome: &Outcome, checked: &Checked) -> String {
+    let path = shown_path(&checked.path);
+    let problems = counted(outcome.applied, "problem");
+    match outcome {
+        Outcome { applied: 0, .. } | Outcome { error: Some(_), .. } => String::new(),
+        Outcome { is_written: true, .. } => format!("{path}: {problems} fixed\n\n"),
+        _ => format!("{path}: {problems} can be fixed\n\n"),
+    }
 }
 
 /// `topology.yaml: 4 components, 8 gates, 4 connections` or `topology.yaml: 2 errors, 1 warning`.

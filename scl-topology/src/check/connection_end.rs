@@ -46,13 +46,14 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
             let found = resolved(draft, &text.value);
             draft.links[link].ends[end] = found;
         }
-        for end in 0..2 {
-            if draft.links[link].ends[end].is_none() {
-                report(draft, link, end, problems);
-            }
+    }
+    // A suggestion prefers gates that no other connection names.
+    name_all(draft);
+    for (link, end) in (0..draft.links.len()).flat_map(|link| [(link, 0), (link, 1)]) {
+        if draft.links[link].ends[end].is_none() {
+            report(draft, link, end, problems);
         }
     }
-    name_all(draft);
 }
 
 fn resolved(draft: &Draft<'_>, text: &str) -> Option<usize> {
@@ -100,13 +101,23 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
         if let Some(gate) = known {
             draft.gates[gate].named = true;
         }
-        return RULE.at(headline, text.span, label).help(format!("write `{mended}`"));
+        let found = RULE.at(headline, text.span, label).help(format!("write `{mended}`"));
+        let replacement = draft.sources.quoted_as(text.span, &mended);
+        return if known.is_some() {
+            found.fix(text.span, replacement)
+        } else {
+            found.maybe_fix(text.span, replacement)
+        };
     }
-    let owners = if draft.may_search() { owners(draft, &text.value) } else { Vec::new() };
+    let may_search = draft.may_search();
+    let owners = if may_search { owners(draft, &text.value) } else { Vec::new() };
     if let Some(&gate) = owners.first() {
         return without_component(draft, headline, text, gate, &owners);
     }
     if draft.component(&text.value).is_some() {
+        if !may_search {
+            return RULE.at(headline, text.span, "which gate?");
+        }
         let gates: Vec<String> = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
         return RULE.at(headline, text.span, "which gate?").note(format!(
             "gates of `{}`: {}",
@@ -135,11 +146,13 @@ fn without_component(
     let paths: Vec<String> = owners.iter().map(|&gate| draft.path(gate)).collect();
     match paths.as_slice() {
         [only] => {
-            draft.gates[gate].named = true;
+            let was_named = std::mem::replace(&mut draft.gates[gate].named, true);
             let label = format!("only `{}` has a gate of this name", draft.component_name(gate));
-            found.label(draft.gates[gate].model.name.span, label).help(format!("write `{only}`"))
+            let replacement = draft.sources.quoted_as(text.span, only);
+            let found = found.label(draft.gates[gate].model.name.span, label).help(format!("write `{only}`"));
+            if was_named { found.maybe_fix(text.span, replacement) } else { found.fix(text.span, replacement) }
         }
-        [_, _] | [_, _, _] => found.help(format!("write {}", either(&paths))),
+        [_, _] | [_, _, _] => found.help(format!("write {}", either(&paths))).fix_if_single(text.span, &paths),
         _ => found.note(format!("gates of this name: {}", listed(&paths))),
     }
 }

@@ -4,7 +4,7 @@ use super::draft::Draft;
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::{Examples, Rule};
-use crate::source::Spanned;
+use crate::source::{Sources, Spanned};
 use crate::suggest;
 use crate::topology::GateKind;
 
@@ -38,7 +38,7 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         gate.kind = kind_of(&word.value);
         // An empty word stands for a gate that could not be read, which has its own problem.
         if gate.kind.is_none() && !word.value.is_empty() {
-            problems.push(report(word));
+            problems.push(report(word, draft.sources));
         }
     }
     poison_contradictions(draft);
@@ -64,14 +64,16 @@ fn kind_of(word: &str) -> Option<GateKind> {
     GateKind::ALL.into_iter().find(|kind| kind.word() == word)
 }
 
-fn report(word: &Spanned<String>) -> Diagnostic {
+fn report(word: &Spanned<String>, sources: &Sources) -> Diagnostic {
     let found = RULE.at(format!("unknown gate kind `{}`", word.value), word.span, "");
-    let found = match suggest::kind(&word.value).as_slice() {
+    let kinds = suggest::kind(&word.value);
+    let replacements: Vec<String> = kinds.iter().map(|kind| sources.quoted_as(word.span, kind)).collect();
+    let found = match kinds.as_slice() {
         [] => found,
         [one] => found.help(format!("the kind is called `{one}`")),
         several => found.help(format!("did you mean {}?", crate::wording::either(several))),
     };
-    found.note(KINDS)
+    found.fix_if_single(word.span, &replacements).note(KINDS)
 }
 
 #[cfg(test)]

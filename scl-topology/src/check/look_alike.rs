@@ -1,34 +1,11 @@
-//! SCL0304: a letter outside of ASCII, above all one that looks like an ASCII letter: the two names on the screen would
-//! be equal, and the file still wrong.
+//! SCL0304: a letter outside of ASCII. The parser reports those that look like an ASCII letter.
 
 use super::named::{Noun, names};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
 
-/// SCL0304.
-pub(crate) const RULE: Rule = Rule {
-    code: "SCL0304",
-    severity: Severity::Error,
-    title: "look-alike character in a name",
-    explanation: "The name has a letter outside of ASCII, perhaps one that looks exactly like an ASCII letter: two \
-                  names on the screen would look alike and differ. Retype it.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sеnsor
-",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
-};
-
-/// Letters and the ASCII letters that they are taken for.
-const CYRILLIC: (&str, &str) = ("аеорсухіјѕһԁАВЕКМНОРСТУХЅІЈ", "aeopcyxijshdABEKMHOPCTYXSIJ");
-const GREEK: (&str, &str) = ("ονικρυαΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "ovikpuaABEZHIKMNOPTYX");
+pub(crate) use crate::parse::LETTER as RULE;
 
 /// How people write these letters where a keyboard lacks them.
 const TRANSLITERATIONS: [(&str, &str); 22] = [
@@ -73,42 +50,27 @@ fn is_foreign(letter: char) -> bool {
 }
 
 fn report(noun: Noun, name: &Spanned<String>, letter: char) -> Diagnostic {
-    let start = format!("{} name `{}` contains the", noun.word(), name.value);
-    let code = format!("(U+{:04X})", u32::from(letter));
-    let found = match twin(letter) {
-        Some((script, twin)) => {
-            let headline = format!("{start} {script} letter `{letter}` {code}, which looks like `{twin}`");
-            RULE.at(headline, name.span, format!("not the Latin `{twin}`"))
-        }
-        None => {
-            let headline = format!("{start} letter `{letter}` {code}, which is not ASCII");
-            RULE.at(headline, name.span, "allowed: a-z A-Z 0-9 _ -")
-        }
-    };
+    let code = u32::from(letter);
+    let headline = format!(
+        "{} name `{}` contains the letter `{letter}` (U+{code:04X}), which is not ASCII",
+        noun.word(),
+        name.value
+    );
+    let found = RULE.at(headline, name.span, "allowed: a-z A-Z 0-9 _ -");
     let found = match retyped(&name.value) {
-        Some(ascii) if twin(letter).is_some() => found.help(format!("retype the name in ASCII: `{ascii}`")),
         Some(ascii) => found.help(format!("write `{ascii}`")),
         None => found.help("write the name in ASCII letters"),
     };
     found.note("names are ASCII, so that the file, the socket paths and all language bindings agree")
 }
 
-/// The script of a letter and the ASCII letter it is taken for.
-fn twin(letter: char) -> Option<(&'static str, char)> {
-    [("Cyrillic", CYRILLIC), ("Greek", GREEK)].into_iter().find_map(|(script, (letters, twins))| {
-        let at = letters.chars().position(|other| other == letter)?;
-        Some((script, twins.chars().nth(at)?))
-    })
-}
-
 /// The name in ASCII, if each of its letters has a usual replacement.
 fn retyped(name: &str) -> Option<String> {
     let mut out = String::new();
     for letter in name.chars() {
-        match (letter.is_ascii(), twin(letter)) {
-            (true, _) => out.push(letter),
-            (false, Some((_, twin))) => out.push(twin),
-            (false, None) => out.push_str(TRANSLITERATIONS.iter().find(|(from, _)| from.contains(letter))?.1),
+        match letter.is_ascii() {
+            true => out.push(letter),
+            false => out.push_str(TRANSLITERATIONS.iter().find(|(from, _)| from.contains(letter))?.1),
         }
     }
     Some(out)

@@ -14,8 +14,17 @@ pub(super) fn tell_once(problems: &mut Diagnostics) {
     });
     misread.sort_unstable();
     problems.retain(|found| {
-        let follows = found.code().starts_with("SCL03") || found.code().starts_with("SCL05");
-        !(follows && found.primary.as_ref().is_some_and(|label| meets(label.span, &misread)))
+        if MISREAD.contains(&found.rule) {
+            return true;
+        }
+        let at = found.primary.iter().map(|label| label.span);
+        let others = found.secondary.iter().map(|label| label.span);
+        match found.code().get(..5) {
+            Some("SCL03" | "SCL04" | "SCL05") => !at.into_iter().any(|span| meets(span, &misread)),
+            // Types that differ because one of them is no type.
+            Some("SCL06") => !at.chain(others).any(|span| meets(span, &misread)),
+            _ => true,
+        }
     });
 }
 

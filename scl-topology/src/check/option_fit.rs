@@ -1,6 +1,6 @@
 //! SCL0408: an option on a kind of gate that has no use for it.
 
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::model::OptionModel;
 use crate::parse::option;
@@ -31,9 +31,11 @@ pub(crate) const RULE: Rule = Rule {
     },
 };
 
-pub(super) fn check(kind: Option<GateKind>, option: &OptionModel, problems: &mut Diagnostics) {
+/// The problem of an option that this kind of gate does not have.
+pub(super) fn check(kind: Option<GateKind>, option: &OptionModel) -> Option<Diagnostic> {
     let key = option.key.value.as_str();
-    let (Some(kind), Some(rule)) = (kind, misfit(kind, key)) else { return };
+    let kind = kind?;
+    let rule = misfit(Some(kind), key)?;
     let headline = format!("option `{key}` is not available on a `{}` gate", kind.word());
     let found = RULE.at(headline, option.key.span, "").help("remove it");
     let other = kind.opposite();
@@ -41,7 +43,7 @@ pub(super) fn check(kind: Option<GateKind>, option: &OptionModel, problems: &mut
         true => found.help(format!("or write it at the `{}` end of the connection", other.word())),
         false => found,
     };
-    problems.push(found.note(rule));
+    Some(found.note(rule))
 }
 
 /// Why a kind has no such option, if it has none.

@@ -41,8 +41,13 @@ const LONGEST_TIMEOUT: Duration = Duration::from_secs(24 * 60 * 60);
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     for gate in &mut draft.gates {
         for option in &gate.model.options {
-            match read(option, &mut gate.options) {
-                Ok(()) => option_fit::check(gate.kind, option, problems),
+            // An option that the kind does not have has no effect, so nothing follows from it.
+            let mut options = gate.options.clone();
+            match read(option, &mut options) {
+                Ok(()) => match option_fit::check(gate.kind, option) {
+                    Some(misfit) => problems.push(misfit),
+                    None => gate.options = options,
+                },
                 Err(range) => problems.push(report(gate.kind, option, range)),
             }
         }

@@ -1,8 +1,11 @@
-//! An unknown name that several connections use is one mistake, most often that of its declaration: it is told at the
-//! first of them, and the others are shown there.
+//! Mistakes that show at several places and are made once: an unknown name that several connections use is most often
+//! that of its declaration, and a gate of the wrong kind fits none of its connections. They are told at the first place,
+//! and the others are shown there.
 
-use super::{unknown_component, unknown_gate};
-use crate::diagnostic::Diagnostics;
+use super::{backpressure, codec_agreement, exchange_type, message_type, pair_kinds, unknown_component, unknown_gate};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::parse::{LETTER, LOOK_ALIKE};
+use crate::rule::Rule;
 use crate::source::Span;
 use std::collections::HashMap;
 
@@ -12,7 +15,7 @@ const MOST: usize = 8;
 pub(super) fn tell_once(problems: &mut Diagnostics) {
     let mut places: HashMap<String, Vec<Span>> = HashMap::new();
     problems.retain(|found| {
-        if ![&unknown_component::UNKNOWN, &unknown_gate::RULE].contains(&found.rule) {
+        if ![&unknown_component::UNKNOWN, &unknown_gate::RULE, &LETTER, &LOOK_ALIKE].contains(&found.rule) {
             return true;
         }
         let uses = places.entry(found.message.clone()).or_default();
@@ -25,7 +28,54 @@ pub(super) fn tell_once(problems: &mut Diagnostics) {
             found.add_label(*place, "and here");
         }
         if !uses.is_empty() {
-            found.notes.push(format!("{} connections name it", uses.len() + 1));
+            let what = if found.code().starts_with("SCL05") { "connections name it" } else { "places have it" };
+            found.notes.push(format!("{} {what}", uses.len() + 1));
+        }
+        true
+    });
+    gates_that_do_not_fit(problems);
+}
+
+/// The rules about two gates that do not fit each other; their labels show the two.
+const PAIRS: [&Rule; 8] = [
+    &pair_kinds::SAME_DIRECTION,
+    &pair_kinds::OTHER_PATTERN,
+    &backpressure::RULE,
+    &message_type::RULE,
+    &exchange_type::REQUESTS_DIFFER,
+    &exchange_type::REPLIES_DIFFER,
+    &exchange_type::SWAPPED_TYPES,
+    &codec_agreement::RULE,
+];
+
+/// Connections that do not fit because of the same gate: the gate that most of them share is the one at fault.
+fn gates_that_do_not_fit(problems: &mut Diagnostics) {
+    let mut counts: HashMap<(&Rule, Span), usize> = HashMap::new();
+    problems.retain(|found| {
+        if PAIRS.contains(&found.rule) {
+            found.secondary.iter().for_each(|gate| *counts.entry((found.rule, gate.span)).or_default() += 1);
+        }
+        true
+    });
+    let at_fault = |found: &Diagnostic| {
+        let gates = found.secondary.iter().map(|gate| (found.rule, gate.span));
+        let shared = gates.filter(|gate| counts.get(gate).is_some_and(|count| *count > 1));
+        shared.max_by_key(|gate| (counts.get(gate), gate.1.start)).filter(|_| PAIRS.contains(&found.rule))
+    };
+    // The places of the further connections of each gate.
+    let mut told: HashMap<(&Rule, Span), Vec<Span>> = HashMap::new();
+    problems.retain(|found| {
+        let Some(gate) = at_fault(found) else { return true };
+        let is_first = !told.contains_key(&gate);
+        let others = told.entry(gate).or_default();
+        others.extend(found.primary.as_ref().filter(|_| !is_first).map(|label| label.span));
+        is_first
+    });
+    problems.retain(|found| {
+        let others = at_fault(found).and_then(|gate| told.remove(&gate)).unwrap_or_default();
+        others.iter().take(MOST).for_each(|place| found.add_label(*place, "nor does this one fit"));
+        if !others.is_empty() {
+            found.notes.push(format!("{} connections of the same gate do not fit", others.len() + 1));
         }
         true
     });

@@ -66,7 +66,7 @@ const ALTERNATIVES: [(&str, &str); 12] = [
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     for (noun, name) in names(model).filter(|(noun, _)| *noun != Noun::System) {
         if is_unusable(noun, &name.value) {
-            problems.push(unusable(name));
+            problems.push(unusable(noun, name));
         }
     }
     for component in &model.components {
@@ -78,22 +78,32 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     }
 }
 
+/// Whether the name, or the Rust name that is made of it, is no name even with `r#`. Names that start with `__` are
+/// reserved, which is another rule.
 fn is_unusable(noun: Noun, name: &str) -> bool {
-    is_unescapable(name)
-        || match noun {
-            Noun::Component => is_well_formed(name) && is_unescapable(&component_type(name)),
-            _ => is_well_formed(name) && is_unescapable(&gate_field(name)),
-        }
+    !name.starts_with("__") && (is_unescapable(name) || is_well_formed(name) && is_unescapable(&rust_name(noun, name)))
 }
 
-fn unusable(name: &Spanned<String>) -> Diagnostic {
+fn rust_name(noun: Noun, name: &str) -> String {
+    if noun == Noun::Component { component_type(name) } else { gate_field(name) }
+}
+
+fn unusable(noun: Noun, name: &Spanned<String>) -> Diagnostic {
     let word = &name.value;
-    let headline = format!("`{word}` is a Rust keyword that cannot be used as a name, not even as `r#{word}`");
+    let rust = rust_name(noun, word);
+    let becomes = if noun == Noun::Component { "type" } else { "field" };
+    let headline = match word.as_str() {
+        "_" => "`_` is not a name in Rust".to_owned(),
+        _ if is_unescapable(word) => {
+            format!("`{word}` is a Rust keyword that cannot be used as a name, not even as `r#{word}`")
+        }
+        _ => format!("{} name `{word}` becomes the Rust {becomes} `{rust}`, which is a keyword", noun.word()),
+    };
     let others: Vec<&str> = ["crate", "self", "Self", "super", "_"].into_iter().filter(|other| other != word).collect();
     HARD_KEYWORD
         .at(headline, name.span, "")
         .help("choose another name")
-        .note(format!("the others: {}", crate::wording::listed(others)))
+        .note(format!("not usable either: {}", crate::wording::listed(others)))
 }
 
 fn escaped(component: &str, name: &Spanned<String>) -> Diagnostic {
@@ -136,15 +146,15 @@ mod tests {
         rule_example(
             &HARD_KEYWORD,
             expect![[r#"
-            error: [SCL0307] `crate` is a Rust keyword that cannot be used as a name, not even as `r#crate`
-             --> topology.yaml:2:11
-              |
-            2 |   - name: crate
-              |           ^^^^^
-              |
-              = help: choose another name
-              = note: the others: `self`, `Self`, `super`, `_`
-        "#]],
+                error: [SCL0307] `crate` is a Rust keyword that cannot be used as a name, not even as `r#crate`
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: crate
+                  |           ^^^^^
+                  |
+                  = help: choose another name
+                  = note: not usable either: `self`, `Self`, `super`, `_`
+            "#]],
         );
     }
 }

@@ -2,7 +2,7 @@
 //! nobody answers. SCL0704: nobody asks. SCL0705: a whole component hangs in the air, which says more than a warning for
 //! each of its gates.
 
-use super::draft::Draft;
+use super::draft::{Draft, DraftComponent};
 use super::fitting_sender::FittingSenders;
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -122,7 +122,30 @@ connections:
     },
 };
 
+/// In a file without the section `connections`, more warnings than this say no more than that the section is missing.
+const MOST_WITHOUT_SECTION: usize = 2;
+
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
+    let found = each_gate(draft);
+    let is_section_missing = draft.model.connections_key.is_none() && draft.links.is_empty();
+    match is_section_missing && found.len() > MOST_WITHOUT_SECTION {
+        true => problems.extend(without_section(found)),
+        false => problems.extend(found),
+    }
+}
+
+/// What is left to say where the section is reported as missing: requesters without a replier stay an error, told once.
+fn without_section(found: Vec<Diagnostic>) -> Option<Diagnostic> {
+    let mut requesters = found.into_iter().filter(|problem| *problem.rule == NO_REPLIER);
+    let mut first = requesters.next()?;
+    for other in requesters {
+        other.primary.iter().for_each(|gate| first.add_label(gate.span, "nobody answers this one either"));
+    }
+    Some(first)
+}
+
+fn each_gate(draft: &Draft<'_>) -> Vec<Diagnostic> {
+    let mut problems = Vec::new();
     let senders = FittingSenders::of(draft);
     for component in &draft.components {
         let open: Vec<usize> = component.gates.iter().copied().filter(|&gate| is_open(draft, gate)).collect();
@@ -131,7 +154,7 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
         // One gate alone is explained better by its own warning.
         let lonely = alone && warned > 1 && !component.model.gates_unread;
         if lonely {
-            problems.push(lonely_component(component.model, warned));
+            problems.push(lonely_component(draft, component, &open));
         }
         for gate in open {
             match draft.gates[gate].kind {
@@ -141,6 +164,7 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             }
         }
     }
+    problems
 }
 
 fn is_open(draft: &Draft<'_>, gate: usize) -> bool {
@@ -148,13 +172,17 @@ fn is_open(draft: &Draft<'_>, gate: usize) -> bool {
     !gate.named && !gate.duplicate && !gate.options.unconnected_ok && gate.kind.is_some()
 }
 
-fn lonely_component(component: &crate::model::ComponentModel, warned: usize) -> Diagnostic {
-    let name = &component.name;
+fn lonely_component(draft: &Draft<'_>, component: &DraftComponent<'_>, open: &[usize]) -> Diagnostic {
+    let name = &component.model.name;
     let headline = format!("component `{}` is not connected to anything", name.value);
+    let gates: Vec<String> = open
+        .iter()
+        .map(|&gate| format!("`{}` ({})", draft.gates[gate].model.name.value, draft.gates[gate].model.kind.value))
+        .collect();
     LONELY_COMPONENT
         .at(headline, name.span, format!("{} gates, 0 connections", component.gates.len()))
         .help("connect it or remove it")
-        .note(format!("the {warned} warnings for its gates are not shown"))
+        .note(format!("gates without a peer: {}", gates.join(", ")))
 }
 
 fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, senders: &FittingSenders<'_>) -> Diagnostic {
@@ -284,15 +312,15 @@ mod tests {
         rule_example(
             &LONELY_COMPONENT,
             expect![[r#"
-            warning: [SCL0705] component `logger` is not connected to anything
-             --> topology.yaml:2:11
-              |
-            2 |   - name: logger
-              |           ^^^^^^ 2 gates, 0 connections
-              |
-              = help: connect it or remove it
-              = note: the 2 warnings for its gates are not shown
-        "#]],
+                warning: [SCL0705] component `logger` is not connected to anything
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: logger
+                  |           ^^^^^^ 2 gates, 0 connections
+                  |
+                  = help: connect it or remove it
+                  = note: gates without a peer: `a` (sub), `b` (sub)
+            "#]],
         );
     }
 }

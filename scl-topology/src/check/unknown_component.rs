@@ -5,7 +5,8 @@ use super::draft::Draft;
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::{Examples, Rule};
-use crate::suggest::similar;
+use crate::source::Span;
+use crate::suggest::{MOST, nearest, similar};
 use crate::wording::{either, listed};
 
 /// SCL0501.
@@ -76,17 +77,19 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     let headline = format!("unknown component `{component}`");
     if let Some(swapped) = draft.gate(gate, component) {
         draft.gates[swapped].named = true;
-        return problems.push(swap(headline, text.span, gate, component));
+        return problems.push(swap(draft, headline, text.span, [gate, component]));
     }
     if draft.model.components_unread {
         return;
     }
     let place = draft.part(text.span, component, false);
     let mut found = UNKNOWN.at(headline, place, "no component has this name");
-    let meant = if draft.may_search() { meant(draft, component, gate) } else { Vec::new() };
+    let meant = if draft.may_search() { meant(draft, link, end, [component, gate]) } else { Vec::new() };
     for at in meant.iter().filter_map(|name| draft.component(name)) {
         found = found.label(draft.components[at].model.name.span, "a similar name is declared here");
     }
+    let is_open = |name: &String| draft.gate(name, gate).is_some_and(|gate| !draft.gates[gate].named);
+    let open_before = meant.iter().all(is_open);
     for name in &meant {
         if let Some(gate) = draft.gate(name, gate) {
             draft.gates[gate].named = true;
@@ -94,28 +97,53 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     }
     if !meant.is_empty() {
         found = found.help(format!("did you mean {}?", either(&meant)));
+        found = match (meant.as_slice(), open_before) {
+            // Its gate is connected to nothing, so it is certainly the one meant.
+            ([only], true) if draft.sources.snippet(place) == component => found.fix(place, only),
+            _ => meant.iter().fold(found, |found, name| found.maybe_fix(place, name)),
+        };
     }
     problems.push(found.note(declared(draft)));
 }
 
 /// The report of an end whose two names are in the wrong order.
-pub(super) fn swap(headline: String, span: crate::source::Span, component: &str, gate: &str) -> Diagnostic {
-    SWAPPED.at(headline, span, "component and gate are swapped").help(format!("write `{component}.{gate}`"))
+pub(super) fn swap(draft: &Draft<'_>, headline: String, span: Span, [component, gate]: [&str; 2]) -> Diagnostic {
+    let meant = format!("{component}.{gate}");
+    SWAPPED
+        .at(headline, span, "component and gate are swapped")
+        .help(format!("write `{meant}`"))
+        .fix(span, draft.sources.quoted_as(span, &meant))
 }
 
-/// Similar components that have the gate; without such, those that have a similar gate.
-fn meant(draft: &Draft<'_>, component: &str, gate: &str) -> Vec<String> {
-    let near = similar(component, draft.component_names.iter().copied());
+/// Similar components that have the gate; without such, those that have a similar gate. Of equally similar ones those
+/// whose gate fits the other end and is unconnected.
+fn meant(draft: &Draft<'_>, link: usize, end: usize, [component, gate]: [&str; 2]) -> Vec<String> {
+    let other = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind);
+    let near = nearest(component, draft.component_names.iter().copied());
     let has_similar = |other: &str| {
         let gates = draft.gates_of(other).map(|at| draft.gates[at].model.name.value.as_str());
         !similar(gate, gates).is_empty() || draft.declarations(other).any(|twin| twin.gates_unread)
     };
-    let owners: Vec<&str> = near.iter().copied().filter(|other| draft.gate(other, gate).is_some()).collect();
-    let best = match owners.is_empty() {
-        true => near.into_iter().filter(|other| has_similar(other)).collect(),
-        false => owners,
+    let mut best: Vec<&str> = near.iter().copied().filter(|other| draft.gate(other, gate).is_some()).collect();
+    if best.is_empty() {
+        best = near.into_iter().filter(|other| has_similar(other)).collect();
+    }
+    let found = |name: &str| draft.gate(name, gate).map(|at| &draft.gates[at]);
+    let fits = |name: &str| match (other, found(name).and_then(|gate| gate.kind)) {
+        (Some(other), Some(kind)) => kind == other.opposite(),
+        _ => true,
     };
-    best.into_iter().map(str::to_owned).collect()
+    let is_open = |name: &str| found(name).is_none_or(|gate| !gate.named);
+    keep_if_any(&mut best, fits);
+    keep_if_any(&mut best, is_open);
+    best.into_iter().take(MOST).map(str::to_owned).collect()
+}
+
+/// Leaves those that pass, unless none does.
+fn keep_if_any(names: &mut Vec<&str>, passes: impl Fn(&str) -> bool) {
+    if names.iter().any(|name| passes(name)) {
+        names.retain(|name| passes(name));
+    }
 }
 
 fn declared(draft: &Draft<'_>) -> String {

@@ -7,7 +7,7 @@ use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
-use crate::suggest::similar;
+use crate::suggest::{MOST, nearest};
 use crate::wording::{either, shortened};
 
 /// SCL0502.
@@ -47,37 +47,56 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     let headline = format!("component `{component}` has no gate `{gate}`");
     if let Some(swapped) = draft.gate(gate, component) {
         draft.gates[swapped].named = true;
-        return problems.push(swap(headline, text.span, gate, component));
+        return problems.push(swap(draft, headline, text.span, [gate, component]));
     }
     // The gate may be one of those that could not be read.
     if draft.declarations(component).any(|twin| twin.gates_unread) {
         return;
     }
-    let meant = meant(draft, link, end, component, gate);
-    problems.push(report(draft, text, headline, [component, gate], &meant));
-    for gate in meant {
+    let may_search = draft.may_search();
+    let meant = if may_search { meant(draft, link, end, component, gate) } else { Vec::new() };
+    let mut found = report(draft, text, headline, gate, &meant);
+    // Another name altogether; if a single gate is left for it, that one is not unconnected as well.
+    let left = if may_search && meant.is_empty() { only_left(draft, link, end, component) } else { None };
+    if let Some(left) = left {
+        let place = draft.part(text.span, gate, true);
+        let name = &draft.gates[left].model.name.value;
+        found = found.help(format!("{} fits and is not connected yet", described(draft, left))).maybe_fix(place, name);
+    }
+    problems.push(if may_search { found.note(known(draft, component)) } else { found });
+    for gate in meant.into_iter().chain(left) {
         draft.gates[gate].named = true;
     }
 }
 
-/// Similar gates of the component that would fit the other end.
+/// Similar gates of the component that would fit the other end; of equally similar ones those that are unconnected.
 fn meant(draft: &Draft<'_>, link: usize, end: usize, component: &str, gate: &str) -> Vec<usize> {
-    let other = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind);
-    let fits = |at: &usize| match (other, draft.gates[*at].kind) {
-        (Some(other), Some(kind)) => kind == other.opposite(),
-        _ => true,
-    };
-    let candidates = draft.gates_of(component).filter(fits).map(|at| draft.gates[at].model.name.value.as_str());
-    similar(gate, candidates).into_iter().filter_map(|name| draft.gate(component, name)).collect()
+    let fitting = draft.gates_of(component).filter(|at| fits(draft, link, end, *at));
+    let candidates = fitting.map(|at| draft.gates[at].model.name.value.as_str());
+    let near: Vec<usize> =
+        nearest(gate, candidates).into_iter().filter_map(|name| draft.gate(component, name)).collect();
+    let open: Vec<usize> = near.iter().copied().filter(|at| !draft.gates[*at].named).collect();
+    let best = if open.is_empty() { near } else { open };
+    best.into_iter().take(MOST).collect()
 }
 
-fn report(
-    draft: &Draft<'_>,
-    text: &Spanned<String>,
-    headline: String,
-    [component, gate]: [&str; 2],
-    meant: &[usize],
-) -> Diagnostic {
+/// The gate that fits and has no connection, if there is one only.
+fn only_left(draft: &Draft<'_>, link: usize, end: usize, component: &str) -> Option<usize> {
+    draft.links[link].ends[1 - end]?;
+    let mut open = draft.gates_of(component).filter(|at| !draft.gates[*at].named && fits(draft, link, end, *at));
+    open.next().filter(|_| open.next().is_none())
+}
+
+/// Whether the kind of a gate fits that at the other end, as far as both are known.
+fn fits(draft: &Draft<'_>, link: usize, end: usize, gate: usize) -> bool {
+    let other = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind);
+    match (other, draft.gates[gate].kind) {
+        (Some(other), Some(kind)) => kind == other.opposite(),
+        _ => true,
+    }
+}
+
+fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &str, meant: &[usize]) -> Diagnostic {
     let place = draft.part(text.span, gate, true);
     let mut found = RULE.at(headline, place, "unknown gate");
     if let [only] = meant {
@@ -86,11 +105,20 @@ fn report(
     if !meant.is_empty() {
         let names: Vec<&str> = meant.iter().map(|&at| draft.gates[at].model.name.value.as_str()).collect();
         found = found.help(format!("did you mean {}?", either(&names)));
+        found = match meant {
+            // A gate that nothing is connected to, and that looks like this one, is certainly the one meant.
+            [only] if !draft.gates[*only].named && draft.sources.snippet(place) == gate => found.fix(place, names[0]),
+            _ => names.iter().fold(found, |found, name| found.maybe_fix(place, *name)),
+        };
     }
+    found
+}
+
+fn known(draft: &Draft<'_>, component: &str) -> String {
     let all: Vec<String> = draft.gates_of(component).map(|at| described(draft, at)).collect();
     match all.is_empty() {
-        true => found.note(format!("`{component}` has no gates")),
-        false => found.note(format!("gates of `{component}`: {}", shortened(&all))),
+        true => format!("`{component}` has no gates"),
+        false => format!("gates of `{component}`: {}", shortened(&all)),
     }
 }
 

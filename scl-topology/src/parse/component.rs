@@ -1,8 +1,7 @@
 //! The section `components`.
 
 use super::fields::{Field, Fields};
-use super::sections::spanned_key;
-use super::{Reader, pitfall, scalar, shape};
+use super::{Reader, gate, pitfall, scalar, shape};
 use crate::model::ComponentModel;
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
@@ -46,6 +45,9 @@ impl Reader<'_> {
 
     fn read_component(&mut self, item: &Node) {
         let NodeKind::Mapping { entries } = &item.kind else {
+            if shape::stray_connection::is_pair(item) {
+                return self.read_stray_connection(item);
+            }
             self.model.components_unread = true;
             let problem = match item.kind {
                 NodeKind::Unread => return,
@@ -54,18 +56,70 @@ impl Reader<'_> {
             };
             return self.report(problem);
         };
+        if let Some(second) = second_component(entries) {
+            let (first, rest) = entries.split_at(second);
+            self.read_component_entries(item, first);
+            let start = rest.first().map_or(item.span.end, |(key, _)| key.span.start) as usize;
+            let line = start..self.source.line_range(start as u32).end;
+            let place = pitfall::Place::new(self.source, self.file);
+            self.report(pitfall::dash::missing(&line, self.source.text(), &place));
+            return self.read_component_entries(item, rest);
+        }
+        self.read_component_entries(item, entries);
+    }
+
+    fn read_component_entries(&mut self, item: &Node, entries: &[(Node, Node)]) {
+        if self.is_stray_gate(entries) {
+            return self.read_stray_gate(item);
+        }
         let fields = self.fields(entries, "this component");
         let name = match fields.get("name") {
             Some(field) => self.name_in(field, "component name"),
-            None => {
-                self.report_nameless(item, &fields);
-                None
-            }
+            None => match shape::component_key::misnamed(&fields) {
+                Some(field) => {
+                    self.report(shape::component_key::instead_of_name(field));
+                    scalar(field.value)
+                }
+                None => {
+                    self.report_nameless(item, &fields);
+                    None
+                }
+            },
         };
         match name {
             Some(name) => self.read_component_fields(&fields, name),
             None => self.model.components_unread = true,
         }
+    }
+
+    /// A pair in the list of components: the line `connections:` is missing, or stands elsewhere.
+    fn read_stray_connection(&mut self, item: &Node) {
+        if !self.has_stray_connections {
+            self.report(shape::stray_connection::diagnose(item, self.source));
+        }
+        self.has_stray_connections = true;
+        self.read_connection(item);
+    }
+
+    /// Whether a list item is rather a gate of the component above it.
+    fn is_stray_gate(&self, entries: &[(Node, Node)]) -> bool {
+        let [(key, value)] = entries else { return false };
+        let is_name = scalar(key).is_some_and(|key| !KEYS.contains(&key.value.as_str()));
+        let is_kind = match &value.kind {
+            NodeKind::Scalar { text, .. } => gate::is_kind(text),
+            NodeKind::Mapping { entries } => {
+                entries.iter().any(|(key, _)| scalar(key).is_some_and(|key| gate::is_kind(&key.value)))
+            }
+            _ => false,
+        };
+        is_name && is_kind && !self.model.components.is_empty()
+    }
+
+    fn read_stray_gate(&mut self, item: &Node) {
+        let Some(mut component) = self.model.components.pop() else { return };
+        self.report(shape::level::gate_among_components(item, &component, self.source));
+        self.read_gate_item(item, &mut component);
+        self.model.components.push(component);
     }
 
     fn report_nameless(&mut self, item: &Node, fields: &Fields<'_>) {
@@ -87,24 +141,41 @@ impl Reader<'_> {
         for field in &fields.list {
             match field.key {
                 "name" => {}
+                key if fields.get("name").is_none() && shape::component_key::is_misnamed(key) => {}
                 "doc" => component.doc = self.text(*field),
                 "optional" => component.optional = self.boolean(*field).unwrap_or(false),
-                "gates" => self.read_gates(*field, &mut component),
+                "gates" => self.read_all_gates(&fields, &mut component),
                 _ => self.read_unknown_key(*field, &mut component),
             }
         }
-        let gates = fields.get("gates");
+        let gates = fields.all("gates").last();
         if component.gates.is_empty() && !component.gates_unread {
             self.problems.extend(shape::gateless::find(&component.name, gates));
         }
         self.model.components.push(component);
     }
 
+    /// The gates, and those of a repeated list. Two lists with gates in them belong to two components, of which the
+    /// second has lost its name.
+    fn read_all_gates(&mut self, fields: &Fields<'_>, component: &mut ComponentModel) {
+        let has_items =
+            |gates: &Field<'_>| matches!(&gates.value.kind, NodeKind::Sequence { items } if !items.is_empty());
+        let is_two = fields.all("gates").filter(has_items).count() > 1;
+        self.model.components_unread |= is_two;
+        component.gates_unread |= is_two;
+        let read = if is_two { 1 } else { usize::MAX };
+        fields
+            .all("gates")
+            .filter(|gates| !is_two || has_items(gates))
+            .take(read)
+            .for_each(|gates| self.read_gates(gates, component));
+    }
+
     fn read_unknown_key(&mut self, field: Field<'_>, component: &mut ComponentModel) {
         component.gates_unread = true;
         if field.key == "connections" {
-            self.remember_broken_ends(field.value);
-            self.model.broken_ends.push(spanned_key(field));
+            self.has_stray_connections = true;
+            self.read_connections(field);
         }
         let owner = &component.name.value;
         let problem = shape::level::in_component(field, owner, self.source)
@@ -128,14 +199,26 @@ impl Reader<'_> {
         }
     }
 
-    /// The problem of a missing space after `:` if that explains why a mapping is missing, else `otherwise`.
+    /// The problem of a missing space after `:`, or of a character that looks like another, if that explains why a list
+    /// or mapping is missing; else `otherwise`.
     pub(super) fn glued_or(
         &self,
         node: &Node,
         otherwise: crate::diagnostic::Diagnostic,
     ) -> crate::diagnostic::Diagnostic {
-        pitfall::missing_space::in_node(node, self.source).unwrap_or(otherwise)
+        let look_alike =
+            || scalar(node).and_then(|text| pitfall::look_alike::in_word(node, &text.value, "the text", self.source));
+        pitfall::missing_space::in_node(node, self.source).or_else(look_alike).unwrap_or(otherwise)
     }
+}
+
+/// Where a second component starts in the keys of one: at a second `name`, if other keys come again too.
+fn second_component(entries: &[(Node, Node)]) -> Option<usize> {
+    let keys: Vec<Option<String>> = entries.iter().map(|(key, _)| scalar(key).map(|key| key.value)).collect();
+    let is_name = |key: &Option<String>| key.as_deref() == Some("name");
+    let second = keys.iter().enumerate().filter(|(_, key)| is_name(key)).nth(1)?.0;
+    let comes_again = |key: &Option<String>| !is_name(key) && key.is_some() && keys[..second].contains(key);
+    keys[second..].iter().any(comes_again).then_some(second)
 }
 
 fn unread_component(name: Spanned<String>) -> ComponentModel {

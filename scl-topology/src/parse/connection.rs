@@ -1,7 +1,9 @@
 //! The section `connections`.
 
 use super::fields::Field;
-use super::{Reader, pitfall, scalar, shape};
+use super::{Reader, is_plain, pitfall, scalar, shape};
+use crate::confusable;
+use crate::diagnostic::Diagnostic;
 use crate::model::ConnectionModel;
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
@@ -16,12 +18,15 @@ impl Reader<'_> {
             _ if section.value.is_null() => {}
             _ => {
                 self.remember_broken_ends(section.value);
-                self.report(shape::section_kind::connections(section));
+                let problem = self
+                    .glued_dash(section.value)
+                    .unwrap_or_else(|| self.glued_or(section.value, shape::section_kind::connections(section)));
+                self.report(problem);
             }
         }
     }
 
-    fn read_connection(&mut self, item: &Node) {
+    pub(super) fn read_connection(&mut self, item: &Node) {
         match &item.kind {
             NodeKind::Unread => {}
             NodeKind::Sequence { items } => self.read_ends(item.span, items),
@@ -33,7 +38,8 @@ impl Reader<'_> {
                 self.report(pitfall::no_value::in_list(item, "list item", self.source));
             }
             NodeKind::Scalar { text, .. } => {
-                let problem = self.glued_or(item, shape::ends::text(item, text));
+                let look_alike = pitfall::look_alike::in_word(item, text, "a connection", self.source);
+                let problem = look_alike.unwrap_or_else(|| self.glued_or(item, shape::ends::text(item, text)));
                 self.report(problem);
                 self.recover_pair(item);
             }
@@ -42,6 +48,9 @@ impl Reader<'_> {
 
     fn read_ends(&mut self, span: Span, items: &[Node]) {
         let [first, second] = items else {
+            if let [only] = items {
+                return self.read_one_end(span, only);
+            }
             self.report(shape::ends::count(span, items));
             return items.iter().for_each(|item| self.remember_broken_ends(item));
         };
@@ -51,6 +60,28 @@ impl Reader<'_> {
             }
             (first, second) => self.model.broken_ends.extend(first.into_iter().chain(second)),
         }
+    }
+
+    /// A list of one, in which two ends may stand without a comma between them.
+    fn read_one_end(&mut self, span: Span, item: &Node) {
+        let look_alike =
+            scalar(item).and_then(|text| pitfall::look_alike::in_word(item, &text.value, "a connection", self.source));
+        self.report(look_alike.unwrap_or_else(|| shape::ends::count(span, std::slice::from_ref(item))));
+        self.recover_pair(item);
+    }
+
+    /// The problem of a text that is `-[a.b, c.d]`: a list item whose dash is glued to it.
+    fn glued_dash(&self, value: &Node) -> Option<Diagnostic> {
+        let NodeKind::Scalar { text, .. } = &value.kind else { return None };
+        let is_glued = is_plain(value) && text.starts_with('-') && !text.starts_with("--");
+        is_glued.then(|| self.dash_without_space(value.span))
+    }
+
+    /// A dash at the start of a value, with no space after it.
+    pub(super) fn dash_without_space(&self, value: Span) -> Diagnostic {
+        let start = value.start as usize;
+        let place = pitfall::Place::new(self.source, self.file);
+        pitfall::dash::without_space(&(start..start + 1), self.source.text(), &place)
     }
 
     fn end(&mut self, node: &Node) -> Option<Spanned<String>> {
@@ -83,15 +114,17 @@ impl Reader<'_> {
 fn words_of(node: &Node) -> Vec<Spanned<String>> {
     match &node.kind {
         NodeKind::Unread => Vec::new(),
-        NodeKind::Scalar { text, .. } => match text.split_whitespace().collect::<Vec<_>>().as_slice() {
-            [_] => scalar(node).into_iter().collect(),
-            words => words
-                .iter()
-                .map(|word| word.trim_matches([',', '[', ']']))
-                .filter(|word| word.contains('.'))
-                .map(|word| Spanned { value: word.to_owned(), span: node.span })
-                .collect(),
-        },
+        NodeKind::Scalar { text, .. } => {
+            let text = confusable::retyped(text);
+            match shape::ends::words(&text).as_slice() {
+                [only] if *only == text => scalar(node).into_iter().collect(),
+                words => words
+                    .iter()
+                    .filter(|word| word.contains('.'))
+                    .map(|word| Spanned { value: (*word).to_owned(), span: node.span })
+                    .collect(),
+            }
+        }
         NodeKind::Sequence { items } => items.iter().flat_map(words_of).collect(),
         NodeKind::Mapping { entries } => {
             entries.iter().flat_map(|(key, value)| words_of(key).into_iter().chain(words_of(value))).collect()

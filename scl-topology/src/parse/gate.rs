@@ -2,6 +2,7 @@
 
 use super::fields::{Field, Fields};
 use super::{Reader, is_plain, pitfall, scalar, shape};
+use crate::confusable;
 use crate::diagnostic::Diagnostic;
 use crate::model::{ComponentModel, GateModel};
 use crate::source::{Span, Spanned};
@@ -13,6 +14,11 @@ impl Reader<'_> {
         match &field.value.kind {
             NodeKind::Unread => component.gates_unread = true,
             NodeKind::Sequence { items } => items.iter().for_each(|item| self.read_gate_item(item, component)),
+            NodeKind::Mapping { entries } if is_glued_dash(entries) => {
+                component.gates_unread = true;
+                let problem = self.dash_without_space(field.value.span);
+                self.report(problem);
+            }
             NodeKind::Mapping { entries } => {
                 self.report(shape::section_kind::gates(field, self.source));
                 for gate in self.fields(entries, "`gates`").list {
@@ -34,7 +40,7 @@ impl Reader<'_> {
         }
     }
 
-    fn read_gate_item(&mut self, item: &Node, component: &mut ComponentModel) {
+    pub(super) fn read_gate_item(&mut self, item: &Node, component: &mut ComponentModel) {
         let NodeKind::Mapping { entries } = &item.kind else { return self.read_bare_item(item, component) };
         let fields = self.fields(entries, "this gate");
         component.gates_unread |= fields.damaged;
@@ -51,6 +57,15 @@ impl Reader<'_> {
             }
             return;
         };
+        if first.value.is_null()
+            && let Some(kind) = others.clone().find(|other| is_kind(other.key))
+            && let Some(name) = self.name(first.key_node, "gate name", "a gate name")
+        {
+            self.report(shape::level::kind_beside_name(*kind, *first, self.source));
+            let whole = Field { value: item, ..*first };
+            let gate = self.read_gate_mapping(name, whole, entries.get(1..).unwrap_or(&[]), &component.name.value);
+            return component.gates.push(gate);
+        }
         self.read_gate(*first, component);
         let (options, gates): (Vec<&Field<'_>>, Vec<&Field<'_>>) =
             others.partition(|other| super::option::is_key(other.key));
@@ -87,6 +102,23 @@ impl Reader<'_> {
 
     /// `- name`, or `- name kind`, which can be understood.
     fn read_gate_without_colon(&mut self, item: &Node, text: &str, component: &mut ComponentModel) -> Diagnostic {
+        if let Some(problem) = pitfall::look_alike::in_word(item, text, "gate name", self.source) {
+            let retyped = confusable::retyped(text);
+            let (name, kind) = retyped.split_once([':', ' ']).unwrap_or((&retyped, ""));
+            component.gates.push(bare_gate(
+                Spanned { value: name.trim_matches(['"', '\'']).to_owned(), span: item.span },
+                Spanned { value: if is_kind(kind.trim()) { kind.trim() } else { "" }.to_owned(), span: item.span },
+                item.span,
+            ));
+            return problem;
+        }
+        if let Some((name, kind)) = text.split_once('=').filter(|(_, kind)| is_kind(kind.trim())) {
+            let span = Span { end: item.span.start + name.trim().len() as u32, ..item.span };
+            let kind = Spanned { value: kind.trim().to_owned(), span: item.span };
+            let problem = shape::gate::equals_sign(name.trim(), &kind.value, item.span);
+            component.gates.push(bare_gate(Spanned { value: name.trim().to_owned(), span }, kind, item.span));
+            return problem;
+        }
         let named = |name: &str| Spanned {
             value: name.to_owned(),
             span: Span { end: item.span.start + name.len() as u32, ..item.span },
@@ -137,6 +169,7 @@ impl Reader<'_> {
                 Some(problem) => problem,
                 None => {
                     let kind = scalar(field.value).unwrap_or(Spanned { value: text.clone(), span: field.value.span });
+                    let kind = self.in_ascii(field.value, kind, "the kind");
                     return bare_gate(name, kind, span);
                 }
             },
@@ -156,9 +189,24 @@ impl Reader<'_> {
         let fields = self.fields(entries, "this gate");
         let mut gate = unread_gate(name);
         gate.span = field.key_span.to(field.value.span);
+        if let Some(problem) = self.look_alike_key(&fields) {
+            self.report(problem);
+            return gate;
+        }
+        if let Some(glued) = glued_key(&fields) {
+            self.report(shape::gate::key_without_colon(glued, first_word(glued.key)));
+            return gate;
+        }
         let Some(kind) = self.gate_kind(field, &fields) else { return gate };
         gate.kind = super::sections::spanned_key(kind);
         gate.payload = self.payload(kind);
+        if let Some(answer) = self.second_type(kind, &fields) {
+            if let Some(payload) = &mut gate.payload {
+                payload.value = format!("{} -> {}", payload.value, answer.key);
+            }
+            self.report(shape::gate::comma_between_types(&gate, answer));
+            return gate;
+        }
         for option in fields.list.iter().filter(|other| other.key_span != kind.key_span) {
             if super::option::is_key(option.key) {
                 gate.options.extend(self.option(*option));
@@ -168,6 +216,21 @@ impl Reader<'_> {
             }
         }
         gate
+    }
+
+    /// A key without a value that has a look-alike in it, such as another colon.
+    fn look_alike_key(&self, fields: &Fields<'_>) -> Option<Diagnostic> {
+        let mut empty = fields.list.iter().filter(|field| field.value.is_null() && !field.key.is_ascii());
+        empty.find_map(|field| pitfall::look_alike::in_word(field.key_node, field.key, "the key", self.source))
+    }
+
+    /// `{rep: Request, Reply}`: the second type of an exchange, as a key.
+    fn second_type<'n>(&self, kind: Field<'_>, fields: &Fields<'n>) -> Option<Field<'n>> {
+        let asks = matches!(kind.key, "req" | "rep");
+        let has_one = scalar(kind.value).is_some_and(|payload| !payload.value.contains("->"));
+        let is_type = |key: &str| key.chars().next().is_some_and(char::is_uppercase) || key.contains('.');
+        let second = |field: &&Field<'_>| field.value.is_null() && is_type(field.key);
+        fields.list.iter().find(second).filter(|_| asks && has_one).copied()
     }
 
     /// The key that says the kind: one of the six words, else the first that is no option.
@@ -193,9 +256,61 @@ impl Reader<'_> {
         if kind.value.is_null() {
             return None;
         }
-        let payload = self.name_in(kind, &format!("type of the `{}` gate", kind.key))?;
+        let mut payload = self.name_in(kind, &format!("type of the `{}` gate", kind.key))?;
+        if matches!(kind.key, "req" | "rep")
+            && let Some((arrow, meant)) = odd_arrow(&payload.value)
+        {
+            self.report(shape::gate::odd_arrow(kind, arrow, &meant));
+            payload.value = meant;
+        }
         // A type in quotes is the same type; the place is that of the whole value.
         (is_plain(kind.value) || !payload.value.trim().is_empty()).then_some(payload)
+    }
+}
+
+/// `{pub Type, queue 4}`: a key that lacks its colon, so that its value belongs to it.
+fn glued_key<'n>(fields: &Fields<'n>) -> Option<Field<'n>> {
+    let is_glued = |field: &&Field<'n>| {
+        let word = first_word(field.key);
+        let is_known = is_kind(word) || super::option::is_key(word);
+        field.value.is_null() && word.len() < field.key.len() && is_known && is_plain(field.key_node)
+    };
+    fields.list.iter().find(is_glued).copied()
+}
+
+/// The word up to a space or an equals sign.
+fn first_word(key: &str) -> &str {
+    key.split([' ', '=']).next().unwrap_or(key)
+}
+
+/// Whether each entry is an item of a list whose dash lacks its space: `-measurements: pub`.
+fn is_glued_dash(entries: &[(Node, Node)]) -> bool {
+    let is_glued = |key: &Node| {
+        is_plain(key) && scalar(key).is_some_and(|key| key.value.starts_with('-') && !key.value.starts_with("--"))
+    };
+    !entries.is_empty() && entries.iter().all(|(key, _)| is_glued(key))
+}
+
+/// Something between two types that stands for `->`, and the text with `->` in its place.
+fn odd_arrow(payload: &str) -> Option<(&str, String)> {
+    let words: Vec<&str> = payload.split_whitespace().collect();
+    let is_type = |word: &str| word.starts_with(|c: char| c.is_ascii_alphabetic()) && !word.contains(['>', '<']);
+    let (first, last) = (words.first()?, words.last()?);
+    let glued = ["=>", "-->"].into_iter().find_map(|arrow| {
+        let (request, reply) = payload.split_once(arrow)?;
+        Some((arrow, request.trim(), reply.trim()))
+    });
+    match (words.as_slice(), glued) {
+        (_, Some((arrow, request, reply))) if is_type(request) && is_type(reply) => {
+            Some((arrow, format!("{request} -> {reply}")))
+        }
+        ([request, reply], None) if is_type(request) && is_type(reply) => Some(("", format!("{request} -> {reply}"))),
+        ([_, .., _], None) if is_type(first) && is_type(last) => {
+            let between = payload[first.len()..payload.len() - last.len()].trim();
+            let is_arrow = matches!(between, "<-" | "-" | ">" | "- >" | "→" | "<->" | "--" | "=" | ":" | "/" | "|");
+            is_arrow.then(|| (between, format!("{first} -> {last}")))
+        }
+        _ => None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::fields::Field;
 use super::{Reader, is_plain, pitfall, scalar, shape};
+use crate::confusable;
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind, Style};
 
@@ -36,7 +37,19 @@ impl Reader<'_> {
                 return None;
             }
         }
-        scalar(node)
+        scalar(node).map(|word| self.in_ascii(node, word, what))
+    }
+
+    /// The word with the characters that were meant, where some only look like them.
+    pub(super) fn in_ascii(&mut self, node: &Node, word: Spanned<String>, what: &str) -> Spanned<String> {
+        // Files may have any name.
+        if word.value.is_ascii() || what == "schema file" {
+            return word;
+        }
+        let Some(problem) = pitfall::look_alike::in_word(node, &word.value, what, self.source) else { return word };
+        self.report(problem);
+        let retyped = confusable::retyped(&word.value);
+        Spanned { value: retyped.trim_matches(['"', '\'', ' ']).to_owned(), ..word }
     }
 
     /// Text without quotes that YAML reads as something else.

@@ -3,25 +3,32 @@
 mod anchor;
 pub(super) mod boolean_word;
 mod bracket;
+mod conflict_marker;
+pub(super) mod dash;
 mod depth;
 mod directive;
 pub(super) mod duplicate_key;
 mod empty_file;
 mod indentation;
 mod invisible;
+pub(super) mod look_alike;
 pub(super) mod merge_key;
+mod missing_colon;
+mod missing_comma;
 pub(super) mod missing_space;
 pub(super) mod no_value;
 mod not_yaml;
 pub(super) mod number_name;
 pub(super) mod odd_key;
 mod quote;
+mod repair;
 mod reserved_character;
 mod scan;
 mod second_document;
 mod tab;
 mod tag;
 pub(super) mod text_block_name;
+mod unexpected;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::Rule;
@@ -29,7 +36,7 @@ use crate::source::{FileId, SourceFile, Span};
 use crate::yaml::{SyntaxError, SyntaxErrorKind, Tree};
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 21] = [
+pub(crate) const RULES: [&Rule; 27] = [
     &tab::RULE,
     &bracket::RULE,
     &missing_space::RULE,
@@ -51,6 +58,12 @@ pub(crate) const RULES: [&Rule; 21] = [
     &text_block_name::RULE,
     &odd_key::RULE,
     &not_yaml::RULE,
+    &missing_comma::RULE,
+    &missing_colon::RULE,
+    &dash::RULE,
+    &unexpected::RULE,
+    &conflict_marker::RULE,
+    &look_alike::RULE,
 ];
 
 /// The rules about words that YAML reads as something else, or that hold an invisible character.
@@ -63,7 +76,11 @@ pub(super) struct Place<'s> {
     file: FileId,
 }
 
-impl Place<'_> {
+impl<'s> Place<'s> {
+    pub(super) fn new(source: &'s SourceFile, file: FileId) -> Self {
+        Place { source, file }
+    }
+
     /// The span of some bytes of the file.
     fn span(&self, range: std::ops::Range<usize>) -> Span {
         Span { file: self.file, start: range.start as u32, end: range.end as u32 }
@@ -72,6 +89,13 @@ impl Place<'_> {
     /// The line of a byte, from 1.
     fn line(&self, at: usize) -> u32 {
         self.source.line(at as u32)
+    }
+
+    /// The bytes of the line below one that ends at a byte, without the line break; at the end of the file, nothing.
+    fn line_below(&self, end: usize) -> std::ops::Range<usize> {
+        let text = self.source.text();
+        let next = text[end..].find('\n').map_or(text.len(), |at| end + at + 1);
+        self.line_range(next)
     }
 
     /// The bytes of the line of a byte, without the line break.
@@ -86,17 +110,22 @@ pub(super) struct CheckedText {
     pub(super) text: String,
     /// Tabs or invisible characters became spaces, so that what the parser says of the structure means nothing.
     pub(super) is_mended: bool,
+    /// Two versions of the file stand in it, of which the text has the first.
+    pub(super) has_conflict: bool,
 }
 
 /// The rules that need no parser.
 pub(super) fn check_text(source: &SourceFile, file: FileId, problems: &mut Diagnostics) -> CheckedText {
     let place = Place { source, file };
     let mut text = source.text().to_owned();
+    let conflict = conflict_marker::check(&place, &mut text);
+    let has_conflict = conflict.is_some();
+    problems.extend(conflict);
     let scan = scan::scan(&text);
     let is_cleaned = invisible::check(&place, &scan, &mut text, problems);
     directive::check(&place, &mut text, problems);
     let has_tabs = tab::check(&place, &scan, &mut text, problems);
-    CheckedText { text, is_mended: is_cleaned || has_tabs }
+    CheckedText { text, is_mended: is_cleaned || has_tabs || has_conflict, has_conflict }
 }
 
 /// The rules about what the parser found, but not about what it means.
@@ -129,7 +158,6 @@ fn syntax_error(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> O
         return None;
     }
     let explained = match error.kind {
-        SyntaxErrorKind::Bracket => bracket::find(error, &text.text, place),
         SyntaxErrorKind::Quote => quote::find(error, &text.text, place),
         SyntaxErrorKind::Character(character) => Some(reserved_character::diagnose(error.at, character, place)),
         SyntaxErrorKind::Property => reserved_character::find(error.at, place),
@@ -137,11 +165,19 @@ fn syntax_error(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> O
         SyntaxErrorKind::Directive => Some(directive::diagnose(place, error.at)),
         _ => None,
     };
-    explained
-        .or_else(|| missing_space::before(error, place))
-        .or_else(|| quote::find(error, &text.text, place))
-        .or_else(|| bracket::find_open(error, &text.text, place))
+    let explained =
+        explained.or_else(|| missing_space::before(error, place)).or_else(|| quote::find(error, &text.text, place));
+    if explained.is_some() {
+        return explained;
+    }
+    let repair = repair::find(error, text, place);
+    if repair.as_ref().is_some_and(|repair| repair.is_sure) {
+        return repair.map(|repair| repair.problem);
+    }
+    bracket::find(error, &text.text, place)
         .or_else(|| not_yaml::missing_dash_space(error, place))
+        .or_else(|| not_yaml::missing_colon(error, place))
         .or_else(|| indentation::find(error, &text.text, place))
+        .or_else(|| repair.map(|repair| repair.problem))
         .or_else(|| Some(not_yaml::diagnose(error, place)))
 }

@@ -18,8 +18,8 @@ impl Reader<'_> {
                 "codec" => self.model.codec = self.name_in(*field, "codec"),
                 "schemas" => self.read_schemas(*field),
                 "scl" => self.read_version(*field),
-                "components" => self.read_components(*field),
-                "connections" => self.read_connections(*field),
+                "components" => fields.all("components").for_each(|section| self.read_components(section)),
+                "connections" => fields.all("connections").for_each(|section| self.read_connections(section)),
                 key if key.starts_with("x-") => {}
                 _ => self.report_unknown_section(*field),
             }
@@ -76,7 +76,9 @@ impl Reader<'_> {
                 && matches!(field.value.kind, NodeKind::Sequence { .. })
         };
         let has_connections = fields.get("connections").is_some();
-        let connections_unread = !has_connections && (perhaps("connections") || fields.list.iter().any(is_odd_list));
+        let is_stray = self.has_stray_connections;
+        let connections_unread =
+            !has_connections && !is_stray && (perhaps("connections") || fields.list.iter().any(is_odd_list));
         self.model.connections_unread = connections_unread;
         match fields.get("components") {
             None if perhaps("components") => self.model.components_unread = true,
@@ -84,9 +86,9 @@ impl Reader<'_> {
                 self.model.components_unread = true;
                 self.report(shape::missing_section::diagnose(fields, self.file));
             }
-            Some(components) if !connections_unread && self.model.broken_ends.is_empty() => {
+            Some(components) if !connections_unread && !is_stray && self.model.broken_ends.is_empty() => {
                 let gates: usize = self.model.components.iter().map(|component| component.gates.len()).sum();
-                let connections = fields.get("connections");
+                let connections = fields.all("connections").last();
                 self.problems.extend(shape::no_connections::find(components, connections, gates));
             }
             Some(_) => {}

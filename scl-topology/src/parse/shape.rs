@@ -12,6 +12,7 @@ pub(super) mod no_components;
 pub(super) mod no_connections;
 pub(super) mod option_value;
 pub(super) mod section_kind;
+pub(super) mod stray_connection;
 pub(super) mod top_level;
 pub(super) mod unknown_section;
 pub(super) mod version;
@@ -21,7 +22,7 @@ use crate::rule::Rule;
 use crate::suggest::similar;
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 15] = [
+pub(crate) const RULES: [&Rule; 16] = [
     &top_level::RULE,
     &unknown_section::RULE,
     &missing_section::RULE,
@@ -37,6 +38,7 @@ pub(crate) const RULES: [&Rule; 15] = [
     &version::RULE,
     &level::RULE,
     &option_value::RULE,
+    &stray_connection::RULE,
 ];
 
 /// Words in backticks, joined by commas.

@@ -52,7 +52,7 @@ fn syntax() {
             components
               - name: a
 
-            SCL0121 1:1 missing `:` after `components`
+            SCL0123 1:1 missing `:` after `components`
 
             components:
               - name: a
@@ -83,7 +83,7 @@ fn syntax() {
             components:
               - name: a: b
 
-            SCL0121 2:12 this is not valid YAML: mapping values are not allowed in this context
+            SCL0125 2:12 `: b` is not expected here
 
             components:
               - name: *
@@ -94,7 +94,7 @@ fn syntax() {
               - name: a
               -name: b
 
-            SCL0121 3:3 missing space after `-`
+            SCL0124 3:3 missing space after `-`
 
             components:
               - name: a
@@ -110,8 +110,6 @@ fn syntax() {
             ---
             --- d
 
-            SCL0202 1:1 unknown section `a`
-            SCL0203 1:1 the section `components` is missing
             SCL0111 1:4 YAML anchors and aliases are not supported in a topology
             SCL0114 2:1 a topology is one YAML document; a second one starts here
 

@@ -28,10 +28,10 @@ connections: []
 /// A bracket problem that the parser noticed as such.
 pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
     match text.as_bytes().get(error.at) {
-        Some(b'[' | b'{') => Some(match wrong_close(error.at, text, place) {
-            Some(close) => mismatched(error.at, close, text, place),
-            None => never_closed(error.at, text, place),
-        }),
+        Some(b'[' | b'{') => match wrong_close(error.at, text, place) {
+            Some(close) => Some(mismatched(error.at, close, text, place)),
+            None => (!is_closed(error.at, text, place)).then(|| never_closed(error.at, text, place)),
+        },
         Some(b']' | b'}') if scan::scan(&text[..error.at]).open_brackets.is_empty() => {
             Some(never_opened(error.at, text, place))
         }
@@ -53,11 +53,27 @@ pub(super) fn find_open(error: &SyntaxError, text: &str, place: &Place<'_>) -> O
     let open = scan::scan(text.get(..error.at)?).open_brackets.pop()?;
     match text.as_bytes().get(error.at) {
         Some(b']' | b'}') => Some(mismatched(open, error.at, text, place)),
-        _ => Some(never_closed(open, text, place)),
+        _ => (!is_closed(open, text, place)).then(|| never_closed(open, text, place)),
     }
 }
 
-fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+/// Whether a bracket is closed in its line, so that it is not what is wrong.
+fn is_closed(open: usize, text: &str, place: &Place<'_>) -> bool {
+    let mut depth = 0_usize;
+    for letter in text[open..place.line_range(open).end].bytes() {
+        match letter {
+            b'[' | b'{' => depth += 1,
+            b']' | b'}' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return true;
+        }
+    }
+    false
+}
+
+pub(super) fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let bracket = &text[open..open + 1];
     let next = next_item(open, text, place);
     let inside = &text[open + 1..next.as_ref().map_or(text.len(), |item| item.start)];
@@ -73,18 +89,51 @@ fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     })
 }
 
-fn never_opened(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(super) fn never_opened(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let bracket = &text[at..at + 1];
     RULE.at(format!("this `{bracket}` closes nothing"), place.span(at..at + 1), "no bracket is open here")
         .help("remove it, or add the opening bracket")
 }
 
-fn mismatched(open: usize, at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(super) fn mismatched(open: usize, at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let (bracket, found) = (&text[open..open + 1], &text[at..at + 1]);
     let close = closing(bracket);
     RULE.at(format!("this `{found}` does not close `{bracket}`"), place.span(at..at + 1), "")
         .label(place.span(open..open + 1), "opened here")
         .help(format!("write `{close}` instead"))
+}
+
+/// A bracket that should be closed after a word.
+pub(super) fn close_after(open: usize, word: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let bracket = &text[open..open + 1];
+    let close = closing(bracket);
+    let mut problem = never_closed(open, text, place);
+    if place.line(open) != place.line(word.start) {
+        problem.secondary.clear();
+        problem = problem.label(place.span(word.clone()), format!("expected `{close}` after this"));
+    }
+    if !word.is_empty() {
+        problem.helps.clear();
+        problem = problem.help(format!("add `{close}` after `{}`", &text[word.clone()]));
+    }
+    problem
+}
+
+/// A bracket that should be opened before a word.
+pub(super) fn open_before(close: usize, word: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let found = &text[close..close + 1];
+    let open = if found == "]" { '[' } else { '{' };
+    RULE.at(format!("this `{found}` closes nothing"), place.span(close..close + 1), "no bracket is open here")
+        .help(format!("add `{open}` before `{}`", &text[word.clone()]))
+}
+
+/// A list that is closed but never opened, after the colon of its key.
+pub(super) fn open_after(colon: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let line = place.line_range(colon.start);
+    let key = text[line.start..colon.start].trim_start_matches([' ', '{', ',']).trim_end();
+    let start = colon.start - text[line.start..colon.start].trim_end().len().min(key.len());
+    RULE.at(format!("the list of {key} is never opened"), place.span(start..colon.end), "no bracket after this")
+        .help("add `[` after the colon")
 }
 
 fn closing(open: &str) -> char {
@@ -115,7 +164,11 @@ fn last_word(inside: &str) -> Option<&str> {
         let line = line.trim();
         !line.is_empty() && !line.starts_with('#')
     })?;
-    line.split([' ', ',', '[', ']', '{', '}']).rfind(|word| !word.is_empty())
+    let code = line.trim_end();
+    match code.ends_with([']', '}']) {
+        true => code.get(code.len() - 1..),
+        false => code.split([' ', ',', '[', ']', '{', '}']).rfind(|word| !word.is_empty()),
+    }
 }
 
 #[cfg(test)]

@@ -35,6 +35,9 @@ pub(crate) const RULE: Rule = Rule {
 pub(in crate::parse) fn diagnose(second: &Field<'_>, first: Span, owner: &str) -> Diagnostic {
     let message = format!("the key `{}` is written twice in {owner}", second.key);
     let help = match second.value.kind {
+        NodeKind::Sequence { .. } if second.key == "gates" => {
+            "merge the two lists, or write the `- name: ...` of another component above the second"
+        }
         NodeKind::Sequence { .. } => "merge the two lists",
         _ => "remove one of them",
     };
@@ -55,17 +58,17 @@ mod tests {
         check(
             &RULE,
             expect![[r#"
-            error: [SCL0107] the key `gates` is written twice in this component
-             --> topology.yaml:5:5
-              |
-            3 |     gates:
-              |     ----- first time
-            4 |       - measurements: pub
-            5 |     gates:
-              |     ^^^^^ second time
-              |
-              = help: merge the two lists
-              = note: YAML tools disagree which one wins: PyYAML silently keeps the second"#]],
+                error: [SCL0107] the key `gates` is written twice in this component
+                 --> topology.yaml:5:5
+                  |
+                3 |     gates:
+                  |     ----- first time
+                4 |       - measurements: pub
+                5 |     gates:
+                  |     ^^^^^ second time
+                  |
+                  = help: merge the two lists, or write the `- name: ...` of another component above the second
+                  = note: YAML tools disagree which one wins: PyYAML silently keeps the second"#]],
         );
     }
 }

@@ -73,10 +73,45 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     Some(diagnose(first, meant, is_misplaced_key, &above, text, place))
 }
 
+/// A line, by its first word, that belongs into another column.
+pub(super) fn in_wrong_column(word: &Range<usize>, column: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+    let line = place.line_range(word.start);
+    let above = levels_above(text, line.start);
+    let own = levels_of(&text[line.clone()], line.start).into_iter().next();
+    let own = own.unwrap_or(Level { indent: word.start - line.start, is_dash: false, word: word.clone() });
+    let meant = above.iter().rev().find(|level| level.indent == column && level.is_dash == own.is_dash);
+    let same = above.iter().find(|level| level.indent == own.indent);
+    let is_misplaced_key = same.is_some_and(|level| level.is_dash) && !own.is_dash && column > 0;
+    if let Some(meant) = meant.filter(|_| same.is_none() || is_misplaced_key) {
+        return diagnose(&own, meant, is_misplaced_key, &above, text, place);
+    }
+    let name = &text[own.word.clone()];
+    let what = if own.is_dash { "this list item".to_owned() } else { format!("`{name}`") };
+    let message = match column {
+        0 => format!("{what} is indented by {}, and starts in column 1", spaces(own.indent)),
+        _ => format!("{what} is indented by {} instead of {}", spaces(own.indent), spaces(column)),
+    };
+    let problem = RULE.at(message, place.span(own.word.clone()), spaces(own.indent));
+    let problem = match meant.or_else(|| above.iter().find(|level| level.indent == column)) {
+        Some(meant) if column > 0 => problem.label(place.span(meant.word.clone()), spaces(column)),
+        _ => problem,
+    };
+    problem.help(way_out(&own, column, text))
+}
+
+fn way_out(line: &Level, column: usize, text: &str) -> String {
+    let word = &text[line.word.clone()];
+    match column {
+        0 => format!("move `{word}` to column 1"),
+        _ if line.is_dash => format!("indent this item by {}", spaces(column)),
+        _ => format!("indent `{word}` by {}", spaces(column)),
+    }
+}
+
 /// A key that is indented deeper than the one above it, which has a value in its line: YAML takes both lines for one
 /// text, and stumbles over the colon.
 fn deeper_below(line: &Range<usize>, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
-    let below = place.line_range((line.end + 1).min(text.len()));
+    let below = place.line_below(line.end);
     let key = levels_of(&text[below.clone()], below.start).pop().filter(|key| !key.is_dash)?;
     let own = levels_of(&text[line.clone()], line.start).pop().filter(|own| has_value(own, text, place))?;
     let is_key = text[key.word.end..].starts_with(':') && below.start > line.start;
@@ -167,11 +202,10 @@ fn diagnose(
         true => "this key is indented like the `-` of the list item above it, not like its keys".to_owned(),
         false => format!("this line is indented by {}, which matches no line above it", spaces(line.indent)),
     };
-    let word = &text[line.word.clone()];
     let label = format!("{} are indented by {}", owner(meant, above, text), spaces(meant.indent));
     RULE.at(message, place.span(line.word.clone()), spaces(line.indent))
         .label(place.span(meant.word.clone()), label)
-        .help(format!("indent `{word}` by {}", spaces(meant.indent)))
+        .help(way_out(line, meant.indent, text))
 }
 
 /// Whose keys stand at a level, in words.

@@ -7,6 +7,7 @@ use crate::parse::is_plain;
 use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, SyntaxError};
+use std::ops::Range;
 
 /// SCL0103.
 pub(crate) const RULE: Rule = Rule {
@@ -40,6 +41,19 @@ pub(in crate::parse) fn in_node(node: &Node, source: &SourceFile) -> Option<Diag
     Some(diagnose(key, value, node.span))
 }
 
+/// A key of a mapping that starts a list or mapping at its colon: `gates:[x: pub]`.
+pub(in crate::parse) fn in_key(key: &Node, text: &str) -> Option<Diagnostic> {
+    let (word, value) = split(text).filter(|_| is_plain(key))?;
+    value.starts_with(['[', '{']).then(|| diagnose(word, value, key.span))
+}
+
+/// `{x:{pub: A}}`: YAML 1.2 allows it, and most readers do not.
+pub(super) fn in_brackets(glued: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let written = &text[glued.clone()];
+    let (key, value) = written.split_once(':').unwrap_or((written, ""));
+    diagnose(key, value, place.span(glued.start..glued.start))
+}
+
 /// A word such as `name:sensor` in the lines before a syntax error.
 pub(super) fn before(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
     let text = place.source.text();
@@ -69,8 +83,12 @@ fn with_words(problem: Diagnostic, error: &SyntaxError, start: usize, place: &Pl
 fn diagnose(key: &str, value: &str, at: Span) -> Diagnostic {
     let colon = at.start + key.len() as u32;
     let span = Span { start: colon, end: colon + 1, ..at };
-    RULE.at("missing space after `:`", span, format!("YAML reads `{key}:{value}` as one word"))
-        .help(format!("write `{key}: {value}`"))
+    let problem = RULE.at("missing space after `:`", span, format!("YAML reads `{key}:{value}` as one word"));
+    match value.starts_with(['[', '{']) {
+        true => problem.help(format!("write a space after `{key}:`")),
+        false => problem.help(format!("write `{key}: {value}`")),
+    }
+    .fix(Span { start: span.end, ..span }, " ")
 }
 
 /// Key and value of `name:sensor`; not of `my_crate::Codec`, nor of an address such as `tcp://host`.

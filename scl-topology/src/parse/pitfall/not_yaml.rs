@@ -1,6 +1,6 @@
 //! SCL0121: a syntax error that no other rule explains.
 
-use super::Place;
+use super::{Place, dash, missing_colon};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::{component, sections};
@@ -13,12 +13,14 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0121",
     severity: Severity::Error,
     title: "text that is not YAML",
-    explanation: "The text is no YAML, and none of the more exact rules knows why. The place is where the parser gave \
-                  up; the mistake stands there or shortly before. Compare the lines with those of a sound file.",
+    explanation: "The text is not valid YAML, and no single change near this place makes it so: there may be more than \
+                  one mistake. The place is where the parser gave up; the first mistake stands there or shortly before.",
     examples: Examples::Topology {
-        bad: "components
+        bad: "components:
   - name: sensor
-    gates: []
+sensor reads the bus
+  - name: camera
+camera is optional
 ",
         good: "components:
   - name: sensor
@@ -28,9 +30,6 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 pub(super) fn diagnose(error: &SyntaxError, place: &Place<'_>) -> Diagnostic {
-    if let Some(problem) = missing_colon(error, place) {
-        return problem;
-    }
     let text = place.source.text();
     let mut at = error.at;
     while at > 0 && !text.is_char_boundary(at) {
@@ -43,17 +42,14 @@ pub(super) fn diagnose(error: &SyntaxError, place: &Place<'_>) -> Diagnostic {
 }
 
 /// A section or key without its colon, in the line of the error or the one before.
-fn missing_colon(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
-    let (start, word) = here_and_above(error, place).find_map(|line| {
-        let content = &place.source.text()[line.clone()];
-        let content = content.trim_start_matches([' ', '-']);
+pub(super) fn missing_colon(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
+    let text = place.source.text();
+    here_and_above(error, place).find_map(|line| {
+        let content = text[line.clone()].trim_start_matches([' ', '-']);
         let word = content.split([' ', '#']).next().filter(|word| is_key(word))?;
-        Some((line.end - content.len(), word))
-    })?;
-    Some(
-        RULE.at(format!("missing `:` after `{word}`"), place.span(start..start + word.len()), "a key")
-            .help(format!("write `{word}:`")),
-    )
+        let start = line.end - content.len();
+        Some(missing_colon::after(&(start..start + word.len()), text, place))
+    })
 }
 
 /// The line of the error and the one above it.
@@ -65,17 +61,19 @@ fn here_and_above(error: &SyntaxError, place: &Place<'_>) -> impl Iterator<Item 
 
 /// `-sensor` or `-- sensor` where `- sensor` is meant.
 pub(super) fn missing_dash_space(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
-    let (start, dashes, rest) = here_and_above(error, place).find_map(|line| {
-        let word = place.source.text()[line.clone()].trim_start_matches(' ');
+    let text = place.source.text();
+    here_and_above(error, place).find_map(|line| {
+        let word = text[line.clone()].trim_start_matches(' ');
         let rest = word.trim_start_matches('-');
         let dashes = word.len() - rest.len();
         let starts_word = rest.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '[');
-        let is_odd = dashes == 2 || dashes == 1 && !rest.starts_with(' ');
-        (starts_word && is_odd).then_some((line.end - word.len(), dashes, rest.trim()))
-    })?;
-    let message = if dashes == 1 { "missing space after `-`" } else { "a list item starts with one `-`, not with two" };
-    let span = place.span(start..start + dashes);
-    Some(RULE.at(message, span, "starts no list item").help(format!("write `- {rest}`")))
+        let at = line.end - word.len()..line.end - word.len() + dashes;
+        match dashes {
+            1 if starts_word && !rest.starts_with(' ') => Some(dash::without_space(&at, text, place)),
+            2 if starts_word => Some(dash::doubled(&at, text, place)),
+            _ => None,
+        }
+    })
 }
 
 fn is_key(word: &str) -> bool {

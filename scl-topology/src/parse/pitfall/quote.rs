@@ -41,6 +41,25 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     Some(RULE.at("this quoted string is never closed", span, "opened here").help(help))
 }
 
+/// A quote without a partner in its line.
+pub(super) fn alone(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+    let quote = &text[at..at + 1];
+    RULE.at("this quote has no partner", place.span(at..at + 1), "the only one in its line")
+        .help(format!("remove it, or add the other `{quote}`"))
+}
+
+/// The place of a quote that is missing before or after a word.
+pub(super) fn missing(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+    let is_word = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '.' | '-');
+    let after = text[at..].len() - text[at..].trim_start_matches(is_word).len();
+    let before = text[..at].len() - text[..at].trim_end_matches(is_word).len();
+    let side = if after > 0 { "before" } else { "after" };
+    let word = at - before..at + after;
+    let name = &text[word.clone()];
+    RULE.at(format!("a quote is missing {side} `{name}`"), place.span(word), "has a quote at one end only")
+        .help(format!("write `\"{name}\"`"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::RULE;

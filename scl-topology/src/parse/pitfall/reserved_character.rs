@@ -1,6 +1,6 @@
 //! SCL0106: a character that cannot start a value.
 
-use super::Place;
+use super::{Place, dash};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::rule::{Examples, Rule};
@@ -31,6 +31,11 @@ pub(super) fn find(at: usize, place: &Place<'_>) -> Option<Diagnostic> {
 
 pub(super) fn diagnose(at: usize, character: char, place: &Place<'_>) -> Diagnostic {
     let text = place.source.text();
+    let line = place.line_range(at);
+    let is_first = text.get(line.start..at).is_some_and(|before| before.trim().is_empty());
+    if is_first && text.get(at + 1..line.end).is_some_and(|rest| rest.starts_with(' ')) {
+        return dash::other_mark(at, place);
+    }
     let rest = text.get(at..place.line_range(at).end).unwrap_or("");
     let word = rest.split([' ', ',', ']', '}']).next().unwrap_or(rest);
     let span = place.span(at..at + rest.chars().next().map_or(0, char::len_utf8));

@@ -4,8 +4,10 @@ use super::{suggest, ticked};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::component::KEYS;
-use crate::parse::fields::Field;
+use crate::parse::fields::{Field, Fields};
+use crate::parse::scalar;
 use crate::rule::{Examples, Rule};
+use crate::suggest::similar;
 
 /// SCL0207.
 pub(crate) const RULE: Rule = Rule {
@@ -32,6 +34,31 @@ pub(in crate::parse) fn diagnose(field: Field<'_>, component: &str) -> Diagnosti
     let message = format!("unknown key `{}` in component `{component}`", field.key);
     let problem = RULE.at(message, field.key_span, "not a key of a component");
     suggest(problem, "key", field.key, KEYS).note(format!("keys of a component: {}", ticked(KEYS)))
+}
+
+/// Words that other formats use for a name.
+const OTHER_WORDS: [&str; 6] = ["id", "component", "node", "title", "label", "process"];
+
+/// Whether a key was probably meant to be `name`.
+pub(in crate::parse) fn is_misnamed(key: &str) -> bool {
+    let is_near = !KEYS.contains(&key) && similar(key, KEYS).first() == Some(&"name");
+    is_near || OTHER_WORDS.contains(&key)
+}
+
+/// The key that was probably meant to be `name`.
+pub(in crate::parse) fn misnamed<'n>(fields: &Fields<'n>) -> Option<Field<'n>> {
+    fields.list.iter().copied().find(|field| is_misnamed(field.key) && scalar(field.value).is_some())
+}
+
+/// A key in the place of `name`.
+pub(in crate::parse) fn instead_of_name(field: Field<'_>) -> Diagnostic {
+    let name = scalar(field.value).map_or(String::new(), |name| name.value);
+    let problem = RULE.at(format!("unknown key `{}` in a component", field.key), field.key_span, "expected `name`");
+    match OTHER_WORDS.contains(&field.key) {
+        true => problem.help(format!("write `name: {name}`")),
+        false => problem.help("a key with a similar name exists: `name`").fix(field.key_span, "name"),
+    }
+    .note(format!("keys of a component: {}", ticked(KEYS)))
 }
 
 #[cfg(test)]

@@ -30,8 +30,27 @@ const PAIR: &str = "a connection joins exactly two gates";
 /// A help shows no more pairs than this.
 const SHOWN: usize = 10;
 
+/// The words of a text that stands for a pair, without the marks around them and between them.
+pub(in crate::parse) fn words(text: &str) -> Vec<&str> {
+    const MARKS: [char; 17] = ['[', ']', '{', '}', '(', ')', '"', '\'', ',', ';', '=', '|', '&', '-', '<', '>', ':'];
+    let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '|'));
+    let parts = words.flat_map(|word| word.split("->").flat_map(|part| part.split("=>")));
+    parts.map(|word| word.trim_matches(MARKS)).filter(|word| !word.is_empty()).collect()
+}
+
 /// A list of one, three or more.
 pub(in crate::parse) fn count(span: Span, items: &[Node]) -> Diagnostic {
+    if let [Node { kind: NodeKind::Scalar { text, .. }, .. }] = items
+        && let [first, second] = words(text).as_slice()
+    {
+        return separated_oddly(span, text, first, second);
+    }
+    if let [Node { kind: NodeKind::Mapping { entries }, .. }] = items
+        && let [(first, second)] = entries.as_slice()
+        && let (Some(first), Some(second)) = (scalar(first), scalar(second))
+    {
+        return separated_oddly(span, ":", &first.value, &second.value);
+    }
     let (lists, label) = match items.len() {
         0 => ("is empty".to_owned(), "no gates".to_owned()),
         1 => ("lists 1".to_owned(), "1 gate".to_owned()),
@@ -46,9 +65,22 @@ pub(in crate::parse) fn count(span: Span, items: &[Node]) -> Diagnostic {
     }
 }
 
-/// `- sensor.measurements`, `- a.b -> c.d`.
+/// `[sensor.measurements controller.sensor]`: two ends with no comma, or with something else, between them.
+fn separated_oddly(span: Span, text: &str, first: &str, second: &str) -> Diagnostic {
+    let between =
+        ["<->", "-->", "->", "=>", "<-", "→", ";", "|", "&", ":"].into_iter().find(|mark| text.contains(mark));
+    let (message, label) = match between {
+        Some(mark) => {
+            (format!("`{mark}` does not separate the ends of a connection"), "expected a comma between the two")
+        }
+        None => ("a comma is missing between the ends of this connection".to_owned(), "one text, not two ends"),
+    };
+    RULE.at(message, span, label).help(format!("write `[{first}, {second}]`"))
+}
+
+/// `- sensor.measurements`, `- a.b -> c.d`, `- (a.b, c.d)`.
 pub(in crate::parse) fn text(item: &Node, text: &str) -> Diagnostic {
-    let ends: Vec<&str> = text.split([' ', ',']).filter(|word| !word.is_empty() && !is_arrow(word)).collect();
+    let ends = words(text);
     let arrow = text.split_whitespace().find(|word| is_arrow(word));
     let label = match (arrow, ends.len()) {
         (Some(arrow), 0 | 1) => format!("one end of `{arrow}` is missing"),
@@ -62,7 +94,7 @@ pub(in crate::parse) fn text(item: &Node, text: &str) -> Diagnostic {
     }
 }
 
-/// `- sensor.measurements: controller.sensor`.
+/// `- sensor.measurements: controller.sensor`, `- {sensor.measurements, controller.sensor}`.
 pub(in crate::parse) fn mapping(item: &Node) -> Diagnostic {
     let problem = RULE.at(format!("{PAIR}; this one is a mapping"), item.span, "a key and its value");
     let NodeKind::Mapping { entries } = &item.kind else { return problem };
@@ -72,6 +104,15 @@ pub(in crate::parse) fn mapping(item: &Node) -> Diagnostic {
             (Some(first), None) if second.is_null() => problem.help(one_end(&first.value)),
             _ => problem.help("write `[component.gate, component.gate]`"),
         },
+        [(first, nothing), (second, nothing_more)] if nothing.is_null() && nothing_more.is_null() => {
+            let in_brackets = "a pair stands in brackets, not in braces";
+            match (scalar(first), scalar(second)) {
+                (Some(first), Some(second)) => RULE
+                    .at(in_brackets, item.span, "braces")
+                    .help(format!("write `[{}, {}]`", first.value, second.value)),
+                _ => problem.help("write `[component.gate, component.gate]`"),
+            }
+        }
         _ => problem.help("write `[component.gate, component.gate]`"),
     }
 }

@@ -3,6 +3,7 @@
 use super::ticked;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::model::GateModel;
 use crate::parse::fields::{Field, Fields};
 use crate::parse::gate::is_kind;
 use crate::parse::scalar;
@@ -50,6 +51,44 @@ pub(in crate::parse) fn without_colon(name: &str, kind: &str, at: Span) -> Diagn
         .help(format!("write `- {name}: {kind}`"))
 }
 
+/// `- measurements = pub`.
+pub(in crate::parse) fn equals_sign(name: &str, kind: &str, at: Span) -> Diagnostic {
+    RULE.at(format!("`=` stands where the `:` of gate `{name}` is expected"), at, "YAML reads this as one word")
+        .help(format!("write `- {name}: {kind}`"))
+        .fix(at, format!("{name}: {kind}"))
+}
+
+/// `{pub Type}`, `{pub: Type, queue=4}`.
+pub(in crate::parse) fn key_without_colon(field: Field<'_>, word: &str) -> Diagnostic {
+    let value = field.key[word.len()..].trim_matches([' ', '=']);
+    let message = match field.key.contains('=') {
+        true => format!("`=` stands where the `:` after `{word}` is expected"),
+        false => format!("missing `:` after `{word}`"),
+    };
+    RULE.at(message, field.key_span, "YAML reads this as one word")
+        .help(format!("write `{word}: {value}`"))
+        .fix(field.key_span, format!("{word}: {value}"))
+}
+
+/// `{rep: Request, Reply}`.
+pub(in crate::parse) fn comma_between_types(gate: &GateModel, answer: Field<'_>) -> Diagnostic {
+    let (name, kind) = (&gate.name.value, &gate.kind.value);
+    let types = gate.payload.as_ref().map_or("", |payload| &payload.value);
+    RULE.at(format!("the two types of gate `{name}` are joined by `->`"), answer.key_span, "after a comma stands a key")
+        .help(format!("write `{name}: {{{kind}: {types}}}`"))
+}
+
+/// `{rep: Request => Reply}`.
+pub(in crate::parse) fn odd_arrow(kind: Field<'_>, arrow: &str, meant: &str) -> Diagnostic {
+    let message = match arrow {
+        "" => "`->` is missing between the two types".to_owned(),
+        _ => format!("`{arrow}` does not join two types"),
+    };
+    RULE.at(message, kind.value.span, "expected `->` between the two")
+        .help(format!("write `{}: {meant}`", kind.key))
+        .fix(kind.value.span, meant)
+}
+
 /// `- measurements: {queue: 4}`.
 pub(in crate::parse) fn without_kind_key(gate: Field<'_>, fields: &Fields<'_>) -> Diagnostic {
     let name = gate.key;
@@ -80,7 +119,7 @@ pub(in crate::parse) fn kind_and_type(gate: Field<'_>, value: &str) -> Option<Di
     let (kind, payload) = value.split_once(char::is_whitespace).filter(|(kind, _)| is_kind(kind))?;
     let message = format!("gate `{}` has its type outside of braces", gate.key);
     let problem = RULE.at(message, gate.value.span, "kind and type in one word");
-    Some(problem.help(format!("write `{}: {{{kind}: {}}}`", gate.key, payload.trim())))
+    Some(problem.help(format!("write `{}: {{{kind}: {}}}`", gate.key, payload.trim().trim_end_matches("[]"))))
 }
 
 /// `- measurements: {kind: pub, type: Type}`.

@@ -6,7 +6,7 @@ use crate::model::ComponentModel;
 use crate::parse::component::{self, head};
 use crate::parse::fields::{Field, Fields};
 use crate::parse::gate::is_kind;
-use crate::parse::{option, scalar, sections};
+use crate::parse::{option, scalar, sections, with_dash};
 use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
@@ -20,6 +20,9 @@ pub(crate) const RULE: Rule = Rule {
                   at the top. It is mostly a slip of the indentation. Move it to where the message says.",
     examples: Examples::Topology {
         bad: "components:
+  - name: controller
+    gates:
+      - sensor: sub
   - name: sensor
     gates:
       - measurements: pub
@@ -27,10 +30,14 @@ pub(crate) const RULE: Rule = Rule {
       - [sensor.measurements, controller.sensor]
 ",
         good: "components:
+  - name: controller
+    gates:
+      - sensor: sub
   - name: sensor
     gates:
       - measurements: pub
-connections: []
+connections:
+  - [sensor.measurements, controller.sensor]
 ",
     },
 };
@@ -62,6 +69,30 @@ pub(in crate::parse) fn option_beside_gate(option: Field<'_>, gate: Field<'_>, s
     let message = format!("`{}` belongs inside the braces of gate `{}`, not beside it", option.key, gate.key);
     let kind = scalar(gate.value).filter(|kind| is_kind(&kind.value)).map_or("pub".to_owned(), |kind| kind.value);
     problem(message, option.key_span, source).help(format!("write `{}: {{{kind}: , {}: ...}}`", gate.key, option.key))
+}
+
+/// A gate whose dash stands in the column of the components' dashes.
+pub(in crate::parse) fn gate_among_components(item: &Node, above: &ComponentModel, source: &SourceFile) -> Diagnostic {
+    let name = source.text().get(item.span.start as usize..item.span.end as usize).unwrap_or("");
+    let name = name.split([':', '\n']).next().unwrap_or("");
+    let start = with_dash(item.span, source);
+    let end = item.span.start + name.len() as u32;
+    let message = format!("gate `{name}` stands among the components");
+    let problem = RULE.at(message, Span { end, ..start }, "starts a component of its own");
+    match above.gates.last() {
+        Some(gate) => problem
+            .label(gate.name.span, "the gate above")
+            .help(format!("indent it like the gates of component `{}`", above.name.value)),
+        None => problem.help(format!("indent it below the `gates:` of component `{}`", above.name.value)),
+    }
+}
+
+/// `- measurements:` with `pub: Type` below it, in the same column as the name.
+pub(in crate::parse) fn kind_beside_name(kind: Field<'_>, gate: Field<'_>, source: &SourceFile) -> Diagnostic {
+    let message = format!("`{}` stands beside the name of gate `{}`, not below it", kind.key, gate.key);
+    problem(message, kind.key_span, source)
+        .label(gate.key_span, "the gate's name")
+        .help(format!("indent it, and what belongs to the gate, deeper than `{}`", gate.key))
 }
 
 /// `- gates:` after a component that has no gates: its `-` starts a new component.
@@ -112,13 +143,13 @@ mod tests {
         check(
             &RULE,
             expect![[r#"
-            error: [SCL0214] `connections` belongs at the top level, not inside component `sensor`
-             --> topology.yaml:5:5
-              |
-            5 |     connections:
-              |     ^^^^^^^^^^^ indented by 4 spaces
-              |
-              = help: move it to column 1"#]],
+                error: [SCL0214] `connections` belongs at the top level, not inside component `sensor`
+                 --> topology.yaml:8:5
+                  |
+                8 |     connections:
+                  |     ^^^^^^^^^^^ indented by 4 spaces
+                  |
+                  = help: move it to column 1"#]],
         );
     }
 }

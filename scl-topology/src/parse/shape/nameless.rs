@@ -6,7 +6,7 @@ use crate::parse::component::head;
 use crate::parse::fields::Fields;
 use crate::parse::shape_word;
 use crate::rule::{Examples, Rule};
-use crate::source::SourceFile;
+use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 
 /// SCL0208.
@@ -32,6 +32,11 @@ const MESSAGE: &str = "this component has no name";
 
 pub(in crate::parse) fn diagnose(item: &Node, fields: &Fields<'_>, source: &SourceFile) -> Diagnostic {
     RULE.at(MESSAGE, head(item, fields, source), "`name` is missing").help("add `name: ...`")
+}
+
+/// Keys of a component with no `- name:` above them.
+pub(in crate::parse) fn above(key: Span) -> Diagnostic {
+    RULE.at(MESSAGE, key, "`- name: ...` is missing above this").help("start the component with `- name: ...`")
 }
 
 /// `- sensor` or a list in the place of a component.

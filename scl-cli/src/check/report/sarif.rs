@@ -1,19 +1,19 @@
 //! Diagnostics as SARIF 2.1.0, the format that code hosts and review tools read.
 
-use super::{Diagnostic, Label, Severity};
-use crate::catalogue::{explain, find};
-use crate::source::Sources;
+use scl_topology::catalogue::{explain, find};
+use scl_topology::diagnostic::{Diagnostic, Fix, Label, Severity};
+use scl_topology::source::{Sources, Span};
 use serde_json::{Value, json};
 
 /// One checked file with what was found in it.
 #[derive(Debug, Clone, Copy)]
-pub struct CheckedFile<'a> {
+pub(in crate::check) struct CheckedFile<'a> {
     /// The path as messages name it.
-    pub path: &'a str,
+    pub(in crate::check) path: &'a str,
     /// The texts that the diagnostics point into.
-    pub sources: &'a Sources,
+    pub(in crate::check) sources: &'a Sources,
     /// What was found.
-    pub diagnostics: &'a [Diagnostic],
+    pub(in crate::check) diagnostics: &'a [Diagnostic],
 }
 
 /// One SARIF log with one run over all files, over several lines.
@@ -22,7 +22,7 @@ pub struct CheckedFile<'a> {
 /// text of a result is the headline, then the label, the helps and the notes, each on its own line; the secondary labels
 /// are related locations. Paths become relative URIs, absolute ones `file:` URIs. A diagnostic without a place is
 /// located at its file as a whole.
-pub fn to_sarif(files: &[CheckedFile<'_>]) -> String {
+pub(in crate::check) fn to_sarif(files: &[CheckedFile<'_>]) -> String {
     let mut found: Vec<&Diagnostic> = files.iter().flat_map(|file| file.diagnostics).collect();
     found.sort_by_key(|diagnostic| diagnostic.code());
     found.dedup_by_key(|diagnostic| diagnostic.rule);
@@ -68,14 +68,45 @@ fn result(diagnostic: &Diagnostic, file: &CheckedFile<'_>, codes: &[&str]) -> Va
         related["id"] = json!(id);
         related
     });
-    json!({
+    let mut result = json!({
         "ruleId": diagnostic.code(),
         "ruleIndex": codes.iter().position(|code| *code == diagnostic.code()),
         "level": level(diagnostic.severity),
         "message": { "text": text(diagnostic) },
         "locations": [place],
         "relatedLocations": related.collect::<Vec<_>>(),
-    })
+    });
+    if !diagnostic.fixes.is_empty() {
+        result["fixes"] = json!(fixes(diagnostic, file.sources));
+    }
+    result
+}
+
+/// The sure fixes as one, each of the others as one of its own.
+fn fixes(diagnostic: &Diagnostic, sources: &Sources) -> Vec<Value> {
+    let (sure, others): (Vec<&Fix>, Vec<&Fix>) = diagnostic.fixes.iter().partition(|fix| fix.sure);
+    let sure = (!sure.is_empty()).then_some(sure);
+    sure.into_iter()
+        .chain(others.into_iter().map(|fix| vec![fix]))
+        .map(|fixes| fix(&fixes, diagnostic, sources))
+        .collect()
+}
+
+fn fix(fixes: &[&Fix], diagnostic: &Diagnostic, sources: &Sources) -> Value {
+    let description = match fixes {
+        [only] if !only.sure => format!("replace with `{}`", only.replacement),
+        _ => diagnostic.helps.first().cloned().unwrap_or_else(|| diagnostic.message.clone()),
+    };
+    let mut paths: Vec<&str> = fixes.iter().map(|fix| sources.file(fix.span.file).path()).collect();
+    paths.dedup();
+    let changes = paths.into_iter().map(|path| {
+        let here = fixes.iter().filter(|fix| sources.file(fix.span.file).path() == path);
+        let replacements = here.map(
+            |fix| json!({ "deletedRegion": region(fix.span, sources), "insertedContent": { "text": fix.replacement } }),
+        );
+        json!({ "artifactLocation": { "uri": uri(path) }, "replacements": replacements.collect::<Vec<_>>() })
+    });
+    json!({ "description": { "text": description }, "artifactChanges": changes.collect::<Vec<_>>() })
 }
 
 fn level(severity: Severity) -> &'static str {
@@ -96,20 +127,22 @@ fn text(diagnostic: &Diagnostic) -> String {
 
 fn location(label: &Label, sources: &Sources) -> Value {
     let file = sources.file(label.span.file);
-    let (start, end) = (file.line_column(label.span.start), file.line_column(label.span.end));
     let mut location = json!({
         "physicalLocation": {
             "artifactLocation": { "uri": uri(file.path()) },
-            "region": {
-                "startLine": start.line, "startColumn": start.column,
-                "endLine": end.line, "endColumn": end.column,
-            },
+            "region": region(label.span, sources),
         },
     });
     if !label.text.is_empty() {
         location["message"] = json!({ "text": label.text });
     }
     location
+}
+
+fn region(span: Span, sources: &Sources) -> Value {
+    let file = sources.file(span.file);
+    let (start, end) = (file.line_column(span.start), file.line_column(span.end));
+    json!({ "startLine": start.line, "startColumn": start.column, "endLine": end.line, "endColumn": end.column })
 }
 
 /// A path as an URI: what has a meaning there, and what is no ASCII, is escaped by bytes.
@@ -126,10 +159,10 @@ fn uri(path: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{CheckedFile, to_sarif, uri};
-    use crate::diagnostic::testing::{OTHER, WARNING};
-    use crate::external::FILE_NOT_FOUND;
-    use crate::source::{Sources, Span};
+    use super::{CheckedFile, fixes, to_sarif, uri};
+    use crate::check::report::testing::{OTHER, WARNING};
+    use scl_topology::external::FILE_NOT_FOUND;
+    use scl_topology::source::{Sources, Span};
     use serde_json::{Value, json};
 
     fn example() -> Value {
@@ -186,6 +219,31 @@ mod tests {
                 ],
                 "relatedLocations": [related],
             })
+        );
+    }
+
+    #[test]
+    fn sure_fixes_are_one_and_others_are_alternatives() {
+        let mut sources = Sources::new();
+        let file = sources.add("t.yaml", "ä: b\n");
+        let span = |start, end| Span { file, start, end };
+        let problem = WARNING.at("what", span(4, 5), "").help("write it so");
+        let problem =
+            problem.fix(span(0, 0), "(").fix(span(5, 5), ")").maybe_fix(span(4, 5), "c").maybe_fix(span(4, 5), "d");
+        let region = |start, end| json!({ "startLine": 1, "startColumn": start, "endLine": 1, "endColumn": end });
+        let change =
+            |start, end, text| json!({ "deletedRegion": region(start, end), "insertedContent": { "text": text } });
+        let fix = |text, replacements: &[Value]| {
+            let change = json!({ "artifactLocation": { "uri": "t.yaml" }, "replacements": replacements });
+            json!({ "description": { "text": text }, "artifactChanges": [change] })
+        };
+        assert_eq!(
+            fixes(&problem, &sources),
+            [
+                fix("write it so", &[change(1, 1, "("), change(5, 5, ")")]),
+                fix("replace with `c`", &[change(4, 5, "c")]),
+                fix("replace with `d`", &[change(4, 5, "d")]),
+            ]
         );
     }
 

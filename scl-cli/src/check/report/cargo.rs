@@ -3,20 +3,26 @@
 //!
 //! The format is that of `cargo check --message-format=json`; cargo's reference names it "external tools".
 
-use super::{Diagnostic, Label, Severity, render};
-use crate::source::{LineColumn, Sources};
+use scl_topology::diagnostic::{Diagnostic, Fix, Label, Severity, render};
+use scl_topology::source::{LineColumn, SourceFile, Sources};
 use serde_json::{Value, json};
 use std::path::Path;
 
+/// Maximum number of lines of one span whose text is given.
+const MOST_LINES: usize = 20;
+
+/// Maximum length of a line whose text is given, in bytes.
+const LONGEST_LINE: usize = 4_096;
+
 /// What the messages are about. To cargo everything belongs to a package and a target, so a topology file is one.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CargoUnit {
+pub(in crate::check) struct CargoUnit {
     /// The absolute path of the topology file.
-    pub file: String,
+    pub(in crate::check) file: String,
     /// The absolute path of the folder to which the paths of the sources are relative.
-    pub folder: String,
+    pub(in crate::check) folder: String,
     /// The Cargo.toml next to or above the file; the file itself where there is none.
-    pub manifest: String,
+    pub(in crate::check) manifest: String,
 }
 
 impl CargoUnit {
@@ -35,7 +41,7 @@ impl CargoUnit {
 
 /// The line before the diagnostics of a file: a `compiler-artifact`, at which editors forget what they were told about
 /// the file before.
-pub fn cargo_start(unit: &CargoUnit) -> String {
+pub(in crate::check) fn cargo_start(unit: &CargoUnit) -> String {
     json!({
         "reason": "compiler-artifact", "package_id": unit.package_id(), "manifest_path": unit.manifest,
         "target": unit.target(),
@@ -52,7 +58,7 @@ pub fn cargo_start(unit: &CargoUnit) -> String {
 /// The code is `scl::SCL0502`, in the manner of Clippy's lints, so that editors show `scl` as its source. Lines and
 /// columns count from 1, columns in characters, the end is one past the last one; bytes count from 0, without a byte
 /// order mark. A diagnostic without a place is put at the start of the file, as editors drop what is nowhere.
-pub fn to_cargo(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> String {
+pub(in crate::check) fn to_cargo(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> String {
     let level = match diagnostic.severity {
         Severity::Error => "error",
         Severity::Warning | Severity::Lint => "warning",
@@ -63,7 +69,7 @@ pub fn to_cargo(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) ->
         "code": { "code": format!("scl::{}", diagnostic.code()), "explanation": null },
         "level": level,
         "spans": spans(diagnostic, sources, unit),
-        "children": children(diagnostic),
+        "children": children(diagnostic, sources, unit),
         "rendered": format!("{}\n\n", render(diagnostic, sources)),
     });
     json!({
@@ -74,7 +80,7 @@ pub fn to_cargo(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) ->
 }
 
 /// The line after all others: `build-finished`.
-pub fn cargo_end(success: bool) -> String {
+pub(in crate::check) fn cargo_end(success: bool) -> String {
     json!({ "reason": "build-finished", "success": success }).to_string()
 }
 
@@ -97,20 +103,27 @@ fn span(label: &Label, is_primary: bool, sources: &Sources, unit: &CargoUnit) ->
         "line_start": start.line, "line_end": end.line,
         "column_start": start.column, "column_end": end.column,
         "is_primary": is_primary,
-        "text": covered_lines(file.text(), start, end),
+        "text": covered_lines(file, start, end),
         "label": Some(&label.text).filter(|text| !text.is_empty()),
         "suggested_replacement": null, "suggestion_applicability": null, "expansion": null,
     })
 }
 
-/// The whole lines that a span touches, each with the columns that it covers. Editors count their own columns with them.
-fn covered_lines(text: &str, start: LineColumn, end: LineColumn) -> Vec<Value> {
-    let (first, last) = (start.line as usize, end.line as usize);
-    let lines = text.lines().enumerate().skip(first - 1).take(last + 1 - first);
+/// The whole lines that a span touches, each with the columns that it covers: editors count their own columns with them.
+/// Of a long span only the first lines, and no text at all where a line is long, as each span repeats it.
+fn covered_lines(file: &SourceFile, start: LineColumn, end: LineColumn) -> Vec<Value> {
+    let lines = (start.line..=end.line).take(MOST_LINES).map(|number| (number, file.line_text(number)));
+    let mut lines: Vec<(u32, &str)> = lines.collect();
+    // A span may end after the last line break.
+    lines.pop_if(|(_, line)| line.is_empty());
+    if lines.iter().any(|(_, line)| line.len() > LONGEST_LINE) {
+        return Vec::new();
+    }
     lines
-        .map(|(index, line)| {
-            let from = if index + 1 == first { start.column as usize } else { 1 };
-            let to = if index + 1 == last { end.column as usize } else { line.chars().count() + 1 };
+        .into_iter()
+        .map(|(number, line)| {
+            let from = if number == start.line { start.column as usize } else { 1 };
+            let to = if number == end.line { end.column as usize } else { line.chars().count() + 1 };
             json!({ "text": line, "highlight_start": from, "highlight_end": to })
         })
         .collect()
@@ -126,11 +139,25 @@ fn start_of_file(unit: &CargoUnit) -> Value {
 }
 
 /// Helps and notes. Editors show no primary label beside them, so it comes first, as a note of its own.
-fn children(diagnostic: &Diagnostic) -> Vec<Value> {
-    let child = |level: &str, text: &str| json!({ "message": text, "code": null, "level": level, "spans": [], "children": [], "rendered": null });
-    let helps = diagnostic.helps.iter().map(|help| child("help", &format!("help: {help}")));
+///
+/// A fix is the span of a help, with the replacement: the sure ones belong to the first help, each of the others has a
+/// help of its own.
+fn children(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> Vec<Value> {
+    let (sure, others): (Vec<&Fix>, Vec<&Fix>) = diagnostic.fixes.iter().partition(|fix| fix.sure);
+    let mut helps: Vec<Value> = diagnostic.helps.iter().map(|help| child("help", &format!("help: {help}"))).collect();
+    if helps.is_empty() && !sure.is_empty() {
+        helps.push(child("help", "help: this is certainly meant"));
+    }
+    if let Some(first) = helps.first_mut() {
+        first["spans"] = sure.into_iter().map(|fix| replacement(fix, sources, unit)).collect();
+    }
+    helps.extend(others.into_iter().map(|fix| {
+        let mut help = child("help", &format!("help: replace with `{}`", fix.replacement));
+        help["spans"] = json!([replacement(fix, sources, unit)]);
+        help
+    }));
     let notes = diagnostic.all_notes().map(|note| child("note", &format!("note: {note}")));
-    let mut children: Vec<Value> = helps.chain(notes).collect();
+    let mut children: Vec<Value> = helps.into_iter().chain(notes).collect();
     let label = diagnostic.primary.iter().map(|label| &label.text).find(|text| !text.is_empty());
     if let Some(label) = label.filter(|_| !children.is_empty()) {
         children.insert(0, child("note", label));
@@ -138,12 +165,23 @@ fn children(diagnostic: &Diagnostic) -> Vec<Value> {
     children
 }
 
+fn child(level: &str, text: &str) -> Value {
+    json!({ "message": text, "code": null, "level": level, "spans": [], "children": [], "rendered": null })
+}
+
+fn replacement(fix: &Fix, sources: &Sources, unit: &CargoUnit) -> Value {
+    let mut span = span(&Label { span: fix.span, text: String::new() }, true, sources, unit);
+    span["suggested_replacement"] = json!(fix.replacement);
+    span["suggestion_applicability"] = json!(if fix.sure { "MachineApplicable" } else { "MaybeIncorrect" });
+    span
+}
+
 #[cfg(test)]
 mod tests {
     use super::{CargoUnit, cargo_end, cargo_start, to_cargo};
-    use crate::diagnostic::testing::{ERROR, WARNING};
-    use crate::external::FILE_NOT_FOUND;
-    use crate::source::{Sources, Span};
+    use crate::check::report::testing::{ERROR, WARNING};
+    use scl_topology::external::FILE_NOT_FOUND;
+    use scl_topology::source::{Sources, Span};
     use serde_json::{Value, json};
 
     fn unit() -> CargoUnit {
@@ -201,6 +239,41 @@ mod tests {
         assert_eq!(words, expected.map(|(level, text)| (json!(level), json!(text))).each_ref().map(|(l, t)| (l, t)));
         assert_eq!((&message["level"], &message["code"]["code"]), (&json!("warning"), &json!("scl::SCL0999")));
         assert!(message["rendered"].as_str().unwrap().starts_with("warning: [SCL0999] what\n --> a b/t.yaml:1:4\n"));
+    }
+
+    #[test]
+    fn fixes_are_spans_of_helps() {
+        let mut sources = Sources::new();
+        let file = sources.add("t.yaml", "a: b");
+        let span = Span { file, start: 3, end: 4 };
+        let problem = ERROR.at("what", span, "").help("write `c`").fix(span, "c").maybe_fix(span, "d");
+        let message = parsed(&to_cargo(&problem, &sources, &unit()));
+        let children = message["message"]["children"].as_array().unwrap();
+        let fixes: Vec<_> = children
+            .iter()
+            .map(|child| {
+                let span = &child["spans"][0];
+                let parts = [&child["message"], &span["suggested_replacement"], &span["suggestion_applicability"]];
+                parts.map(|part| part.as_str().unwrap())
+            })
+            .collect();
+        let expected =
+            [["help: write `c`", "c", "MachineApplicable"], ["help: replace with `d`", "d", "MaybeIncorrect"]];
+        assert_eq!(fixes, expected);
+        assert_eq!(
+            (&children[0]["spans"][0]["byte_start"], &children[0]["spans"][0]["byte_end"]),
+            (&json!(3), &json!(4))
+        );
+    }
+
+    #[test]
+    fn long_lines_and_long_spans_are_not_repeated() {
+        for text in ["a ".repeat(100_000), "a\n".repeat(100_000)] {
+            let mut sources = Sources::new();
+            let file = sources.add("t.yaml", text);
+            let problem = ERROR.at("what", Span { file, start: 0, end: 199_999 }, "");
+            assert!(to_cargo(&problem, &sources, &unit()).len() < 5_000);
+        }
     }
 
     #[test]

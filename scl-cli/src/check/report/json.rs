@@ -1,16 +1,17 @@
 //! A diagnostic as one line of JSON, for programs.
 
-use super::{Diagnostic, Label, Severity};
-use crate::source::Sources;
+use scl_topology::diagnostic::{Diagnostic, Fix, Label, Severity};
+use scl_topology::source::{Sources, Span};
 use serde_json::Value;
 
 /// One object without line breaks:
-/// `{"code","severity","message","file","line","column","end_line","end_column","labels":[...],"helps":[...],"notes":[...]}`.
+/// `{"code","severity","message","file","line","column","end_line","end_column","labels":[...],"helps":[...],"notes":[...],"fixes":[...]}`.
 ///
 /// A label is `{"file","line","column","end_line","end_column","text"}`; the first one is the primary label. Lines and
 /// columns count from 1, columns in characters, and the end is one past the last character. Without a place, `file` and
-/// the positions are `null`.
-pub fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> String {
+/// the positions are `null`. A fix is `{"file","line","column","end_line","end_column","replacement","sure"}`; the sure
+/// ones of a diagnostic belong together, each of the others is an alternative.
+pub(in crate::check) fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let severity = match diagnostic.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
@@ -18,23 +19,31 @@ pub fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> String {
     };
     let mut fields: Vec<(&str, String)> =
         vec![("code", text(diagnostic.code())), ("severity", text(severity)), ("message", text(&diagnostic.message))];
-    fields.extend(place(diagnostic.primary.as_ref(), sources));
+    fields.extend(place(diagnostic.primary.as_ref().map(|label| label.span), sources));
     let labels = diagnostic.primary.iter().chain(&diagnostic.secondary).map(|of| label(of, sources));
     fields.push(("labels", list(labels)));
     fields.push(("helps", list(diagnostic.helps.iter().map(|help| text(help)))));
     fields.push(("notes", list(diagnostic.all_notes().map(|note| text(&note)))));
+    fields.push(("fixes", list(diagnostic.fixes.iter().map(|it| fix(it, sources)))));
+    object(&fields)
+}
+
+fn fix(fix: &Fix, sources: &Sources) -> String {
+    let mut fields = place(Some(fix.span), sources);
+    fields.push(("replacement", text(&fix.replacement)));
+    fields.push(("sure", fix.sure.to_string()));
     object(&fields)
 }
 
 fn label(label: &Label, sources: &Sources) -> String {
-    let mut fields = place(Some(label), sources);
+    let mut fields = place(Some(label.span), sources);
     fields.push(("text", text(&label.text)));
     object(&fields)
 }
 
-fn place(label: Option<&Label>, sources: &Sources) -> Vec<(&'static str, String)> {
+fn place(span: Option<Span>, sources: &Sources) -> Vec<(&'static str, String)> {
     const KEYS: [&str; 5] = ["file", "line", "column", "end_line", "end_column"];
-    let Some(span) = label.map(|label| label.span) else {
+    let Some(span) = span else {
         return KEYS.map(|key| (key, Value::Null.to_string())).to_vec();
     };
     let file = sources.file(span.file);
@@ -59,26 +68,30 @@ fn object(fields: &[(&str, String)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::to_json;
-    use crate::diagnostic::testing::WARNING;
-    use crate::external::FILE_NOT_FOUND;
-    use crate::source::{Sources, Span};
+    use crate::check::report::testing::WARNING;
     use expect_test::expect;
+    use scl_topology::external::FILE_NOT_FOUND;
+    use scl_topology::source::{Sources, Span};
 
     #[test]
     fn one_line_with_every_field() {
         let mut sources = Sources::new();
         let file = sources.add("t.yaml", "ä: \"b\"\r\nc:\n");
         let span = |start, end| Span { file, start, end };
-        let problem =
-            WARNING.at("a \"quote\"\nand more", span(4, 7), "why").label(span(9, 10), "").help("one\ntwo").note("rule");
+        let problem = WARNING
+            .at("a \"quote\"\nand more", span(4, 7), "why")
+            .label(span(9, 10), "")
+            .help("one\ntwo")
+            .note("rule")
+            .fix(span(9, 10), "d");
         let json = to_json(&problem, &sources);
         assert!(serde_json::from_str::<serde_json::Value>(&json).is_ok());
-        expect![[r#"{"code":"SCL0999","severity":"warning","message":"a \"quote\"\nand more","file":"t.yaml","line":1,"column":4,"end_line":1,"end_column":7,"labels":[{"file":"t.yaml","line":1,"column":4,"end_line":1,"end_column":7,"text":"why"},{"file":"t.yaml","line":2,"column":1,"end_line":2,"end_column":2,"text":""}],"helps":["one\ntwo"],"notes":["rule"]}"#]].assert_eq(&json);
+        expect![[r#"{"code":"SCL0999","severity":"warning","message":"a \"quote\"\nand more","file":"t.yaml","line":1,"column":4,"end_line":1,"end_column":7,"labels":[{"file":"t.yaml","line":1,"column":4,"end_line":1,"end_column":7,"text":"why"},{"file":"t.yaml","line":2,"column":1,"end_line":2,"end_column":2,"text":""}],"helps":["one\ntwo"],"notes":["rule"],"fixes":[{"file":"t.yaml","line":2,"column":1,"end_line":2,"end_column":2,"replacement":"d","sure":true}]}"#]].assert_eq(&json);
     }
 
     #[test]
     fn nulls_without_a_place() {
         let json = to_json(&FILE_NOT_FOUND.without_place("no file"), &Sources::new());
-        expect![[r#"{"code":"SCL0001","severity":"error","message":"no file","file":null,"line":null,"column":null,"end_line":null,"end_column":null,"labels":[],"helps":[],"notes":[]}"#]].assert_eq(&json);
+        expect![[r#"{"code":"SCL0001","severity":"error","message":"no file","file":null,"line":null,"column":null,"end_line":null,"end_column":null,"labels":[],"helps":[],"notes":[],"fixes":[]}"#]].assert_eq(&json);
     }
 }

@@ -1,0 +1,102 @@
+//! `scl check --fix`: applies sure fixes until there are none left.
+
+mod damage;
+mod diff;
+mod edit;
+mod replace_file;
+#[cfg(test)]
+mod tests;
+
+use super::CheckArguments;
+use crate::load::{STDIN, request, shown_path};
+use damage::Damage;
+use diff::unified_diff;
+use edit::{BYTE_ORDER_MARK, FixGroup, apply, groups};
+use replace_file::replace_file;
+use scl_loader::{Loaded, load_bytes};
+use std::collections::HashSet;
+use std::path::Path;
+
+/// Maximum number of checks of one file: a fix that does not help must not keep the others waiting for long.
+const MOST_CHECKS: usize = 100;
+
+/// What became of the fixes of a file.
+pub(super) struct Outcome {
+    /// Number of problems that were fixed, or would be.
+    pub(super) applied: usize,
+    /// Whether the fixes are in the file, or in what is printed of standard input.
+    pub(super) is_written: bool,
+    /// For standard output: the difference, or the fixed text of standard input.
+    pub(super) out: String,
+    /// Why the file could not be written.
+    pub(super) error: Option<String>,
+}
+
+/// Fixes a file that was loaded, and leaves the check of what it now holds in `loaded`; `None` if the file could not be
+/// read.
+pub(super) fn fix_file(path: &Path, loaded: &mut Loaded, arguments: &CheckArguments) -> Option<Outcome> {
+    let request = request(path, arguments.max_size);
+    let check = |text: &str| load_bytes(&request, text.into());
+    let source = loaded.sources.file(loaded.file?);
+    let mark = if source.has_byte_order_mark() { BYTE_ORDER_MARK } else { "" };
+    let old = format!("{mark}{}", source.text());
+    let Fixed { loaded: new_loaded, text: new, applied } = fix(std::mem::take(loaded), old.clone(), check);
+    *loaded = new_loaded;
+    let is_stdin = path.as_os_str() == STDIN;
+    let out = match is_stdin {
+        _ if arguments.dry_run => unified_diff(&shown_path(path), &old, &new),
+        true => new.clone(),
+        false => String::new(),
+    };
+    let is_written = !arguments.dry_run;
+    let replaces_file = is_written && !is_stdin && applied > 0;
+    let error = if replaces_file { replace_file(path, &old, &new).err() } else { None };
+    if arguments.dry_run || error.is_some() {
+        // What is said is about the file as it is.
+        *loaded = check(&old);
+    }
+    Some(Outcome { applied, is_written, out, error: error.map(|error| error.to_string()) })
+}
+
+/// A text with its sure fixes applied.
+struct Fixed {
+    /// The check of the new text.
+    loaded: Loaded,
+    /// The whole new text, with a byte order mark if the old one had one.
+    text: String,
+    /// Number of problems whose fixes were applied.
+    applied: usize,
+}
+
+/// Applies the sure fixes of a loaded text; `check` checks a new one.
+///
+/// Fixes that overlap are applied one after the other. Each new text is checked, and fixes that do not make the file
+/// better are not applied.
+fn fix(loaded: Loaded, text: String, check: impl Fn(&str) -> Loaded) -> Fixed {
+    let mut fixed = Fixed { loaded, text, applied: 0 };
+    let mut refused: HashSet<String> = HashSet::new();
+    let mut groups = fixed.next_groups(&refused);
+    for _ in 0..MOST_CHECKS {
+        if groups.is_empty() {
+            break;
+        }
+        let text = apply(&fixed.text, &groups);
+        let loaded = check(&text);
+        if Damage::of(&loaded) < Damage::of(&fixed.loaded) {
+            fixed = Fixed { loaded, text, applied: fixed.applied + groups.len() };
+            groups = fixed.next_groups(&refused);
+        } else if let [only] = groups.as_slice() {
+            refused.insert(only.problem.clone());
+            groups = fixed.next_groups(&refused);
+        } else {
+            groups.truncate(groups.len() / 2);
+        }
+    }
+    fixed
+}
+
+impl Fixed {
+    fn next_groups(&self, refused: &HashSet<String>) -> Vec<FixGroup> {
+        groups(&self.loaded, refused)
+    }
+}

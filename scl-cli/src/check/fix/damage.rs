@@ -1,0 +1,43 @@
+//! How bad a file is, to see whether a fix made it better.
+
+use scl_loader::Loaded;
+use scl_topology::diagnostic::Severity;
+
+/// Compares by what matters most: whether the file is YAML; up to where it is, or how many of its parts could not be
+/// read; errors; warnings. The number of errors comes late because a part that can be read again may have new ones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Damage {
+    is_unreadable: bool,
+    is_cut_off: bool,
+    unread: usize,
+    errors: usize,
+    warnings: usize,
+}
+
+impl Damage {
+    pub(super) fn of(loaded: &Loaded) -> Self {
+        let number_of = |severity| loaded.diagnostics.iter().filter(|found| found.severity == severity).count();
+        let is_cut_off = loaded.model.cut_off;
+        Self {
+            is_unreadable: loaded.file.is_none(),
+            is_cut_off,
+            unread: if is_cut_off { usize::MAX - first_error(loaded) } else { unread_parts(loaded) },
+            errors: number_of(Severity::Error),
+            warnings: number_of(Severity::Warning),
+        }
+    }
+}
+
+fn first_error(loaded: &Loaded) -> usize {
+    let mut errors = loaded.diagnostics.iter().filter(|found| found.severity == Severity::Error);
+    errors.find_map(|found| found.primary.as_ref()).map_or(0, |label| label.span.start as usize)
+}
+
+fn unread_parts(loaded: &Loaded) -> usize {
+    let model = &loaded.model;
+    let components = model.components.iter();
+    let unread = components.clone().filter(|component| component.gates_unread).count();
+    let gates = components.flat_map(|component| &component.gates);
+    let kindless = gates.filter(|gate| gate.kind.value.is_empty()).count();
+    usize::from(model.components_unread) + usize::from(model.connections_unread) + unread + kindless
+}

@@ -1,0 +1,72 @@
+//! Replaces a file as a whole, so that no reader ever sees a half-written one.
+
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Writes `new` in place of `old`, with the permissions of the file. A symbolic link stays, and what it leads to is
+/// replaced.
+///
+/// # Errors
+///
+/// The file no longer holds `old`, or the operating system refuses. The file is then as it was.
+pub(super) fn replace_file(path: &Path, old: &str, new: &str) -> io::Result<()> {
+    let path = fs::canonicalize(path)?;
+    let temporary = beside(&path);
+    let done = write(&temporary, new, &path).and_then(|()| {
+        // As late as possible: an editor may have saved the file meanwhile.
+        match fs::read(&path)? == old.as_bytes() {
+            true => fs::rename(&temporary, &path),
+            false => Err(io::Error::other("the file changed while it was being fixed")),
+        }
+    });
+    if done.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&temporary);
+    }
+    done
+}
+
+fn write(temporary: &Path, text: &str, model: &Path) -> io::Result<()> {
+    let mut file = OpenOptions::new().write(true).create_new(true).open(temporary)?;
+    file.set_permissions(fs::metadata(model)?.permissions())?;
+    file.write_all(text.as_bytes())?;
+    file.sync_all()
+}
+
+/// A name in the same folder, as only within one file system a rename is atomic.
+fn beside(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::replace_file;
+    use std::fs;
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
+    #[test]
+    fn links_and_permissions_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let [file, link] = ["t.yaml", "link.yaml"].map(|name| folder.path().join(name));
+        fs::write(&file, "old").unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
+        symlink("t.yaml", &link).unwrap();
+        replace_file(&link, "old", "new").unwrap();
+        assert_eq!(fs::read_to_string(&file).unwrap(), "new");
+        assert!(link.is_symlink());
+        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn a_file_that_changed_is_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("t.yaml");
+        fs::write(&file, "edited").unwrap();
+        assert!(replace_file(&file, "old", "new").is_err());
+        assert_eq!(fs::read_to_string(&file).unwrap(), "edited");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+}

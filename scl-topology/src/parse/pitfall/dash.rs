@@ -1,0 +1,102 @@
+//! SCL0124: a list item without its dash, or with an odd one.
+
+use super::Place;
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
+use std::ops::Range;
+
+/// SCL0124.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0124",
+    severity: Severity::Error,
+    title: "list item without a proper dash",
+    explanation: "Each item of a list starts with one dash and a space. Here the dash or the space is missing, or there \
+                  is a dash too many. Write `- ` before the item.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+      -status: pub
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: , unconnected: ok}
+      - status: {pub: , unconnected: ok}
+",
+    },
+};
+
+/// A help repeats no more of a line than this.
+const MOST_SHOWN: usize = 60;
+
+/// An item, from its first character to the end of its line, without a dash.
+pub(in crate::parse) fn missing(item: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let content = &text[item.clone()];
+    let word = content.split([' ', ':', ',']).next().filter(|word| !word.is_empty()).unwrap_or(content);
+    let span = place.span(item.start..item.start + word.len());
+    RULE.at("missing `-` before this list item", span, "starts no list item").help(write_item(content))
+}
+
+/// A dash that is glued to its item.
+pub(in crate::parse) fn without_space(dash: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let rest = text[dash.end..place.line_range(dash.start).end].trim();
+    RULE.at("missing space after `-`", place.span(dash.clone()), "starts no list item").help(write_item(rest))
+}
+
+/// Two dashes.
+pub(super) fn doubled(dashes: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let rest = text[dashes.end..place.line_range(dashes.start).end].trim();
+    let message = "a list item starts with one `-`, not with two";
+    RULE.at(message, place.span(dashes.clone()), "starts no list item").help(write_item(rest))
+}
+
+/// `* item`.
+pub(super) fn other_mark(at: usize, place: &Place<'_>) -> Diagnostic {
+    let text = place.source.text();
+    let (mark, rest) = (&text[at..at + 1], text[at + 1..place.line_range(at).end].trim());
+    let message = format!("a list item starts with `-`, not with `{mark}`");
+    RULE.at(message, place.span(at..at + 1), "expected `-`").help(write_item(rest)).fix(place.span(at..at + 1), "-")
+}
+
+/// A dash where no item can start.
+pub(super) fn surplus(dash: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let line = place.line_range(dash.start);
+    let is_doubled =
+        text[line.start..dash.start].trim_start().starts_with('-') || text[dash.end..line.end].starts_with('-');
+    let message = match is_doubled {
+        true => "a list item starts with one `-`, not with two",
+        false => "no list item can start here",
+    };
+    RULE.at(message, place.span(dash.clone()), "one dash too many").help("remove this `-`")
+}
+
+fn write_item(content: &str) -> String {
+    match content.chars().count() > MOST_SHOWN {
+        true => "write `- ` before it".to_owned(),
+        false => format!("write `- {content}`"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RULE;
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    #[test]
+    fn example() {
+        check(
+            &RULE,
+            expect![[r#"
+            error: [SCL0124] missing space after `-`
+             --> topology.yaml:5:7
+              |
+            5 |       -status: pub
+              |       ^ starts no list item
+              |
+              = help: write `- status: pub`"#]],
+        );
+    }
+}

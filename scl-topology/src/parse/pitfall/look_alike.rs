@@ -1,0 +1,122 @@
+//! SCL0127: a character that looks like a mark of YAML and is another. SCL0304: a letter of another script that looks
+//! like an ASCII letter.
+
+use super::Place;
+use crate::confusable;
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
+use crate::source::{SourceFile, Span};
+use crate::yaml::Node;
+use std::ops::Range;
+
+/// SCL0127.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0127",
+    severity: Severity::Error,
+    title: "character that looks like a mark of YAML",
+    explanation: "Word processors and some keyboards write other colons, commas, quotes and dashes than YAML knows: \
+                  fullwidth marks, curly quotes, long dashes. YAML reads them as letters. Retype the character.",
+    examples: Examples::Topology {
+        bad: "components:
+  – name: sensor
+    gates: []
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
+
+/// SCL0304.
+pub(crate) const LETTER: Rule = Rule {
+    code: "SCL0304",
+    severity: Severity::Error,
+    title: "look-alike character in a name",
+    explanation: "The name has a letter outside of ASCII, perhaps one that looks exactly like an ASCII letter: two \
+                  names on the screen would look alike and differ. Retype it.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sеnsor
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
+
+/// The characters of a text that look like a mark: place, character, mark.
+pub(super) fn marks(text: &str) -> impl Iterator<Item = (usize, char, &'static str)> {
+    let letters = text.char_indices().filter(|(_, letter)| !letter.is_ascii());
+    letters.filter_map(|(at, letter)| Some((at, letter, confusable::mark(letter)?.1)))
+}
+
+/// The character at a place.
+pub(super) fn diagnose(mark: &Range<usize>, place: &Place<'_>) -> Diagnostic {
+    let letter = place.source.text()[mark.clone()].chars().next().unwrap_or(' ');
+    look_alike_mark(letter, place.span(mark.clone()))
+}
+
+/// The first such character of a word; `what` is the word's part in a message, for example `gate name`.
+pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &SourceFile) -> Option<Diagnostic> {
+    let (_, letter) = confusable::first(text)?;
+    let written = source.text().get(node.span.start as usize..node.span.end as usize).unwrap_or("");
+    let span = match written.find(letter) {
+        Some(at) => {
+            let start = node.span.start + at as u32;
+            Span { start, end: start + letter.len_utf8() as u32, ..node.span }
+        }
+        None => node.span,
+    };
+    Some(match confusable::twin(letter) {
+        Some((script, twin)) => {
+            let word = text.lines().next().unwrap_or("");
+            let code = u32::from(letter);
+            let message = format!(
+                "{what} `{word}` contains the {script} letter `{letter}` (U+{code:04X}), which looks like `{twin}`"
+            );
+            let problem = LETTER.at(message, node.span, format!("not the Latin `{twin}`"));
+            let retyped = confusable::retyped(word);
+            match what.starts_with("the ") {
+                true => problem.help(format!("retype it: `{retyped}`")),
+                false => problem
+                    .help(format!("retype the name in ASCII: `{retyped}`"))
+                    .note("names are ASCII, so that the file, the socket paths and all language bindings agree"),
+            }
+        }
+        None => look_alike_mark(letter, span),
+    })
+}
+
+fn look_alike_mark(letter: char, span: Span) -> Diagnostic {
+    let (name, mark) = confusable::mark(letter).unwrap_or(("another character", ""));
+    let message = format!("`{letter}` (U+{:04X}) is {name}, not `{mark}`", u32::from(letter));
+    let help = match mark {
+        "\"" | "'" => "remove the quotes, which names do not need, or retype them as `\"`".to_owned(),
+        _ => format!("retype it as `{mark}`"),
+    };
+    RULE.at(message, span, format!("not `{mark}`")).help(help)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RULE;
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    #[test]
+    fn example() {
+        check(
+            &RULE,
+            expect![[r#"
+            error: [SCL0127] `–` (U+2013) is an en dash, not `-`
+             --> topology.yaml:2:3
+              |
+            2 |   – name: sensor
+              |   ^ not `-`
+              |
+              = help: retype it as `-`"#]],
+        );
+    }
+}

@@ -1,0 +1,63 @@
+//! SCL0123: no colon after a key.
+
+use super::Place;
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
+use std::ops::Range;
+
+/// SCL0123.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0123",
+    severity: Severity::Error,
+    title: "missing `:` after a key",
+    explanation: "A key and its value are separated by a colon and a space. Here the colon is missing, or another mark \
+                  stands in its place. Write the colon.",
+    examples: Examples::Topology {
+        bad: "components
+  - name: sensor
+    gates: []
+",
+        good: "components:
+  - name: sensor
+    gates: []
+",
+    },
+};
+
+/// No colon after a word.
+pub(in crate::parse) fn after(word: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let key = &text[word.clone()];
+    RULE.at(format!("missing `:` after `{key}`"), place.span(word.clone()), "a key").help(format!("write `{key}:`"))
+}
+
+/// Another mark in the place of a colon.
+pub(super) fn instead(mark: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let found = &text[mark.clone()];
+    let line = place.line_range(mark.start);
+    let key = text[line.start..mark.start].trim_end().rsplit([' ', ',', '{']).next().unwrap_or("");
+    let value = text[mark.end..line.end].trim_start().split([',', '}']).next().unwrap_or("").trim_end();
+    RULE.at(format!("`{found}` stands where a colon is expected"), place.span(mark.clone()), "expected `:`")
+        .help(format!("write `{key}: {value}`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RULE;
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    #[test]
+    fn example() {
+        check(
+            &RULE,
+            expect![[r#"
+            error: [SCL0123] missing `:` after `components`
+             --> topology.yaml:1:1
+              |
+            1 | components
+              | ^^^^^^^^^^ a key
+              |
+              = help: write `components:`"#]],
+        );
+    }
+}

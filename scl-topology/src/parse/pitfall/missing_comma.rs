@@ -1,0 +1,79 @@
+//! SCL0122: no comma between two entries in brackets.
+
+use super::Place;
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
+use std::ops::Range;
+
+/// SCL0122.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0122",
+    severity: Severity::Error,
+    title: "missing comma",
+    explanation: "In brackets and braces a comma separates the entries. Without it, or with another mark in its place, \
+                  YAML reads two entries as one. Write the comma.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: controller
+    gates:
+      - sensor: {sub: Measurement queue: 4}
+",
+        good: "components:
+  - name: controller
+    gates:
+      - sensor: {sub: Measurement, queue: 4, unconnected: ok}
+",
+    },
+};
+
+/// No comma between two words.
+pub(super) fn between(before: &Range<usize>, after: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let (first, second) = (&text[before.clone()], &text[after.clone()]);
+    let message = format!("a comma is missing before {}", described(second));
+    let help = match first {
+        ":" => format!("add `,` before `{second}`"),
+        _ => format!("add `,` after `{first}`"),
+    };
+    match place.line(before.start) == place.line(after.start) {
+        true => RULE.at(message, place.span(after.clone()), "a new entry starts here").help(help),
+        false => RULE
+            .at(message, place.span(before.clone()), "no comma after this")
+            .label(place.span(after.clone()), "a new entry starts here")
+            .help(help),
+    }
+}
+
+/// Another mark in the place of a comma.
+pub(super) fn instead(mark: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let message = format!("`{}` does not separate entries", &text[mark.clone()]);
+    RULE.at(message, place.span(mark.clone()), "expected a comma").help("write `,`")
+}
+
+fn described(word: &str) -> String {
+    match word {
+        "{" | "[" => format!("this `{word}`"),
+        _ => format!("`{word}`"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RULE;
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    #[test]
+    fn example() {
+        check(
+            &RULE,
+            expect![[r#"
+            error: [SCL0122] a comma is missing before `queue`
+             --> topology.yaml:4:35
+              |
+            4 |       - sensor: {sub: Measurement queue: 4}
+              |                                   ^^^^^ a new entry starts here
+              |
+              = help: add `,` after `Measurement`"#]],
+        );
+    }
+}

@@ -1,0 +1,101 @@
+//! SCL0125: something behind a value, or between two, that belongs to neither.
+
+use super::Place;
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Examples, Rule, Severity};
+use std::ops::Range;
+
+/// SCL0125.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0125",
+    severity: Severity::Error,
+    title: "text that is not expected here",
+    explanation: "A value has ended, and yet the line goes on, or a mark stands where none can. YAML reads one value \
+                  for a key, and one item on a line. Remove the rest, or give it a line of its own.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement} often
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, unconnected: ok} # often
+",
+    },
+};
+
+/// A message repeats no more than this.
+const MOST_SHOWN: usize = 40;
+
+pub(super) fn diagnose(range: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let word = &text[range.clone()];
+    let line = place.line_range(range.start);
+    let before = text[line.start..range.start].trim_end();
+    let after = match before.chars().last() {
+        Some(bracket @ (']' | '}')) => format!(" after `{bracket}`"),
+        _ => String::new(),
+    };
+    let shown = match word.chars().count() > MOST_SHOWN {
+        true => "this text".to_owned(),
+        false => format!("`{word}`"),
+    };
+    let label = if after.is_empty() { "not expected" } else { "the value ends before it" };
+    let problem = RULE.at(format!("{shown} is not expected here{after}"), place.span(range.clone()), label);
+    let is_item = before.trim_start().starts_with('-');
+    match word.chars().next() {
+        Some('[' | '{') if is_item => problem.help("start each list item on a line of its own, with `-`"),
+        Some('#') => problem.help("write a space before `#`"),
+        _ if before.ends_with('}') && word.contains(": ") => {
+            problem.help("write it inside the braces, after a comma, or remove it")
+        }
+        _ => problem.help("remove it"),
+    }
+}
+
+/// `A[]`.
+pub(super) fn brackets_after_type(range: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+    let word = &text[range.clone()];
+    let name = word.split(['[', '{']).next().unwrap_or(word);
+    RULE.at(format!("`{word}` is not a type"), place.span(range.clone()), "brackets after a name")
+        .help(format!("write `{name}`, or give the list a name: in Rust `type Name = ...;`, in a schema a message"))
+}
+
+/// `}#c`.
+pub(super) fn glued_comment(hash: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+    let comment = text[hash..place.line_range(hash).end].trim_end();
+    let label = "a comment, but for the space";
+    RULE.at("a comment starts with a space and `#`", place.span(hash..hash + comment.len()), label)
+        .help("write a space before `#`")
+}
+
+/// `- x: pub - y: pub`.
+pub(super) fn item_in_line(dash: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+    let rest = text[dash..place.line_range(dash).end].trim_end();
+    let label = "a second item in the line";
+    RULE.at("each list item stands on a line of its own", place.span(dash..dash + rest.len()), label)
+        .help(format!("move `{rest}` to the next line"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RULE;
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    #[test]
+    fn example() {
+        check(
+            &RULE,
+            expect![[r#"
+            error: [SCL0125] `often` is not expected here after `}`
+             --> topology.yaml:4:42
+              |
+            4 |       - measurements: {pub: Measurement} often
+              |                                          ^^^^^ the value ends before it
+              |
+              = help: remove it"#]],
+        );
+    }
+}

@@ -1,0 +1,72 @@
+//! SCL0216: a connection in the list of components.
+
+use crate::diagnostic::Diagnostic;
+use crate::parse::{scalar, with_dash};
+use crate::rule::{Examples, Rule, Severity};
+use crate::source::{SourceFile, Span};
+use crate::yaml::{Node, NodeKind};
+
+/// SCL0216.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0216",
+    severity: Severity::Error,
+    title: "connection among the components",
+    explanation: "A pair of gates stands in the list of components, mostly because the line `connections:` is missing \
+                  or a comment. Write `connections:` at the start of the line above the first pair.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+  - [sensor.measurements, controller.sensor]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: pub
+  - name: controller
+    gates:
+      - sensor: sub
+connections:
+  - [sensor.measurements, controller.sensor]
+",
+    },
+};
+
+/// Whether a list item looks like a connection and not like a component.
+pub(in crate::parse) fn is_pair(item: &Node) -> bool {
+    let is_end = |node: &Node| scalar(node).is_some_and(|end| end.value.contains('.'));
+    matches!(&item.kind, NodeKind::Sequence { items } if !items.is_empty() && items.iter().any(is_end))
+}
+
+pub(in crate::parse) fn diagnose(item: &Node, source: &SourceFile) -> Diagnostic {
+    let span = with_dash(item.span, source);
+    let end = (source.line_range(span.start).end as u32).min(span.end);
+    RULE.at("this list of pairs has no `connections:` above it", Span { end, ..span }, "a connection, not a component")
+        .help("add the line `connections:` above it, starting in column 1")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RULE;
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    #[test]
+    fn example() {
+        check(
+            &RULE,
+            expect![[r#"
+            error: [SCL0216] this list of pairs has no `connections:` above it
+             --> topology.yaml:8:3
+              |
+            8 |   - [sensor.measurements, controller.sensor]
+              |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ a connection, not a component
+              |
+              = help: add the line `connections:` above it, starting in column 1"#]],
+        );
+    }
+}
