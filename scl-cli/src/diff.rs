@@ -18,7 +18,7 @@ use std::process::ExitCode;
 /// Exit code: one of the two is not a sound topology.
 const TROUBLE: u8 = 2;
 
-/// Compares two topologies, and names the components that must be rebuilt.
+/// Compare two topologies, and name the components that must be rebuilt.
 ///
 /// Places, comments, order and spelling do not count, only what the files mean. A component must be rebuilt when something
 /// differs that is compiled into it: its gates, their options, its connections, and their contracts. What stands inside of

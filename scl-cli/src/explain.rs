@@ -11,7 +11,7 @@ use std::process::ExitCode;
 /// Exit code: there is no such check or word.
 const UNKNOWN: u8 = 2;
 
-/// Explains a code of the checker or a word of the topology file, with an example; without one, lists them all.
+/// Explain a code of the checker or a word of the topology file, with an example; without one, list them all.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -1,10 +1,7 @@
 //! `scl completions`, in the shell for which it is.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use std::process::Command;
-use system::System;
 
 #[test]
 fn bash_completes_commands_and_formats() {

@@ -1,11 +1,8 @@
 //! What `scl diff` says about two topologies, and its exit codes.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use expect_test::{Expect, expect};
 use serde_json::{Value, json};
-use system::System;
 
 const ROVER: &str = "\
 system: rover

@@ -1,10 +1,7 @@
 //! `scl explain`, with a code, without one, and with one that does not exist.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use expect_test::{Expect, expect};
-use system::System;
 
 fn explain(arguments: &[&str]) -> (Option<i32>, String, String) {
     let output = System::of_files(&[]).scl(&[&["explain"], arguments].concat()).output().unwrap();

@@ -1,16 +1,12 @@
 //! `scl schema`: agrees with the checker, and is understood by the real YAML language server.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-#[path = "schema/agreement.rs"]
 mod agreement;
-mod lsp;
-mod system;
 
-use lsp::Server;
+use crate::lsp::Server;
+use crate::system::System;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use system::System;
 
 const ROVER: &str = "\
 # yaml-language-server: $schema=topology.schema.json

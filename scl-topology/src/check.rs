@@ -3,18 +3,19 @@
 mod all_rules;
 mod backpressure;
 mod cardinality;
-mod circle;
+mod circles;
 mod codec_agreement;
 mod codec_name;
-mod component_graph;
 mod connection_end;
 mod control;
 mod crowd;
+mod deadlock;
 mod draft;
 mod duplicate_component;
 mod duplicate_connection;
 mod duplicate_gate;
 mod exchange_type;
+mod feedback;
 mod finish;
 mod fitting_sender;
 mod foreign_keyword;
@@ -54,6 +55,7 @@ mod together;
 mod unconnected;
 mod unknown_component;
 mod unknown_gate;
+mod waits;
 
 use crate::diagnostic::Diagnostics;
 use crate::model::Model;
@@ -100,7 +102,7 @@ pub(crate) const RULES: [&Rule; 62] = [
     &pair_kinds::SAME_DIRECTION,
     &pair_kinds::OTHER_PATTERN,
     &self_connection::ITSELF,
-    &self_connection::ASKS_ITSELF,
+    &self_connection::WAITS_FOR_ITSELF,
     &self_connection::HEARS_ITSELF,
     &duplicate_connection::RULE,
     &cardinality::SEVERAL_PUBLISHERS,
@@ -118,9 +120,9 @@ pub(crate) const RULES: [&Rule; 62] = [
     &unconnected::NO_REQUESTER,
     &unconnected::LONELY_COMPONENT,
     &island::RULE,
-    &circle::REQUESTS,
-    &circle::PUSHES,
-    &circle::PUBLISHERS,
+    &deadlock::RULE,
+    &feedback::PUSHES,
+    &feedback::LOOP,
     &crowd::RULE,
     &needless_mark::RULE,
     &path_length::RULE,
@@ -185,7 +187,8 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
         unconnected::check(&draft, problems);
     }
     needless_mark::check(&draft, problems);
-    circle::check(&draft, problems);
+    deadlock::check(&draft, |rule| control::allowed_lines(model, rule), problems);
+    feedback::check(&draft, problems);
     island::check(&draft, problems);
     crowd::check(&draft, problems);
     path_length::check(&draft, &system, problems);

@@ -3,6 +3,7 @@
 mod bad_input;
 mod bounded;
 mod children;
+mod circle;
 mod descriptors;
 mod drop;
 mod exit;

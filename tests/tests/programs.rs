@@ -3,6 +3,7 @@
 use scl_tests::{Process, System};
 
 pub(crate) const BOUNDED: &str = env!("CARGO_BIN_EXE_bounded");
+pub(crate) const CIRCLE: &str = env!("CARGO_BIN_EXE_circle");
 pub(crate) const DROPPER: &str = env!("CARGO_BIN_EXE_dropper");
 pub(crate) const FRESH: &str = env!("CARGO_BIN_EXE_fresh");
 pub(crate) const FUZZ_ROUND: &str = env!("CARGO_BIN_EXE_fuzz_round");

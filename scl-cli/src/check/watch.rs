@@ -7,7 +7,7 @@ use super::checked::Checked;
 use super::report::report;
 use super::{COULD_NOT_RUN, CheckArguments, check_files, worst_code};
 use crate::print::print_err;
-use crate::run::stop_signals;
+use nix::sys::signal::{SigSet, Signal};
 use std::io;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -119,7 +119,7 @@ fn mark(file: &Path) -> Option<Mark> {
 
 /// One thread waits for the signals, which are blocked in all others.
 fn listen_for_stop() -> io::Result<Receiver<()>> {
-    let signals = stop_signals();
+    let signals: SigSet = [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP].into_iter().collect();
     signals.thread_block()?;
     let (sender, stop) = channel();
     thread::Builder::new().spawn(move || {

@@ -1,5 +1,4 @@
 //! A language server as a process, and the little of the protocol that the tests need.
-#![allow(dead_code, reason = "each test program uses a part of it")]
 
 use serde_json::{Value, json};
 use std::collections::{HashMap, VecDeque};

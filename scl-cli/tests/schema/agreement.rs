@@ -5,7 +5,8 @@
 #[path = "../../../scl-topology/src/cases/file.rs"]
 mod file;
 
-use super::{language_server, schema, serve, system::System};
+use super::{language_server, schema, serve};
+use crate::system::System;
 use scl_topology::catalogue::ALL;
 use scl_topology::check::{Facts, check};
 use scl_topology::diagnostic::Diagnostics;

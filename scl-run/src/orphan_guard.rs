@@ -7,8 +7,7 @@
 //! - One `scl __guard` holds the read end of a pipe whose write end only `scl run` holds. When the pipe ends, it kills
 //!   the whole process group of each component, and so what the programs have started in their turn.
 
-use crate::print::print_err;
-use clap::Args;
+use super::problem::print_err;
 use nix::sys::signal::{SigSet, Signal, killpg};
 use nix::unistd::Pid;
 use std::ffi::OsString;
@@ -16,23 +15,13 @@ use std::io::{self, BufRead, Write};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, Command, ExitCode, Stdio};
 
-/// The hidden word of the command line that starts one component.
-pub(crate) const START_WORD: &str = "__start";
-/// The hidden word of the command line that keeps watch.
-pub(crate) const GUARD_WORD: &str = "__guard";
+/// The hidden command that starts one component: `scl __start PARENT -- COMMAND...`.
+pub const START_WORD: &str = "__start";
+/// The hidden command that keeps watch: `scl __guard`.
+pub const GUARD_WORD: &str = "__guard";
 
 /// What shells answer for a program that is there but cannot be executed.
 const CANNOT_EXECUTE: u8 = 126;
-
-/// Becomes a component's program, which ends when its parent ends.
-#[derive(Args)]
-pub(crate) struct StartArguments {
-    /// The process that must be alive.
-    parent: u32,
-    /// The program and its arguments.
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, required = true)]
-    command: Vec<OsString>,
-}
 
 /// The command that starts `command` so that it ends with this process.
 ///
@@ -45,8 +34,9 @@ pub(crate) fn bound_command(command: &[OsString]) -> io::Result<Command> {
     Ok(bound)
 }
 
-/// The body of `scl __start`: returns only if the program cannot be executed.
-pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
+/// The body of `scl __start`: becomes the program `command`, which ends when the process `parent` ends. Returns only if
+/// the program cannot be executed.
+pub fn start_component(parent: u32, command: &[OsString]) -> ExitCode {
     // `scl run` blocks these signals to wait for them, and a program would inherit that.
     let unblocked = stop_signals().thread_unblock();
     if let Err(error) = unblocked.and_then(|()| die_with_parent()) {
@@ -54,10 +44,10 @@ pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
         return ExitCode::from(CANNOT_EXECUTE);
     }
     // The parent may have ended before the kernel knew of our wish; then nobody would ever stop this program.
-    if u32::try_from(Pid::parent().as_raw()) != Ok(arguments.parent) {
+    if u32::try_from(Pid::parent().as_raw()) != Ok(parent) {
         return ExitCode::from(CANNOT_EXECUTE);
     }
-    let [program, rest @ ..] = arguments.command.as_slice() else { return ExitCode::from(CANNOT_EXECUTE) };
+    let [program, rest @ ..] = command else { return ExitCode::from(CANNOT_EXECUTE) };
     let error = Command::new(program).args(rest).exec();
     print_err(&format!("scl: cannot execute `{}`: {error}\n", program.display()));
     ExitCode::from(CANNOT_EXECUTE)
@@ -124,7 +114,7 @@ impl Drop for OrphanGuard {
 }
 
 /// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told.
-pub(crate) fn keep_watch() -> ExitCode {
+pub fn keep_watch() -> ExitCode {
     let groups: Vec<i32> =
         io::stdin().lock().lines().map_while(Result::ok).filter_map(|line| line.parse().ok()).collect();
     for group in groups {

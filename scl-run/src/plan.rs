@@ -2,24 +2,29 @@
 
 use super::cargo_package::{BuiltProgram, build_package};
 use super::launch_file::{LaunchComponent, LaunchFile, parse_launch_file};
-use super::problem::{Problem, quoted_list};
+use super::problem::{Problem, print_err, quoted_list};
 use super::program::{Program, check_programs};
-use crate::load::{MaxSize, load_file, show_errors};
-use crate::print::print_err;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 const LAUNCH_FILE: &str = "launch.yaml";
 const TOPOLOGY_FILE: &str = "topology.yaml";
 
+/// Reads the names of the components from a topology file, or says what is wrong with it and returns `None`.
+pub type ComponentNames<'a> = &'a dyn Fn(&Path) -> Option<Vec<String>>;
+
 /// What to start for the system in a folder, or for a launch file; all of it can be started.
 ///
 /// # Errors
 ///
 /// Every reason why the system cannot be started.
-pub(crate) fn plan_programs(place: &Path, release: bool) -> Result<Vec<Program>, Vec<Problem>> {
+pub(crate) fn plan_programs(
+    place: &Path,
+    release: bool,
+    component_names: ComponentNames<'_>,
+) -> Result<Vec<Program>, Vec<Problem>> {
     let (folder, launch_path) = find_folder(place).map_err(|problem| vec![problem])?;
-    let components = component_names(&folder)?;
+    let components = components_of(&folder, component_names)?;
     let programs = if launch_path.is_file() {
         plan_from_launch_file(&folder, &launch_path, components.as_deref())?
     } else {
@@ -44,19 +49,13 @@ fn find_folder(place: &Path) -> Result<(PathBuf, PathBuf), Problem> {
 }
 
 /// The components of the topology beside the launch file, where there is one.
-fn component_names(folder: &Path) -> Result<Option<Vec<String>>, Vec<Problem>> {
+fn components_of(folder: &Path, names: ComponentNames<'_>) -> Result<Option<Vec<String>>, Vec<Problem>> {
     let path = folder.join(TOPOLOGY_FILE);
     if !path.is_file() {
         return Ok(None);
     }
-    let loaded = load_file(&path, MaxSize::default());
-    let Some(topology) = &loaded.topology else {
-        show_errors(&loaded);
-        return Err(vec![
-            Problem::new("the topology has errors, so nothing was started").at(path.display().to_string()),
-        ]);
-    };
-    Ok(Some(topology.components().map(|(_, component)| component.name().to_owned()).collect()))
+    let invalid = || Problem::new("the topology has errors, so nothing was started").at(path.display().to_string());
+    names(&path).map(Some).ok_or_else(|| vec![invalid()])
 }
 
 fn nothing_to_start(folder: &Path) -> Problem {

@@ -1,10 +1,11 @@
 //! Why a system cannot be started: worded like the checker's diagnostics, for files that the checker does not read.
 
 use std::fmt;
+use std::io::Write;
 
 /// One problem: what is wrong, where, and the way out.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Problem {
+pub struct Problem {
     message: String,
     place: Option<String>,
     helps: Vec<String>,
@@ -58,6 +59,11 @@ pub(crate) fn closest_name<'a>(wrong: &str, names: impl IntoIterator<Item = &'a 
     let limit = (wrong.chars().count() / 3).max(1);
     let distance = |name: &str| strsim::damerau_levenshtein(&wrong, &name.to_lowercase());
     names.into_iter().map(|name| (distance(name), name)).filter(|(far, _)| *far <= limit).min().map(|(_, name)| name)
+}
+
+/// Writes to standard error. Unlike `eprint!`, it does not panic when the reader has gone.
+pub(crate) fn print_err(text: &str) {
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }
 
 /// `` `a`, `b`, `c` ``
