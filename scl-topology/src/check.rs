@@ -38,6 +38,7 @@ mod repeated;
 mod reserved_name;
 mod rust_keyword;
 mod rust_name_collision;
+mod schema_codec;
 mod schema_type;
 mod self_connection;
 mod shared_socket;
@@ -59,7 +60,7 @@ use crate::topology::Topology;
 use draft::Draft;
 
 /// The rules of this stage, by their codes.
-pub(crate) const RULES: [&Rule; 59] = [
+pub(crate) const RULES: [&Rule; 60] = [
     &duplicate_component::RULE,
     &duplicate_gate::RULE,
     &name_characters::RULE,
@@ -80,6 +81,7 @@ pub(crate) const RULES: [&Rule; 59] = [
     &payload_type::WRONG_NUMBER_OF_TYPES,
     &schema_type::RULE,
     &codec_name::RULE,
+    &schema_codec::RULE,
     &option_fit::RULE,
     &option_value::RULE,
     &backpressure::RULE,
@@ -134,7 +136,7 @@ pub struct Facts {
 /// The messages of one schema file.
 #[derive(Debug, Clone, Default)]
 pub struct SchemaMessages {
-    /// Full names, for example `rover.Measurement`.
+    /// Full names, for example `rover.Measurement`. A type whose first part is that of such a name must be one of them.
     pub names: Vec<String>,
 }
 
@@ -165,9 +167,10 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     backpressure::check(&draft, problems);
 
     inference::check(&mut draft, problems);
-    message_type::check(&draft, facts.messages.is_some(), problems);
-    exchange_type::check(&draft, facts.messages.is_some(), problems);
+    message_type::check(&draft, problems);
+    exchange_type::check(&draft, problems);
     codec_agreement::check(&draft, problems);
+    schema_codec::check(&draft, &codec, problems);
 
     if !model.connections_unread {
         unconnected::check(&draft, problems);

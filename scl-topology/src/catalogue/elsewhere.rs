@@ -5,9 +5,9 @@ use super::{Examples, Rule};
 use crate::diagnostic::Severity;
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 14] = [
-    &SCL0001, &SCL0002, &SCL0003, &SCL0004, &SCL0005, &SCL0006, &SCL0007, &SCL0406, &SCL0605, &SCL0606, &SCL0803,
-    &SCL1001, &SCL1002, &SCL1003,
+pub(crate) const RULES: [&Rule; 15] = [
+    &SCL0001, &SCL0002, &SCL0003, &SCL0004, &SCL0005, &SCL0006, &SCL0007, &SCL0406, &SCL0605, &SCL0606, &SCL0609,
+    &SCL0803, &SCL1001, &SCL1002, &SCL1003,
 ];
 
 /// SCL0001.
@@ -136,6 +136,18 @@ pub(crate) const SCL0606: Rule = Rule {
     explanation: "A type that the file names exists in Rust, but the gate's codec cannot carry it: for `protobuf` it \
                   has to be a prost message, for the others a serde type. rustc reports it at an assertion that names \
                   the gate.",
+    examples: Examples::None,
+};
+
+/// SCL0609.
+pub(crate) const SCL0609: Rule = Rule {
+    code: "SCL0609",
+    severity: Severity::Error,
+    title: "Rust type not found",
+    explanation: "A type or codec that the file names as a Rust path, such as `camera.Image`, cannot be found where the \
+                  macro is called. Only the programs that open the component need it, and only there rustc reports it. \
+                  Add the crate to the program's dependencies, bring the module into scope with `use`, or correct the \
+                  path.",
     examples: Examples::None,
 };
 

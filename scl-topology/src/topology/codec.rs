@@ -24,6 +24,14 @@ impl Codec {
     pub const BUILT_IN: [Codec; 6] =
         [Codec::Protobuf, Codec::Json, Codec::Cbor, Codec::Msgpack, Codec::Postcard, Codec::Raw];
 
+    /// Returns true if it can carry messages of the `schemas`; a codec of the user's own may.
+    pub fn carries_schema_types(&self) -> bool {
+        match self {
+            Codec::Protobuf | Codec::Json | Codec::Path(_) => true,
+            Codec::Cbor | Codec::Msgpack | Codec::Postcard | Codec::Raw => false,
+        }
+    }
+
     /// The word in the file.
     pub fn word(&self) -> &str {
         match self {
