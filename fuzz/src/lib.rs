@@ -38,7 +38,7 @@ fn judge(model: &Model, sources: &Sources, mut problems: Diagnostics) {
     // Where the parser has told a problem, here by the marks in the model, the checker adds none.
     assert!(topology.is_some() || problems.has_errors() || is_damaged(model), "no topology and no error");
     for problem in problems.into_sorted().iter().take(50) {
-        assert!(render(problem, sources).contains(problem.code));
+        assert!(render(problem, sources).contains(problem.code()));
         assert!(!render_headless(problem, sources).starts_with("error"));
         assert!(!to_json(problem, sources).contains('\n'));
     }

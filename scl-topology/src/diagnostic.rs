@@ -5,26 +5,19 @@ mod json;
 mod limit;
 mod render;
 mod sarif;
+#[cfg(test)]
+mod testing;
 
+use crate::rule::Rule;
 use crate::source::Span;
 
+pub use crate::rule::Severity;
 pub use cargo::{CargoUnit, cargo_end, cargo_start, to_cargo};
 pub use json::to_json;
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};
 pub use sarif::{CheckedFile, to_sarif};
-
-/// How bad it is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Severity {
-    /// The file cannot be used.
-    Error,
-    /// The file can be used, but is probably not what was meant.
-    Warning,
-    /// Off unless asked for.
-    Lint,
-}
 
 /// A place with a word on it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -35,12 +28,13 @@ pub struct Label {
     pub text: String,
 }
 
-/// One problem: what is wrong, where, and the way out.
+/// One problem: what is wrong, where, and the way out. Made by [`Rule::at`] and [`Rule::without_place`] only.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Diagnostic {
-    /// The code, for example `SCL0502`.
-    pub code: &'static str,
-    /// How bad it is.
+    /// The rule that found it.
+    pub rule: &'static Rule,
+    /// How bad it is: the rule's severity, unless a comment in the file or an option of a tool changed it.
     pub severity: Severity,
     /// The headline: lower case, no full stop, names in backticks.
     pub message: String,
@@ -54,30 +48,30 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
 }
 
+impl Rule {
+    /// A problem of this kind: its headline, its place and what to see there.
+    pub fn at(&'static self, message: impl Into<String>, at: Span, label: impl Into<String>) -> Diagnostic {
+        Diagnostic { primary: Some(Label { span: at, text: label.into() }), ..self.without_place(message) }
+    }
+
+    /// A problem of this kind that has no place in any text, for example because the file is missing.
+    pub fn without_place(&'static self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic {
+            rule: self,
+            severity: self.severity,
+            message: message.into(),
+            primary: None,
+            secondary: Vec::new(),
+            helps: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+}
+
 impl Diagnostic {
-    /// An error with a headline and its place.
-    pub fn error(code: &'static str, message: impl Into<String>, at: Span, label: impl Into<String>) -> Self {
-        Self::new(code, Severity::Error, message, Some(Label { span: at, text: label.into() }))
-    }
-
-    /// A warning with a headline and its place.
-    pub fn warning(code: &'static str, message: impl Into<String>, at: Span, label: impl Into<String>) -> Self {
-        Self::new(code, Severity::Warning, message, Some(Label { span: at, text: label.into() }))
-    }
-
-    /// A lint, off unless asked for, with a headline and its place.
-    pub fn lint(code: &'static str, message: impl Into<String>, at: Span, label: impl Into<String>) -> Self {
-        Self::new(code, Severity::Lint, message, Some(Label { span: at, text: label.into() }))
-    }
-
-    /// An error about a file that has no text to show.
-    pub fn fileless(code: &'static str, message: impl Into<String>) -> Self {
-        Self::new(code, Severity::Error, message, None)
-    }
-
-    fn new(code: &'static str, severity: Severity, message: impl Into<String>, primary: Option<Label>) -> Self {
-        let message = message.into();
-        Self { code, severity, message, primary, secondary: Vec::new(), helps: Vec::new(), notes: Vec::new() }
+    /// The rule's code, for example `SCL0502`.
+    pub fn code(&self) -> &'static str {
+        self.rule.code
     }
 
     /// Adds another place.
@@ -149,7 +143,7 @@ impl Diagnostics {
     /// All of them, sorted by position; those without a place come first.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
         let mut items = std::mem::take(&mut self.items);
-        items.sort_by_key(|item| item.primary.as_ref().map(|label| (label.span, item.code)));
+        items.sort_by_key(|item| item.primary.as_ref().map(|label| (label.span, item.code())));
         items
     }
 }
@@ -163,19 +157,20 @@ impl Drop for Diagnostics {
 
 #[cfg(test)]
 mod tests {
-    use super::{Diagnostic, Diagnostics};
+    use super::Diagnostics;
+    use crate::external::FILE_NOT_FOUND;
 
     #[test]
     #[should_panic(expected = "nobody read them")]
     fn forgotten_problems_are_a_bug() {
         let mut problems = Diagnostics::new();
-        problems.push(Diagnostic::fileless("SCL0001", "no file"));
+        problems.push(FILE_NOT_FOUND.without_place("no file"));
     }
 
     #[test]
     fn append_hands_problems_over() {
         let (mut all, mut some) = (Diagnostics::new(), Diagnostics::new());
-        some.push(Diagnostic::fileless("SCL0001", "no file"));
+        some.push(FILE_NOT_FOUND.without_place("no file"));
         all.append(some);
         assert!(all.has_errors());
         assert_eq!(all.into_sorted().len(), 1);

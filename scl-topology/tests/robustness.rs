@@ -17,7 +17,7 @@ fn run(text: &str) -> (Model, Vec<Diagnostic>) {
     // An excerpt of a very long line takes its time, and one is as good as twenty.
     let shown = if text.len() > 100_000 { 1 } else { usize::MAX };
     for problem in limit(problems.clone(), "topology.yaml").into_iter().take(shown) {
-        assert!(render(&problem, &sources).contains(problem.code));
+        assert!(render(&problem, &sources).contains(problem.code()));
         assert!(!to_json(&problem, &sources).contains('\n'));
     }
     (model, problems)
@@ -81,7 +81,7 @@ fn deep_nesting_is_one_problem() {
     }
     let blocks: String = (0..5_000).map(|depth| format!("{}a:\n", " ".repeat(depth))).collect();
     let problems = run(&blocks).1;
-    assert_eq!(problems.iter().map(|problem| problem.code).collect::<Vec<_>>(), ["SCL0116"]);
+    assert_eq!(problems.iter().map(|problem| problem.code()).collect::<Vec<_>>(), ["SCL0116"]);
 }
 
 #[test]

@@ -2,9 +2,9 @@
 
 use super::draft::Draft;
 use super::{unknown_component, unknown_gate};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
 use crate::wording::{either, listed};
 

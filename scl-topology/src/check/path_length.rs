@@ -3,10 +3,10 @@
 
 use super::draft::Draft;
 use super::named::is_well_formed;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::resolve::{CONTRACT_LENGTH, LONGEST_PATH, TAP, folder_length, longest_folder};
+use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 
 /// SCL0801.

@@ -1,9 +1,8 @@
 //! SCL0412: a codec that cannot carry a message of the schemas. Gates with the same codec are reported together.
 
 use super::draft::{Draft, DraftGate};
-use crate::catalogue::{Examples, Rule};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule, Severity};
 use crate::source::Span;
 use crate::topology::{Codec, Payload, TypeName};
 use crate::wording::listed;
@@ -149,7 +148,7 @@ connections:
                 "schemas: [uav.proto]\ncomponents:\n  - name: a\n    gates:\n      \
                  - x: {{pub: {message}, codec: '{codec}', unconnected: ok}}\n"
             );
-            problems(&yaml, Some(&["uav.Fix"])).0.iter().any(|found| found.code == RULE.code)
+            problems(&yaml, Some(&["uav.Fix"])).0.iter().any(|found| found.code() == RULE.code)
         };
         for codec in ["raw", "postcard", "cbor", "msgpack"] {
             assert!(found(codec, "uav.Fix") && !found(codec, "gps.Position"), "{codec}");

@@ -5,9 +5,9 @@
 
 use super::draft::Draft;
 use super::{Facts, SchemaMessages};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::suggest::{same_parts, similar};
 use crate::topology::TypeName;
 use crate::wording::{either, listed};
@@ -225,7 +225,7 @@ components:
             let yaml =
                 format!("schemas: [uav.proto]\ncomponents:\n  - name: a\n    gates:\n      - x: {{pub: {message}}}\n");
             let (found, _) = problems(&yaml, Some(&["uav.Measurement", "uav.v1.Fix", "Time"]));
-            let found = found.into_iter().find(|found| found.code == RULE.code);
+            let found = found.into_iter().find(|found| found.code() == RULE.code);
             found.map_or_else(|| "Rust or known".to_owned(), |found| found.helps.first().cloned().unwrap_or_default())
         };
         let cases = [

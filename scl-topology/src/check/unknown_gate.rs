@@ -3,9 +3,9 @@
 use super::connection_end::parts;
 use super::draft::Draft;
 use super::unknown_component::swap;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::wording::{either, shortened};

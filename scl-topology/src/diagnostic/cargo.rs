@@ -60,7 +60,7 @@ pub fn to_cargo(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) ->
     let message = json!({
         "$message_type": "diagnostic",
         "message": diagnostic.message,
-        "code": { "code": format!("scl::{}", diagnostic.code), "explanation": null },
+        "code": { "code": format!("scl::{}", diagnostic.code()), "explanation": null },
         "level": level,
         "spans": spans(diagnostic, sources, unit),
         "children": children(diagnostic),
@@ -141,7 +141,8 @@ fn children(diagnostic: &Diagnostic) -> Vec<Value> {
 #[cfg(test)]
 mod tests {
     use super::{CargoUnit, cargo_end, cargo_start, to_cargo};
-    use crate::diagnostic::Diagnostic;
+    use crate::diagnostic::testing::{ERROR, WARNING};
+    use crate::external::FILE_NOT_FOUND;
     use crate::source::{Sources, Span};
     use serde_json::{Value, json};
 
@@ -159,7 +160,8 @@ mod tests {
         let mut sources = Sources::new();
         let file = sources.add("a b/t.yaml", "ä: \"b\"\r\nc:\n  d\n");
         let span = |start, end| Span { file, start, end };
-        let problem = Diagnostic::warning("SCL0999", "what", span(4, 7), "why")
+        let problem = WARNING
+            .at("what", span(4, 7), "why")
             .label(span(9, 15), "many lines")
             .label(span(16, 16), "")
             .help("one\ntwo")
@@ -205,13 +207,13 @@ mod tests {
     fn a_label_alone_needs_no_child() {
         let mut sources = Sources::new();
         let file = sources.add("t.yaml", "a");
-        let problem = Diagnostic::error("SCL0999", "what", Span { file, start: 0, end: 1 }, "why");
+        let problem = ERROR.at("what", Span { file, start: 0, end: 1 }, "why");
         assert_eq!(parsed(&to_cargo(&problem, &sources, &unit()))["message"]["children"], json!([]));
     }
 
     #[test]
     fn what_is_nowhere_is_at_the_start_of_the_file() {
-        let message = parsed(&to_cargo(&Diagnostic::fileless("SCL0001", "no file"), &Sources::new(), &unit()));
+        let message = parsed(&to_cargo(&FILE_NOT_FOUND.without_place("no file"), &Sources::new(), &unit()));
         let span = &message["message"]["spans"][0];
         assert_eq!((&span["file_name"], &span["line_start"]), (&json!("/w/a b/t.yaml"), &json!(1)));
     }

@@ -43,7 +43,7 @@ fn render_with(renderer: &Renderer, diagnostic: &Diagnostic, sources: &Sources) 
         Severity::Warning | Severity::Lint => Level::WARNING,
     };
     let excerpts = excerpts(diagnostic, sources);
-    let title = format!("[{}] {}", diagnostic.code, one_line(&diagnostic.message));
+    let title = format!("[{}] {}", diagnostic.code(), one_line(&diagnostic.message));
     let mut elements: Vec<Element<'_>> = excerpts.iter().map(|excerpt| excerpt.snippet().into()).collect();
     elements.extend(diagnostic.helps.iter().map(|help| Level::HELP.message(lines(help)).into()));
     elements.extend(diagnostic.notes.iter().map(|note| Level::NOTE.message(lines(note)).into()));

@@ -24,9 +24,9 @@ pub struct CheckedFile<'a> {
 /// located at its file as a whole.
 pub fn to_sarif(files: &[CheckedFile<'_>]) -> String {
     let mut found: Vec<&Diagnostic> = files.iter().flat_map(|file| file.diagnostics).collect();
-    found.sort_by_key(|diagnostic| diagnostic.code);
-    found.dedup_by_key(|diagnostic| diagnostic.code);
-    let codes: Vec<&str> = found.iter().map(|diagnostic| diagnostic.code).collect();
+    found.sort_by_key(|diagnostic| diagnostic.code());
+    found.dedup_by_key(|diagnostic| diagnostic.rule);
+    let codes: Vec<&str> = found.iter().map(|diagnostic| diagnostic.code()).collect();
     let results = files.iter().flat_map(|file| file.diagnostics.iter().map(|it| result(it, file, &codes)));
     let driver = json!({
         "name": "scl", "semanticVersion": env!("CARGO_PKG_VERSION"),
@@ -46,13 +46,13 @@ pub fn to_sarif(files: &[CheckedFile<'_>]) -> String {
 
 /// What the catalogue knows of a code.
 fn rule(diagnostic: &Diagnostic) -> Value {
-    let mut rule = json!({ "id": diagnostic.code, "defaultConfiguration": { "level": level(diagnostic.severity) } });
-    if let Some(known) = find(diagnostic.code) {
+    let mut rule = json!({ "id": diagnostic.code(), "defaultConfiguration": { "level": level(diagnostic.severity) } });
+    if let Some(known) = find(diagnostic.code()) {
         rule["shortDescription"] = json!({ "text": known.title });
         rule["fullDescription"] = json!({ "text": known.explanation });
         rule["defaultConfiguration"]["level"] = json!(level(known.severity));
     }
-    if let Some(entry) = explain(diagnostic.code) {
+    if let Some(entry) = explain(diagnostic.code()) {
         rule["help"] = json!({ "text": entry, "markdown": entry });
     }
     rule
@@ -69,8 +69,8 @@ fn result(diagnostic: &Diagnostic, file: &CheckedFile<'_>, codes: &[&str]) -> Va
         related
     });
     json!({
-        "ruleId": diagnostic.code,
-        "ruleIndex": codes.iter().position(|code| *code == diagnostic.code),
+        "ruleId": diagnostic.code(),
+        "ruleIndex": codes.iter().position(|code| *code == diagnostic.code()),
         "level": level(diagnostic.severity),
         "message": { "text": text(diagnostic) },
         "locations": [place],
@@ -127,7 +127,8 @@ fn uri(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{CheckedFile, to_sarif, uri};
-    use crate::diagnostic::Diagnostic;
+    use crate::diagnostic::testing::{OTHER, WARNING};
+    use crate::external::FILE_NOT_FOUND;
     use crate::source::{Sources, Span};
     use serde_json::{Value, json};
 
@@ -135,12 +136,10 @@ mod tests {
         let mut sources = Sources::new();
         let file = sources.add("a b/ä.yaml", "ä: \"b\"\r\nc:\n");
         let span = |start, end| Span { file, start, end };
-        let problem = Diagnostic::warning("SCL0999", "what", span(4, 7), "why")
-            .label(span(9, 10), "here")
-            .help("write `[a.b, c.d]`")
-            .note("rule");
-        let first = [problem.clone(), Diagnostic::error("SCL0100", "other", span(0, 1), "")];
-        let second = [Diagnostic::fileless("SCL0001", "no file"), problem];
+        let problem =
+            WARNING.at("what", span(4, 7), "why").label(span(9, 10), "here").help("write `[a.b, c.d]`").note("rule");
+        let first = [problem.clone(), OTHER.at("other", span(0, 1), "")];
+        let second = [FILE_NOT_FOUND.without_place("no file"), problem];
         let files = [("a b/ä.yaml", &first), ("/x.yaml", &second)];
         let files = files.map(|(path, diagnostics)| CheckedFile { path, sources: &sources, diagnostics });
         serde_json::from_str(&to_sarif(&files)).unwrap()
