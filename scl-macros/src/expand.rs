@@ -34,14 +34,15 @@ pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -
     let request = locate::locate(&arguments, surroundings);
     let mut loaded = scl_loader::load(&request);
     loaded.diagnostics.extend(locate::check_path(&arguments, &request, surroundings));
-    let context = Context::new(&arguments, &loaded);
+    let context = Context::new(&arguments, &loaded, surroundings);
 
     let problems = problems::expand_problems(&context);
     let components = match &loaded.topology {
         Some(topology) => component::expand_components(&context, topology),
         None => skeleton::expand_skeleton(&context),
     };
+    let types = types::expand_lookups(&context);
     let messages = schemas::expand_modules(&context);
     let tracking = tracking::expand_tracking(&loaded.files_read, surroundings);
-    quote! { #problems #components #messages #tracking }
+    quote! { #problems #components #types #messages #tracking }
 }

@@ -7,6 +7,7 @@
 
 mod arguments;
 mod expand;
+mod extern_crates;
 mod locate;
 mod main_attribute;
 #[cfg(test)]

@@ -87,6 +87,7 @@ mod error;
 mod gate;
 mod log;
 mod medium;
+mod named_type;
 mod options;
 #[doc(hidden)]
 pub mod private;

@@ -2,6 +2,7 @@
 
 pub use crate::__component_methods as component_methods;
 pub use crate::__component_test_methods as component_test_methods;
+pub use crate::__stand_in_codec as stand_in_codec;
 pub use crate::codec::{self, Codec};
 pub use crate::component::{
     Component, ComponentHandle, Opener, Outcome, block_on, close, close_blocking, open, open_blocking, ready,
@@ -9,6 +10,7 @@ pub use crate::component::{
 };
 pub use crate::error::OpenError;
 pub use crate::gate::{AnyGate, Pub, Pull, Push, Rep, Req, Sub};
+pub use crate::named_type::NamedType;
 pub use crate::spec::{ComponentSpec, GateKind, GateSpec, LinkSpec, Schema, WhenFull};
 #[cfg(feature = "memory")]
 pub use crate::transport::memory::Memory;
@@ -18,4 +20,5 @@ pub use prost;
 #[cfg(feature = "protobuf")]
 pub use prost_types;
 pub use scl_macros::__topology;
+pub use std::marker::PhantomPinned;
 pub use std::time::Duration;

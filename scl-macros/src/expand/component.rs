@@ -6,6 +6,7 @@ use super::context::Context;
 use super::gate_types::gate_type;
 use super::names::{counterpart_name, field_name, struct_name};
 use super::schemas::EmbeddedSchemas;
+use super::types::Requirements;
 use super::{counterpart, docs, spec, type_agreement};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
@@ -18,18 +19,25 @@ pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> T
     let codec_traits = CodecTraits::collect(context, topology);
     let structs = components.iter().map(|component| expand_struct(context, topology, component));
     let traits = codec_traits.expand(context, topology);
+    let requirements = Requirements::collect(context, topology);
+    let found_types = requirements.expand(context);
     let schemas = EmbeddedSchemas::collect(context, topology);
     let constants = schemas.expand(context);
-    let expand_implementation =
-        |component: &&Component| expand_implementation(context, topology, component, &codec_traits, &schemas);
+    let expand_implementation = |component: &&Component| {
+        expand_implementation(context, topology, component, &codec_traits, &schemas, &requirements)
+    };
     let implementations = components.iter().map(expand_implementation);
     let agreements = type_agreement::expand_agreements(context, topology);
     // With the span of the literal, rustc's own errors about a type point there and not into a macro.
     quote_spanned! { context.span =>
         #(#structs)*
-        #[allow(dead_code, non_camel_case_types, non_snake_case, clippy::all, clippy::pedantic)]
+        #[allow(
+            dead_code, non_camel_case_types, non_snake_case, private_bounds, private_interfaces, clippy::all,
+            clippy::pedantic
+        )]
         const _: () = {
             #traits
+            #found_types
             #constants
             #(#implementations)*
         };
@@ -54,7 +62,7 @@ fn expand_struct(context: &Context<'_>, topology: &Topology, component: &Compone
     // `__scl` is the last field: fields are dropped in order, and the gates go first.
     quote! {
         #[doc = #doc]
-        #[allow(dead_code, non_camel_case_types, non_snake_case)]
+        #[allow(dead_code, non_camel_case_types, non_snake_case, private_interfaces)]
         pub struct #name { #(#fields)* __scl: #private::ComponentHandle }
         #counterpart
     }
@@ -66,10 +74,12 @@ fn expand_implementation(
     component: &Component,
     codec_traits: &CodecTraits<'_>,
     schemas: &EmbeddedSchemas,
+    requirements: &Requirements,
 ) -> TokenStream {
     let private = &context.private;
     let (name, peer) = (struct_name(component), counterpart_name(component));
     let spec = spec::expand_spec(context, topology, component, schemas);
+    let bounds = requirements.expand_bounds(context, topology, component);
     let methods = expand_methods(context, topology, component, codec_traits, Side::Component);
     let counterpart = counterpart::expand_implementation(context, topology, component, codec_traits);
     quote_spanned! { context.span =>
@@ -77,9 +87,9 @@ fn expand_implementation(
             const SPEC: &'static #private::ComponentSpec = &#spec;
             #methods
         }
-        #private::component_methods!(#name);
+        #private::component_methods!(#name #bounds);
         #counterpart
         #[cfg(test)]
-        #private::component_test_methods!(#name, #peer);
+        #private::component_test_methods!(#name, #peer #bounds);
     }
 }

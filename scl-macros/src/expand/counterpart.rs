@@ -29,7 +29,7 @@ pub(super) fn expand_struct(context: &Context<'_>, topology: &Topology, componen
     quote! {
         #[cfg(test)]
         #[doc = #doc]
-        #[allow(dead_code, non_camel_case_types, non_snake_case)]
+        #[allow(dead_code, non_camel_case_types, non_snake_case, private_interfaces)]
         pub struct #name { #(#fields)* __scl: #private::ComponentHandle }
     }
 }

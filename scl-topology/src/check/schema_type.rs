@@ -125,7 +125,7 @@ impl<'s> Known<'s> {
     }
 }
 
-fn some<'s>(names: Vec<&'s str>) -> Option<Vec<&'s str>> {
+fn some(names: Vec<&str>) -> Option<Vec<&str>> {
     (!names.is_empty()).then_some(names)
 }
 
