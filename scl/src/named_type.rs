@@ -27,3 +27,11 @@ macro_rules! __stand_in_codec {
         }
     };
 }
+
+/// Without the features `json` and `protobuf`, messages of schemas have no JSON.
+#[cfg(not(all(feature = "json", feature = "protobuf")))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __no_message_json {
+    ($($any:tt)*) => {};
+}

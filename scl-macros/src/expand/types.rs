@@ -69,6 +69,19 @@ impl MessageTypes {
         }
     }
 
+    /// The full names of the messages of the schemas, sorted, with their paths. Those of the well-known types are left
+    /// out, because prost has types for them.
+    #[cfg(feature = "protobuf")]
+    pub(super) fn of_schemas(&self, span: Span) -> Vec<(&str, TokenStream)> {
+        let SchemaTypes::Known(known) = &self.of_schemas else { return Vec::new() };
+        let own = known.iter().filter(|(name, _)| !name.starts_with("google.protobuf."));
+        let mut all: Vec<(&str, TokenStream)> = own
+            .filter_map(|(name, segments)| Some((name.as_str(), path(segments.iter().map(String::as_str), span)?)))
+            .collect();
+        all.sort_by_key(|(name, _)| *name);
+        all
+    }
+
     /// The Rust paths that are looked up.
     pub(super) fn lookups(&self) -> &Lookups {
         &self.of_rust

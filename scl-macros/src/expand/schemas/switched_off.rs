@@ -9,6 +9,10 @@ pub(in crate::expand) fn expand_modules(_: &Context<'_>) -> TokenStream {
     TokenStream::new()
 }
 
+pub(in crate::expand) fn expand_json(_: &Context<'_>) -> TokenStream {
+    TokenStream::new()
+}
+
 pub(in crate::expand) struct EmbeddedSchemas;
 
 impl EmbeddedSchemas {
