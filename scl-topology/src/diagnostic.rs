@@ -1,6 +1,7 @@
 //! What the checker has to say: one [`Diagnostic`] a problem, gathered in [`Diagnostics`].
 
 mod cargo;
+mod fix;
 mod json;
 mod limit;
 mod render;
@@ -10,9 +11,11 @@ mod testing;
 
 use crate::rule::Rule;
 use crate::source::Span;
+use std::borrow::Cow;
 
 pub use crate::rule::Severity;
 pub use cargo::{CargoUnit, cargo_end, cargo_start, to_cargo};
+pub use fix::Fix;
 pub use json::to_json;
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
@@ -40,18 +43,29 @@ pub struct Diagnostic {
     pub message: String,
     /// Why here. `None` only where no source text exists (the file is missing).
     pub primary: Option<Label>,
-    /// The declarations involved.
+    /// Other places involved, for example declarations: the first [`MOST_LABELS`].
     pub secondary: Vec<Label>,
+    /// Number of further places that are not in `secondary`.
+    pub unlisted: usize,
     /// What to write instead, one way a line; a help may hold several lines.
     pub helps: Vec<String>,
     /// The rule, or the valid names.
     pub notes: Vec<String>,
+    /// What `helps` say, as replacements of text.
+    pub fixes: Vec<Fix>,
 }
+
+/// Maximum number of secondary labels of a diagnostic. Nobody reads more, and a hostile file must not decide how much
+/// is kept and printed.
+pub const MOST_LABELS: usize = 16;
+
+/// Maximum length of one text of a diagnostic, in bytes: names in it may be as long as the file.
+const LONGEST_TEXT: usize = 1_000;
 
 impl Rule {
     /// A problem of this kind: its headline, its place and what to see there.
     pub fn at(&'static self, message: impl Into<String>, at: Span, label: impl Into<String>) -> Diagnostic {
-        Diagnostic { primary: Some(Label { span: at, text: label.into() }), ..self.without_place(message) }
+        Diagnostic { primary: Some(Label { span: at, text: clipped(label) }), ..self.without_place(message) }
     }
 
     /// A problem of this kind that has no place in any text, for example because the file is missing.
@@ -59,11 +73,13 @@ impl Rule {
         Diagnostic {
             rule: self,
             severity: self.severity,
-            message: message.into(),
+            message: clipped(message),
             primary: None,
             secondary: Vec::new(),
+            unlisted: 0,
             helps: Vec::new(),
             notes: Vec::new(),
+            fixes: Vec::new(),
         }
     }
 }
@@ -74,23 +90,52 @@ impl Diagnostic {
         self.rule.code
     }
 
-    /// Adds another place.
+    /// Adds another place. After [`MOST_LABELS`] places, the further ones are only counted.
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Self {
-        self.secondary.push(Label { span, text: text.into() });
+        self.add_label(span, text);
         self
+    }
+
+    /// As [`label`](Self::label), for a diagnostic in place.
+    pub fn add_label(&mut self, span: Span, text: impl Into<String>) {
+        match self.secondary.len() < MOST_LABELS {
+            true => self.secondary.push(Label { span, text: clipped(text) }),
+            false => self.unlisted += 1,
+        }
+    }
+
+    /// The notes, and one more if there are places that are not listed.
+    pub fn all_notes(&self) -> impl Iterator<Item = Cow<'_, str>> {
+        let rest = match self.unlisted {
+            0 => None,
+            1 => Some("1 more place is not shown".to_owned()),
+            more => Some(format!("{more} more places are not shown")),
+        };
+        self.notes.iter().map(|note| Cow::from(note.as_str())).chain(rest.map(Cow::from))
     }
 
     /// Adds a way out.
     pub fn help(mut self, text: impl Into<String>) -> Self {
-        self.helps.push(text.into());
+        self.helps.push(clipped(text));
         self
     }
 
     /// Adds the rule behind it.
     pub fn note(mut self, text: impl Into<String>) -> Self {
-        self.notes.push(text.into());
+        self.notes.push(clipped(text));
         self
     }
+}
+
+/// The text, cut at [`LONGEST_TEXT`].
+fn clipped(text: impl Into<String>) -> String {
+    let mut text = text.into();
+    if text.len() > LONGEST_TEXT {
+        let end = (0..=LONGEST_TEXT).rev().find(|&end| text.is_char_boundary(end)).unwrap_or_default();
+        text.truncate(end);
+        text.push_str("...");
+    }
+    text
 }
 
 /// The collector. Stages push into it and go on; whoever made it must read it.
@@ -157,8 +202,9 @@ impl Drop for Diagnostics {
 
 #[cfg(test)]
 mod tests {
-    use super::Diagnostics;
+    use super::{Diagnostics, LONGEST_TEXT, MOST_LABELS};
     use crate::external::FILE_NOT_FOUND;
+    use crate::source::{FileId, Span};
 
     #[test]
     #[should_panic(expected = "nobody read them")]
@@ -174,5 +220,16 @@ mod tests {
         all.append(some);
         assert!(all.has_errors());
         assert_eq!(all.into_sorted().len(), 1);
+    }
+
+    #[test]
+    fn labels_and_texts_are_bounded() {
+        let span = Span { file: FileId(0), start: 0, end: 1 };
+        let mut problem = FILE_NOT_FOUND.at("ä".repeat(1_000), span, "").note("rule");
+        for _ in 0..20_000 {
+            problem.add_label(span, "here");
+        }
+        assert_eq!((problem.secondary.len(), problem.message.len()), (MOST_LABELS, LONGEST_TEXT + 3));
+        assert_eq!(problem.all_notes().collect::<Vec<_>>(), ["rule", "19984 more places are not shown"]);
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn tell_once(problems: &mut Diagnostics) {
     problems.retain(|found| {
         let uses = places.get(&found.message).map_or(&[][..], |uses| uses.get(1..).unwrap_or(&[]));
         for place in uses.iter().take(MOST) {
-            found.secondary.push(crate::diagnostic::Label { span: *place, text: "and here".to_owned() });
+            found.add_label(*place, "and here");
         }
         if !uses.is_empty() {
             found.notes.push(format!("{} connections name it", uses.len() + 1));

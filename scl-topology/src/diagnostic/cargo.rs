@@ -129,7 +129,7 @@ fn start_of_file(unit: &CargoUnit) -> Value {
 fn children(diagnostic: &Diagnostic) -> Vec<Value> {
     let child = |level: &str, text: &str| json!({ "message": text, "code": null, "level": level, "spans": [], "children": [], "rendered": null });
     let helps = diagnostic.helps.iter().map(|help| child("help", &format!("help: {help}")));
-    let notes = diagnostic.notes.iter().map(|note| child("note", &format!("note: {note}")));
+    let notes = diagnostic.all_notes().map(|note| child("note", &format!("note: {note}")));
     let mut children: Vec<Value> = helps.chain(notes).collect();
     let label = diagnostic.primary.iter().map(|label| &label.text).find(|text| !text.is_empty());
     if let Some(label) = label.filter(|_| !children.is_empty()) {

@@ -22,7 +22,7 @@ pub fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let labels = diagnostic.primary.iter().chain(&diagnostic.secondary).map(|of| label(of, sources));
     fields.push(("labels", list(labels)));
     fields.push(("helps", list(diagnostic.helps.iter().map(|help| text(help)))));
-    fields.push(("notes", list(diagnostic.notes.iter().map(|note| text(note)))));
+    fields.push(("notes", list(diagnostic.all_notes().map(|note| text(&note)))));
     object(&fields)
 }
 

@@ -46,7 +46,7 @@ fn render_with(renderer: &Renderer, diagnostic: &Diagnostic, sources: &Sources) 
     let title = format!("[{}] {}", diagnostic.code(), one_line(&diagnostic.message));
     let mut elements: Vec<Element<'_>> = excerpts.iter().map(|excerpt| excerpt.snippet().into()).collect();
     elements.extend(diagnostic.helps.iter().map(|help| Level::HELP.message(lines(help)).into()));
-    elements.extend(diagnostic.notes.iter().map(|note| Level::NOTE.message(lines(note)).into()));
+    elements.extend(diagnostic.all_notes().map(|note| Level::NOTE.message(lines(&note)).into()));
     let group: Group<'_> = level.primary_title(title).elements(elements);
     let text = renderer.render(&[group]);
     // The renderer fills the gutter of lines without text with spaces.

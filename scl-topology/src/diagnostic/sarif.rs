@@ -89,7 +89,7 @@ fn level(severity: Severity) -> &'static str {
 fn text(diagnostic: &Diagnostic) -> String {
     let label = diagnostic.primary.iter().map(|label| label.text.clone()).filter(|text| !text.is_empty());
     let helps = diagnostic.helps.iter().map(|help| format!("help: {help}"));
-    let notes = diagnostic.notes.iter().map(|note| format!("note: {note}"));
+    let notes = diagnostic.all_notes().map(|note| format!("note: {note}"));
     let lines = std::iter::once(diagnostic.message.clone()).chain(label).chain(helps).chain(notes);
     lines.collect::<Vec<_>>().join("\n")
 }
