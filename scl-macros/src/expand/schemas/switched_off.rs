@@ -2,8 +2,6 @@
 
 use super::super::context::Context;
 use proc_macro2::TokenStream;
-use quote::quote;
-use scl_topology::topology::{Component, Topology};
 
 pub(in crate::expand) fn expand_modules(_: &Context<'_>) -> TokenStream {
     TokenStream::new()
@@ -11,20 +9,4 @@ pub(in crate::expand) fn expand_modules(_: &Context<'_>) -> TokenStream {
 
 pub(in crate::expand) fn expand_json(_: &Context<'_>) -> TokenStream {
     TokenStream::new()
-}
-
-pub(in crate::expand) struct EmbeddedSchemas;
-
-impl EmbeddedSchemas {
-    pub(in crate::expand) fn collect(_: &Context<'_>, _: &Topology) -> Self {
-        Self
-    }
-
-    pub(in crate::expand) fn expand(&self, _: &Context<'_>) -> TokenStream {
-        TokenStream::new()
-    }
-
-    pub(in crate::expand) fn of(&self, _: &Component) -> TokenStream {
-        quote!(::core::option::Option::None)
-    }
 }
