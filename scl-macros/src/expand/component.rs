@@ -79,7 +79,7 @@ fn expand_implementation(
     schemas: &EmbeddedSchemas<'_>,
     requirements: &Requirements,
 ) -> TokenStream {
-    let private = &context.private;
+    let (private, for_tests) = (&context.private, &context.for_tests);
     let (name, peer) = (struct_name(component), counterpart_name(component));
     let spec = spec::expand_spec(context, plan, schemas);
     let bounds = requirements.expand_bounds(context, topology, component);
@@ -92,7 +92,7 @@ fn expand_implementation(
         }
         #private::component_methods!(#name #bounds);
         #counterpart
-        #[cfg(test)]
+        #for_tests
         #private::component_test_methods!(#name, #peer #bounds);
     }
 }

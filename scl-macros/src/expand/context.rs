@@ -19,6 +19,8 @@ pub(super) struct Context<'a> {
     pub(super) path: String,
     /// The components to generate; `None` for all.
     pub(super) only: Option<&'a [Ident]>,
+    /// `#[cfg(test)]`, or nothing if other crates are to test the components.
+    pub(super) for_tests: TokenStream,
     /// The loaded topology file, with its schemas and diagnostics.
     pub(super) loaded: &'a Loaded,
     /// The Rust paths of the message types.
@@ -33,7 +35,8 @@ impl<'a> Context<'a> {
         let only = arguments.only.as_deref();
         let lookups = |types| Lookups::new(&as_identifier(&path), &private, surroundings.extern_crates.as_ref(), types);
         let types = MessageTypes::of(loaded, |component| includes(only, component), lookups);
-        Self { private, span: arguments.path.span(), path, only, loaded, types }
+        let for_tests = if arguments.testable == Some(true) { quote!() } else { quote!(#[cfg(test)]) };
+        Self { private, for_tests, span: arguments.path.span(), path, only, loaded, types }
     }
 
     /// Returns true if a component is to be generated.

@@ -1,7 +1,7 @@
 //! The counterpart of a component: a struct with the opposite gates, for unit tests.
 //!
 //! `Controller::test()` opens a `Controller` and a `ControllerPeer` that are connected within the process. All of it is
-//! `#[cfg(test)]` in the crate that invokes the macro, so other builds do not compile it.
+//! `#[cfg(test)]` in the crate that invokes the macro, so other builds do not compile it, unless it is `testable`.
 
 use super::assemble::{Side, expand_methods};
 use super::codec_traits::CodecTraits;
@@ -17,7 +17,7 @@ use scl_topology::topology::{Component, Topology};
 
 /// The struct. It is expanded apart from the implementation, outside of the `const` block, so that users can name it.
 pub(super) fn expand_struct(context: &Context<'_>, topology: &Topology, component: &Component) -> TokenStream {
-    let private = &context.private;
+    let (private, for_tests) = (&context.private, &context.for_tests);
     let name = counterpart_name(component);
     let doc = format!("The other ends of all gates of `{}`, for its unit tests.", component.name());
     let fields = component.gates().iter().map(|&id| {
@@ -28,7 +28,7 @@ pub(super) fn expand_struct(context: &Context<'_>, topology: &Topology, componen
         quote! { #[doc = #doc] pub #field: #gate_type, }
     });
     quote! {
-        #[cfg(test)]
+        #for_tests
         #[doc = #doc]
         #[allow(dead_code, non_camel_case_types, non_snake_case, private_interfaces)]
         pub struct #name { #(#fields)* __scl: #private::ComponentHandle }
@@ -43,12 +43,12 @@ pub(super) fn expand_implementation(
     plan: &Plan,
     codec_traits: &CodecTraits<'_>,
 ) -> TokenStream {
-    let private = &context.private;
+    let (private, for_tests) = (&context.private, &context.for_tests);
     let name = counterpart_name(component);
     let methods = expand_methods(context, topology, component, codec_traits, Side::Counterpart);
     let spec = expand_spec(context, &plan.counterpart(), &EmbeddedSchemas::default());
     quote_spanned! { context.span =>
-        #[cfg(test)]
+        #for_tests
         impl #private::Component for #name {
             const SPEC: &'static #private::ComponentSpec = &#spec;
             #methods
