@@ -9,6 +9,7 @@ mod docs;
 mod file_spans;
 mod gate_types;
 mod kinds;
+mod known;
 mod names;
 mod problems;
 mod rustc_notes;
@@ -20,6 +21,7 @@ mod type_agreement;
 mod types;
 
 use crate::arguments::{Arguments, BadArguments};
+use crate::known_components;
 use crate::locate::{self, Surroundings};
 use context::Context;
 use proc_macro2::TokenStream;
@@ -36,6 +38,7 @@ pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -
     loaded.diagnostics.extend(locate::check_path(&arguments, &request, surroundings));
     let context = Context::new(&arguments, &loaded, surroundings);
 
+    known_components::remember(known::known_topology(&context));
     let problems = problems::expand_problems(&context);
     let components = match &loaded.topology {
         Some(topology) => component::expand_components(&context, topology),

@@ -11,7 +11,7 @@ pub use crate::__stand_in_codec as stand_in_codec;
 pub use crate::codec::message_json::{MessagePool, MessageType};
 pub use crate::codec::{self, Codec};
 pub use crate::component::{
-    Component, ComponentHandle, Opener, Outcome, block_on, close, close_blocking, open, open_blocking, ready,
+    Component, ComponentHandle, Opener, Returned, block_on, close, close_blocking, open, open_blocking, ready,
     run_async, run_blocking,
 };
 pub use crate::error::OpenError;

@@ -99,7 +99,7 @@ macro_rules! __component_methods {
             }
 
             #[doc(hidden)]
-            pub fn __scl_main_async<F: ::core::future::Future<Output = R>, R: $crate::private::Outcome>(
+            pub fn __scl_main_async<F: ::core::future::Future<Output = $crate::Result<()>>>(
                 main: fn(Self) -> F,
             ) -> ::std::process::ExitCode
             $($bounds)*
@@ -108,10 +108,15 @@ macro_rules! __component_methods {
             }
 
             #[doc(hidden)]
-            pub fn __scl_main_blocking<R: $crate::private::Outcome>(main: fn(Self) -> R) -> ::std::process::ExitCode
+            pub fn __scl_main_blocking(main: fn(Self) -> $crate::Result<()>) -> ::std::process::ExitCode
             $($bounds)*
             {
                 $crate::private::run_blocking(main)
+            }
+
+            #[doc(hidden)]
+            pub fn __scl_returned<R>(returned: &R) -> $crate::private::Returned<R> {
+                $crate::private::Returned::of(returned)
             }
         }
     };
