@@ -42,6 +42,7 @@ mod repeated;
 mod reserved_name;
 mod rust_keyword;
 mod rust_name_collision;
+mod schema_codec;
 mod schema_type;
 mod self_connection;
 mod shared_socket;
@@ -60,6 +61,7 @@ mod waits;
 use crate::diagnostic::Diagnostics;
 use crate::model::Model;
 use crate::rule::Rule;
+use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 use crate::topology::Topology;
 use draft::Draft;
@@ -68,7 +70,7 @@ pub use all_rules::{ALL, find};
 pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
 
 /// The rules of this stage, by their codes.
-pub(crate) const RULES: [&Rule; 62] = [
+pub(crate) const RULES: [&Rule; 63] = [
     &duplicate_component::RULE,
     &duplicate_gate::RULE,
     &name_characters::RULE,
@@ -90,6 +92,7 @@ pub(crate) const RULES: [&Rule; 62] = [
     &payload_type::WRONG_NUMBER_OF_TYPES,
     &schema_type::RULE,
     &codec_name::RULE,
+    &schema_codec::RULE,
     &option_fit::RULE,
     &option_value::RULE,
     &backpressure::RULE,
@@ -141,12 +144,14 @@ pub struct Facts {
     /// What the schemas declare, in the order of the file's `schemas`. `None` if the file names none or they could not
     /// be compiled: then types are not looked up.
     pub messages: Option<Vec<SchemaMessages>>,
+    /// How long names may be: they become paths of sockets.
+    pub sockets: SocketPaths,
 }
 
 /// The messages of one schema file.
 #[derive(Debug, Clone, Default)]
 pub struct SchemaMessages {
-    /// Full names, for example `rover.Measurement`.
+    /// Full names, for example `rover.Measurement`. A type whose first part is that of such a name must be one of them.
     pub names: Vec<String>,
 }
 
@@ -177,9 +182,10 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     backpressure::check(&draft, problems);
 
     inference::check(&mut draft, problems);
-    message_type::check(&draft, facts.messages.is_some(), problems);
-    exchange_type::check(&draft, facts.messages.is_some(), problems);
+    message_type::check(&draft, problems);
+    exchange_type::check(&draft, problems);
     codec_agreement::check(&draft, problems);
+    schema_codec::check(&draft, &codec, problems);
     no_effect::check(&draft, problems);
     short_timeout::check(&draft, problems);
 
@@ -191,13 +197,14 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     feedback::check(&draft, problems);
     island::check(&draft, problems);
     crowd::check(&draft, problems);
-    path_length::check(&draft, &system, problems);
-    shared_socket::check(&draft, &system, problems);
+    path_length::check(&draft, &facts.sockets, &system, problems);
+    let connection_room = facts.sockets.connection_room(&system);
+    shared_socket::check(&draft, connection_room, problems);
 
     misread::tell_once(problems);
     repeated::tell_once(problems);
     control::apply(model, sources, problems);
-    if problems.has_errors() { None } else { finish::finish(&draft, system, &codec) }
+    if problems.has_errors() { None } else { finish::finish(&draft, system, &codec, connection_room) }
 }
 
 fn check_names(model: &Model, problems: &mut Diagnostics) {

@@ -3,10 +3,12 @@
 mod main;
 mod methods;
 mod opener;
+mod outcome;
 mod realtime;
 
-pub use main::{Outcome, run_async, run_blocking};
+pub use main::{run_async, run_blocking};
 pub use opener::Opener;
+pub use outcome::Returned;
 
 use crate::error::{BlockingError, MissingPeer, NotFlushed, NotReady, OpenError, PeerName};
 use crate::gate::AnyGate;

@@ -30,6 +30,18 @@ impl Error {
         Self(text.into().into())
     }
 
+    pub(crate) fn from_box(error: Box<dyn std::error::Error + Send + Sync>) -> Self {
+        Self(error)
+    }
+
+    /// The same texts, for an error that may not be sent to other threads.
+    pub(crate) fn copy_of(error: &(dyn std::error::Error + 'static)) -> Self {
+        match error.downcast_ref::<BlockingError>() {
+            Some(own) => Self(Box::new(*own)),
+            None => Self(Box::new(Copied::of(error))),
+        }
+    }
+
     /// Returns the error inside.
     pub fn inner(&self) -> &(dyn std::error::Error + Send + Sync + 'static) {
         &*self.0
@@ -45,6 +57,32 @@ impl Error {
             cause = error.source();
         }
         false
+    }
+}
+
+/// The text of an error, and its cause.
+#[derive(Debug, Error)]
+#[error("{text}")]
+struct Copied {
+    text: String,
+    source: Option<Box<dyn std::error::Error + Send + Sync>>,
+}
+
+impl Copied {
+    fn of(error: &(dyn std::error::Error + 'static)) -> Self {
+        Self { text: error.to_string(), source: error.source().map(|source| Error::copy_of(source).0) }
+    }
+}
+
+impl From<Error> for Box<dyn std::error::Error + Send + Sync> {
+    fn from(error: Error) -> Self {
+        error.0
+    }
+}
+
+impl From<Error> for Box<dyn std::error::Error> {
+    fn from(error: Error) -> Self {
+        error.0
     }
 }
 

@@ -87,6 +87,7 @@ mod error;
 mod gate;
 mod log;
 mod medium;
+mod named_type;
 mod options;
 #[doc(hidden)]
 pub mod private;
@@ -127,7 +128,11 @@ pub use stop::{is_stop_requested, stop_requested, stop_requested_blocking};
 /// together with the other ends of all its gates.
 ///
 /// `only = [..]` generates some of the components, which keeps the build of a system of hundreds short. `max_size =
-/// "8MiB"` allows a file of more than 1 MiB.
+/// "8MiB"` allows a file of more than 1 MiB. `testable = true` is for a library that holds the topology of programs in
+/// other crates: `Component::test()` then exists for their tests too.
+///
+/// A type whose first part is a package of the `schemas` is one of their messages; any other is a Rust path, looked up
+/// where the macro is called. A program needs only the Rust types of the components that it opens.
 ///
 /// # Errors
 /// Everything that is wrong with the file becomes a compile error that shows its place there and what to write instead,

@@ -10,6 +10,7 @@ mod exit;
 mod freshness;
 mod fuzz;
 mod interoperability;
+mod json;
 mod kill;
 mod listing1;
 mod max_size;

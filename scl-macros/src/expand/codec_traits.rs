@@ -8,6 +8,7 @@
 use super::context::Context;
 use super::kinds::{gate_struct, opener_method};
 use super::rustc_notes::{escape_braces, note_with_excerpt};
+use super::types::expand_stand_in_codecs;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use scl_topology::topology::{Codec, Gate, GateId, GateKind, Payload, Topology, TypeName};
@@ -75,7 +76,10 @@ impl<'a> CodecTraits<'a> {
     /// The traits as tokens.
     pub(super) fn expand(&self, context: &Context<'_>, topology: &Topology) -> TokenStream {
         let traits = self.all.iter().map(|it| it.expand(context, topology));
-        quote!(#(#traits)*)
+        let used = self.all.iter().filter(|it| !matches!(it.codec, Codec::Path(_)));
+        let used = used.map(|it| (it.payload, codec_path(context, it.codec)));
+        let stand_ins = expand_stand_in_codecs(context, used);
+        quote!(#(#traits)* #stand_ins)
     }
 }
 
