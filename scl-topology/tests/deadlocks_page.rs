@@ -33,7 +33,7 @@ fn every_topology_of_the_page_is_judged_as_the_page_says() {
         let file = sources.add("topology.yaml", case.topology);
         let mut problems = Diagnostics::new();
         let model = parse(&sources, file, &mut problems);
-        let facts = Facts { default_system: "page".to_owned(), messages: None };
+        let facts = Facts { default_system: "page".to_owned(), messages: None, ..Facts::default() };
         assert_eq!(check(&model, &facts, &sources, &mut problems).is_some(), case.works, "{}", case.topology);
         let found = problems.into_sorted().into_iter().filter(|found| found.severity != Severity::Lint);
         assert_eq!(found.map(|found| found.code()).collect::<Vec<_>>(), case.codes, "{}", case.topology);
