@@ -2,8 +2,8 @@
 
 use crate::print::{print_err, print_out};
 use clap::Args;
-use scl_topology::catalogue::{ALL, Rule, explain};
-use scl_topology::diagnostic::Severity;
+use scl_topology::catalogue::{ALL, explain};
+use scl_topology::rule::{Rule, Severity};
 use scl_topology::suggest::similar;
 use std::process::ExitCode;
 

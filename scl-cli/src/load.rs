@@ -4,6 +4,7 @@ use crate::print::print_err;
 use anstream::{AutoStream, ColorChoice};
 use scl_loader::{Loaded, Request, load, load_bytes};
 use scl_topology::diagnostic::{Diagnostic, Severity, render, render_styled};
+use scl_topology::external::UNREADABLE_FILE;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -29,7 +30,7 @@ pub(crate) fn load_file(path: &Path) -> Loaded {
     match io::stdin().lock().take(request.max_size.saturating_add(1)).read_to_end(&mut bytes) {
         Ok(_) => load_bytes(&request, bytes),
         Err(error) => {
-            let problem = Diagnostic::fileless("SCL0002", "standard input cannot be read").note(error.to_string());
+            let problem = UNREADABLE_FILE.without_place("standard input cannot be read").note(error.to_string());
             Loaded { diagnostics: vec![problem], ..Loaded::default() }
         }
     }

@@ -26,7 +26,7 @@ fn rendered(loaded: &Loaded) -> String {
 
 fn errors(loaded: &Loaded) -> Vec<&'static str> {
     let errors = loaded.diagnostics.iter().filter(|problem| problem.severity == Severity::Error);
-    errors.map(|problem| problem.code).collect()
+    errors.map(|problem| problem.code()).collect()
 }
 
 /// What loading `name` from a folder with these files says, with the folder's own path left out.
@@ -153,7 +153,7 @@ fn what_is_no_regular_file_is_never_opened() {
     for (path, words) in cases {
         let loaded = load(&Request::new(&path));
         assert_eq!(loaded.diagnostics.len(), 1, "{path:?}");
-        assert_eq!(loaded.diagnostics[0].code, "SCL0002", "{path:?}");
+        assert_eq!(loaded.diagnostics[0].code(), "SCL0002", "{path:?}");
         assert!(loaded.diagnostics[0].message.ends_with(words), "{}", loaded.diagnostics[0].message);
         assert!(loaded.files_read.is_empty(), "{path:?}");
     }

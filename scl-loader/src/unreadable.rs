@@ -3,6 +3,7 @@
 use crate::read::{BadByte, Unreadable};
 use crate::request::Request;
 use scl_topology::diagnostic::Diagnostic;
+use scl_topology::external::{FILE_NOT_FOUND, FILE_TOO_LARGE, NOT_UTF8, UNREADABLE_FILE};
 use scl_topology::suggest::similar;
 use std::ffi::OsStr;
 use std::fs;
@@ -17,15 +18,12 @@ pub(crate) fn diagnose(request: &Request, cause: Unreadable) -> Diagnostic {
     match cause {
         Unreadable::Missing => missing(request),
         Unreadable::NotAFile(word) => not_a_file(request, word),
-        Unreadable::BrokenLink(error) => Diagnostic::fileless(
-            "SCL0002",
-            format!("the topology path `{shown}` is a symbolic link that leads to no file"),
-        )
-        .help("let the link point to the topology file")
-        .note(error.to_string()),
+        Unreadable::BrokenLink(error) => UNREADABLE_FILE
+            .without_place(format!("the topology path `{shown}` is a symbolic link that leads to no file"))
+            .help("let the link point to the topology file")
+            .note(error.to_string()),
         Unreadable::Refused(error) => {
-            Diagnostic::fileless("SCL0002", format!("the topology file `{shown}` cannot be read"))
-                .note(error.to_string())
+            UNREADABLE_FILE.without_place(format!("the topology file `{shown}` cannot be read")).note(error.to_string())
         }
         Unreadable::TooLarge(size) => too_large(request, size),
         Unreadable::NotUtf8(bad) => not_utf8(request, bad),
@@ -33,7 +31,7 @@ pub(crate) fn diagnose(request: &Request, cause: Unreadable) -> Diagnostic {
 }
 
 fn missing(request: &Request) -> Diagnostic {
-    let mut problem = Diagnostic::fileless("SCL0001", format!("cannot find the topology file `{}`", request.shown_as));
+    let mut problem = FILE_NOT_FOUND.without_place(format!("cannot find the topology file `{}`", request.shown_as));
     if let Some(name) =
         similar_file(&request.path, &request.looked_in.iter().map(|at| at.path.as_path()).collect::<Vec<_>>())
     {
@@ -52,7 +50,7 @@ fn missing(request: &Request) -> Diagnostic {
 
 fn not_a_file(request: &Request, word: &str) -> Diagnostic {
     let shown = &request.shown_as;
-    let problem = Diagnostic::fileless("SCL0002", format!("the topology path `{shown}` is {word}, not a file"));
+    let problem = UNREADABLE_FILE.without_place(format!("the topology path `{shown}` is {word}, not a file"));
     match topology_inside(&request.path) {
         Some(name) => problem.help(format!("did you mean `{}/{name}`?", shown.trim_end_matches('/'))),
         None => problem.help("name the topology file itself"),
@@ -66,7 +64,8 @@ fn too_large(request: &Request, size: u64) -> Diagnostic {
         in_units(size),
         in_units(request.max_size)
     );
-    Diagnostic::fileless("SCL0004", message)
+    FILE_TOO_LARGE
+        .without_place(message)
         .help("is this the right file? a topology of 1000 components is about 200 KiB")
         .note(
             "the limit protects the compiler process, in which this macro runs; \
@@ -77,7 +76,8 @@ fn too_large(request: &Request, size: u64) -> Diagnostic {
 fn not_utf8(request: &Request, bad: BadByte) -> Diagnostic {
     let BadByte { value, next, offset, line, column } = bad;
     let message = format!("the topology file `{}` is not valid UTF-8", request.shown_as);
-    let problem = Diagnostic::fileless("SCL0003", message)
+    let problem = NOT_UTF8
+        .without_place(message)
         .help("save the file as UTF-8 (without or with a BOM)")
         .note(format!("the first invalid byte is {value:#04X}, at byte {offset} (line {line}, column {column})"));
     match (offset, value, next) {

@@ -2,6 +2,7 @@
 
 use proc_macro2::{Span, TokenStream, TokenTree};
 use scl_topology::diagnostic::Diagnostic;
+use scl_topology::external::BAD_ARGUMENTS;
 use scl_topology::size::{self, SizeError};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
@@ -98,7 +99,8 @@ fn bad_size(text: &str, error: SizeError) -> String {
 }
 
 fn diagnose(error: &syn::Error) -> Diagnostic {
-    Diagnostic::fileless("SCL0005", error.to_string())
+    BAD_ARGUMENTS
+        .without_place(error.to_string())
         .help("write `scl::topology!(\"topology.yaml\")`")
         .note("the options are `only = [sensor, controller]` and `max_size = \"8MiB\"`")
         .note("`concat!` and `env!` are not expanded before a proc macro sees them")
@@ -140,7 +142,7 @@ mod tests {
         ];
         for (input, message) in cases {
             let Err(bad) = Arguments::parse(input.parse().unwrap()) else { panic!("accepted {input}") };
-            assert_eq!((bad.problem.code, bad.problem.message.as_str()), ("SCL0005", message), "{input}");
+            assert_eq!((bad.problem.code(), bad.problem.message.as_str()), ("SCL0005", message), "{input}");
         }
     }
 }

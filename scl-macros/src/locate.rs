@@ -3,6 +3,7 @@
 use crate::arguments::Arguments;
 use scl_loader::{LookedIn, Request};
 use scl_topology::diagnostic::Diagnostic;
+use scl_topology::external::PATH_OF_ONE_MACHINE;
 use std::path::{Component, Path, PathBuf};
 
 /// Where the macro is invoked, as plain values, so that tests need no compiler.
@@ -67,21 +68,17 @@ pub(crate) fn check_path(arguments: &Arguments, request: &Request, surroundings:
     let written = arguments.path.value();
     if Path::new(&written).is_absolute() {
         let name = request.path.file_name().unwrap_or_default().to_string_lossy();
-        let problem = Diagnostic::fileless(
-            "SCL0006",
-            "the topology path is absolute; the crate will not build on another machine",
-        );
+        let problem = PATH_OF_ONE_MACHINE
+            .without_place("the topology path is absolute; the crate will not build on another machine");
         return Some(problem.help(format!("write the path relative to this file or to Cargo.toml: \"{name}\"")));
     }
     let package = surroundings.package.as_deref()?;
     let has_dots = written.split('/').any(|part| part == "..");
     let is_outside = has_dots && !without_dots(&request.path).starts_with(without_dots(package));
     is_outside.then(|| {
-        Diagnostic::fileless(
-            "SCL0006",
-            "the topology path is outside of the package; `cargo package` will not include the file",
-        )
-        .help("keep the topology file inside the package, or do not publish the package")
+        PATH_OF_ONE_MACHINE
+            .without_place("the topology path is outside of the package; `cargo package` will not include the file")
+            .help("keep the topology file inside the package, or do not publish the package")
     })
 }
 

@@ -56,7 +56,7 @@ fn measure(text: &str, misspelt: bool) -> (Duration, Duration) {
     let checked = start.elapsed() - parsed;
     assert_eq!(topology.is_none(), misspelt, "the file is not what it should be");
     let found = problems.into_sorted();
-    assert_eq!(found.iter().any(|problem| problem.code == "SCL0501"), misspelt);
+    assert_eq!(found.iter().any(|problem| problem.code() == "SCL0501"), misspelt);
     (parsed, checked)
 }
 

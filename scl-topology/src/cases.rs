@@ -63,8 +63,8 @@ fn compare_spellings(case: &Case, differences: &mut Vec<String>) -> bool {
 
 fn found(code: &str, text: &str) -> (Vec<Diagnostic>, Sources) {
     let (mut found, sources) = problems(text, text.contains("schemas: [uav").then_some(&MESSAGES[..]));
-    let is_companion = |found: &Diagnostic| found.severity == Severity::Lint || USUAL.contains(&found.code);
-    found.retain(|found| found.code == code || !is_companion(found));
+    let is_companion = |found: &Diagnostic| found.severity == Severity::Lint || USUAL.contains(&found.code());
+    found.retain(|found| found.code() == code || !is_companion(found));
     (found, sources)
 }
 
@@ -74,7 +74,7 @@ fn outcome(code: &str, text: &str) -> Vec<String> {
     let line = |found: &Diagnostic| {
         let marked = found.primary.as_ref().map_or("", |label| sources.snippet(label.span));
         let marked = marked.lines().next().unwrap_or("").trim_end();
-        file::hidden(format!("=> {} {marked}", found.code).trim_end())
+        file::hidden(format!("=> {} {marked}", found.code()).trim_end())
     };
     found.iter().map(line).collect()
 }
@@ -82,7 +82,7 @@ fn outcome(code: &str, text: &str) -> Vec<String> {
 /// Code and headline of each problem, in any order.
 fn headlines(code: &str, text: &str) -> Vec<String> {
     let (found, _) = found(code, text);
-    let mut lines: Vec<String> = found.iter().map(|found| format!("{} {}", found.code, found.message)).collect();
+    let mut lines: Vec<String> = found.iter().map(|found| format!("{} {}", found.code(), found.message)).collect();
     lines.sort();
     lines
 }

@@ -1,5 +1,6 @@
 //! The checks: a [`Model`] becomes a [`Topology`], or every reason why it cannot is told.
 
+mod all_rules;
 mod backpressure;
 mod cardinality;
 mod circle;
@@ -51,13 +52,16 @@ mod unconnected;
 mod unknown_component;
 mod unknown_gate;
 
-use crate::catalogue::Rule;
 use crate::diagnostic::Diagnostics;
 use crate::model::Model;
+use crate::rule::Rule;
 use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 use crate::topology::Topology;
 use draft::Draft;
+
+pub use all_rules::{ALL, find};
+pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
 
 /// The rules of this stage, by their codes.
 pub(crate) const RULES: [&Rule; 59] = [

@@ -1,30 +1,20 @@
 //! What the checker has to say: one [`Diagnostic`] a problem, gathered in [`Diagnostics`].
 
-mod cargo;
-mod json;
+mod fix;
 mod limit;
 mod render;
-mod sarif;
+#[cfg(test)]
+mod testing;
 
+use crate::rule::Rule;
 use crate::source::Span;
+use std::borrow::Cow;
 
-pub use cargo::{CargoUnit, cargo_end, cargo_start, to_cargo};
-pub use json::to_json;
+pub use crate::rule::Severity;
+pub use fix::Fix;
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};
-pub use sarif::{CheckedFile, to_sarif};
-
-/// How bad it is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Severity {
-    /// The file cannot be used.
-    Error,
-    /// The file can be used, but is probably not what was meant.
-    Warning,
-    /// Off unless asked for.
-    Lint,
-}
 
 /// A place with a word on it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -35,68 +25,111 @@ pub struct Label {
     pub text: String,
 }
 
-/// One problem: what is wrong, where, and the way out.
+/// One problem: what is wrong, where, and the way out. Made by [`Rule::at`] and [`Rule::without_place`] only.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Diagnostic {
-    /// The code, for example `SCL0502`.
-    pub code: &'static str,
-    /// How bad it is.
+    /// The rule that found it.
+    pub rule: &'static Rule,
+    /// How bad it is: the rule's severity, unless a comment in the file or an option of a tool changed it.
     pub severity: Severity,
     /// The headline: lower case, no full stop, names in backticks.
     pub message: String,
     /// Why here. `None` only where no source text exists (the file is missing).
     pub primary: Option<Label>,
-    /// The declarations involved.
+    /// Other places involved, for example declarations: the first [`MOST_LABELS`].
     pub secondary: Vec<Label>,
+    /// Number of further places that are not in `secondary`.
+    pub unlisted: usize,
     /// What to write instead, one way a line; a help may hold several lines.
     pub helps: Vec<String>,
     /// The rule, or the valid names.
     pub notes: Vec<String>,
+    /// What `helps` say, as replacements of text.
+    pub fixes: Vec<Fix>,
+}
+
+/// Maximum number of secondary labels of a diagnostic. Nobody reads more, and a hostile file must not decide how much
+/// is kept and printed.
+pub const MOST_LABELS: usize = 16;
+
+/// Maximum length of one text of a diagnostic, in bytes: names in it may be as long as the file.
+const LONGEST_TEXT: usize = 1_000;
+
+impl Rule {
+    /// A problem of this kind: its headline, its place and what to see there.
+    pub fn at(&'static self, message: impl Into<String>, at: Span, label: impl Into<String>) -> Diagnostic {
+        Diagnostic { primary: Some(Label { span: at, text: clipped(label) }), ..self.without_place(message) }
+    }
+
+    /// A problem of this kind that has no place in any text, for example because the file is missing.
+    pub fn without_place(&'static self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic {
+            rule: self,
+            severity: self.severity,
+            message: clipped(message),
+            primary: None,
+            secondary: Vec::new(),
+            unlisted: 0,
+            helps: Vec::new(),
+            notes: Vec::new(),
+            fixes: Vec::new(),
+        }
+    }
 }
 
 impl Diagnostic {
-    /// An error with a headline and its place.
-    pub fn error(code: &'static str, message: impl Into<String>, at: Span, label: impl Into<String>) -> Self {
-        Self::new(code, Severity::Error, message, Some(Label { span: at, text: label.into() }))
+    /// The rule's code, for example `SCL0502`.
+    pub fn code(&self) -> &'static str {
+        self.rule.code
     }
 
-    /// A warning with a headline and its place.
-    pub fn warning(code: &'static str, message: impl Into<String>, at: Span, label: impl Into<String>) -> Self {
-        Self::new(code, Severity::Warning, message, Some(Label { span: at, text: label.into() }))
-    }
-
-    /// A lint, off unless asked for, with a headline and its place.
-    pub fn lint(code: &'static str, message: impl Into<String>, at: Span, label: impl Into<String>) -> Self {
-        Self::new(code, Severity::Lint, message, Some(Label { span: at, text: label.into() }))
-    }
-
-    /// An error about a file that has no text to show.
-    pub fn fileless(code: &'static str, message: impl Into<String>) -> Self {
-        Self::new(code, Severity::Error, message, None)
-    }
-
-    fn new(code: &'static str, severity: Severity, message: impl Into<String>, primary: Option<Label>) -> Self {
-        let message = message.into();
-        Self { code, severity, message, primary, secondary: Vec::new(), helps: Vec::new(), notes: Vec::new() }
-    }
-
-    /// Adds another place.
+    /// Adds another place. After [`MOST_LABELS`] places, the further ones are only counted.
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Self {
-        self.secondary.push(Label { span, text: text.into() });
+        self.add_label(span, text);
         self
+    }
+
+    /// As [`label`](Self::label), for a diagnostic in place.
+    pub fn add_label(&mut self, span: Span, text: impl Into<String>) {
+        match self.secondary.len() < MOST_LABELS {
+            true => self.secondary.push(Label { span, text: clipped(text) }),
+            false => self.unlisted += 1,
+        }
+    }
+
+    /// The notes, and one more if there are places that are not listed.
+    pub fn all_notes(&self) -> impl Iterator<Item = Cow<'_, str>> {
+        let rest = match self.unlisted {
+            0 => None,
+            1 => Some("1 more place is not shown".to_owned()),
+            more => Some(format!("{more} more places are not shown")),
+        };
+        self.notes.iter().map(|note| Cow::from(note.as_str())).chain(rest.map(Cow::from))
     }
 
     /// Adds a way out.
     pub fn help(mut self, text: impl Into<String>) -> Self {
-        self.helps.push(text.into());
+        self.helps.push(clipped(text));
         self
     }
 
     /// Adds the rule behind it.
     pub fn note(mut self, text: impl Into<String>) -> Self {
-        self.notes.push(text.into());
+        self.notes.push(clipped(text));
         self
     }
+}
+
+/// The text, cut at [`LONGEST_TEXT`].
+fn clipped(text: impl Into<String>) -> String {
+    let mut text = text.into();
+    if text.len() > LONGEST_TEXT {
+        let end = (0..=LONGEST_TEXT).rev().find(|&end| text.is_char_boundary(end)).unwrap_or_default();
+        text.truncate(end);
+        text.push_str("...");
+    }
+    text
 }
 
 /// The collector. Stages push into it and go on; whoever made it must read it.
@@ -146,10 +179,13 @@ impl Diagnostics {
         self.items.iter().any(|item| item.severity == Severity::Error)
     }
 
-    /// All of them, sorted by position; those without a place come first.
+    /// All of them, sorted by position, errors first at one position; those without a place come before all others.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
         let mut items = std::mem::take(&mut self.items);
-        items.sort_by_key(|item| item.primary.as_ref().map(|label| (label.span, item.code)));
+        items.sort_by_key(|item| {
+            let span = item.primary.as_ref().map(|label| label.span);
+            (span.map(|span| (span.file, span.start)), item.severity, span, item.code())
+        });
         items
     }
 }
@@ -163,21 +199,47 @@ impl Drop for Diagnostics {
 
 #[cfg(test)]
 mod tests {
-    use super::{Diagnostic, Diagnostics};
+    use super::{Diagnostics, LONGEST_TEXT, MOST_LABELS};
+    use crate::external::{FILE_NOT_FOUND, FILE_TOO_LARGE, PATH_OF_ONE_MACHINE};
+    use crate::source::{FileId, Span};
 
     #[test]
     #[should_panic(expected = "nobody read them")]
     fn forgotten_problems_are_a_bug() {
         let mut problems = Diagnostics::new();
-        problems.push(Diagnostic::fileless("SCL0001", "no file"));
+        problems.push(FILE_NOT_FOUND.without_place("no file"));
     }
 
     #[test]
     fn append_hands_problems_over() {
         let (mut all, mut some) = (Diagnostics::new(), Diagnostics::new());
-        some.push(Diagnostic::fileless("SCL0001", "no file"));
+        some.push(FILE_NOT_FOUND.without_place("no file"));
         all.append(some);
         assert!(all.has_errors());
         assert_eq!(all.into_sorted().len(), 1);
+    }
+
+    #[test]
+    fn errors_come_first_at_one_place() {
+        let mut problems = Diagnostics::new();
+        let span = |start, end| Span { file: FileId(0), start, end };
+        for (rule, start, end) in [(&FILE_NOT_FOUND, 5, 9), (&PATH_OF_ONE_MACHINE, 5, 7), (&PATH_OF_ONE_MACHINE, 1, 2)]
+        {
+            problems.push(rule.at("", span(start, end), ""));
+        }
+        problems.push(FILE_TOO_LARGE.without_place(""));
+        let codes: Vec<_> = problems.into_sorted().iter().map(|problem| problem.code()).collect();
+        assert_eq!(codes, ["SCL0004", "SCL0006", "SCL0001", "SCL0006"]);
+    }
+
+    #[test]
+    fn labels_and_texts_are_bounded() {
+        let span = Span { file: FileId(0), start: 0, end: 1 };
+        let mut problem = FILE_NOT_FOUND.at("ä".repeat(1_000), span, "").note("rule");
+        for _ in 0..20_000 {
+            problem.add_label(span, "here");
+        }
+        assert_eq!((problem.secondary.len(), problem.message.len()), (MOST_LABELS, LONGEST_TEXT + 3));
+        assert_eq!(problem.all_notes().collect::<Vec<_>>(), ["rule", "19984 more places are not shown"]);
     }
 }

@@ -60,11 +60,15 @@
 mod cases;
 pub mod catalogue;
 pub mod check;
+#[cfg(test)]
+mod cost;
 pub mod diagnostic;
+pub mod external;
 pub mod fingerprint;
 pub mod model;
 pub mod parse;
 pub mod resolve;
+pub mod rule;
 pub mod rust_name;
 pub mod size;
 pub mod socket_paths;
@@ -72,4 +76,5 @@ pub mod source;
 pub mod suggest;
 pub mod topology;
 mod wording;
+mod work;
 mod yaml;

@@ -16,7 +16,7 @@ mod shape;
 #[cfg(test)]
 mod testing;
 
-pub(crate) use pitfall::RULES as PITFALLS;
+pub(crate) use pitfall::{MISREAD, RULES as PITFALLS};
 pub(crate) use shape::RULES as SHAPES;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};

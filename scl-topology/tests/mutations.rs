@@ -87,7 +87,7 @@ struct Tally {
 fn judge(name: &str, what: &str, text: &str, token: &Range<usize>, mutant: &str, tally: &mut Tally) {
     let line = text[..token.start].matches('\n').count() as u32 + 1;
     let (is_valid, found) = problems(mutant);
-    let told = || found.iter().map(|(found, at)| format!("{} {at:?}", found.code)).collect::<Vec<_>>().join(", ");
+    let told = || found.iter().map(|(found, at)| format!("{} {at:?}", found.code())).collect::<Vec<_>>().join(", ");
     let place = || format!("{name}:{line} `{}` {what}: {}", &text[token.clone()], told());
     tally.all += 1;
     if found.iter().any(|(_, at)| at.first() == Some(&line)) {

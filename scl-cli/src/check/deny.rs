@@ -31,7 +31,7 @@ pub(super) fn parse_deny(text: &str) -> Result<Deny, String> {
 pub(super) fn deny(mut diagnostic: Diagnostic, denied: &[Deny]) -> Diagnostic {
     let reason = denied.iter().find_map(|deny| match deny {
         Deny::Warnings if diagnostic.severity == Severity::Warning => Some("warnings"),
-        Deny::Code(code) if diagnostic.severity != Severity::Error && code == diagnostic.code => Some(code.as_str()),
+        Deny::Code(code) if diagnostic.severity != Severity::Error && code == diagnostic.code() => Some(code.as_str()),
         _ => None,
     });
     if let Some(reason) = reason {

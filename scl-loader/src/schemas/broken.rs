@@ -4,6 +4,7 @@ use super::disk::SchemaFile;
 use crate::request::Request;
 use miette::Diagnostic as _;
 use scl_topology::diagnostic::Diagnostic;
+use scl_topology::external::SCHEMA;
 use scl_topology::source::{Sources, Span, Spanned};
 use std::path::Path;
 
@@ -18,10 +19,8 @@ pub(super) fn diagnose(
     let wrong = in_backticks(&error.to_string());
     let message = format!("the schema file `{}` does not compile: {wrong}", error.file().unwrap_or(&schema.value));
     let mut problem = match place(error, files, request, sources) {
-        Some((span, label)) => {
-            Diagnostic::error("SCL0406", message, span, label).label(schema.span, "compiled because of this line")
-        }
-        None => Diagnostic::error("SCL0406", message, schema.span, "named here"),
+        Some((span, label)) => SCHEMA.at(message, span, label).label(schema.span, "compiled because of this line"),
+        None => SCHEMA.at(message, schema.span, "named here"),
     };
     if let Some(help) = error.help() {
         problem = problem.help(in_backticks(&help.to_string()));

@@ -9,6 +9,7 @@ use crate::unreadable::similar_file;
 use protox::Compiler;
 use scl_topology::check::SchemaMessages;
 use scl_topology::diagnostic::{Diagnostic, Diagnostics};
+use scl_topology::external::SCHEMA;
 use scl_topology::model::Model;
 use scl_topology::source::{Sources, Spanned};
 use std::path::{Path, PathBuf};
@@ -60,9 +61,9 @@ fn refuse(schema: &Spanned<String>, folder: &Path, max_size: u64) -> Option<Diag
     let cause = read_text(&path, max_size).err()?;
     if !matches!(cause, Unreadable::Missing) {
         let why = super::disk::why(Path::new(name), cause);
-        return Some(Diagnostic::error("SCL0406", format!("the schema file {why}"), schema.span, ""));
+        return Some(SCHEMA.at(format!("the schema file {why}"), schema.span, ""));
     }
-    let mut problem = Diagnostic::error("SCL0406", format!("cannot find the schema file `{name}`"), schema.span, "");
+    let mut problem = SCHEMA.at(format!("cannot find the schema file `{name}`"), schema.span, "");
     if let Some(near) = similar_file(&path, &[]) {
         problem = problem.help(format!("a file with a similar name exists: `{near}`"));
     }

@@ -2,7 +2,8 @@
 
 use super::Compiled;
 use crate::request::Request;
-use scl_topology::diagnostic::{Diagnostic, Diagnostics};
+use scl_topology::diagnostic::Diagnostics;
+use scl_topology::external::SCHEMA;
 use scl_topology::model::Model;
 use scl_topology::source::Sources;
 
@@ -10,7 +11,8 @@ use scl_topology::source::Sources;
 pub(crate) fn compile(_: &Request, model: &Model, _: &mut Sources, problems: &mut Diagnostics) -> Compiled {
     if let Some(schema) = model.schemas.first() {
         let message = format!("the schema file `{}` needs the feature `protobuf`", schema.value);
-        let problem = Diagnostic::error("SCL0406", message, schema.span, "this build of SCL compiles no schemas")
+        let problem = SCHEMA
+            .at(message, schema.span, "this build of SCL compiles no schemas")
             .help("switch it on in Cargo.toml: scl = { version = \"..\", features = [\"protobuf\"] }")
             .note("without `schemas`, types are looked up in your Rust code");
         problems.push(problem);

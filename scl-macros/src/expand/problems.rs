@@ -5,6 +5,7 @@ use super::file_spans::FileSpans;
 use super::names::identifier;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
+use scl_topology::check::UNKNOWN_COMPONENT;
 use scl_topology::diagnostic::{Diagnostic, Severity, limit, render_headless};
 use scl_topology::source::Sources;
 use scl_topology::suggest::similar;
@@ -62,10 +63,8 @@ fn unknown_components(context: &Context<'_>) -> Vec<Diagnostic> {
 fn unknown_component(context: &Context<'_>, wanted: &str) -> Diagnostic {
     let components = context.loaded.model.components.iter();
     let names: Vec<&str> = components.map(|component| component.name.value.as_str()).collect();
-    let mut problem = Diagnostic::fileless(
-        "SCL0501",
-        format!("`only` names the component `{wanted}`, which is not in `{}`", context.path),
-    );
+    let mut problem = UNKNOWN_COMPONENT
+        .without_place(format!("`only` names the component `{wanted}`, which is not in `{}`", context.path));
     if let Some(near) = similar(wanted, names.iter().copied()).first() {
         problem = problem.help(format!("did you mean `{near}`?"));
     }

@@ -1,9 +1,10 @@
 //! The catalogue as text for people: one entry for the terminal, all of them for the documentation.
 
-use super::{ALL, Examples, Rule, find};
+use super::{ALL, find};
 use crate::check::{Facts, SchemaMessages, check};
 use crate::diagnostic::{Diagnostics, Severity, render};
 use crate::parse::parse;
+use crate::rule::{Examples, Rule};
 use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 
@@ -89,6 +90,6 @@ fn told(code: &str, text: &str) -> String {
     let facts = Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example() };
     check(&model, &facts, &sources, &mut problems);
     let found = problems.into_sorted();
-    let texts = found.iter().filter(|problem| problem.code == code).map(|problem| render(problem, &sources));
+    let texts = found.iter().filter(|problem| problem.code() == code).map(|problem| render(problem, &sources));
     texts.collect::<Vec<_>>().join("\n\n")
 }

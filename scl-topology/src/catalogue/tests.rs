@@ -1,9 +1,10 @@
 //! Each entry does what it says.
 
-use super::{ALL, Examples, Rule, explain, page};
+use super::{ALL, explain, page};
 use crate::cases::flow;
 use crate::check::testing::{USUAL, problems};
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::rule::{Examples, Rule};
 
 /// The messages that the schemas of examples declare.
 const MESSAGES: [&str; 3] = ["uav.Command", "uav.Measurement", "uav.Status"];
@@ -14,7 +15,7 @@ fn found(text: &str) -> Vec<Diagnostic> {
 
 /// What an example has besides what it shows: small files are not whole systems.
 fn is_companion(found: &Diagnostic, rule: &Rule) -> bool {
-    found.severity == Severity::Lint || USUAL.contains(&found.code) && rule.code != found.code
+    found.severity == Severity::Lint || USUAL.contains(&found.code()) && rule.code != found.code()
 }
 
 fn topologies() -> impl Iterator<Item = (&'static Rule, &'static str, &'static str)> {
@@ -43,10 +44,10 @@ fn a_bad_example_has_its_problem_and_no_other() {
         let spellings = [bad.to_owned(), bad.replace('\n', "\r\n"), bad.trim_end().to_owned()];
         for text in spellings.into_iter().chain(flow::of(bad)) {
             let found = found(&text);
-            assert!(found.iter().any(|found| found.code == rule.code), "{} is not found in {text:?}", rule.code);
-            let other = found.iter().find(|found| found.code != rule.code && !is_companion(found, rule));
+            assert!(found.iter().any(|found| found.code() == rule.code), "{} is not found in {text:?}", rule.code);
+            let other = found.iter().find(|found| found.code() != rule.code && !is_companion(found, rule));
             assert!(other.is_none(), "{}: {other:?} in {text:?}", rule.code);
-            let severity = found.iter().find(|found| found.code == rule.code).map(|found| found.severity);
+            let severity = found.iter().find(|found| found.code() == rule.code).map(|found| found.severity);
             let is_asked_for = text.contains(&format!("warn({}", rule.code));
             assert!(severity == Some(rule.severity) || is_asked_for, "{}", rule.code);
         }
@@ -59,7 +60,7 @@ fn a_good_example_has_no_problem() {
         let found = found(good);
         let problem = found
             .iter()
-            .find(|found| found.code == rule.code || found.severity == Severity::Error && found.code != "SCL0703");
+            .find(|found| found.code() == rule.code || found.severity == Severity::Error && found.code() != "SCL0703");
         assert!(problem.is_none(), "{}: {problem:?} in {good}", rule.code);
     }
 }

@@ -1,9 +1,9 @@
 //! SCL0410: a receiver that would make its sender wait, and a sender that never waits.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::topology::{GateKind, WhenFull};
 
 /// SCL0410.

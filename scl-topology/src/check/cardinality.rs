@@ -2,9 +2,9 @@
 //! repliers. SCL0513: a pusher with several pullers that does not say that they share the work.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 use crate::wording::listed;
 
@@ -199,7 +199,7 @@ fn several_pullers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> 
 
 /// An error at the second peer, with a label on each of the others.
 fn peers(
-    rule: &Rule,
+    rule: &'static Rule,
     headline: String,
     draft: &Draft<'_>,
     gate: usize,

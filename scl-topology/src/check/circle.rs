@@ -3,9 +3,9 @@
 
 use super::component_graph::{ComponentGraph, Step};
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 use crate::topology::{GateKind, WhenFull};
 

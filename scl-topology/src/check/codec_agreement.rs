@@ -1,9 +1,9 @@
 //! SCL0608: the two ends write and read bytes in different ways.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 
 /// SCL0608.

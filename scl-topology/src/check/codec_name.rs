@@ -1,9 +1,9 @@
 //! SCL0407: a word that is no codec. Sets the codecs that gates name themselves.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::topology::Codec;

@@ -4,9 +4,10 @@
 
 mod command;
 
-use crate::catalogue::{Examples, Rule};
+use super::circle;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
 use crate::model::{ControlModel, Model};
+use crate::rule::{Examples, Rule};
 use crate::source::Sources;
 use command::{Command, command_span, read};
 use std::collections::{HashMap, HashSet};
@@ -61,15 +62,15 @@ pub(super) fn apply(model: &Model, sources: &Sources, problems: &mut Diagnostics
     }
     let mut own = Vec::new();
     let mut wishes = Wishes::of(model, &mut own);
-    let mut left: HashMap<u32, &'static str> = HashMap::new();
+    let mut left: HashMap<u32, &'static Rule> = HashMap::new();
     problems.retain(|problem| {
-        if problem.severity == Severity::Lint && wishes.lints.contains(problem.code) {
+        if problem.severity == Severity::Lint && wishes.lints.contains(problem.rule) {
             problem.severity = Severity::Warning;
         }
         let lines = lines(problem, sources);
-        let is_allowed = lines.iter().any(|line| wishes.allow(problem.code, *line));
+        let is_allowed = lines.iter().any(|line| wishes.allow(problem.rule, *line));
         let line = lines.first().filter(|_| !is_allowed && problem.severity != Severity::Lint);
-        line.into_iter().for_each(|line| _ = left.entry(*line).or_insert(problem.code));
+        line.into_iter().for_each(|line| _ = left.entry(*line).or_insert(problem.rule));
         !is_allowed
     });
     wishes.report(&left, problems.has_errors(), &mut own);
@@ -77,20 +78,20 @@ pub(super) fn apply(model: &Model, sources: &Sources, problems: &mut Diagnostics
 }
 
 /// The threshold that the file sets for a lint.
-pub(super) fn threshold(model: &Model, code: &str) -> Option<u32> {
+pub(super) fn threshold(model: &Model, of: &Rule) -> Option<u32> {
     let mut told_later = Vec::new();
     model.controls.iter().find_map(|control| match read(control, &mut told_later)? {
-        Command::Warn { rule, threshold } if rule.code == code => threshold,
+        Command::Warn { rule, threshold } if rule == of => threshold,
         _ => None,
     })
 }
 
 /// What all comments together ask for.
 struct Wishes<'m> {
-    /// By code and line.
-    allowed: HashMap<(&'static str, u32), Allow<'m>>,
+    /// By rule and line.
+    allowed: HashMap<(&'static Rule, u32), Allow<'m>>,
     /// The lints that are turned on.
-    lints: HashSet<&'static str>,
+    lints: HashSet<&'static Rule>,
 }
 
 /// One code of an `allow`.
@@ -107,12 +108,12 @@ impl<'m> Wishes<'m> {
             match read(control, own) {
                 Some(Command::Allow { rules, reason }) => {
                     for rule in rules {
-                        let place = (rule.code, control.line);
+                        let place = (rule, control.line);
                         wishes.allowed.entry(place).or_insert(Allow { control, reason, used: false });
                     }
                 }
                 Some(Command::Warn { rule, .. }) if rule.severity == Severity::Lint => {
-                    wishes.lints.insert(rule.code);
+                    wishes.lints.insert(rule);
                 }
                 Some(Command::Warn { rule, .. }) => own.push(is_on(control, rule)),
                 None => {}
@@ -122,18 +123,18 @@ impl<'m> Wishes<'m> {
     }
 
     /// Whether a problem is allowed; notes that it occurred.
-    fn allow(&mut self, code: &'static str, line: u32) -> bool {
-        self.allowed.get_mut(&(code, line)).map(|allow| allow.used = true).is_some()
+    fn allow(&mut self, rule: &'static Rule, line: u32) -> bool {
+        self.allowed.get_mut(&(rule, line)).map(|allow| allow.used = true).is_some()
     }
 
     /// What is wrong with comments that could be read. In a file with errors a warning may be missing because of them,
     /// so nothing is said of its `allow`.
-    fn report(&self, left: &HashMap<u32, &'static str>, has_errors: bool, own: &mut Vec<Diagnostic>) {
-        for (&(code, line), allow) in &self.allowed {
+    fn report(&self, left: &HashMap<u32, &'static Rule>, has_errors: bool, own: &mut Vec<Diagnostic>) {
+        for (&(rule, line), allow) in &self.allowed {
             if allow.used && allow.reason.is_empty() {
-                own.push(without_reason(allow.control, code));
+                own.push(without_reason(allow.control, rule));
             } else if !allow.used && !has_errors {
-                own.push(without_effect(allow.control, code, left.get(&line).copied()));
+                own.push(without_effect(allow.control, rule, left.get(&line).copied()));
             }
         }
     }
@@ -141,7 +142,7 @@ impl<'m> Wishes<'m> {
 
 /// The lines of a problem: that of its place; of a circle, those of all its connections.
 fn lines(problem: &Diagnostic, sources: &Sources) -> Vec<u32> {
-    let is_circle = matches!(problem.code, "SCL0707" | "SCL0708" | "SCL0709");
+    let is_circle = [&circle::REQUESTS, &circle::PUSHES, &circle::PUBLISHERS].contains(&problem.rule);
     let others = problem.secondary.iter().filter(|_| is_circle);
     let labels = problem.primary.iter().chain(others);
     labels.map(|label| sources.file(label.span.file).line(label.span.start)).collect()
@@ -157,19 +158,19 @@ fn is_on(control: &ControlModel, rule: &Rule) -> Diagnostic {
         .help("remove the comment")
 }
 
-fn without_reason(control: &ControlModel, code: &str) -> Diagnostic {
+fn without_reason(control: &ControlModel, rule: &Rule) -> Diagnostic {
     NO_REASON
         .at("this `allow` gives no reason", command_span(control), "")
-        .help(format!("write why after it: `# scl: allow({code}) server is a third-party process`"))
+        .help(format!("write why after it: `# scl: allow({}) server is a third-party process`", rule.code))
 }
 
-fn without_effect(control: &ControlModel, code: &str, other: Option<&'static str>) -> Diagnostic {
+fn without_effect(control: &ControlModel, rule: &Rule, other: Option<&Rule>) -> Diagnostic {
+    let Rule { code, title, .. } = rule;
     let headline = format!("this `allow({code})` has no effect");
-    let title = crate::catalogue::find(code).map_or("", |rule| rule.title);
     let label = format!("{code} is \"{title}\", which is not found here");
     let found = NO_EFFECT.at(headline, command_span(control), label);
     match other {
-        Some(other) => found.help(format!("did you mean {other}?")),
+        Some(other) => found.help(format!("did you mean {}?", other.code)),
         None => found.help("remove the comment, or move it to the line that it is about, or above that"),
     }
 }
@@ -264,7 +265,7 @@ mod tests {
         ];
         let found = |comment: &str| {
             let (found, _) = problems(&format!("{GATE}{comment}\nconnections: []\n"), None);
-            found.iter().map(|found| format!("{} {}", found.code, found.message)).collect::<Vec<_>>().join("; ")
+            found.iter().map(|found| format!("{} {}", found.code(), found.message)).collect::<Vec<_>>().join("; ")
         };
         let told: String = comments.iter().map(|comment| format!("{comment}: {}\n", found(comment))).collect();
         expect![[r#"
@@ -291,7 +292,7 @@ mod tests {
             "components:\n  - name: ui\n    doc: '# scl: allow(SCL0701) x'\n    gates:\n      - events: pub\nconnections: []\n",
         ];
         let codes =
-            files.map(|file| problems(file, None).0.iter().map(|found| found.code).collect::<Vec<_>>().join(" "));
+            files.map(|file| problems(file, None).0.iter().map(|found| found.code()).collect::<Vec<_>>().join(" "));
         assert_eq!(codes, ["SCL0902 SCL0701", "", "SCL0902 SCL0701", "SCL0701"]);
     }
 
@@ -299,8 +300,9 @@ mod tests {
     fn any_connection_of_a_circle_may_allow_it() {
         let yaml = "components:\n  - name: a\n    gates:\n      - o: req\n      - i: rep\n  - name: b\n    gates:\n      - o: req\n      \
                     - i: rep\nconnections:\n  - [a.o, b.i]\n  - [b.o, a.i]";
-        let codes =
-            |end: &str| problems(&format!("{yaml}{end}\n"), None).0.iter().map(|found| found.code).collect::<Vec<_>>();
+        let codes = |end: &str| {
+            problems(&format!("{yaml}{end}\n"), None).0.iter().map(|found| found.code()).collect::<Vec<_>>()
+        };
         assert!(codes("").contains(&"SCL0707"));
         assert!(!codes(" # scl: allow(SCL0707) b asks only at start").contains(&"SCL0707"));
     }

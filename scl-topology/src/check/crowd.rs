@@ -2,9 +2,9 @@
 
 use super::control;
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 
 /// SCL0710.
@@ -48,7 +48,7 @@ connections:
 const MANY: u32 = 32;
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
-    let threshold = control::threshold(draft.model, "SCL0710").unwrap_or(MANY);
+    let threshold = control::threshold(draft.model, &RULE).unwrap_or(MANY);
     let mut peers = vec![0_u32; draft.gates.len()];
     for (_, source, sink) in draft.flows() {
         peers[source] += 1;
@@ -86,7 +86,7 @@ mod tests {
         let (found, _) = problems(&yaml, None);
         found
             .iter()
-            .filter(|found| found.code == "SCL0710")
+            .filter(|found| found.code() == "SCL0710")
             .map(|found| format!("{:?} {}", found.severity, found.message))
             .collect()
     }

@@ -1,9 +1,9 @@
 //! SCL0301: two components of one name. Every place that names it would mean both.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 use std::collections::HashMap;
 
 /// SCL0301.

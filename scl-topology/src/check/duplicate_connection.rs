@@ -1,9 +1,9 @@
 //! SCL0510: the same two gates connected twice. Takes the second out, so that it is not counted as another peer.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use std::collections::HashMap;
 
 /// SCL0510.

@@ -1,9 +1,9 @@
 //! SCL0302: two gates of one name in a component. A connection could not say which it means.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
 use crate::model::{ComponentModel, Model};
+use crate::rule::{Examples, Rule};
 use std::collections::HashMap;
 
 /// SCL0302.

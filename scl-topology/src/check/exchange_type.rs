@@ -3,9 +3,9 @@
 
 use super::draft::Draft;
 use super::message_type::differ;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 use crate::topology::{Payload, TypeName};
 

@@ -1,9 +1,9 @@
 //! SCL0401: a word that is no kind of gate. Sets the kind of every other gate.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
 use crate::suggest;
 use crate::topology::GateKind;

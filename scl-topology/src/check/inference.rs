@@ -2,9 +2,9 @@
 //! finds the connections on which neither end has a type.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::topology::{GateKind, Payload};
 use crate::wording::example_type;
 use std::collections::VecDeque;

@@ -1,9 +1,9 @@
 //! SCL0706, a lint: groups of components without a connection between them, which may be two systems in one file.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::wording::listed;
 use std::collections::BTreeMap;
 

@@ -2,10 +2,10 @@
 //! be equal, and the file still wrong.
 
 use super::named::{Noun, names};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
 
 /// SCL0304.

@@ -2,9 +2,9 @@
 //! if it alone differs from all its peers.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::topology::{GateKind, Payload, TypeName};
 use crate::wording::listed;
 use std::collections::BTreeMap;

@@ -2,18 +2,19 @@
 //! wrong with it follows from that, or goes when it is mended.
 
 use crate::diagnostic::Diagnostics;
+use crate::parse::MISREAD;
 use crate::source::Span;
 
 pub(super) fn tell_once(problems: &mut Diagnostics) {
     let mut misread: Vec<Span> = Vec::new();
     problems.retain(|found| {
-        let is_misread = matches!(found.code, "SCL0108" | "SCL0109" | "SCL0117" | "SCL0119");
+        let is_misread = MISREAD.contains(&found.rule);
         misread.extend(found.primary.as_ref().filter(|_| is_misread).map(|label| label.span));
         true
     });
     misread.sort_unstable();
     problems.retain(|found| {
-        let follows = found.code.starts_with("SCL03") || found.code.starts_with("SCL05");
+        let follows = found.code().starts_with("SCL03") || found.code().starts_with("SCL05");
         !(follows && found.primary.as_ref().is_some_and(|label| meets(label.span, &misread)))
     });
 }

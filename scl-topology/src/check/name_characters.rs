@@ -2,10 +2,10 @@
 
 use super::look_alike::has_foreign_letter;
 use super::named::{Noun, is_allowed, names};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
 
 /// SCL0303.

@@ -1,10 +1,10 @@
 //! SCL0312: a name that leaves no room for the others in a socket path.
 
 use super::named::{Noun, names};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 
 /// SCL0312.
 pub(crate) const RULE: Rule = Rule {

@@ -1,10 +1,10 @@
 //! SCL0305: a name that starts with a digit or a hyphen. No programming language can spell it.
 
 use super::named::{Noun, is_allowed, may_start, names};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
 
 /// SCL0305.

@@ -1,9 +1,9 @@
 //! SCL0711: `unconnected: ok` on a gate that is connected. The mark would hide the loss of the connection one day.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 
 /// SCL0711.
 pub(crate) const RULE: Rule = Rule {

@@ -1,10 +1,10 @@
 //! SCL0408: an option on a kind of gate that has no use for it.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
 use crate::model::OptionModel;
 use crate::parse::option;
+use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 use crate::wording::all_of;
 

@@ -2,10 +2,10 @@
 
 use super::draft::Draft;
 use super::option_fit;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::OptionModel;
+use crate::rule::{Examples, Rule};
 use crate::size::{self, SizeError};
 use crate::topology::{GateKind, GateOptions, WhenFull};
 use std::time::Duration;

@@ -2,9 +2,9 @@
 //! every other connection.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 
 /// SCL0505.

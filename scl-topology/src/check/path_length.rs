@@ -3,10 +3,10 @@
 
 use super::draft::Draft;
 use super::named::is_well_formed;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::resolve::{CONTRACT_LENGTH, TAP};
+use crate::rule::{Examples, Rule};
 use crate::socket_paths::SocketPaths;
 use crate::topology::GateKind;
 

@@ -2,9 +2,9 @@
 //! of every other gate.
 
 use super::draft::{Draft, DraftGate};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
 use crate::topology::{GateKind, Payload, TypeName};
 

@@ -1,10 +1,10 @@
 //! SCL0313, a lint: a component whose type hides a name that every Rust file has in scope.
 
 use super::named::is_well_formed;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 use crate::rust_name::component_type;
 
 /// SCL0313.

@@ -1,6 +1,7 @@
 //! An unknown name that several connections use is one mistake, most often that of its declaration: it is told at the
 //! first of them, and the others are shown there.
 
+use super::{unknown_component, unknown_gate};
 use crate::diagnostic::Diagnostics;
 use crate::source::Span;
 use std::collections::HashMap;
@@ -11,7 +12,7 @@ const MOST: usize = 8;
 pub(super) fn tell_once(problems: &mut Diagnostics) {
     let mut places: HashMap<String, Vec<Span>> = HashMap::new();
     problems.retain(|found| {
-        if !matches!(found.code, "SCL0501" | "SCL0502") {
+        if ![&unknown_component::UNKNOWN, &unknown_gate::RULE].contains(&found.rule) {
             return true;
         }
         let uses = places.entry(found.message.clone()).or_default();
@@ -21,7 +22,7 @@ pub(super) fn tell_once(problems: &mut Diagnostics) {
     problems.retain(|found| {
         let uses = places.get(&found.message).map_or(&[][..], |uses| uses.get(1..).unwrap_or(&[]));
         for place in uses.iter().take(MOST) {
-            found.secondary.push(crate::diagnostic::Label { span: *place, text: "and here".to_owned() });
+            found.add_label(*place, "and here");
         }
         if !uses.is_empty() {
             found.notes.push(format!("{} connections name it", uses.len() + 1));

@@ -1,10 +1,10 @@
 //! SCL0311: names that the framework keeps for itself, so that it can grow without breaking a file.
 
 use super::named::{Noun, names};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 
 /// SCL0311.
 pub(crate) const RULE: Rule = Rule {

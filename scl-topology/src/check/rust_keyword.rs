@@ -1,10 +1,10 @@
 //! SCL0306: a gate whose field needs `r#`. SCL0307: a name that not even `r#` makes usable.
 
 use super::named::{Noun, is_well_formed, names};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
 use crate::source::Spanned;
 

@@ -1,10 +1,10 @@
 //! SCL0308 and SCL0309: names that differ in the file and would be one in Rust.
 
 use super::named::is_well_formed;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Spanned;
 use std::collections::HashMap;
@@ -117,7 +117,7 @@ fn collisions<'m>(
     found
 }
 
-fn report(rule: &Rule, headline: String, [first, second]: [&Name; 2], rust: &str) -> Diagnostic {
+fn report(rule: &'static Rule, headline: String, [first, second]: [&Name; 2], rust: &str) -> Diagnostic {
     rule.at(headline, second.span, format!("also becomes `{rust}`")).label(first.span, format!("becomes `{rust}`"))
 }
 

@@ -2,9 +2,9 @@
 
 use super::draft::Draft;
 use super::{Facts, SchemaMessages};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::suggest::{same_parts, similar};
 use crate::topology::{Payload, TypeName};
 use crate::wording::{either, listed};

@@ -1,9 +1,9 @@
 //! SCL0507: a gate connected to itself. SCL0508: a component that asks itself. SCL0509: one that subscribes to itself.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 
 /// SCL0507.

@@ -4,10 +4,10 @@
 //! [`resolve`](crate::resolve) promises, and no file is known that it rejects.
 
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
 use crate::resolve::shortened;
+use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 use std::collections::HashMap;
 

@@ -1,10 +1,10 @@
 //! SCL0314, a lint: a name in another style than the rest of the world of Rust writes fields and modules.
 
 use super::named::{Noun, is_well_formed, names};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 use crate::rust_name::gate_field;
 
 /// SCL0314.

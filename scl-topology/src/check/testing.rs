@@ -1,10 +1,10 @@
 //! What the tests of the rules share: a text goes in, the words that users read come out.
 
 use super::{Facts, SchemaMessages, check};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::render;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
 use crate::parse::parse;
+use crate::rule::{Examples, Rule};
 use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 use crate::topology::Topology;
@@ -49,8 +49,8 @@ pub(super) fn example_with(code: &str, yaml: &str, messages: Option<&[&str]>, ex
 
 fn told(code: &str, yaml: &str, messages: Option<&[&str]>) -> String {
     let (found, sources) = problems(yaml, messages);
-    let is_usual = |found: &Diagnostic| USUAL.contains(&found.code) || found.severity == Severity::Lint;
-    let told = found.iter().filter(|found| found.code == code || !is_usual(found));
+    let is_usual = |found: &Diagnostic| USUAL.contains(&found.code()) || found.severity == Severity::Lint;
+    let told = found.iter().filter(|found| found.code() == code || !is_usual(found));
     let texts: Vec<String> = told.map(|found| render(found, &sources)).collect();
     format!("{}\n", texts.join("\n\n").trim_end())
 }
@@ -58,14 +58,14 @@ fn told(code: &str, yaml: &str, messages: Option<&[&str]>) -> String {
 /// The codes of all problems but lints, in the order of their places.
 pub(super) fn codes(yaml: &str) -> Vec<&'static str> {
     let (found, _) = problems(yaml, None);
-    found.into_iter().filter(|found| found.severity != Severity::Lint).map(|found| found.code).collect()
+    found.into_iter().filter(|found| found.severity != Severity::Lint).map(|found| found.code()).collect()
 }
 
 /// Headlines and helps of all errors, in one line.
 pub(super) fn advice(yaml: &str) -> String {
     let (found, _) = problems(yaml, None);
-    let errors = found.iter().filter(|found| found.severity == Severity::Error && found.code != "SCL0703");
-    let told = errors.map(|found| format!("{} {} [{}]", found.code, found.message, found.helps.join(" | ")));
+    let errors = found.iter().filter(|found| found.severity == Severity::Error && found.code() != "SCL0703");
+    let told = errors.map(|found| format!("{} {} [{}]", found.code(), found.message, found.helps.join(" | ")));
     told.collect::<Vec<_>>().join("; ")
 }
 

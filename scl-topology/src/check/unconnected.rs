@@ -4,9 +4,9 @@
 
 use super::draft::Draft;
 use super::fitting_sender::FittingSenders;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 use crate::wording::listed;
 

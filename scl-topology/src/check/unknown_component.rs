@@ -2,14 +2,14 @@
 
 use super::connection_end::parts;
 use super::draft::Draft;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::suggest::similar;
 use crate::wording::{either, listed};
 
 /// SCL0501.
-pub(crate) const UNKNOWN: Rule = Rule {
+pub const UNKNOWN: Rule = Rule {
     code: "SCL0501",
     severity: Severity::Error,
     title: "unknown component",

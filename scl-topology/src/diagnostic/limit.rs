@@ -1,7 +1,7 @@
 //! SCL0008: no more problems than somebody reads.
 
 use super::{Diagnostic, Severity};
-use crate::catalogue::{Examples, Rule};
+use crate::rule::{Examples, Rule};
 
 /// SCL0008.
 pub(crate) const RULE: Rule = Rule {
@@ -43,7 +43,7 @@ fn missing(count: usize, has_errors: bool, path: &str) -> Diagnostic {
         1 => format!("1 more problem in {path} is not shown"),
         _ => format!("{count} more problems in {path} are not shown"),
     };
-    let mut problem = RULE.fileless(message).help(format!("run `scl check {path}` to see all of them"));
+    let mut problem = RULE.without_place(message).help(format!("run `scl check {path}` to see all of them"));
     if !has_errors {
         problem.severity = Severity::Warning;
     }
@@ -54,12 +54,11 @@ fn missing(count: usize, has_errors: bool, path: &str) -> Diagnostic {
 mod tests {
     use super::limit;
     use crate::diagnostic::{Diagnostic, Severity};
+    use crate::external::{FILE_NOT_FOUND, PATH_OF_ONE_MACHINE};
 
     fn problems(warnings: usize, errors: usize) -> Vec<Diagnostic> {
-        let mut warning = Diagnostic::fileless("SCL0206", "w");
-        warning.severity = Severity::Warning;
-        let mut all = vec![warning; warnings];
-        all.extend(vec![Diagnostic::fileless("SCL0301", "e"); errors]);
+        let mut all = vec![PATH_OF_ONE_MACHINE.without_place("w"); warnings];
+        all.extend(vec![FILE_NOT_FOUND.without_place("e"); errors]);
         all
     }
 
@@ -67,9 +66,9 @@ mod tests {
     fn errors_are_shown_before_warnings() {
         let last = |warnings, errors| {
             let shown = limit(problems(warnings, errors), "topology.yaml");
-            let kept = |code| shown.iter().filter(|problem| problem.code == code).count();
+            let kept = |code| shown.iter().filter(|problem| problem.code() == code).count();
             let last = shown.last().map(|problem| (problem.severity, problem.message.clone()));
-            (kept("SCL0206"), kept("SCL0301"), last.filter(|_| kept("SCL0008") > 0))
+            (kept("SCL0006"), kept("SCL0001"), last.filter(|_| kept("SCL0008") > 0))
         };
         let missing = |text: &str| format!("{text} not shown");
         assert_eq!(last(3, 17), (3, 17, None));

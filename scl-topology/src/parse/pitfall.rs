@@ -23,8 +23,8 @@ mod tab;
 mod tag;
 pub(super) mod text_block_name;
 
-use crate::catalogue::Rule;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::Rule;
 use crate::source::{FileId, SourceFile, Span};
 use crate::yaml::{SyntaxError, SyntaxErrorKind, Tree};
 
@@ -52,6 +52,10 @@ pub(crate) const RULES: [&Rule; 21] = [
     &odd_key::RULE,
     &not_yaml::RULE,
 ];
+
+/// The rules about words that YAML reads as something else, or that hold an invisible character.
+pub(crate) const MISREAD: [&Rule; 4] =
+    [&boolean_word::RULE, &number_name::RULE, &invisible::RULE, &text_block_name::RULE];
 
 /// Where a rule looks: the file, and the text with every reported character replaced by spaces.
 pub(super) struct Place<'s> {

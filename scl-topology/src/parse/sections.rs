@@ -60,8 +60,7 @@ impl Reader<'_> {
             component.gates_unread = true;
             let name = component.name.span;
             self.problems.retain(|found| {
-                found.code != shape::gateless::RULE.code
-                    || found.primary.as_ref().is_none_or(|label| label.span != name)
+                *found.rule != shape::gateless::RULE || found.primary.as_ref().is_none_or(|label| label.span != name)
             });
         }
         let problem =

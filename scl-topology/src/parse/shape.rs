@@ -16,8 +16,8 @@ pub(super) mod top_level;
 pub(super) mod unknown_section;
 pub(super) mod version;
 
-use crate::catalogue::Rule;
 use crate::diagnostic::Diagnostic;
+use crate::rule::Rule;
 use crate::suggest::similar;
 
 /// All of them, by their codes.

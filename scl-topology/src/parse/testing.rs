@@ -1,9 +1,9 @@
 //! What the tests of the rules share.
 
 use super::parse;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, render};
 use crate::model::Model;
+use crate::rule::{Examples, Rule};
 use crate::source::Sources;
 use expect_test::Expect;
 
@@ -21,7 +21,7 @@ pub(super) fn headlines(text: &str) -> String {
     let (_, problems, sources) = parse_text(text);
     let line = |problem: &Diagnostic| {
         let place = problem.primary.as_ref().map_or(String::new(), |label| sources.place(label.span));
-        format!("{} {} {}\n", problem.code, place.trim_start_matches("topology.yaml:"), problem.message)
+        format!("{} {} {}\n", problem.code(), place.trim_start_matches("topology.yaml:"), problem.message)
     };
     problems.iter().map(line).collect()
 }
@@ -35,10 +35,10 @@ pub(super) fn check(rule: &Rule, expected: Expect) {
     let spellings = [text.to_owned(), text.replace('\n', "\r\n"), format!("\u{feff}{text}")];
     let [plain, others @ ..] = spellings.map(|spelling| {
         let (_, problems, sources) = parse_text(&spelling);
-        let other = problems.iter().find(|problem| problem.code != code && problem.severity == Severity::Error);
+        let other = problems.iter().find(|problem| problem.code() != code && problem.severity == Severity::Error);
         assert!(other.is_none(), "{other:?} in {spelling:?}");
         let texts: Vec<String> =
-            problems.iter().filter(|problem| problem.code == code).map(|problem| render(problem, &sources)).collect();
+            problems.iter().filter(|problem| problem.code() == code).map(|problem| render(problem, &sources)).collect();
         texts.join("\n\n")
     });
     expected.assert_eq(&plain);

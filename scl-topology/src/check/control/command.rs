@@ -1,8 +1,9 @@
 //! Reads one comment for the checker. SCL0901: nobody knows what it says. SCL0903: it wants to allow what cannot be.
 
-use crate::catalogue::{self, Examples, Rule};
+use crate::check::{ALL, circle, find, unconnected};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::model::ControlModel;
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 use crate::suggest::one_edit_away;
 use crate::wording::listed;
@@ -41,7 +42,7 @@ components: []
 };
 
 /// Errors that somebody may know better than the checker.
-const ALLOWED_ERRORS: [&str; 2] = ["SCL0703", "SCL0707"];
+const ALLOWED_ERRORS: [&Rule; 2] = [&unconnected::NO_REPLIER, &circle::REQUESTS];
 
 /// For so many unknown codes similar ones are looked for.
 const MOST_SEARCHES: usize = 20;
@@ -113,9 +114,9 @@ fn place(control: &ControlModel, (word, at): Word<'_>) -> Span {
 }
 
 fn known(control: &ControlModel, word: Word<'_>, own: &mut Vec<Diagnostic>) -> Option<&'static Rule> {
-    let rule = catalogue::find(word.0);
+    let rule = find(word.0);
     if rule.is_none() {
-        let codes = catalogue::ALL.iter().filter(|_| own.len() < MOST_SEARCHES).map(|rule| rule.code);
+        let codes = ALL.iter().filter(|_| own.len() < MOST_SEARCHES).map(|rule| rule.code);
         let similar: Vec<&str> = one_edit_away(word.0, codes);
         let found = UNKNOWN_CODE.at(format!("unknown check `{}`", word.0), place(control, word), "");
         own.push(match similar.as_slice() {
@@ -128,12 +129,12 @@ fn known(control: &ControlModel, word: Word<'_>, own: &mut Vec<Diagnostic>) -> O
 }
 
 fn may_be_allowed(control: &ControlModel, rule: &Rule, word: Word<'_>, own: &mut Vec<Diagnostic>) -> bool {
-    let is_fixed = rule.severity == Severity::Error && !ALLOWED_ERRORS.contains(&rule.code);
+    let is_fixed = rule.severity == Severity::Error && !ALLOWED_ERRORS.contains(&rule);
     if is_fixed {
         own.push(
             FIXED
                 .at(format!("{} cannot be allowed", rule.code), place(control, word), rule.title)
-                .help(format!("errors that can be allowed: {}", ALLOWED_ERRORS.join(", ")))
+                .help(format!("errors that can be allowed: {}", ALLOWED_ERRORS.map(|rule| rule.code).join(", ")))
                 .note("any other error means that the system could never work"),
         );
     }

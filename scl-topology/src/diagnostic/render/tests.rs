@@ -1,7 +1,8 @@
 //! Diagnostics and their text.
 
 use super::{render, render_headless, render_styled};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::testing::{ERROR, WARNING};
+use crate::external::{FILE_NOT_FOUND, SCHEMA};
 use crate::source::{FileId, Sources, Span};
 use expect_test::{Expect, expect};
 
@@ -14,7 +15,7 @@ fn at(sources: &Sources, file: FileId, word: &str) -> Span {
 fn check(text: &str, primary: &str, secondary: &[&str], expected: Expect) {
     let mut sources = Sources::new();
     let file = sources.add("dir/topology.yaml", text);
-    let mut problem = Diagnostic::error("SCL0999", "a headline", at(&sources, file, primary), "why here");
+    let mut problem = ERROR.at("a headline", at(&sources, file, primary), "why here");
     for word in secondary {
         problem = problem.label(at(&sources, file, word), "also");
     }
@@ -169,7 +170,8 @@ fn a_label_in_another_file() {
     let mut sources = Sources::new();
     let yaml = sources.add("topology.yaml", "schemas: [a.proto]\n");
     let proto = sources.add("a.proto", "syntax = \"proto3\";\nmessage A {\n");
-    let problem = Diagnostic::error("SCL0406", "the schema does not compile", at(&sources, proto, "{"), "not closed")
+    let problem = SCHEMA
+        .at("the schema does not compile", at(&sources, proto, "{"), "not closed")
         .label(at(&sources, yaml, "a.proto"), "named here");
     expect![[r#"
         error: [SCL0406] the schema does not compile
@@ -187,7 +189,7 @@ fn a_label_in_another_file() {
 
 #[test]
 fn without_a_place() {
-    let problem = Diagnostic::fileless("SCL0001", "no \u{1b}[31m file\nhere").help("look");
+    let problem = FILE_NOT_FOUND.without_place("no \u{1b}[31m file\nhere").help("look");
     expect![[r#"
         error: [SCL0001] no \u{1b}[31m file\nhere
          |
@@ -199,7 +201,7 @@ fn without_a_place() {
 fn headless_starts_with_the_code() {
     let mut sources = Sources::new();
     let file = sources.add("t.yaml", "a: b");
-    let problem = Diagnostic::warning("SCL0999", "a [headline]", at(&sources, file, "b"), "");
+    let problem = WARNING.at("a [headline]", at(&sources, file, "b"), "");
     expect![[r#"
         [SCL0999] a [headline]
          --> t.yaml:1:4
@@ -215,7 +217,7 @@ fn a_line_of_a_mebibyte_is_cut() {
     let text = format!("a: {}X{}", "b".repeat(500_000), "c".repeat(500_000));
     let mut sources = Sources::new();
     let file = sources.add("t.yaml", text);
-    let problem = Diagnostic::error("SCL0999", "long", at(&sources, file, "X"), "here");
+    let problem = ERROR.at("long", at(&sources, file, "X"), "here");
     let rendered = render(&problem, &sources);
     assert!(rendered.len() < 2_000, "{} bytes", rendered.len());
     assert!(rendered.contains("t.yaml:1:500004") && rendered.contains("^ here"), "{rendered}");

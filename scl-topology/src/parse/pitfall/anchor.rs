@@ -1,9 +1,9 @@
 //! SCL0111: anchors and aliases.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 use crate::yaml::{Anchor, Node, NodeKind, Tree};
 
@@ -51,7 +51,7 @@ fn diagnose(anchor: &Anchor, root: Option<&Node>, place: &Place<'_>) -> Diagnost
     let mut problem = match (anchor.definition, first_use) {
         (Some(definition), _) => RULE.at(MESSAGE, definition, "anchor defined here"),
         (None, Some(alias)) => RULE.at(MESSAGE, alias, "no anchor of this name stands above"),
-        (None, None) => RULE.fileless(MESSAGE),
+        (None, None) => RULE.without_place(MESSAGE),
     };
     if anchor.definition.is_some() {
         for alias in &anchor.aliases {

@@ -1,8 +1,8 @@
 //! SCL0108: a word that YAML 1.1 reads as a boolean.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 
 /// SCL0108.

@@ -1,9 +1,9 @@
 //! SCL0102: brackets that do not match.
 
 use super::{Place, scan};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::yaml::SyntaxError;
 use std::ops::Range;
 

@@ -1,8 +1,8 @@
 //! SCL0116: nested too deeply.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 use crate::yaml::MAX_DEPTH;
 

@@ -1,9 +1,9 @@
 //! SCL0118: a YAML directive, such as `%YAML 1.1`.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use std::ops::Range;
 
 /// SCL0118.

@@ -1,9 +1,9 @@
 //! SCL0107: a key is written twice.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 use crate::yaml::NodeKind;
 

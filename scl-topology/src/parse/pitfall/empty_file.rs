@@ -1,9 +1,9 @@
 //! SCL0115: nothing in the file.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::yaml::Tree;
 
 /// SCL0115.

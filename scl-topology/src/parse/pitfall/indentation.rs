@@ -1,10 +1,10 @@
 //! SCL0105: a line whose indentation fits no line above it.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::component;
+use crate::rule::{Examples, Rule};
 use crate::yaml::{MAX_DEPTH, SyntaxError};
 use std::ops::Range;
 

@@ -1,9 +1,9 @@
 //! SCL0117: a character that nobody sees, or that only looks like a space.
 
 use super::{Place, scan::Scan};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 use std::collections::BTreeMap;
 
 /// SCL0117.

@@ -1,8 +1,8 @@
 //! SCL0112: the merge key `<<`.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::yaml::Node;
 
 /// SCL0112.

@@ -1,10 +1,10 @@
 //! SCL0110: nothing where a name or value is expected.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::{component, with_dash};
+use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 

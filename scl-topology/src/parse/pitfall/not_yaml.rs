@@ -1,10 +1,10 @@
 //! SCL0121: a syntax error that no other rule explains.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::{component, sections};
+use crate::rule::{Examples, Rule};
 use crate::yaml::SyntaxError;
 use std::ops::Range;
 

@@ -1,8 +1,8 @@
 //! SCL0120: a key that is no plain word.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::yaml::Node;
 
 /// SCL0120.

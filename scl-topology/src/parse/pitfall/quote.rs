@@ -1,9 +1,9 @@
 //! SCL0104: a quote is never closed.
 
 use super::{Place, scan};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::yaml::{SyntaxError, SyntaxErrorKind};
 
 /// SCL0104.

@@ -1,9 +1,9 @@
 //! SCL0106: a character that cannot start a value.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 
 /// SCL0106.
 pub(crate) const RULE: Rule = Rule {

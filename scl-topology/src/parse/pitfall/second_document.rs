@@ -1,9 +1,9 @@
 //! SCL0114: more than one document.
 
 use super::Place;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 
 /// SCL0114.

@@ -1,9 +1,9 @@
 //! SCL0101: a tab is used for indentation.
 
 use super::{Place, scan::Scan};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule};
 
 /// SCL0101.
 pub(crate) const RULE: Rule = Rule {

@@ -1,8 +1,8 @@
 //! SCL0113: a YAML tag.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 
 /// SCL0113.

@@ -1,8 +1,8 @@
 //! SCL0119: a text block where a name belongs.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 

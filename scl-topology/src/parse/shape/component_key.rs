@@ -1,11 +1,11 @@
 //! SCL0207: an unknown key in a component.
 
 use super::{suggest, ticked};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::component::KEYS;
 use crate::parse::fields::Field;
+use crate::rule::{Examples, Rule};
 
 /// SCL0207.
 pub(crate) const RULE: Rule = Rule {

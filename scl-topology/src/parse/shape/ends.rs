@@ -1,9 +1,9 @@
 //! SCL0211: a connection that is not a pair of ends.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::{scalar, shape_word};
+use crate::rule::{Examples, Rule};
 use crate::source::Span;
 use crate::yaml::{Node, NodeKind};
 

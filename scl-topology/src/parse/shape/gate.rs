@@ -1,12 +1,12 @@
 //! SCL0210: a gate that is not written as `name: kind` or `name: {kind: type, option: value}`.
 
 use super::ticked;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::{Field, Fields};
 use crate::parse::gate::is_kind;
 use crate::parse::scalar;
+use crate::rule::{Examples, Rule};
 use crate::source::{Span, Spanned};
 use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};

@@ -1,11 +1,11 @@
 //! SCL0212: an unknown key in a gate.
 
 use super::ticked;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::option::{OPTIONS, rule};
+use crate::rule::{Examples, Rule};
 use crate::suggest::similar;
 use crate::topology::GateKind;
 use crate::wording::all_of;

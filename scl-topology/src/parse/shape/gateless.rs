@@ -1,9 +1,9 @@
 //! SCL0209: a component without gates.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
+use crate::rule::{Examples, Rule};
 use crate::source::Spanned;
 
 /// SCL0209.

@@ -1,6 +1,5 @@
 //! SCL0214: a key that belongs elsewhere.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::model::ComponentModel;
@@ -8,6 +7,7 @@ use crate::parse::component::{self, head};
 use crate::parse::fields::{Field, Fields};
 use crate::parse::gate::is_kind;
 use crate::parse::{option, scalar, sections};
+use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 

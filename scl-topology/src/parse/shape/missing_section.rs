@@ -1,10 +1,10 @@
 //! SCL0203: the section `components` is missing.
 
 use super::ticked;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::Fields;
+use crate::rule::{Examples, Rule};
 use crate::source::{FileId, Span};
 
 /// SCL0203.

@@ -1,11 +1,11 @@
 //! SCL0208: a component without a name.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::component::head;
 use crate::parse::fields::Fields;
 use crate::parse::shape_word;
+use crate::rule::{Examples, Rule};
 use crate::source::SourceFile;
 use crate::yaml::{Node, NodeKind};
 

@@ -1,9 +1,9 @@
 //! SCL0206: no connections.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
+use crate::rule::{Examples, Rule};
 
 /// SCL0206.
 pub(crate) const RULE: Rule = Rule {

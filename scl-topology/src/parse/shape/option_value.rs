@@ -1,11 +1,11 @@
 //! SCL0215: a value of the wrong kind.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::option::Value;
 use crate::parse::{is_plain, shape_word};
+use crate::rule::{Examples, Rule};
 use crate::size;
 use crate::suggest::similar;
 use crate::wording::either;

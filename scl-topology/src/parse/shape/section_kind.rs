@@ -1,12 +1,12 @@
 //! SCL0204: a section, or the list of gates, has the wrong kind.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::model::ComponentModel;
 use crate::parse::component::end_with_colon;
 use crate::parse::fields::Field;
 use crate::parse::shape_word;
+use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 

@@ -1,9 +1,9 @@
 //! SCL0201: the top level is not a mapping.
 
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::{pitfall, sections, with_dash};
+use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 

@@ -1,11 +1,11 @@
 //! SCL0202: an unknown key at the top level.
 
 use super::{suggest, ticked};
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::sections::SECTIONS;
+use crate::rule::{Examples, Rule};
 
 /// SCL0202.
 pub(crate) const RULE: Rule = Rule {

@@ -1,12 +1,12 @@
 //! SCL0213: a format version that this version of scl does not read.
 
 use super::option_value;
-use crate::catalogue::{Examples, Rule};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::fields::Field;
 use crate::parse::is_plain;
 use crate::parse::option::{Value, is_whole_number};
+use crate::rule::{Examples, Rule};
 use crate::yaml::NodeKind;
 
 /// SCL0213.

@@ -1,17 +1,28 @@
-//! Checks that others make: what reads the files, the macro, and rustc. Their words are kept here, so that each code is
-//! explained in one place.
+//! Rules that are checked elsewhere: by the loader that reads the files, by the macro, and by rustc. They are declared
+//! here, so that every code is explained in one place.
 
-use super::{Examples, Rule};
-use crate::diagnostic::Severity;
+use crate::rule::{Examples, Rule, Severity};
 
 /// All of them, by their codes.
 pub(crate) const RULES: [&Rule; 14] = [
-    &SCL0001, &SCL0002, &SCL0003, &SCL0004, &SCL0005, &SCL0006, &SCL0007, &SCL0406, &SCL0605, &SCL0606, &SCL0803,
-    &SCL1001, &SCL1002, &SCL1003,
+    &FILE_NOT_FOUND,
+    &UNREADABLE_FILE,
+    &NOT_UTF8,
+    &FILE_TOO_LARGE,
+    &BAD_ARGUMENTS,
+    &PATH_OF_ONE_MACHINE,
+    &GENERATED_TWICE,
+    &SCHEMA,
+    &DIFFERENT_RUST_TYPES,
+    &NOT_A_MESSAGE,
+    &MESSAGE_TOO_LARGE,
+    &WRONG_DIRECTION,
+    &WRONG_TYPE_IN_CODE,
+    &UNKNOWN_IN_CODE,
 ];
 
 /// SCL0001.
-pub(crate) const SCL0001: Rule = Rule {
+pub const FILE_NOT_FOUND: Rule = Rule {
     code: "SCL0001",
     severity: Severity::Error,
     title: "topology file not found",
@@ -22,7 +33,7 @@ pub(crate) const SCL0001: Rule = Rule {
 };
 
 /// SCL0002.
-pub(crate) const SCL0002: Rule = Rule {
+pub const UNREADABLE_FILE: Rule = Rule {
     code: "SCL0002",
     severity: Severity::Error,
     title: "path is a directory or cannot be read",
@@ -32,7 +43,7 @@ pub(crate) const SCL0002: Rule = Rule {
 };
 
 /// SCL0003.
-pub(crate) const SCL0003: Rule = Rule {
+pub const NOT_UTF8: Rule = Rule {
     code: "SCL0003",
     severity: Severity::Error,
     title: "file is not UTF-8",
@@ -42,7 +53,7 @@ pub(crate) const SCL0003: Rule = Rule {
 };
 
 /// SCL0004.
-pub(crate) const SCL0004: Rule = Rule {
+pub const FILE_TOO_LARGE: Rule = Rule {
     code: "SCL0004",
     severity: Severity::Error,
     title: "file too large",
@@ -53,7 +64,7 @@ pub(crate) const SCL0004: Rule = Rule {
 };
 
 /// SCL0005.
-pub(crate) const SCL0005: Rule = Rule {
+pub const BAD_ARGUMENTS: Rule = Rule {
     code: "SCL0005",
     severity: Severity::Error,
     title: "macro argument is not one string literal",
@@ -64,7 +75,7 @@ pub(crate) const SCL0005: Rule = Rule {
 };
 
 /// SCL0006.
-pub(crate) const SCL0006: Rule = Rule {
+pub const PATH_OF_ONE_MACHINE: Rule = Rule {
     code: "SCL0006",
     severity: Severity::Warning,
     title: "path works on this machine only",
@@ -78,7 +89,7 @@ pub(crate) const SCL0006: Rule = Rule {
 };
 
 /// SCL0007.
-pub(crate) const SCL0007: Rule = Rule {
+pub const GENERATED_TWICE: Rule = Rule {
     code: "SCL0007",
     severity: Severity::Error,
     title: "the same names are generated twice",
@@ -95,7 +106,7 @@ mod ground_station {
 };
 
 /// SCL0406.
-pub(crate) const SCL0406: Rule = Rule {
+pub const SCHEMA: Rule = Rule {
     code: "SCL0406",
     severity: Severity::Error,
     title: "schema file cannot be read or compiled",
@@ -118,7 +129,7 @@ components:
 };
 
 /// SCL0605.
-pub(crate) const SCL0605: Rule = Rule {
+pub const DIFFERENT_RUST_TYPES: Rule = Rule {
     code: "SCL0605",
     severity: Severity::Error,
     title: "same name, different Rust types",
@@ -129,7 +140,7 @@ pub(crate) const SCL0605: Rule = Rule {
 };
 
 /// SCL0606.
-pub(crate) const SCL0606: Rule = Rule {
+pub const NOT_A_MESSAGE: Rule = Rule {
     code: "SCL0606",
     severity: Severity::Error,
     title: "type is not a message",
@@ -140,7 +151,7 @@ pub(crate) const SCL0606: Rule = Rule {
 };
 
 /// SCL0803.
-pub(crate) const SCL0803: Rule = Rule {
+pub const MESSAGE_TOO_LARGE: Rule = Rule {
     code: "SCL0803",
     severity: Severity::Error,
     title: "message larger than a slot",
@@ -150,7 +161,7 @@ pub(crate) const SCL0803: Rule = Rule {
 };
 
 /// SCL1001.
-pub(crate) const SCL1001: Rule = Rule {
+pub const WRONG_DIRECTION: Rule = Rule {
     code: "SCL1001",
     severity: Severity::Error,
     title: "wrong direction",
@@ -164,7 +175,7 @@ pub(crate) const SCL1001: Rule = Rule {
 };
 
 /// SCL1002.
-pub(crate) const SCL1002: Rule = Rule {
+pub const WRONG_TYPE_IN_CODE: Rule = Rule {
     code: "SCL1002",
     severity: Severity::Error,
     title: "wrong message type in code",
@@ -177,7 +188,7 @@ pub(crate) const SCL1002: Rule = Rule {
 };
 
 /// SCL1003.
-pub(crate) const SCL1003: Rule = Rule {
+pub const UNKNOWN_IN_CODE: Rule = Rule {
     code: "SCL1003",
     severity: Severity::Error,
     title: "gate or component does not exist in code",

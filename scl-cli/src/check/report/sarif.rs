@@ -1,19 +1,19 @@
 //! Diagnostics as SARIF 2.1.0, the format that code hosts and review tools read.
 
-use super::{Diagnostic, Label, Severity};
-use crate::catalogue::{explain, find};
-use crate::source::Sources;
+use scl_topology::catalogue::{explain, find};
+use scl_topology::diagnostic::{Diagnostic, Label, Severity};
+use scl_topology::source::Sources;
 use serde_json::{Value, json};
 
 /// One checked file with what was found in it.
 #[derive(Debug, Clone, Copy)]
-pub struct CheckedFile<'a> {
+pub(in crate::check) struct CheckedFile<'a> {
     /// The path as messages name it.
-    pub path: &'a str,
+    pub(in crate::check) path: &'a str,
     /// The texts that the diagnostics point into.
-    pub sources: &'a Sources,
+    pub(in crate::check) sources: &'a Sources,
     /// What was found.
-    pub diagnostics: &'a [Diagnostic],
+    pub(in crate::check) diagnostics: &'a [Diagnostic],
 }
 
 /// One SARIF log with one run over all files, over several lines.
@@ -22,11 +22,11 @@ pub struct CheckedFile<'a> {
 /// text of a result is the headline, then the label, the helps and the notes, each on its own line; the secondary labels
 /// are related locations. Paths become relative URIs, absolute ones `file:` URIs. A diagnostic without a place is
 /// located at its file as a whole.
-pub fn to_sarif(files: &[CheckedFile<'_>]) -> String {
+pub(in crate::check) fn to_sarif(files: &[CheckedFile<'_>]) -> String {
     let mut found: Vec<&Diagnostic> = files.iter().flat_map(|file| file.diagnostics).collect();
-    found.sort_by_key(|diagnostic| diagnostic.code);
-    found.dedup_by_key(|diagnostic| diagnostic.code);
-    let codes: Vec<&str> = found.iter().map(|diagnostic| diagnostic.code).collect();
+    found.sort_by_key(|diagnostic| diagnostic.code());
+    found.dedup_by_key(|diagnostic| diagnostic.rule);
+    let codes: Vec<&str> = found.iter().map(|diagnostic| diagnostic.code()).collect();
     let results = files.iter().flat_map(|file| file.diagnostics.iter().map(|it| result(it, file, &codes)));
     let driver = json!({
         "name": "scl", "semanticVersion": env!("CARGO_PKG_VERSION"),
@@ -46,13 +46,13 @@ pub fn to_sarif(files: &[CheckedFile<'_>]) -> String {
 
 /// What the catalogue knows of a code.
 fn rule(diagnostic: &Diagnostic) -> Value {
-    let mut rule = json!({ "id": diagnostic.code, "defaultConfiguration": { "level": level(diagnostic.severity) } });
-    if let Some(known) = find(diagnostic.code) {
+    let mut rule = json!({ "id": diagnostic.code(), "defaultConfiguration": { "level": level(diagnostic.severity) } });
+    if let Some(known) = find(diagnostic.code()) {
         rule["shortDescription"] = json!({ "text": known.title });
         rule["fullDescription"] = json!({ "text": known.explanation });
         rule["defaultConfiguration"]["level"] = json!(level(known.severity));
     }
-    if let Some(entry) = explain(diagnostic.code) {
+    if let Some(entry) = explain(diagnostic.code()) {
         rule["help"] = json!({ "text": entry, "markdown": entry });
     }
     rule
@@ -69,8 +69,8 @@ fn result(diagnostic: &Diagnostic, file: &CheckedFile<'_>, codes: &[&str]) -> Va
         related
     });
     json!({
-        "ruleId": diagnostic.code,
-        "ruleIndex": codes.iter().position(|code| *code == diagnostic.code),
+        "ruleId": diagnostic.code(),
+        "ruleIndex": codes.iter().position(|code| *code == diagnostic.code()),
         "level": level(diagnostic.severity),
         "message": { "text": text(diagnostic) },
         "locations": [place],
@@ -89,7 +89,7 @@ fn level(severity: Severity) -> &'static str {
 fn text(diagnostic: &Diagnostic) -> String {
     let label = diagnostic.primary.iter().map(|label| label.text.clone()).filter(|text| !text.is_empty());
     let helps = diagnostic.helps.iter().map(|help| format!("help: {help}"));
-    let notes = diagnostic.notes.iter().map(|note| format!("note: {note}"));
+    let notes = diagnostic.all_notes().map(|note| format!("note: {note}"));
     let lines = std::iter::once(diagnostic.message.clone()).chain(label).chain(helps).chain(notes);
     lines.collect::<Vec<_>>().join("\n")
 }
@@ -127,20 +127,19 @@ fn uri(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{CheckedFile, to_sarif, uri};
-    use crate::diagnostic::Diagnostic;
-    use crate::source::{Sources, Span};
+    use crate::check::report::testing::{OTHER, WARNING};
+    use scl_topology::external::FILE_NOT_FOUND;
+    use scl_topology::source::{Sources, Span};
     use serde_json::{Value, json};
 
     fn example() -> Value {
         let mut sources = Sources::new();
         let file = sources.add("a b/ä.yaml", "ä: \"b\"\r\nc:\n");
         let span = |start, end| Span { file, start, end };
-        let problem = Diagnostic::warning("SCL0999", "what", span(4, 7), "why")
-            .label(span(9, 10), "here")
-            .help("write `[a.b, c.d]`")
-            .note("rule");
-        let first = [problem.clone(), Diagnostic::error("SCL0100", "other", span(0, 1), "")];
-        let second = [Diagnostic::fileless("SCL0001", "no file"), problem];
+        let problem =
+            WARNING.at("what", span(4, 7), "why").label(span(9, 10), "here").help("write `[a.b, c.d]`").note("rule");
+        let first = [problem.clone(), OTHER.at("other", span(0, 1), "")];
+        let second = [FILE_NOT_FOUND.without_place("no file"), problem];
         let files = [("a b/ä.yaml", &first), ("/x.yaml", &second)];
         let files = files.map(|(path, diagnostics)| CheckedFile { path, sources: &sources, diagnostics });
         serde_json::from_str(&to_sarif(&files)).unwrap()
