@@ -26,9 +26,9 @@
 //! let mut sensor = Component::open_with(system.component("sensor")?, options()).await?;
 //! let mut recorder = Component::open_with(system.component("recorder")?, options()).await?;
 //!
-//! let mut log = recorder.puller("log")?;
-//! sensor.pusher("log")?.send(&"any bytes".into()).await?;
-//! assert_eq!(log.recv().await?, "any bytes");
+//! let (mut sends, mut receives) = (sensor.pusher("log")?, recorder.puller("log")?);
+//! sends.send(&"any bytes".into()).await?;
+//! assert_eq!(receives.recv().await?, "any bytes");
 //!
 //! let error = sensor.publisher("measurement").unwrap_err();
 //! assert_eq!(error.to_string(), "component `sensor` has no gate `measurement`; did you mean `measurements`?");
@@ -60,7 +60,8 @@ use tokio::runtime::Handle;
 /// A component whose gates are found by name.
 ///
 /// Each gate is taken out of the component once, and then belongs to the caller, who may move it to another task or
-/// thread. The component stays open, under its lock, until the component and all of its gates have been dropped.
+/// thread. The component stays open, under its lock, until the component and all of its gates have been dropped. A gate
+/// that is dropped hands over what its connected peers have not taken yet, as a field of a typed component does.
 pub struct Component {
     spec: &'static ComponentSpec,
     /// In the order of `spec.gates`; `None` once taken.

@@ -28,4 +28,5 @@ mod subscribers;
 mod taps;
 mod threads;
 mod unit;
+mod untyped;
 mod without_async;
