@@ -11,6 +11,7 @@ mod duration;
 mod explain;
 mod graph;
 mod load;
+mod plan;
 mod print;
 #[cfg(feature = "run")]
 mod run;
@@ -40,6 +41,7 @@ enum Command {
     Diff(diff::DiffArguments),
     Explain(explain::ExplainArguments),
     Graph(graph::GraphArguments),
+    Plan(plan::PlanArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
@@ -62,6 +64,7 @@ fn main() -> ExitCode {
         Command::Diff(arguments) => diff::diff(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
+        Command::Plan(arguments) => plan::plan(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

@@ -49,3 +49,6 @@ impl Loaded {
         format!("{}:{}:{}", file.path(), start.line, start.column)
     }
 }
+
+#[cfg(all(test, feature = "protobuf"))]
+mod tests;

@@ -30,4 +30,5 @@ mod subscribers;
 mod taps;
 mod threads;
 mod unit;
+mod untyped;
 mod without_async;
