@@ -1,6 +1,6 @@
 //! `scl plan`: the plans of a system's components as JSON.
 
-use crate::load::{load_file, show_errors};
+use crate::load::{MaxSize, load_file, show_errors};
 use crate::print::{print_err, print_out};
 use clap::Args;
 use scl_plan::SystemPlan;
@@ -10,7 +10,7 @@ use std::process::ExitCode;
 /// Maximum number of components that an error lists.
 const LISTED: usize = 10;
 
-/// Prints the plan of a system as JSON: for each component everything its program needs to run.
+/// Print the plan of a system as JSON: for each component everything its program needs to run.
 ///
 /// That is its gates with kind, type, codec, options, and every connection with its peer, socket and contract, and the
 /// protobuf messages as a descriptor set. Programs in other languages and `scl::untyped` open components from this text; no
@@ -30,11 +30,13 @@ pub(crate) struct PlanArguments {
     /// Print the plan of this component only.
     #[arg(long, value_name = "NAME")]
     component: Option<String>,
+    #[command(flatten)]
+    max_size: MaxSize,
 }
 
 /// The body of `scl plan`.
 pub(crate) fn plan(arguments: &PlanArguments) -> ExitCode {
-    let loaded = load_file(&arguments.file);
+    let loaded = load_file(&arguments.file, arguments.max_size);
     let Some(system) = loaded.system_plan() else {
         show_errors(&loaded);
         return ExitCode::from(if loaded.file.is_some() { 1 } else { 2 });
