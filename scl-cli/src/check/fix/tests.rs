@@ -92,5 +92,6 @@ fn a_sure_fix_of_an_example_removes_its_problem() {
             fixed_rules.push(rule.code);
         }
     }
-    expect!["SCL0102 SCL0103 SCL0122 SCL0123 SCL0124 SCL0127 SCL0401 SCL0501 SCL0502 SCL0503 SCL0504"].assert_eq(&fixed_rules.join(" "));
+    expect!["SCL0101 SCL0102 SCL0103 SCL0117 SCL0118 SCL0119 SCL0122 SCL0123 SCL0124 SCL0127 SCL0202 SCL0207 SCL0216 SCL0304 SCL0401 SCL0501 SCL0502 SCL0503 SCL0504 SCL0510 SCL0711"]
+        .assert_eq(&fixed_rules.join(" "));
 }

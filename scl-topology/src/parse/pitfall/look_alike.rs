@@ -78,6 +78,7 @@ pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &So
             );
             let problem = LETTER.at(message, node.span, format!("not the Latin `{twin}`"));
             let retyped = confusable::retyped(word);
+            let problem = problem.fix_word(text, &[confusable::retyped(text)]);
             match what.starts_with("the ") {
                 true => problem.help(format!("retype it: `{retyped}`")),
                 false => problem
