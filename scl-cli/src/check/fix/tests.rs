@@ -95,3 +95,38 @@ fn a_sure_fix_of_an_example_removes_its_problem() {
     expect!["SCL0101 SCL0102 SCL0103 SCL0117 SCL0118 SCL0119 SCL0122 SCL0123 SCL0124 SCL0127 SCL0202 SCL0207 SCL0216 SCL0304 SCL0401 SCL0501 SCL0502 SCL0503 SCL0504 SCL0510 SCL0711"]
         .assert_eq(&fixed_rules.join(" "));
 }
+
+/// A sound file with one character deleted, replaced or doubled: a fix that is called sure restores what was there, or
+/// leaves an error.
+#[test]
+fn a_sure_fix_restores_what_was_there() {
+    let path = format!("{}/../scl-topology/tests/files/rover.yaml", env!("CARGO_MANIFEST_DIR"));
+    let sound = std::fs::read_to_string(path).unwrap().replace("schemas:", "x-schemas:");
+    let expected = meaning(&sound);
+    assert_ne!(expected, "");
+    let mut restored = 0;
+    for (at, letter) in sound.char_indices() {
+        let other = ["", "q", "."][at % 3].to_owned();
+        for other in [other, format!("{letter}{letter}")] {
+            let mutant = format!("{}{other}{}", &sound[..at], &sound[at + letter.len_utf8()..]);
+            let (new, applied, errors) = fixed(&mutant);
+            if applied > 0 && errors == 0 {
+                assert_eq!(meaning(&new), expected, "{}", unified_diff("rover.yaml", &mutant, &new));
+                restored += 1;
+            }
+        }
+    }
+    println!("{restored} restored");
+    assert!(restored > 400, "{restored}");
+}
+
+/// A topology without its names: a misspelt declaration may be repaired by following it.
+fn meaning(text: &str) -> String {
+    let loaded = load_bytes(&Request::new("topology.yaml"), text.as_bytes().to_vec());
+    let Some(topology) = loaded.topology else { return String::new() };
+    let gates = topology.components().flat_map(|(_, component)| component.gates().to_vec());
+    let kinds: Vec<_> = gates.map(|gate| (topology.gate(gate).kind(), topology.gate(gate).options().clone())).collect();
+    let sizes: Vec<_> = topology.components().map(|(_, component)| component.gates().len()).collect();
+    let pairs: Vec<_> = topology.connections().map(|(_, pair)| (pair.source(), pair.sink())).collect();
+    format!("{kinds:?} {sizes:?} {pairs:?}")
+}
