@@ -1,11 +1,15 @@
 //! Whole files: what is fixed, and that everything else stays as it was.
 
+use super::edit::{apply, groups};
 use super::{fix, unified_diff};
 use expect_test::{Expect, expect};
-use scl_loader::{Request, load_bytes};
+use scl_loader::{Loaded, Request, load_bytes};
 use scl_topology::catalogue::ALL;
 use scl_topology::diagnostic::Severity;
+use scl_topology::external::FILE_NOT_FOUND;
 use scl_topology::rule::Examples;
+use scl_topology::source::Span;
+use std::collections::HashSet;
 
 fn fixed(text: &str) -> (String, usize, usize) {
     let check = |text: &str| load_bytes(&Request::new("topology.yaml"), text.as_bytes().to_vec());
@@ -73,6 +77,62 @@ fn what_may_mean_several_things_is_left() {
 fn a_file_without_problems_stays() {
     let text = "components: []\n";
     assert_eq!(fixed(text).0, text);
+}
+
+/// A check that finds the words `bad`, `worse` and `unsure` in a text: `bad` and `worse` have sure fixes, of which that of
+/// `worse` makes two problems of one.
+fn check_words(text: &str) -> Loaded {
+    let mut loaded = Loaded::default();
+    let file = loaded.sources.add("t.yaml", text);
+    loaded.file = Some(file);
+    for (word, replacement, sure) in
+        [("bad", "good\n", true), ("worse", "unsure unsure", true), ("unsure", "sure", false)]
+    {
+        for (at, _) in text.match_indices(word) {
+            let span = Span { file, start: at as u32, end: (at + word.len()) as u32 };
+            let found = FILE_NOT_FOUND.at(word, span, "");
+            let found = if sure { found.fix(span, replacement) } else { found.maybe_fix(span, replacement) };
+            loaded.diagnostics.push(found);
+        }
+    }
+    loaded
+}
+
+fn fixed_words(text: &str) -> (String, usize) {
+    let fixed = fix(check_words(text), text.to_owned(), check_words);
+    (fixed.text, fixed.applied)
+}
+
+#[test]
+fn only_sure_fixes_that_help_are_applied() {
+    let cases = [
+        ("unsure", "unsure", 0),
+        ("bad", "good\n", 1),
+        ("worse", "worse", 0),
+        ("bad, worse, bad", "good\n, worse, good\n", 2),
+        ("worse, bad, worse, unsure", "worse, good\n, worse, unsure", 1),
+    ];
+    for (text, new, applied) in cases {
+        assert_eq!(fixed_words(text), (new.to_owned(), applied), "{text}");
+    }
+}
+
+#[test]
+fn line_breaks_are_those_of_the_file() {
+    assert_eq!(fixed_words("a\r\nbad\r\n").0, "a\r\ngood\r\n\r\n");
+    assert_eq!(fixed_words("a\nb\nbad\r\n").0, "a\nb\ngood\n\r\n");
+}
+
+#[test]
+fn fixes_that_overlap_are_not_applied_at_once() {
+    let mut loaded = check_words("abcdef");
+    let file = loaded.file.unwrap();
+    for (start, end, replacement) in [(0, 2, "1"), (1, 3, "2"), (2, 2, "3"), (3, 4, "4"), (5, 5, "5")] {
+        let span = Span { file, start, end };
+        loaded.diagnostics.push(FILE_NOT_FOUND.at(replacement, span, "").fix(span, replacement));
+    }
+    let groups = groups(&loaded, &HashSet::new());
+    assert_eq!(apply("abcdef", &groups), "1c4e5f");
 }
 
 /// The rules whose examples are fixed, so that it shows when a rule stops offering its fix.
