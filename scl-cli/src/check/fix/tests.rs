@@ -92,5 +92,5 @@ fn a_sure_fix_of_an_example_removes_its_problem() {
             fixed_rules.push(rule.code);
         }
     }
-    expect!["SCL0401 SCL0503 SCL0504"].assert_eq(&fixed_rules.join(" "));
+    expect!["SCL0102 SCL0103 SCL0122 SCL0123 SCL0124 SCL0127 SCL0304 SCL0401 SCL0501 SCL0502 SCL0503 SCL0504"].assert_eq(&fixed_rules.join(" "));
 }
