@@ -5,7 +5,7 @@ use owo_colors::{AnsiColors, OwoColorize};
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::sync::{Mutex, PoisonError};
 
-/// Maximum length of a line in bytes. Longer ones are split, so that a program without line breaks cannot exhaust memory.
+/// Maximum length of a line in bytes. Longer ones are split, so that output without line breaks cannot exhaust memory.
 const LONGEST_LINE: u64 = 64 * 1024 * 1024;
 
 const COLOURS: [AnsiColors; 10] = [
