@@ -121,7 +121,7 @@ impl Reader<'_> {
 }
 
 /// One of the words that the format knows as keys.
-fn known_word(word: &str) -> Option<&'static str> {
+pub(super) fn known_word(word: &str) -> Option<&'static str> {
     let keys = sections::SECTIONS.iter().chain(&component::KEYS).copied();
     let kinds = GateKind::ALL.into_iter().map(GateKind::word);
     let options = option::OPTIONS.iter().map(|option| option.key);
