@@ -18,7 +18,7 @@ const DEEPEST: usize = 8;
 const MOST: usize = 10_000;
 
 /// Reads the outline of any text.
-pub fn outline(text: &str) -> Outline {
+pub(super) fn outline(text: &str) -> Outline {
     let mut outline = Outline::default();
     // The message of each open brace, or `None` for a brace of something else.
     let mut open: Vec<Option<String>> = Vec::new();
