@@ -1,26 +1,15 @@
 //! A model from bytes: mostly names that meet each other, sometimes any text.
 
 use arbitrary::{Result, Unstructured};
+use scl_topology::grammar::OPTIONS;
 use scl_topology::model::{ComponentModel, ConnectionModel, ControlModel, GateModel, Model, OptionModel};
 use scl_topology::source::{FileId, Sources, Span, Spanned};
 
 const NAMES: [&str; 8] = ["a", "b", "c", "a_peer", "set-point", "setPoint", "type", "1st"];
 const KINDS: [&str; 8] = ["pub", "sub", "req", "rep", "push", "pull", "", "teapot"];
 const TYPES: [&str; 6] = ["T", "U", "nav.T", "A -> B", "B -> A", "Vec<u8>"];
-const OPTIONS: [(&str, &str); 12] = [
-    ("doc", "text"),
-    ("codec", "json"),
-    ("codec", "jsn"),
-    ("queue", "1"),
-    ("queue", "0"),
-    ("when_full", "wait"),
-    ("backpressure", "true"),
-    ("max_size", "8MiB"),
-    ("max_size", "0B"),
-    ("timeout", "500ms"),
-    ("share", "true"),
-    ("unconnected", "ok"),
-];
+/// Values of options beside their examples.
+const VALUES: [&str; 5] = ["0", "0B", "wait", "true", "jsn"];
 const CONTROLS: [&str; 4] =
     ["scl: allow(SCL0701) why", "scl: allow(SCL0703, SCL0707)", "scl: warn(SCL0710, 1)", "scl: allow("];
 
@@ -71,8 +60,9 @@ impl Reader<'_, '_> {
         let payload = if self.bytes.ratio(1, 2)? { Some(self.one_of(&TYPES)?) } else { None };
         let mut gate = GateModel { name, kind, payload, options: Vec::new(), span: self.span()? };
         for _ in 0..self.bytes.int_in_range(0..=3)? {
-            let (key, value) = *self.bytes.choose(&OPTIONS)?;
-            let (key, value) = (self.spanned(key.to_owned())?, self.spanned(value.to_owned())?);
+            let option = self.bytes.choose(&OPTIONS)?;
+            let value = if self.bytes.ratio(1, 2)? { option.example() } else { *self.bytes.choose(&VALUES)? };
+            let (key, value) = (self.spanned(option.key.to_owned())?, self.spanned(value.to_owned())?);
             gate.options.push(OptionModel { key, value, quoted: false });
         }
         Ok(gate)

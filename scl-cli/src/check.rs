@@ -17,7 +17,7 @@ use std::process::ExitCode;
 /// Exit code: a file could not be read at all.
 const COULD_NOT_RUN: u8 = 2;
 
-/// Checks topology files, with the words of the macro.
+/// Check topology files, with the words of the macro.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

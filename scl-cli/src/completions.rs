@@ -5,7 +5,7 @@ use clap::{Args, Command};
 use clap_complete::{Shell, generate};
 use std::process::ExitCode;
 
-/// Prints a script with which a shell completes the commands and options of `scl`.
+/// Print a script with which a shell completes the commands and options of `scl`.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -1,47 +1,72 @@
-//! `scl explain`: what a code of the checker means, and how to mend what it finds.
+//! `scl explain`: what a code of the checker or a word of the topology file means.
 
 use crate::print::{print_err, print_out};
 use clap::Args;
-use scl_topology::catalogue::{ALL, explain};
+use scl_topology::catalogue::{self, ALL};
+use scl_topology::grammar::{self, Entry};
 use scl_topology::rule::{Rule, Severity};
 use scl_topology::suggest::similar;
 use std::process::ExitCode;
 
-/// Exit code: there is no such check.
+/// Exit code: there is no such check or word.
 const UNKNOWN: u8 = 2;
 
-/// Explains a code of the checker, with an example; without a code, lists them all.
+/// Explain a code of the checker or a word of the topology file, with an example; without one, list them all.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   scl explain SCL0502
   scl explain 502        the same
+  scl explain queue      an option; likewise sections, keys, kinds of gate, queue policies and codecs
   scl explain | grep -i codec
 
-Exit code: 0 explained, 2 there is no such code.")]
+Exit code: 0 explained, 2 there is no such code or word.")]
 pub(crate) struct ExplainArguments {
-    /// For example `SCL0502`, as it stands in brackets at the start of a problem.
-    #[arg(value_name = "CODE")]
-    code: Option<String>,
+    /// For example `SCL0502`, as it stands in brackets at the start of a problem, or `queue`.
+    #[arg(value_name = "CODE|WORD")]
+    word: Option<String>,
 }
 
 /// The body of `scl explain`.
-pub(crate) fn explain_code(arguments: &ExplainArguments) -> ExitCode {
-    let Some(written) = &arguments.code else {
-        print_out(&ALL.iter().map(|rule| line(rule)).collect::<String>());
+pub(crate) fn explain(arguments: &ExplainArguments) -> ExitCode {
+    let Some(written) = &arguments.word else {
+        let entries = grammar::entries();
+        print_out(&ALL.iter().map(|rule| line(rule)).chain(entries.iter().map(word_line)).collect::<String>());
         return ExitCode::SUCCESS;
     };
     let code = full_code(written);
-    match explain(&code) {
+    let word = written.trim_matches([':', '`', ' ']).to_ascii_lowercase();
+    match catalogue::explain(&code).or_else(|| grammar::explain(&word)) {
         Some(text) => {
             print_out(&format!("{}\n", text.trim_end()));
             ExitCode::SUCCESS
         }
-        None => {
+        None if is_like_code(&code) => {
             print_err(&unknown(written, &code));
             ExitCode::from(UNKNOWN)
         }
+        None => {
+            print_err(&unknown_word(written, &word));
+            ExitCode::from(UNKNOWN)
+        }
     }
+}
+
+/// A word with a digit in it; no word of the topology file has one.
+fn is_like_code(code: &str) -> bool {
+    code.starts_with("SCL") || code.bytes().any(|byte| byte.is_ascii_digit())
+}
+
+/// Says that the topology file has no such word, and which one may have been meant.
+fn unknown_word(written: &str, word: &str) -> String {
+    let mut text = format!("error: `{written}` is neither a code of the checker nor a word of the topology file\n");
+    let entries = grammar::entries();
+    for near in similar(word, entries.iter().map(|entry| entry.word)) {
+        let meanings = entries.iter().filter(|entry| entry.word == near).map(|entry| entry.what);
+        let meanings: Vec<&str> = meanings.collect();
+        text.push_str(&format!("  = help: a similar word exists: `{near}` ({})\n", meanings.join(", ")));
+    }
+    text + "  = help: `scl explain` lists all of them\n"
 }
 
 /// `scl0502`, `[SCL0502]`, `502` and `scl::SCL0502`, as editors show it, are all `SCL0502`.
@@ -71,6 +96,11 @@ fn line(rule: &Rule) -> String {
         Severity::Lint => "off",
     };
     format!("{}  {level:7}  {}\n", rule.code, rule.title)
+}
+
+/// `queue  option  How many messages may wait for this gate`
+fn word_line(entry: &Entry) -> String {
+    format!("{:12}  {:19}  {}\n", entry.word, entry.what, entry.summary)
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use mermaid::draw_mermaid;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Draws the components of a topology, their gates and their connections, as text for Mermaid or Graphviz.
+/// Draw the components of a topology, their gates and their connections, as text for Mermaid or Graphviz.
 ///
 /// Arrows point from the gate that sends to the gate that receives; requests are dashed and point both ways.
 #[derive(Args)]

@@ -1,22 +1,26 @@
 //! The `scl` command: checks, draws and runs SCL systems.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+#[cfg(feature = "bench")]
 mod bench;
 mod check;
 mod completions;
 mod diff;
+#[cfg(any(feature = "bench", feature = "run"))]
 mod duration;
 mod explain;
 mod graph;
 mod load;
+mod plan;
 mod print;
+#[cfg(feature = "run")]
 mod run;
 mod schema;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Checks, draws and runs systems made of components that talk through typed gates.
+/// Check, draw and run systems made of components that talk through typed gates.
 #[derive(Parser)]
 #[command(name = "scl", version, arg_required_else_help = true)]
 #[command(after_help = "Exit code: 0 fine (or only warnings), 1 errors or a failed component, 2 could not run.")]
@@ -27,7 +31,9 @@ struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
+    #[cfg(feature = "bench")]
     Bench(bench::BenchArguments),
+    #[cfg(feature = "bench")]
     #[command(name = bench::WORKER_COMMAND, hide = true)]
     BenchWorker(bench::WorkerArguments),
     Check(check::CheckArguments),
@@ -35,26 +41,36 @@ enum Command {
     Diff(diff::DiffArguments),
     Explain(explain::ExplainArguments),
     Graph(graph::GraphArguments),
+    Plan(plan::PlanArguments),
+    #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
+    #[cfg(feature = "run")]
     #[command(name = run::START_WORD, hide = true)]
     Start(run::StartArguments),
+    #[cfg(feature = "run")]
     #[command(name = run::GUARD_WORD, hide = true)]
     Guard,
 }
 
 fn main() -> ExitCode {
     match CommandLine::parse().command {
+        #[cfg(feature = "bench")]
         Command::Bench(arguments) => bench::bench(&arguments),
+        #[cfg(feature = "bench")]
         Command::BenchWorker(arguments) => bench::run_worker(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         Command::Diff(arguments) => diff::diff(&arguments),
-        Command::Explain(arguments) => explain::explain_code(&arguments),
+        Command::Explain(arguments) => explain::explain(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
+        Command::Plan(arguments) => plan::plan(&arguments),
+        #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
+        #[cfg(feature = "run")]
         Command::Start(arguments) => run::start_component(&arguments),
+        #[cfg(feature = "run")]
         Command::Guard => run::keep_watch(),
     }
 }

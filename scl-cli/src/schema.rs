@@ -3,6 +3,7 @@
 mod file;
 mod gate;
 mod names;
+mod shape;
 
 use crate::load::{MaxSize, load_file, show_errors};
 use crate::print::print_out;
@@ -15,7 +16,7 @@ use std::process::ExitCode;
 /// Exit code: the file could not be read.
 const COULD_NOT_RUN: u8 = 2;
 
-/// Prints the JSON Schema (draft-07) of the topology file, which YAML language servers read.
+/// Print the JSON Schema (draft-07) of the topology file, which YAML language servers read.
 ///
 /// With FILE the schema knows the gates and types of that file, so that editors complete them. It refuses no others, as
 /// the file may be ahead of the schema; what is wrong, `scl check` says.

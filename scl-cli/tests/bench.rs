@@ -1,5 +1,4 @@
 //! `scl bench`: every benchmark runs for next to nothing and prints values that programs can read. No value is judged.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use serde_json::Value;
 use std::process::{Command, Output};

@@ -1,10 +1,7 @@
 //! What `scl check` says, where it says it, and its exit codes.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use expect_test::{Expect, expect};
-use system::System;
 
 /// Without a problem.
 const CLEAN: &str = "\

@@ -1,13 +1,10 @@
 //! `scl check --fix` on real files: what is written, what is printed, and the exit codes.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use expect_test::{Expect, expect};
 use std::fs;
 use std::io::Write;
 use std::process::Stdio;
-use system::System;
 
 /// Two mistakes with a sure fix, one without.
 const WRONG: &str = "\

@@ -1,12 +1,9 @@
 //! `scl check --format sarif` and `--format cargo`: what programs read.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use cargo_metadata::diagnostic::DiagnosticLevel;
 use cargo_metadata::{CompilerMessage, Message};
 use serde_json::{Value, json};
-use system::System;
 
 /// One error in a line with letters of two bytes, with a second place and a help.
 const WRONG: &str = "\

@@ -1,15 +1,12 @@
 //! What `scl check` does with everything that may stand behind a path, and with `--deny`.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use std::fs::{self, File, Permissions};
 use std::io::Write;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::process::{Output, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
-use system::System;
 
 const CLEAN: &str = "\
 components:

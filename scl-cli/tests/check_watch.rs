@@ -1,12 +1,9 @@
 //! `scl check --watch` on files that change, vanish and come back. The tests wait for its lines, never for a time.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::{System, kill};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, ChildStderr, ExitStatus, Stdio};
-use system::{System, kill};
 
 const CLEAN: &str = "\
 components:

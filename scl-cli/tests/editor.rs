@@ -1,12 +1,9 @@
 //! `docs/editor.md` says what works: its settings are taken from the page and used.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::{System, kill};
 use serde_json::Value;
 use std::io::Write;
 use std::process::{Command, Stdio};
-use system::System;
 
 const WRONG: &str = "\
 components:
@@ -57,7 +54,7 @@ fn the_task_of_vs_code_finds_the_problems() {
     let mut watch = system.scl(&arguments);
     let mut watch = watch.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     let text = read_first_check(watch.stderr.take().unwrap());
-    system::kill("-INT", watch.id());
+    kill("-INT", watch.id());
     assert_eq!(watch.wait().unwrap().code(), Some(1));
 
     let Ok(mut node) = Command::new("node").args(["-e", MATCH]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()

@@ -1,10 +1,7 @@
 //! `scl explain`, with a code, without one, and with one that does not exist.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use expect_test::{Expect, expect};
-use system::System;
 
 fn explain(arguments: &[&str]) -> (Option<i32>, String, String) {
     let output = System::of_files(&[]).scl(&[&["explain"], arguments].concat()).output().unwrap();
@@ -24,7 +21,8 @@ fn an_entry_is_that_of_the_catalogue() {
 fn all_checks_are_listed() {
     let (code, text, _) = explain(&[]);
     assert_eq!(code, Some(0));
-    assert_eq!(text.lines().count(), scl_topology::catalogue::ALL.len());
+    assert_eq!(text.lines().count(), scl_topology::catalogue::ALL.len() + scl_topology::grammar::entries().len());
+    assert!(text.contains("\nqueue         option               How many messages may wait"), "{text}");
     assert!(text.contains("\nSCL0502  error    unknown gate\n"), "{text}");
 }
 
@@ -54,10 +52,56 @@ fn an_unknown_code_gets_a_suggestion() {
           = help: `scl explain` lists all of them
     "#]],
     );
+}
+
+#[test]
+fn a_word_of_the_file_is_explained() {
+    for entry in scl_topology::grammar::entries() {
+        let (code, text, err) = explain(&[entry.word]);
+        assert_eq!((code, err.as_str()), (Some(0), ""), "{}", entry.word);
+        assert!(text.contains(&format!("# {} ({})\n\n", entry.word, entry.what)), "{text}");
+    }
+    let (_, text, _) = explain(&["queue"]);
+    expect![[r#"
+        # queue (option)
+
+        How many messages may wait for this gate; 1 means: only the newest.
+
+        Counted in messages, for each connection. What happens when it is full is `when_full`. A queue of 1 with `drop_oldest` always holds the newest value, also after a pause of the receiver: nothing older waits in a socket.
+
+        Gates: `sub` and `pull`. Value: 1 to 1000000. Default: `100`.
+
+        ```yaml
+        - attitude: {sub: Attitude, queue: 1}
+        ```
+    "#]].assert_eq(&text);
+    for written in ["Queue", "`queue`", "queue:"] {
+        assert_eq!(explain(&[written]).1, text, "{written}");
+    }
+}
+
+#[test]
+fn an_unknown_word_gets_a_suggestion() {
     unknown(
-        "gates",
+        "quue",
         expect![[r#"
-        error: there is no check `gates`
+            error: `quue` is neither a code of the checker nor a word of the topology file
+              = help: a similar word exists: `queue` (option)
+              = help: `scl explain` lists all of them
+        "#]],
+    );
+    unknown(
+        "codex",
+        expect![[r#"
+            error: `codex` is neither a code of the checker nor a word of the topology file
+              = help: a similar word exists: `codec` (section, option)
+              = help: `scl explain` lists all of them
+        "#]],
+    );
+    unknown(
+        "teapot",
+        expect![[r#"
+        error: `teapot` is neither a code of the checker nor a word of the topology file
           = help: `scl explain` lists all of them
     "#]],
     );

@@ -1,10 +1,7 @@
 //! What `scl graph` draws.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use expect_test::{Expect, expect};
-use system::System;
 
 /// Has a name that is a word of Mermaid, a component without gates, and gates with and without a type.
 const TOPOLOGY: &str = "\

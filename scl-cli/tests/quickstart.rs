@@ -1,13 +1,10 @@
 //! The first thing that anybody sees: the quick start builds, talks and stops; its file alone, when damaged and mended,
 //! is noticed by cargo. All of it without protoc.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use system::System;
 
 #[test]
 fn the_quick_start_builds_talks_stops_and_notices_its_file() {

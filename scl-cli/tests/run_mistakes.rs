@@ -1,10 +1,7 @@
 //! What `scl run` says when nothing can be started: every mistake, each with its place and the way out.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use expect_test::{Expect, expect};
-use system::System;
 
 /// Runs a launch file that cannot be used; the folder of the test is shown as `FOLDER`.
 #[track_caller]

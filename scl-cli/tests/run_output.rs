@@ -1,10 +1,7 @@
 //! What `scl run` shows: whole lines of all components, with names, and how each ended.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::{System, without_times};
 use expect_test::{Expect, expect};
-use system::{System, without_times};
 
 #[track_caller]
 fn check(components: &[(&str, &str)], expected_code: i32, expected_out: &Expect, expected_err: &Expect) {

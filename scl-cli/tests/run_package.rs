@@ -1,10 +1,7 @@
 //! `scl run` without a launch file: the cargo package beside the topology is built, and its programs are started.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::{System, without_times};
 use std::process::Output;
-use system::{System, without_times};
 
 const MANIFEST: &str = "[package]\nname = \"rover\"\nedition = \"2024\"\n[workspace]\n";
 const TOPOLOGY: &str = "\

@@ -1,9 +1,6 @@
 //! How `scl run` stops: by itself, on request, when a component fails, and when it is killed.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
-use system::{FOREVER, System, kill, wait_for_writers_to_end, without_times};
+use crate::system::{FOREVER, Started, System, kill, wait_for_writers_to_end, without_times};
 
 /// Ignores what asks it to stop; says so each time.
 const STUBBORN: &str = "trap 'echo caught' INT TERM; echo ready; while :; do tail -f /dev/null >/dev/null & wait; done";
@@ -130,7 +127,7 @@ fn a_reader_that_takes_nothing_does_not_keep_the_run_from_stopping() {
 }
 
 /// Starts a component that holds the pipe `alive` open, with a child that holds it too.
-fn start_family(system: &System) -> system::Started {
+fn start_family(system: &System) -> Started {
     let mut run = system.start(&NO_END_OF_GRACE);
     run.wait_for_line("sensor | ready");
     run

@@ -1,15 +1,11 @@
 //! What a real rust-analyzer shows, where the machine has one: the gates behind `c.`, their peers on hover, also while the
 //! topology is broken.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod lsp;
-mod system;
-
-use lsp::Server;
+use crate::lsp::Server;
+use crate::system::System;
 use serde_json::json;
 use std::path::Path;
 use std::process::Command;
-use system::System;
 
 const TOPOLOGY: &str = "\
 components:

@@ -6,7 +6,7 @@ use scl_topology::external::BAD_ARGUMENTS;
 use scl_topology::size::{self, SizeError};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
-use syn::{Ident, LitStr, Token, bracketed};
+use syn::{Ident, LitBool, LitStr, Token, bracketed};
 
 /// The parsed arguments.
 pub(crate) struct Arguments {
@@ -18,6 +18,8 @@ pub(crate) struct Arguments {
     pub(crate) only: Option<Vec<Ident>>,
     /// `max_size = "8MiB"`, in bytes.
     pub(crate) max_size: Option<u64>,
+    /// `testable = true`: the functions for unit tests exist in every build, also for other crates.
+    pub(crate) testable: Option<bool>,
 }
 
 /// Arguments that cannot be parsed: the diagnostic and its span.
@@ -38,7 +40,7 @@ impl Parse for Arguments {
         let krate = input.parse()?;
         input.parse::<Token![,]>()?;
         let path = parse_path(input)?;
-        let mut arguments = Arguments { krate, path, only: None, max_size: None };
+        let mut arguments = Arguments { krate, path, only: None, max_size: None, testable: None };
         while !input.is_empty() {
             input.parse::<Token![,]>().map_err(|error| syn::Error::new(error.span(), NOT_ONE_LITERAL))?;
             if !input.is_empty() {
@@ -64,6 +66,7 @@ impl Arguments {
         let name: Ident = input.parse().map_err(|error| syn::Error::new(error.span(), "expected an option"))?;
         let is_repeated = match name.to_string().as_str() {
             "only" => self.only.replace(parse_only(input)?).is_some(),
+            "testable" => self.testable.replace(parse_testable(input)?).is_some(),
             "max_size" => self.max_size.replace(parse_max_size(input)?).is_some(),
             other => return Err(syn::Error::new(name.span(), format!("unknown option `{other}`"))),
         };
@@ -79,6 +82,11 @@ fn parse_only(input: ParseStream<'_>) -> syn::Result<Vec<Ident>> {
     let list;
     bracketed!(list in input);
     Ok(Punctuated::<Ident, Token![,]>::parse_terminated(&list)?.into_iter().collect())
+}
+
+fn parse_testable(input: ParseStream<'_>) -> syn::Result<bool> {
+    input.parse::<Token![=]>()?;
+    Ok(input.parse::<LitBool>()?.value)
 }
 
 fn parse_max_size(input: ParseStream<'_>) -> syn::Result<u64> {
@@ -102,7 +110,7 @@ fn diagnose(error: &syn::Error) -> Diagnostic {
     BAD_ARGUMENTS
         .without_place(error.to_string())
         .help("write `scl::topology!(\"topology.yaml\")`")
-        .note("the options are `only = [sensor, controller]` and `max_size = \"8MiB\"`")
+        .note("the options are `only = [sensor, controller]`, `max_size = \"8MiB\"` and `testable = true`")
         .note("`concat!` and `env!` are not expanded before a proc macro sees them")
 }
 
@@ -112,10 +120,10 @@ mod tests {
 
     #[test]
     fn good_arguments_are_parsed() {
-        let input = r#"scl, "a.yaml", only = [sensor, controller], max_size = "8MiB","#;
+        let input = r#"scl, "a.yaml", only = [sensor, controller], max_size = "8MiB", testable = true,"#;
         let Ok(arguments) = Arguments::parse(input.parse().unwrap()) else { panic!("refused") };
         assert_eq!(arguments.path.value(), "a.yaml");
-        assert_eq!(arguments.max_size, Some(8 * 1024 * 1024));
+        assert_eq!((arguments.max_size, arguments.testable), (Some(8 * 1024 * 1024), Some(true)));
         let only: Vec<String> = arguments.only.unwrap().iter().map(Ident::to_string).collect();
         assert_eq!(only, ["sensor", "controller"]);
     }
@@ -131,6 +139,7 @@ mod tests {
             (r#"scl, """#, "the path of the topology file is empty"),
             (r#"scl, "a", nly = [b]"#, "unknown option `nly`"),
             (r#"scl, "a", only = [b], only = [c]"#, "the option `only` is given twice"),
+            (r#"scl, "a", testable = yes"#, "expected boolean literal"),
             (r#"scl, "a", max_size = "8 MB""#, "`8 MB` is not a size; write `8MiB`"),
             (r#"scl, "a", max_size = "65536""#, "`65536` is not a size; write `65536B` or `64KiB`"),
             (

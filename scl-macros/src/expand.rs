@@ -9,6 +9,7 @@ mod docs;
 mod file_spans;
 mod gate_types;
 mod kinds;
+mod known;
 mod names;
 mod problems;
 mod rustc_notes;
@@ -20,6 +21,7 @@ mod type_agreement;
 mod types;
 
 use crate::arguments::{Arguments, BadArguments};
+use crate::known_components;
 use crate::locate::{self, Surroundings};
 use context::Context;
 use proc_macro2::TokenStream;
@@ -34,14 +36,17 @@ pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -
     let request = locate::locate(&arguments, surroundings);
     let mut loaded = scl_loader::load(&request);
     loaded.diagnostics.extend(locate::check_path(&arguments, &request, surroundings));
-    let context = Context::new(&arguments, &loaded);
+    let context = Context::new(&arguments, &loaded, surroundings);
 
+    known_components::remember(known::known_topology(&context));
     let problems = problems::expand_problems(&context);
     let components = match &loaded.topology {
         Some(topology) => component::expand_components(&context, topology),
         None => skeleton::expand_skeleton(&context),
     };
+    let types = types::expand_lookups(&context);
     let messages = schemas::expand_modules(&context);
+    let json = schemas::expand_json(&context);
     let tracking = tracking::expand_tracking(&loaded.files_read, surroundings);
-    quote! { #problems #components #messages #tracking }
+    quote! { #problems #components #types #messages #json #tracking }
 }

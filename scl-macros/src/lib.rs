@@ -6,7 +6,10 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod arguments;
+mod component_stand_in;
 mod expand;
+mod extern_crates;
+mod known_components;
 mod locate;
 mod main_attribute;
 #[cfg(test)]
@@ -39,7 +42,7 @@ pub fn __topology(input: TokenStream) -> TokenStream {
 /// |---|---|
 /// | returns, and no messages are left after 1 s | 0 |
 /// | returns, but messages are left | 1; the error names peers and counts |
-/// | returns an error | 1; the error is printed with its causes |
+/// | returns an error: `scl::Result`, `anyhow::Result`, `Result<(), Box<dyn Error>>` | 1; the error is printed with its causes |
 /// | is stopped by SIGTERM or SIGINT | 0 |
 /// | is still running `SCL_STOP_WITHIN` after the signal | 128 + the number of the signal |
 /// | receives a second signal | 128 + its number |

@@ -1,9 +1,11 @@
 //! Where the topology file is: beside the invoking source file, in the package, or in the workspace.
 
 use crate::arguments::Arguments;
+use crate::extern_crates;
 use scl_loader::{LookedIn, Request};
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::PATH_OF_ONE_MACHINE;
+use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
 
 /// Where the macro is invoked, as plain values, so that tests need no compiler.
@@ -16,6 +18,8 @@ pub(crate) struct Surroundings {
     pub(crate) workspace: Option<PathBuf>,
     /// The compiler's working directory. Messages show paths relative to it.
     pub(crate) working_dir: PathBuf,
+    /// The crates that the invoking code can name; `None` in tools that do not provide them.
+    pub(crate) extern_crates: Option<BTreeSet<String>>,
 }
 
 impl Surroundings {
@@ -23,7 +27,8 @@ impl Surroundings {
     pub(crate) fn of_compiler(source_file: Option<PathBuf>) -> Self {
         let package = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
         let workspace = package.as_deref().and_then(workspace_root);
-        Self { source_file, package, workspace, working_dir: std::env::current_dir().unwrap_or_default() }
+        let working_dir = std::env::current_dir().unwrap_or_default();
+        Self { source_file, package, workspace, working_dir, extern_crates: extern_crates::of_compiler() }
     }
 
     /// The paths that `path` may mean, in the order in which they are tried, without repetitions.
@@ -122,6 +127,7 @@ mod tests {
             package: Some("/w/uav".into()),
             workspace: Some("/w".into()),
             working_dir: "/w".into(),
+            extern_crates: None,
         }
     }
 

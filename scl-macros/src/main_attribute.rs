@@ -1,9 +1,10 @@
 //! `#[scl::main]`: from a function that takes a component to the `main` of a program.
 
+use crate::component_stand_in;
 use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
-use syn::{FnArg, ItemFn, PatType, Safety, Type};
+use syn::{FnArg, Ident, ItemFn, PatType, ReturnType, Safety, Type};
 
 /// Expands the attribute. All mistakes become compile errors, and the function is kept, so that an editor keeps completing
 /// inside it.
@@ -23,18 +24,40 @@ pub(crate) fn expand_main(arguments: TokenStream, item: TokenStream) -> TokenStr
 }
 
 fn expand_function(function: &ItemFn, component: &Type) -> TokenStream {
-    let name = &function.sig.ident;
-    let runner = match function.sig.asyncness {
-        Some(_) => quote!(__scl_main_async),
-        None => quote!(__scl_main_blocking),
-    };
+    let name = Ident::new("main", component.span());
     let ItemFn { attrs, vis, sig, block, .. } = function;
+    // Errors about the component have one place and one text, so that rustc reports them once.
+    let opened = Ident::new("component", component.span());
+    let await_it = sig.asyncness.map(|_| quote!(.await));
+    let call = quote_spanned!(component.span() => let returned = #name(#opened)#await_it;);
+    let convert = quote_spanned!(returned_span(function) => .into_result(returned));
+    let body = quote_spanned!(component.span() => #call <#component>::__scl_returned(&returned)#convert);
+    let run = match sig.asyncness {
+        Some(_) => quote_spanned!(component.span() => __scl_main_async(|#opened| async move { #body })),
+        None => quote_spanned!(component.span() => __scl_main_blocking(|#opened| { #body })),
+    };
+    let run = quote_spanned!(component.span() => <#component>::#run);
+    let stand_in = component_stand_in::expand_stand_in(component);
     quote! {
         #vis fn main() -> ::std::process::ExitCode {
-            #(#attrs)*
-            #sig #block
-            <#component>::#runner(#name)
+            #stand_in
+            {
+                // Names of the module hide the stand-in.
+                #[allow(unused_imports, clippy::all, clippy::pedantic)]
+                use self::*;
+                #(#attrs)*
+                #sig #block
+                #run
+            }
         }
+    }
+}
+
+/// The place of the type that the function returns, or of its name if it returns nothing.
+fn returned_span(function: &ItemFn) -> Span {
+    match &function.sig.output {
+        ReturnType::Type(_, returned) => returned.span(),
+        ReturnType::Default => function.sig.ident.span(),
     }
 }
 
@@ -121,10 +144,17 @@ mod tests {
         let cases = [
             (
                 "async fn main(mut c: Controller) -> scl::Result<()> { Ok(()) }",
-                "< Controller > :: __scl_main_async (main)",
+                "< Controller > :: __scl_main_async (| component | async move { let returned = main (component) . await ; \
+                 < Controller > :: __scl_returned (& returned) . into_result (returned) })",
             ),
-            ("fn main(c: crate::a::Controller) {}", "< crate :: a :: Controller > :: __scl_main_blocking (main)"),
-            ("pub fn main(Actuator { setpoint, .. }: Actuator) {}", "< Actuator > :: __scl_main_blocking (main)"),
+            (
+                "fn main(c: crate::a::Controller) {}",
+                "< crate :: a :: Controller > :: __scl_main_blocking (| component | { let returned = main (component) ;",
+            ),
+            (
+                "pub fn main(Actuator { setpoint, .. }: Actuator) {}",
+                "< Actuator > :: __scl_main_blocking (| component |",
+            ),
         ];
         for (item, call) in cases {
             let output = expanded("", item);

@@ -52,7 +52,7 @@ fn measure(text: &str, misspelt: bool) -> (Duration, Duration) {
     let model = parse(&sources, file, &mut problems);
     let parsed = start.elapsed();
     let topology =
-        check(&model, &Facts { default_system: "bench".to_owned(), messages: None }, &sources, &mut problems);
+        check(&model, &Facts { default_system: "bench".to_owned(), ..Facts::default() }, &sources, &mut problems);
     let checked = start.elapsed() - parsed;
     assert_eq!(topology.is_none(), misspelt, "the file is not what it should be");
     let found = problems.into_sorted();
@@ -60,7 +60,8 @@ fn measure(text: &str, misspelt: bool) -> (Duration, Duration) {
     (parsed, checked)
 }
 
-/// A ring with 5 gates and 5 connections a component: each sends to the next three.
+/// A ring with 5 gates and 5 connections a component: each sends to the next three. The gates that wait make a chain, as a
+/// ring of them would be a deadlock.
 fn topology(size: usize, misspelt: bool) -> String {
     let mut text = "system: bench\ncomponents:\n".to_owned();
     for at in 0..size {
@@ -73,7 +74,9 @@ fn topology(size: usize, misspelt: bool) -> String {
     let peer = if misspelt { "komponent" } else { "component" };
     for at in 0..size {
         for (gate, step) in [("position", 1), ("position", 2), ("position", 3), ("velocity", 1), ("velocity", 2)] {
-            let _ = writeln!(text, "  - [component_{at}.{gate}, {peer}_{}.{gate}_in]", (at + step) % size);
+            if gate != "velocity" || at + step < size {
+                let _ = writeln!(text, "  - [component_{at}.{gate}, {peer}_{}.{gate}_in]", (at + step) % size);
+            }
         }
     }
     text

@@ -29,7 +29,7 @@ fn main() {
         let file = sources.add("topology.yaml", text);
         let mut problems = Diagnostics::new();
         let model = parse(&sources, file, &mut problems);
-        let facts = Facts { default_system: "cost".to_owned(), messages: None };
+        let facts = Facts { default_system: "cost".to_owned(), ..Facts::default() };
         check(&model, &facts, &sources, &mut problems);
         let found = problems.into_sorted();
         let checked = start.elapsed().as_secs_f64() * 1e3;

@@ -3,20 +3,22 @@
 mod all_rules;
 mod backpressure;
 mod cardinality;
-mod circle;
+mod circles;
 mod codec_agreement;
 mod codec_name;
-mod component_graph;
 mod connection_end;
 mod control;
 mod crowd;
+mod deadlock;
 mod draft;
 mod duplicate_component;
 mod duplicate_connection;
 mod duplicate_gate;
 mod exchange_type;
+mod feedback;
 mod finish;
 mod fitting_sender;
+mod foreign_keyword;
 mod gate_kind;
 mod inference;
 mod island;
@@ -29,6 +31,7 @@ mod name_length;
 mod name_start;
 mod named;
 mod needless_mark;
+mod no_effect;
 mod option_fit;
 mod option_value;
 mod pair_kinds;
@@ -39,9 +42,11 @@ mod repeated;
 mod reserved_name;
 mod rust_keyword;
 mod rust_name_collision;
+mod schema_codec;
 mod schema_type;
 mod self_connection;
 mod shared_socket;
+mod short_timeout;
 mod snake_case;
 mod system_name;
 #[cfg(test)]
@@ -51,10 +56,12 @@ mod together;
 mod unconnected;
 mod unknown_component;
 mod unknown_gate;
+mod waits;
 
 use crate::diagnostic::Diagnostics;
 use crate::model::Model;
 use crate::rule::Rule;
+use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 use crate::topology::Topology;
 use draft::Draft;
@@ -63,7 +70,7 @@ pub use all_rules::{ALL, find};
 pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
 
 /// The rules of this stage, by their codes.
-pub(crate) const RULES: [&Rule; 59] = [
+pub(crate) const RULES: [&Rule; 63] = [
     &duplicate_component::RULE,
     &duplicate_gate::RULE,
     &name_characters::RULE,
@@ -78,15 +85,19 @@ pub(crate) const RULES: [&Rule; 59] = [
     &name_length::RULE,
     &prelude_type::RULE,
     &snake_case::RULE,
+    &foreign_keyword::RULE,
     &gate_kind::RULE,
     &inference::UNTYPED,
     &payload_type::NO_TYPE_NAME,
     &payload_type::WRONG_NUMBER_OF_TYPES,
     &schema_type::RULE,
     &codec_name::RULE,
+    &schema_codec::RULE,
     &option_fit::RULE,
     &option_value::RULE,
     &backpressure::RULE,
+    &no_effect::RULE,
+    &short_timeout::RULE,
     &unknown_component::UNKNOWN,
     &unknown_gate::RULE,
     &connection_end::RULE,
@@ -94,7 +105,7 @@ pub(crate) const RULES: [&Rule; 59] = [
     &pair_kinds::SAME_DIRECTION,
     &pair_kinds::OTHER_PATTERN,
     &self_connection::ITSELF,
-    &self_connection::ASKS_ITSELF,
+    &self_connection::WAITS_FOR_ITSELF,
     &self_connection::HEARS_ITSELF,
     &duplicate_connection::RULE,
     &cardinality::SEVERAL_PUBLISHERS,
@@ -112,9 +123,9 @@ pub(crate) const RULES: [&Rule; 59] = [
     &unconnected::NO_REQUESTER,
     &unconnected::LONELY_COMPONENT,
     &island::RULE,
-    &circle::REQUESTS,
-    &circle::PUSHES,
-    &circle::PUBLISHERS,
+    &deadlock::RULE,
+    &feedback::PUSHES,
+    &feedback::LOOP,
     &crowd::RULE,
     &needless_mark::RULE,
     &path_length::RULE,
@@ -133,12 +144,14 @@ pub struct Facts {
     /// What the schemas declare, in the order of the file's `schemas`. `None` if the file names none or they could not
     /// be compiled: then types are not looked up.
     pub messages: Option<Vec<SchemaMessages>>,
+    /// How long names may be: they become paths of sockets.
+    pub sockets: SocketPaths,
 }
 
 /// The messages of one schema file.
 #[derive(Debug, Clone, Default)]
 pub struct SchemaMessages {
-    /// Full names, for example `rover.Measurement`.
+    /// Full names, for example `rover.Measurement`. A type whose first part is that of such a name must be one of them.
     pub names: Vec<String>,
 }
 
@@ -169,24 +182,29 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     backpressure::check(&draft, problems);
 
     inference::check(&mut draft, problems);
-    message_type::check(&draft, facts.messages.is_some(), problems);
-    exchange_type::check(&draft, facts.messages.is_some(), problems);
+    message_type::check(&draft, problems);
+    exchange_type::check(&draft, problems);
     codec_agreement::check(&draft, problems);
+    schema_codec::check(&draft, &codec, problems);
+    no_effect::check(&draft, problems);
 
     if !model.connections_unread {
         unconnected::check(&draft, problems);
     }
     needless_mark::check(&draft, problems);
-    circle::check(&draft, problems);
+    deadlock::check(&draft, |rule| control::allowed_lines(model, rule), problems);
+    feedback::check(&draft, problems);
+    short_timeout::check(&draft, problems);
     island::check(&draft, problems);
     crowd::check(&draft, problems);
-    path_length::check(&draft, &system, problems);
-    shared_socket::check(&draft, &system, problems);
+    path_length::check(&draft, &facts.sockets, &system, problems);
+    let connection_room = facts.sockets.connection_room(&system);
+    shared_socket::check(&draft, connection_room, problems);
 
     misread::tell_once(problems);
     repeated::tell_once(problems);
     control::apply(model, sources, problems);
-    if problems.has_errors() { None } else { finish::finish(&draft, system, &codec) }
+    if problems.has_errors() { None } else { finish::finish(&draft, system, &codec, connection_room) }
 }
 
 fn check_names(model: &Model, problems: &mut Diagnostics) {
@@ -202,4 +220,5 @@ fn check_names(model: &Model, problems: &mut Diagnostics) {
     name_length::check(model, problems);
     prelude_type::check(model, problems);
     snake_case::check(model, problems);
+    foreign_keyword::check(model, problems);
 }

@@ -4,7 +4,7 @@
 use crate::rule::{Examples, Rule, Severity};
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 14] = [
+pub(crate) const RULES: [&Rule; 15] = [
     &FILE_NOT_FOUND,
     &UNREADABLE_FILE,
     &NOT_UTF8,
@@ -15,6 +15,7 @@ pub(crate) const RULES: [&Rule; 14] = [
     &SCHEMA,
     &DIFFERENT_RUST_TYPES,
     &NOT_A_MESSAGE,
+    &TYPE_NOT_FOUND,
     &MESSAGE_TOO_LARGE,
     &WRONG_DIRECTION,
     &WRONG_TYPE_IN_CODE,
@@ -147,6 +148,18 @@ pub const NOT_A_MESSAGE: Rule = Rule {
     explanation: "A type that the file names exists in Rust, but the gate's codec cannot carry it: for `protobuf` it \
                   has to be a prost message, for the others a serde type. rustc reports it at an assertion that names \
                   the gate.",
+    examples: Examples::None,
+};
+
+/// SCL0609.
+pub const TYPE_NOT_FOUND: Rule = Rule {
+    code: "SCL0609",
+    severity: Severity::Error,
+    title: "Rust type not found",
+    explanation: "A type or codec that the file names as a Rust path, such as `camera.Image`, cannot be found where the \
+                  macro is called. Only the programs that open the component need it, and only there rustc reports it. \
+                  Add the crate to the program's dependencies, bring the module into scope with `use`, or correct the \
+                  path.",
     examples: Examples::None,
 };
 

@@ -1,5 +1,6 @@
 //! The names that a misspelt word may have meant.
 
+use crate::grammar::GateKind;
 use crate::work;
 use strsim::damerau_levenshtein;
 
@@ -48,24 +49,14 @@ pub(crate) fn one_edit_away<'a>(word: &str, candidates: impl IntoIterator<Item =
     candidates.into_iter().filter(|candidate| distance(word, candidate, 1) == Some(1)).take(MOST).collect()
 }
 
-/// What people call the kinds of gates elsewhere.
-const KIND_WORDS: [(&str, &[&str]); 6] = [
-    ("pub", &["publish", "publisher", "publishes", "out", "output", "source", "sender", "topic"]),
-    ("sub", &["subscribe", "subscriber", "subscribes", "in", "input", "sink", "receiver", "listener"]),
-    ("req", &["client", "request", "requester", "call", "caller", "ask"]),
-    ("rep", &["server", "service", "reply", "replier", "response", "responder", "answer"]),
-    ("push", &["pusher", "pushes"]),
-    ("pull", &["puller", "pulls"]),
-];
-
 /// The kinds of gate that a word may have meant, at most three: in another case, by another name, or misspelt by one
 /// letter.
 pub(crate) fn kind(word: &str) -> Vec<&'static str> {
     let lower = word.to_lowercase();
-    let known = KIND_WORDS.iter().find(|(kind, synonyms)| *kind == lower || synonyms.contains(&lower.as_str()));
-    match known {
-        Some((kind, _)) => vec![kind],
-        None => similar(word, KIND_WORDS.iter().map(|(kind, _)| *kind)),
+    let is_called = |kind: &GateKind| kind.word() == lower || kind.row().synonyms.contains(&lower.as_str());
+    match GateKind::ALL.into_iter().find(is_called) {
+        Some(kind) => vec![kind.word()],
+        None => similar(word, GateKind::ALL.map(GateKind::word)),
     }
 }
 

@@ -1,12 +1,6 @@
 //! The checked topology: indices instead of names, no error left. Only [`check`](crate::check) makes one.
 
-mod codec;
-mod kind;
-mod options;
-
-pub use codec::Codec;
-pub use kind::GateKind;
-pub use options::{GateOptions, WhenFull};
+pub use crate::grammar::{Codec, GateKind, GateOptions, WhenFull};
 
 use crate::source::Span;
 use std::fmt;
@@ -28,6 +22,7 @@ pub struct ConnectionId(pub(crate) u32);
 pub struct TypeName {
     pub(crate) dotted: String,
     pub(crate) span: Span,
+    pub(crate) in_schemas: bool,
 }
 
 impl TypeName {
@@ -39,6 +34,11 @@ impl TypeName {
     /// Where it is written; of an inherited type, at the other end.
     pub fn span(&self) -> Span {
         self.span
+    }
+
+    /// Returns true if one of the file's `schemas` declares it, and false if it is a Rust path.
+    pub fn in_schemas(&self) -> bool {
+        self.in_schemas
     }
 }
 
@@ -56,6 +56,25 @@ pub enum Payload {
         /// What is answered.
         reply: TypeName,
     },
+}
+
+impl Payload {
+    /// The types, the request before its reply; none for bytes.
+    pub fn types(&self) -> Vec<&TypeName> {
+        match self {
+            Payload::Bytes => Vec::new(),
+            Payload::Message(name) => vec![name],
+            Payload::Exchange { request, reply } => vec![request, reply],
+        }
+    }
+
+    pub(crate) fn types_mut(&mut self) -> Vec<&mut TypeName> {
+        match self {
+            Payload::Bytes => Vec::new(),
+            Payload::Message(name) => vec![name],
+            Payload::Exchange { request, reply } => vec![request, reply],
+        }
+    }
 }
 
 /// As in the file: `rover.Measurement`, `rover.Command -> rover.Status`, or `bytes`.
@@ -199,6 +218,8 @@ pub struct Topology {
     pub(crate) components: Vec<Component>,
     pub(crate) gates: Vec<Gate>,
     pub(crate) connections: Vec<Connection>,
+    /// How many bytes the names of a connection's gates may have in the name of its socket.
+    pub(crate) connection_room: usize,
 }
 
 impl Topology {

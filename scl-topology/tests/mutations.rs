@@ -45,7 +45,8 @@ fn problems(text: &str) -> (bool, Vec<(Diagnostic, Vec<u32>)>) {
     let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec() };
     // Types of schemas that are not read here are not looked up.
     let messages = model.schemas.iter().any(|schema| schema.value.contains("rover")).then(|| vec![messages]);
-    let topology = check(&model, &Facts { default_system: "t".to_owned(), messages }, &sources, &mut problems);
+    let facts = Facts { default_system: "t".to_owned(), messages, ..Facts::default() };
+    let topology = check(&model, &facts, &sources, &mut problems);
     let found = problems.into_sorted().into_iter().filter(|found| found.severity != Severity::Lint);
     let lines = |found: &Diagnostic| {
         let labels = found.primary.iter().chain(&found.secondary);

@@ -11,6 +11,8 @@ mod cbor;
 mod error;
 #[cfg(feature = "json")]
 mod json;
+#[cfg(all(feature = "json", feature = "protobuf"))]
+pub(crate) mod message_json;
 #[cfg(feature = "msgpack")]
 mod msgpack;
 mod opaque;
@@ -82,6 +84,7 @@ pub use raw::Raw;
     message = "the codec `{Self}` does not support messages of type `{T}`",
     label = "`{T}` does not meet the requirements of `{Self}`",
     note = "`Protobuf` supports types that are `prost::Message` and `Default`: those generated from `schemas`, or with `#[derive(prost::Message)]`",
+    note = "`Json` supports the messages of `schemas` too, in protobuf's canonical form",
     note = "`Json`, `Cbor`, `Msgpack` and `Postcard` support types with `#[derive(serde::Serialize, serde::Deserialize)]`",
     note = "`Raw` supports types of fixed layout: `#[repr(C)]` with `#[derive(zerocopy::IntoBytes, zerocopy::FromBytes, zerocopy::KnownLayout, zerocopy::Immutable)]`",
     note = "`Opaque` supports only `bytes::Bytes`: it is the codec of gates without a type",

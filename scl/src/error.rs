@@ -2,10 +2,12 @@
 
 mod names;
 mod not_flushed;
+mod not_ready;
 
 pub(crate) use names::Missing;
 pub use names::{GateName, PeerName, Peers};
 pub use not_flushed::{NotFlushed, Unflushed};
+pub use not_ready::{MissingPeer, NotReady};
 
 use crate::codec::{DecodeError, EncodeError};
 use crate::time::Rounded;
@@ -28,6 +30,18 @@ impl Error {
         Self(text.into().into())
     }
 
+    pub(crate) fn from_box(error: Box<dyn std::error::Error + Send + Sync>) -> Self {
+        Self(error)
+    }
+
+    /// The same texts, for an error that may not be sent to other threads.
+    pub(crate) fn copy_of(error: &(dyn std::error::Error + 'static)) -> Self {
+        match error.downcast_ref::<BlockingError>() {
+            Some(own) => Self(Box::new(*own)),
+            None => Self(Box::new(Copied::of(error))),
+        }
+    }
+
     /// Returns the error inside.
     pub fn inner(&self) -> &(dyn std::error::Error + Send + Sync + 'static) {
         &*self.0
@@ -43,6 +57,32 @@ impl Error {
             cause = error.source();
         }
         false
+    }
+}
+
+/// The text of an error, and its cause.
+#[derive(Debug, Error)]
+#[error("{text}")]
+struct Copied {
+    text: String,
+    source: Option<Box<dyn std::error::Error + Send + Sync>>,
+}
+
+impl Copied {
+    fn of(error: &(dyn std::error::Error + 'static)) -> Self {
+        Self { text: error.to_string(), source: error.source().map(|source| Error::copy_of(source).0) }
+    }
+}
+
+impl From<Error> for Box<dyn std::error::Error + Send + Sync> {
+    fn from(error: Error) -> Self {
+        error.0
+    }
+}
+
+impl From<Error> for Box<dyn std::error::Error> {
+    fn from(error: Error) -> Self {
+        error.0
     }
 }
 
@@ -123,6 +163,25 @@ pub enum OpenError {
     NoTransport {
         /// The component.
         component: &'static str,
+    },
+    /// The plan of an untyped component contradicts itself.
+    #[error("component `{component}` cannot be opened: its plan is wrong")]
+    Plan {
+        /// The component.
+        component: String,
+        /// What is wrong with it.
+        source: Box<scl_plan::PlanError>,
+    },
+    /// This process has opened too many different plans. They are kept until it ends.
+    #[error(
+        "component `{component}` cannot be opened: the different plans that this process has opened take {limit} bytes, \
+         and they are kept until it ends; open each component with the same plan every time"
+    )]
+    TooManyPlans {
+        /// The component.
+        component: String,
+        /// Maximum size of all plans, in bytes.
+        limit: usize,
     },
     /// An environment variable has a value that it cannot have.
     #[error("`{variable}={value}` is not understood; expected {expected}")]
@@ -358,43 +417,6 @@ pub enum ReplyError {
         /// Why.
         source: BlockingError,
     },
-}
-
-/// Not all required peers connected in time.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-#[error("component `{component}` is not ready after {}: {}", Rounded(*waited), listed(missing))]
-pub struct NotReady {
-    /// The component that waited.
-    pub component: &'static str,
-    /// The peers that are missing.
-    pub missing: Vec<MissingPeer>,
-    /// How long it waited.
-    pub waited: Duration,
-}
-
-/// A required peer that is not connected.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct MissingPeer {
-    /// The gate that waits for it.
-    pub gate: &'static str,
-    /// The peer.
-    pub peer: PeerName,
-    /// Why it is missing, as a sentence: `` `sensor.measurements` is not running ``.
-    pub reason: String,
-}
-
-impl MissingPeer {
-    pub(crate) fn new(gate: &'static str, peer: PeerName, reason: String) -> Self {
-        Self { gate, peer, reason }
-    }
-}
-
-impl fmt::Display for MissingPeer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} (gate `{}`)", self.reason, self.gate)
-    }
 }
 
 /// Why something did not arrive, as the end of a sentence.

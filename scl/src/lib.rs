@@ -87,6 +87,7 @@ mod error;
 mod gate;
 mod log;
 mod medium;
+mod named_type;
 mod options;
 #[doc(hidden)]
 pub mod private;
@@ -99,6 +100,7 @@ mod stop;
 mod sync;
 pub mod time;
 pub mod transport;
+pub mod untyped;
 
 pub use bytes;
 pub use component::Component;
@@ -110,6 +112,7 @@ pub use gate::{AnyGate, GateStats, PeerStats, Pub, Pull, Push, Rep, Req, Request
 pub use medium::Medium;
 pub use options::OpenOptions;
 pub use scl_macros::main;
+pub use scl_plan as plan;
 pub use stop::{is_stop_requested, stop_requested, stop_requested_blocking};
 
 /// Turns a topology file into one struct for each of its components, with a field for each gate.
@@ -127,7 +130,11 @@ pub use stop::{is_stop_requested, stop_requested, stop_requested_blocking};
 /// together with the other ends of all its gates.
 ///
 /// `only = [..]` generates some of the components, which keeps the build of a system of hundreds short. `max_size =
-/// "8MiB"` allows a file of more than 1 MiB.
+/// "8MiB"` allows a file of more than 1 MiB. `testable = true` is for a library that holds the topology of programs in
+/// other crates: `Component::test()` then exists for their tests too.
+///
+/// A type whose first part is a package of the `schemas` is one of their messages; any other is a Rust path, looked up
+/// where the macro is called. A program needs only the Rust types of the components that it opens.
 ///
 /// # Errors
 /// Everything that is wrong with the file becomes a compile error that shows its place there and what to write instead,

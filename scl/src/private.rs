@@ -2,13 +2,21 @@
 
 pub use crate::__component_methods as component_methods;
 pub use crate::__component_test_methods as component_test_methods;
+#[cfg(all(feature = "json", feature = "protobuf"))]
+pub use crate::__message_json as message_json;
+#[cfg(not(all(feature = "json", feature = "protobuf")))]
+pub use crate::__no_message_json as message_json;
+pub use crate::__stand_in_codec as stand_in_codec;
+#[cfg(all(feature = "json", feature = "protobuf"))]
+pub use crate::codec::message_json::{MessagePool, MessageType};
 pub use crate::codec::{self, Codec};
 pub use crate::component::{
-    Component, ComponentHandle, Opener, Outcome, block_on, close, close_blocking, open, open_blocking, ready,
+    Component, ComponentHandle, Opener, Returned, block_on, close, close_blocking, open, open_blocking, ready,
     run_async, run_blocking,
 };
 pub use crate::error::OpenError;
 pub use crate::gate::{AnyGate, Pub, Pull, Push, Rep, Req, Sub};
+pub use crate::named_type::NamedType;
 pub use crate::spec::{ComponentSpec, GateKind, GateSpec, LinkSpec, Schema, WhenFull};
 #[cfg(feature = "memory")]
 pub use crate::transport::memory::Memory;
@@ -18,4 +26,7 @@ pub use prost;
 #[cfg(feature = "protobuf")]
 pub use prost_types;
 pub use scl_macros::__topology;
+#[cfg(feature = "json")]
+pub use serde;
+pub use std::marker::PhantomPinned;
 pub use std::time::Duration;

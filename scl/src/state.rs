@@ -3,6 +3,8 @@
 
 mod flush;
 mod runtime;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use flush::{Flush, LINGER, SendingEnd};
 pub(crate) use runtime::OwnedRuntime;
@@ -237,8 +239,12 @@ impl ComponentState {
 
     /// How long a blocking call may wait for its socket itself before it drives the component's runtime, if the component
     /// owns one. That spares the event loop of the runtime, which costs as much as everything else of a round trip.
+    ///
+    /// Messages that were held back to be written together are written first: the peer may have to answer them.
     pub(crate) fn direct_wait(&self) -> Option<Duration> {
-        self.runtime.as_ref().map(|_| DIRECT_WAIT)
+        self.runtime.as_ref()?;
+        let unwritten = lock(&self.ends).iter().filter(|one| !lock(&one.end).write_out()).count();
+        (unwritten == 0).then_some(DIRECT_WAIT)
     }
 
     /// Gives the component's own runtime a turn if one is due, after a call that did not wait.

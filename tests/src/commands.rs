@@ -48,6 +48,14 @@ pub fn say_error(error: impl Into<scl::Error>) {
     say(format!("error: {error:?}").replace("\n  caused by", ""));
 }
 
+/// Answers the test with a value as a text, or with an error.
+pub fn say_result<T, E: Into<scl::Error>>(result: Result<T, E>, text: impl Fn(T) -> String) {
+    match result {
+        Ok(value) => say(text(value)),
+        Err(error) => say_error(error),
+    }
+}
+
 /// Stops this program (SIGSTOP) until the test resumes it.
 pub fn stop_self() {
     if rustix::process::kill_process(rustix::process::getpid(), rustix::process::Signal::STOP).is_err() {

@@ -3,6 +3,7 @@
 use scl_tests::{Process, System};
 
 pub(crate) const BOUNDED: &str = env!("CARGO_BIN_EXE_bounded");
+pub(crate) const CIRCLE: &str = env!("CARGO_BIN_EXE_circle");
 pub(crate) const DROPPER: &str = env!("CARGO_BIN_EXE_dropper");
 pub(crate) const FRESH: &str = env!("CARGO_BIN_EXE_fresh");
 pub(crate) const FUZZ_ROUND: &str = env!("CARGO_BIN_EXE_fuzz_round");
@@ -16,6 +17,7 @@ pub(crate) const STEADY: &str = env!("CARGO_BIN_EXE_steady");
 pub(crate) const STRANGER: &str = env!("CARGO_BIN_EXE_stranger");
 pub(crate) const TAKER: &str = env!("CARGO_BIN_EXE_taker");
 pub(crate) const TWIN: &str = env!("CARGO_BIN_EXE_twin");
+pub(crate) const UNTYPED: &str = env!("CARGO_BIN_EXE_untyped");
 pub(crate) const ZEROMQ_TWIN: &str = env!("CARGO_BIN_EXE_zeromq_twin");
 
 /// Starts `peer COMPONENT` and waits until the component is open.

@@ -49,7 +49,7 @@ fn a_plain_program_of_the_same_user_can_connect() {
     assert_good(&mut source, &mut sink);
 }
 
-/// The promise: a port that a killed program left behind leads nowhere, whoever listens there now.
+/// The promise: a port that a killed program left behind leads nowhere, even if another user listens there now.
 #[test]
 fn another_user_cannot_take_the_place_of_a_killed_program() {
     let Some(stranger) = Stranger::new() else { return };
@@ -102,7 +102,7 @@ struct Stranger {
 }
 
 impl Stranger {
-    /// `None` if this test is not run by root; it says so then.
+    /// Returns `None`, and prints why, if this test is not run by root.
     fn new() -> Option<Self> {
         if !rustix::process::geteuid().is_root() {
             println!("skipped: needs root to start a program as another user");

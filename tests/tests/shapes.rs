@@ -71,19 +71,20 @@ fn start(system: &System, variant: &str, component: &str) -> Process {
     process
 }
 
-fn answer(process: &mut Process, command: &str) -> String {
+pub(crate) fn answer(process: &mut Process, command: &str) -> String {
     process.tell(command);
     process.next_line()
 }
 
 #[track_caller]
-fn assert_names(text: &str, words: &[&str]) {
+pub(crate) fn assert_names(text: &str, words: &[&str]) {
     for word in words {
         assert!(text.contains(word), "`{word}` is not in: {text}");
     }
 }
 
-fn exchange(sensor: &mut Process, viewer: &mut Process) {
+/// One message in each pattern.
+pub(crate) fn exchange(sensor: &mut Process, viewer: &mut Process) {
     sensor.ask("ready 30000", "ready");
     viewer.ask("ready 30000", "ready");
     sensor.ask("publish", "published");

@@ -1,8 +1,7 @@
 //! The distribution of the durations of a table: quantiles, and a line of logarithmic bins.
 
 use super::Table;
-use super::text::format_value;
-use super::text_table::TextTable;
+use super::text_table::{TextTable, format_value};
 use crate::durations::Durations;
 
 const QUANTILES: [(&str, f64); 5] = [("50%", 0.5), ("90%", 0.9), ("99%", 0.99), ("99.9%", 0.999), ("99.99%", 0.9999)];

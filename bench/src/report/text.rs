@@ -2,7 +2,7 @@
 
 use super::distribution::distribution;
 use super::ratio::Ratio;
-use super::text_table::TextTable;
+use super::text_table::{TextTable, format_value};
 use super::{Column, Report, Row, Table};
 use std::fmt;
 
@@ -59,12 +59,6 @@ fn ratios(table: &Table) -> String {
 
 fn cell(ratio: Option<f64>) -> String {
     ratio.map_or_else(String::new, |ratio| format!("{ratio:.2}"))
-}
-
-/// About four digits, whatever the magnitude.
-pub(super) fn format_value(value: f64) -> String {
-    let digits = if value.fract() == 0.0 || value.abs() >= 1000.0 { 0 } else { 2 };
-    format!("{value:.digits$}")
 }
 
 #[cfg(test)]

@@ -52,3 +52,9 @@ impl TextColumn {
         self.cells.iter().map(String::len).fold(self.heading.len(), usize::max)
     }
 }
+
+/// About four digits, whatever the magnitude.
+pub(super) fn format_value(value: f64) -> String {
+    let digits = if value.fract() == 0.0 || value.abs() >= 1000.0 { 0 } else { 2 };
+    format!("{value:.digits$}")
+}

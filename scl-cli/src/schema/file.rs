@@ -1,86 +1,64 @@
-//! The schema of the file: its sections, components and connections.
+//! The schema of the file: its sections, and the keys of a component.
 
 use super::gate::gate_schema;
 use super::names::{NAME, Names};
-use scl_topology::topology::Codec;
-use serde_json::{Value, json};
+use super::shape::shape_schema;
+use scl_topology::grammar::{COMPONENT_KEYS, Item, Key, OWN_PREFIX, SECTIONS, Shape, without_references};
+use serde_json::{Map, Value, json};
 
 /// The whole schema.
 pub(super) fn file_schema(names: &Names) -> Value {
-    json!({
+    let mut schema = mapping(&SECTIONS, names);
+    let head = json!({
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "SCL topology",
         "description": "Which components exist, which gates they have, and which gates are connected.",
-        "type": "object",
-        "required": ["components"],
-        "properties": {
-            "components": {
-                "description": "The components, each with its gates.",
-                "type": "array", "minItems": 1, "items": component_schema(names),
-            },
-            "connections": {
-                "description": "Which gates are connected. The order of the two ends is free: their kinds say which one sends.",
-                "type": ["array", "null"], "items": connection_schema(names),
-            },
-            "system": {
-                "description": "The name of the system. Default: the file's name without its ending.",
-                "type": "string",
-            },
-            "schemas": {
-                "description": "Protobuf files beside this one, from which the macro makes Rust types.",
-                "type": "array", "items": { "type": "string", "description": "A file, for example `rover.proto`." },
-            },
-            "codec": codec_schema("The codec of typed gates that name none. Default: `protobuf`."),
-            "scl": { "description": "The version of the file's format.", "type": "integer", "enum": [1] },
-        },
-        "patternProperties": { "^x-": { "description": "For your own use; ignored." } },
-        "additionalProperties": false,
-    })
+        "patternProperties": { format!("^{OWN_PREFIX}"): { "description": "For your own use; ignored." } },
+    });
+    schema.extend(head.as_object().cloned().unwrap_or_default());
+    Value::Object(schema)
 }
 
-/// A codec of the framework, or a Rust path to one of the user's own.
-pub(super) fn codec_schema(description: &str) -> Value {
-    let known = Codec::BUILT_IN;
-    let known = known.each_ref().map(Codec::word);
-    let words: [&str; Codec::BUILT_IN.len()] = [
-        "Messages of a schema, or any prost type.",
-        "Any serde type, as text.",
-        "Any serde type, binary.",
-        "Any serde type, binary.",
-        "Any serde type, binary and small, between Rust programs.",
-        "A fixed layout, or bytes.",
-    ];
-    json!({
-        "description": description,
-        "anyOf": [
-            { "type": "string", "enum": known, "enumDescriptions": words },
-            { "type": "string", "pattern": "::", "description": "A codec of your own: `my_crate::Flat`." },
-        ],
-    })
+/// A mapping with these keys.
+fn mapping(keys: &[Key], names: &Names) -> Map<String, Value> {
+    let properties: Map<String, Value> = keys.iter().map(|key| (key.key.to_owned(), key_schema(key, names))).collect();
+    let required: Vec<&str> = keys.iter().filter(|key| key.is_required).map(|key| key.key).collect();
+    let schema = json!({
+        "type": "object", "required": required, "properties": properties, "additionalProperties": false,
+    });
+    schema.as_object().cloned().unwrap_or_default()
+}
+
+fn key_schema(key: &Key, names: &Names) -> Value {
+    let mut schema = match key.shape {
+        Shape::List(item) => list_schema(key, item, names),
+        Shape::Name => json!({ "type": "string", "pattern": NAME }),
+        other => shape_schema(other),
+    };
+    schema["description"] = json!(format!("{} {}", key.summary, without_references(key.text)).trim_end());
+    schema
+}
+
+fn list_schema(key: &Key, item: Item, names: &Names) -> Value {
+    let items = match item {
+        Item::Component => component_schema(names),
+        Item::Connection => connection_schema(names),
+        Item::File => {
+            json!({ "type": "string", "pattern": "\\S", "description": "A file, for example `rover.proto`." })
+        }
+        Item::Gate => gate_schema(names),
+    };
+    // A list of components or gates that is still empty is a warning, not an error.
+    match (key.is_required, item) {
+        (true, _) | (_, Item::File) => json!({ "type": "array", "items": items }),
+        (false, _) => json!({ "type": ["array", "null"], "items": items }),
+    }
 }
 
 fn component_schema(names: &Names) -> Value {
-    json!({
-        "type": "object",
-        "description": "A component: one program, or a part of one.",
-        "required": ["name"],
-        "properties": {
-            "name": {
-                "description": "The name, in snake_case: `user_interface` becomes the Rust type `UserInterface`.",
-                "type": "string", "pattern": NAME,
-            },
-            "gates": {
-                "description": "The gates, each a field of the component's Rust type.",
-                "type": ["array", "null"], "items": gate_schema(names),
-            },
-            "doc": { "description": "One paragraph for the generated documentation.", "type": "string" },
-            "optional": {
-                "description": "Peers do not wait for this component at start.",
-                "type": "boolean", "default": false,
-            },
-        },
-        "additionalProperties": false,
-    })
+    let mut schema = mapping(&COMPONENT_KEYS, names);
+    schema.insert("description".to_owned(), json!("A component: one program, or a part of one."));
+    Value::Object(schema)
 }
 
 fn connection_schema(names: &Names) -> Value {

@@ -3,15 +3,14 @@
 use scl_topology::model::Model;
 use serde_json::{Value, json};
 
-/// A word of letters, digits and `_`.
-pub(super) const NAME: &str = "^[A-Za-z_][A-Za-z0-9_]*$";
+/// A word of letters, digits, `_` and single `-`.
+pub(super) const NAME: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?$";
 
 /// `component.gate`.
-const END: &str = "^[A-Za-z_][A-Za-z0-9_]*\\.[A-Za-z_][A-Za-z0-9_]*$";
+const END: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?\\.[A-Za-z_](-?[A-Za-z0-9_])*-?$";
 
-/// A dotted type, or two with an arrow between them.
-const MESSAGE: &str = "^[A-Za-z_][A-Za-z0-9_.]*$";
-const EXCHANGE: &str = "^[A-Za-z_][A-Za-z0-9_.]*\\s*->\\s*[A-Za-z_][A-Za-z0-9_.]*$";
+/// A word of a dotted type.
+const WORD: &str = "([A-Za-z][A-Za-z0-9_]*|_[A-Za-z0-9_]+)";
 
 /// What editors offer; nothing for a schema that belongs to no file.
 #[derive(Debug, Default)]
@@ -44,26 +43,38 @@ impl Names {
     pub(super) fn end_schema(&self) -> Value {
         let (names, words): (Vec<_>, Vec<_>) = self.ends.iter().map(|(name, words)| (name, words)).unzip();
         let known = json!({ "type": "string", "enum": names, "enumDescriptions": words });
-        offered(known, self.ends.is_empty(), END, "One end of a connection: `component.gate`.")
+        offered(
+            known,
+            self.ends.is_empty(),
+            &json!({ "type": "string", "pattern": END }),
+            "One end of a connection: `component.gate`.",
+        )
     }
 
     /// The type of `pub`, `sub`, `push` and `pull`.
     pub(super) fn message_schema(&self, description: &str) -> Value {
         let known = json!({ "type": "string", "enum": self.messages });
-        offered(known, self.messages.is_empty(), MESSAGE, description)
+        let pattern = format!("^\\s*{WORD}(\\.{WORD})*\\s*$");
+        offered(known, self.messages.is_empty(), &typed(&pattern), description)
     }
 
     /// The types of `req` and `rep`.
     pub(super) fn exchange_schema(&self, description: &str) -> Value {
         let known = json!({ "type": "string", "enum": self.exchanges });
-        offered(known, self.exchanges.is_empty(), EXCHANGE, description)
+        let dotted = format!("{WORD}(\\.{WORD})*");
+        let pattern = format!("^\\s*{dotted}\\s*->\\s*{dotted}\\s*$");
+        offered(known, self.exchanges.is_empty(), &typed(&pattern), description)
     }
 }
 
-/// A text of this shape; known ones are offered, but others are as good.
-fn offered(known: Value, none: bool, pattern: &str, description: &str) -> Value {
-    let any = json!({ "type": "string", "pattern": pattern });
-    let mut schema = if none { any } else { json!({ "anyOf": [known, any] }) };
+/// A type, or nothing, as in `{pub: , queue: 1}`.
+fn typed(pattern: &str) -> Value {
+    json!({ "type": ["string", "null"], "pattern": pattern })
+}
+
+/// A value of this shape; known ones are offered, but others are as good.
+fn offered(known: Value, none: bool, any: &Value, description: &str) -> Value {
+    let mut schema = if none { any.clone() } else { json!({ "anyOf": [known, any] }) };
     schema["description"] = json!(description);
     schema
 }

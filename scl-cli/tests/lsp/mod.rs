@@ -1,10 +1,9 @@
 //! A language server as a process, and the little of the protocol that the tests need.
-#![allow(dead_code, reason = "each test program uses a part of it")]
 
 use serde_json::{Value, json};
-use std::collections::VecDeque;
+use std::collections::{HashMap, VecDeque};
 use std::io::{BufRead, BufReader, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 /// A running language server. It is killed when the value is dropped.
@@ -92,6 +91,22 @@ impl Server {
                 return message["params"]["diagnostics"].as_array().unwrap().clone();
             }
         }
+    }
+
+    /// Waits until every one of these documents has diagnostics, and gives their numbers in the same order.
+    pub(crate) fn counts_of_diagnostics(&mut self, paths: &[PathBuf]) -> Vec<usize> {
+        let mut counts: HashMap<String, usize> = HashMap::new();
+        while !paths.iter().all(|path| counts.contains_key(&uri(path))) {
+            let message = match self.notified.pop_front() {
+                Some(message) => message,
+                None => self.read(),
+            };
+            if message["method"] == "textDocument/publishDiagnostics" {
+                let found = message["params"]["diagnostics"].as_array().unwrap().len();
+                counts.insert(message["params"]["uri"].as_str().unwrap().to_owned(), found);
+            }
+        }
+        paths.iter().map(|path| counts[&uri(path)]).collect()
     }
 
     pub(crate) fn notify(&mut self, method: &str, params: Value) {

@@ -1,5 +1,5 @@
 //! A system in a folder of its own, and the real `scl run` on it. Nothing here waits for a time, only for events.
-#![allow(dead_code, reason = "each test program uses a part of it")]
+#![cfg_attr(not(feature = "run"), allow(dead_code, reason = "the tests of `scl run` use a part of it"))]
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};

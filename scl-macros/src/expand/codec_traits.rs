@@ -8,6 +8,7 @@
 use super::context::Context;
 use super::kinds::{gate_struct, opener_method};
 use super::rustc_notes::{escape_braces, note_with_excerpt};
+use super::types::expand_stand_in_codecs;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use scl_topology::topology::{Codec, Gate, GateId, GateKind, Payload, Topology, TypeName};
@@ -75,7 +76,10 @@ impl<'a> CodecTraits<'a> {
     /// The traits as tokens.
     pub(super) fn expand(&self, context: &Context<'_>, topology: &Topology) -> TokenStream {
         let traits = self.all.iter().map(|it| it.expand(context, topology));
-        quote!(#(#traits)*)
+        let used = self.all.iter().filter(|it| !matches!(it.codec, Codec::Path(_)));
+        let used = used.map(|it| (it.payload, codec_path(context, it.codec)));
+        let stand_ins = expand_stand_in_codecs(context, used);
+        quote!(#(#traits)* #stand_ins)
     }
 }
 
@@ -176,28 +180,17 @@ fn capitalized(word: &str) -> String {
 }
 
 fn remedy(codec: &Codec) -> String {
-    match codec {
-        Codec::Protobuf => "derive `prost::Message` for it, or name a `.proto` file in `schemas:`".to_owned(),
-        Codec::Json | Codec::Cbor | Codec::Msgpack | Codec::Postcard => {
-            "derive `serde::Serialize` and `serde::Deserialize` for it".to_owned()
-        }
-        Codec::Raw => "derive the traits of `zerocopy` for it; it must have a fixed layout".to_owned(),
-        Codec::Path(path) => format!("implement `scl::codec::Codec<..>` for `{path}`"),
+    match codec.row() {
+        Some(row) => row.remedy.to_owned(),
+        None => format!("implement `scl::codec::Codec<..>` for `{}`", codec.word()),
     }
 }
 
 /// The codec's Rust type.
 fn codec_path(context: &Context<'_>, codec: &Codec) -> TokenStream {
     let private = &context.private;
-    let name = match codec {
-        Codec::Protobuf => format_ident!("Protobuf"),
-        Codec::Json => format_ident!("Json"),
-        Codec::Cbor => format_ident!("Cbor"),
-        Codec::Msgpack => format_ident!("Msgpack"),
-        Codec::Postcard => format_ident!("Postcard"),
-        Codec::Raw => format_ident!("Raw"),
-        Codec::Path(path) => return user_codec(path, context.span),
-    };
+    let Some(row) = codec.row() else { return user_codec(codec.word(), context.span) };
+    let name = format_ident!("{}", row.rust);
     quote!(#private::codec::#name)
 }
 

@@ -1,7 +1,8 @@
 //! What every part of an expansion needs to know about the macro invocation.
 
-use super::types::MessageTypes;
+use super::types::{Lookups, MessageTypes};
 use crate::arguments::Arguments;
+use crate::locate::Surroundings;
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 use scl_loader::Loaded;
@@ -18,6 +19,8 @@ pub(super) struct Context<'a> {
     pub(super) path: String,
     /// The components to generate; `None` for all.
     pub(super) only: Option<&'a [Ident]>,
+    /// `#[cfg(test)]`, or nothing if other crates are to test the components.
+    pub(super) for_tests: TokenStream,
     /// The loaded topology file, with its schemas and diagnostics.
     pub(super) loaded: &'a Loaded,
     /// The Rust paths of the message types.
@@ -25,21 +28,20 @@ pub(super) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    pub(super) fn new(arguments: &'a Arguments, loaded: &'a Loaded) -> Self {
+    pub(super) fn new(arguments: &'a Arguments, loaded: &'a Loaded, surroundings: &Surroundings) -> Self {
         let krate = &arguments.krate;
-        Self {
-            private: quote!(#krate::private),
-            span: arguments.path.span(),
-            path: arguments.path.value(),
-            only: arguments.only.as_deref(),
-            loaded,
-            types: MessageTypes::of(loaded),
-        }
+        let private = quote!(#krate::private);
+        let path = arguments.path.value();
+        let only = arguments.only.as_deref();
+        let lookups = |types| Lookups::new(&as_identifier(&path), &private, surroundings.extern_crates.as_ref(), types);
+        let types = MessageTypes::of(loaded, |component| includes(only, component), lookups);
+        let for_tests = if arguments.testable == Some(true) { quote!() } else { quote!(#[cfg(test)]) };
+        Self { private, for_tests, span: arguments.path.span(), path, only, loaded, types }
     }
 
     /// Returns true if a component is to be generated.
     pub(super) fn includes(&self, component: &str) -> bool {
-        self.only.is_none_or(|only| only.iter().any(|wanted| names_component(wanted, component)))
+        includes(self.only, component)
     }
 
     /// The location of a declaration: `topology.yaml:14:9`. The path is the one that the user wrote, so that no program
@@ -51,8 +53,16 @@ impl<'a> Context<'a> {
 
     /// The path as part of an identifier, so that two invocations in one module do not generate the same name.
     pub(super) fn path_as_identifier(&self) -> String {
-        self.path.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect()
+        as_identifier(&self.path)
     }
+}
+
+fn includes(only: Option<&[Ident]>, component: &str) -> bool {
+    only.is_none_or(|only| only.iter().any(|wanted| names_component(wanted, component)))
+}
+
+fn as_identifier(path: &str) -> String {
+    path.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect()
 }
 
 /// Returns true if an entry of `only` names this component. Identifiers cannot contain `-`, so `_` stands for it.

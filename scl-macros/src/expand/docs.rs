@@ -1,8 +1,8 @@
 //! The documentation of generated items, which editors show on hover.
 
 use super::context::Context;
-use scl_topology::size;
-use scl_topology::topology::{Codec, Component, Gate, GateId, GateKind, GateOptions, Payload, Topology};
+use scl_topology::grammar::OPTIONS;
+use scl_topology::topology::{Codec, Component, Gate, GateId, GateKind, Payload, Topology};
 
 /// The documentation of a struct: the component's `doc`, its gates as a table, and where it is declared.
 pub(super) fn of_component(context: &Context<'_>, topology: &Topology, component: &Component) -> String {
@@ -60,18 +60,11 @@ fn peers(topology: &Topology, id: GateId) -> String {
 
 /// The options that differ from their defaults, as in the file.
 fn options(gate: &Gate) -> Vec<String> {
-    let GateOptions { queue, when_full, backpressure, max_size, timeout, share, unconnected_ok } = gate.options();
-    let default = GateOptions::default();
-    let default_codec = if *gate.payload() == Payload::Bytes { Codec::Raw } else { Codec::Protobuf };
-    let all = [
-        (*gate.codec() != default_codec, format!("`codec: {}`", gate.codec().word())),
-        (*queue != default.queue, format!("`queue: {queue}`")),
-        (*when_full != default.when_full, format!("`when_full: {}`", when_full.word())),
-        (*backpressure, "`backpressure: true`".to_owned()),
-        (*max_size != default.max_size, format!("`max_size: {}`", size::text(*max_size))),
-        (*timeout != default.timeout, format!("`timeout: {timeout:?}`")),
-        (*share, "`share: true`".to_owned()),
-        (*unconnected_ok, "`unconnected: ok`".to_owned()),
-    ];
-    all.into_iter().filter(|(differs, _)| *differs).map(|(_, text)| text).collect()
+    let default_codec = if *gate.payload() == Payload::Bytes { Codec::Raw } else { Codec::DEFAULT };
+    let codec = (*gate.codec() != default_codec).then(|| ("codec", gate.codec().word().to_owned()));
+    let others = OPTIONS.iter().filter_map(|option| {
+        let value = option.get(gate.options()).filter(|value| option.default().as_ref() != Some(value))?;
+        Some((option.key, value))
+    });
+    codec.into_iter().chain(others).map(|(key, value)| format!("`{key}: {value}`")).collect()
 }

@@ -9,6 +9,7 @@ use super::rustc_notes::{escape_braces, note_with_excerpt};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use scl_topology::topology::{Connection, GateKind, Payload, Topology, TypeName};
+use syn::Ident;
 
 /// The checks of all connections whose ends name their types differently.
 pub(super) fn expand_agreements(context: &Context<'_>, topology: &Topology) -> TokenStream {
@@ -60,17 +61,41 @@ fn expand_agreement(
     let label = format!("`{}` {}, `{}` {}", shown(at_source), phrases[0], shown(at_sink), phrases[1]);
     let label = escape_braces(&label);
     let declaration = note_with_excerpt(context, "they are connected here", connection.span());
+    let lookups = context.types.lookups();
+    let stand_in = lookups.stand_in(at_source).or(lookups.stand_in(at_sink));
     let (sent, received) = (message_type(context, at_source.dotted()), message_type(context, at_sink.dotted()));
+    let unless_missing = stand_in.map(|stand_in| expand_exceptions(context, stand_in));
     quote_spanned! { context.span =>
-        #[allow(dead_code, clippy::all, clippy::pedantic)]
+        #[allow(dead_code, private_interfaces, clippy::all, clippy::pedantic)]
         const _: () = {
             #[diagnostic::on_unimplemented(message = #message, label = #label, note = #declaration)]
             trait SameTypeAs<Other> {}
             impl<Same> SameTypeAs<Same> for Same {}
-            fn connection<Sent: SameTypeAs<Received>, Received>() {}
+            struct Connection<Sent, Received>(::core::marker::PhantomData<(Sent, Received)>);
+            trait Check<Sent, Received> {
+                fn check(&self) where Sent: SameTypeAs<Received>;
+            }
+            impl<Sent, Received> Check<Sent, Received> for Connection<Sent, Received> {
+                fn check(&self) where Sent: SameTypeAs<Received> {}
+            }
+            #unless_missing
             fn types_agree() {
-                connection::<#sent, #received>()
+                Connection::<#sent, #received>(::core::marker::PhantomData).check()
             }
         };
+    }
+}
+
+/// A type that is not found belongs to another program, where it is compared. These methods take precedence because
+/// they take the connection by value, the first one because it belongs to no trait.
+fn expand_exceptions(context: &Context<'_>, stand_in: &Ident) -> TokenStream {
+    quote_spanned! { context.span =>
+        impl<Received> Connection<#stand_in, Received> {
+            fn check(self) {}
+        }
+        trait Skip: ::core::marker::Sized {
+            fn check(self) {}
+        }
+        impl<Sent> Skip for Connection<Sent, #stand_in> {}
     }
 }

@@ -1,62 +1,115 @@
 //! Message types: the Rust path of a type such as `rover.Measurement` in the file.
 
+mod lookup;
 #[cfg(feature = "protobuf")]
 mod rust_paths;
+
+pub(super) use lookup::{Lookups, Requirements, expand_lookups, expand_stand_in_codecs};
 
 use super::names::identifier;
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 use scl_loader::Loaded;
-use std::collections::HashMap;
+use scl_topology::topology::Payload;
+use std::collections::{BTreeSet, HashMap};
+use syn::Ident;
 
 /// How the file's message types are named in Rust.
-pub(super) enum MessageTypes {
-    /// The file has no `schemas:`. The dotted name is the path, resolved where the macro is invoked.
-    Written,
-    /// From the compiled schemas: full protobuf name to path segments.
-    #[cfg_attr(not(feature = "protobuf"), allow(dead_code))]
-    Generated(HashMap<String, Vec<String>>),
-    /// The schemas did not compile, so no type is known.
+pub(super) struct MessageTypes {
+    of_schemas: SchemaTypes,
+    of_rust: Lookups,
+}
+
+/// The types that the file's schemas declare.
+enum SchemaTypes {
+    /// Full protobuf name to path segments. Every other type is a Rust path.
+    Known(HashMap<String, Vec<String>>),
+    /// The schemas did not compile, so it is not known which types are theirs.
     Unknown,
 }
 
 impl MessageTypes {
-    /// The message types of a loaded file.
-    pub(super) fn of(loaded: &Loaded) -> Self {
-        match &loaded.schemas {
+    /// The message types of a loaded file, for the components that are generated. `crates` are the crates that the
+    /// program can name, if they are known.
+    pub(super) fn of(
+        loaded: &Loaded,
+        includes: impl Fn(&str) -> bool,
+        lookups: impl FnOnce(BTreeSet<String>) -> Lookups,
+    ) -> Self {
+        let of_schemas = match &loaded.schemas {
             #[cfg(feature = "protobuf")]
-            Some(schemas) => Self::Generated(rust_paths::rust_paths(schemas)),
-            _ if loaded.model.schemas.is_empty() => Self::Written,
-            _ => Self::Unknown,
-        }
+            Some(schemas) => SchemaTypes::Known(rust_paths::rust_paths(schemas)),
+            _ if loaded.model.schemas.is_empty() => SchemaTypes::Known(HashMap::new()),
+            _ => SchemaTypes::Unknown,
+        };
+        let of_rust = match &of_schemas {
+            SchemaTypes::Known(known) => {
+                let named = named_types(loaded, includes);
+                lookups(named.into_iter().filter(|dotted| !known.contains_key(dotted)).collect())
+            }
+            SchemaTypes::Unknown => lookups(BTreeSet::new()),
+        };
+        Self { of_schemas, of_rust }
     }
 
-    /// The path of a type, or `None` if Rust cannot name it.
+    /// The type in Rust, or `None` if Rust cannot name it.
     pub(super) fn path(&self, dotted: &str, span: Span) -> Option<TokenStream> {
-        let segments: Vec<&str> = match self {
-            Self::Written => dotted.split('.').map(str::trim).collect(),
-            Self::Generated(paths) => paths.get(dotted)?.iter().map(String::as_str).collect(),
-            Self::Unknown => return None,
-        };
-        let segments: Vec<_> = segments.into_iter().map(|name| segment(name, span)).collect::<Option<_>>()?;
-        Some(quote!(#(#segments)::*))
+        let SchemaTypes::Known(known) = &self.of_schemas else { return None };
+        match known.get(dotted) {
+            Some(segments) => path(segments.iter().map(String::as_str), span),
+            None => self.of_rust.path(dotted, span),
+        }
     }
 
     /// The path as messages show it: `rover::Measurement`.
     pub(super) fn shown(&self, dotted: &str) -> String {
-        match self {
-            Self::Generated(paths) => {
-                paths.get(dotted).map_or_else(|| dotted.replace('.', "::"), |path| path.join("::"))
-            }
+        match &self.of_schemas {
+            SchemaTypes::Known(known) if known.contains_key(dotted) => known[dotted].join("::"),
             _ => dotted.replace('.', "::"),
         }
     }
+
+    /// The full names of the messages of the schemas, sorted, with their paths. Those of the well-known types are left
+    /// out, because prost has types for them.
+    #[cfg(feature = "protobuf")]
+    pub(super) fn of_schemas(&self, span: Span) -> Vec<(&str, TokenStream)> {
+        let SchemaTypes::Known(known) = &self.of_schemas else { return Vec::new() };
+        let own = known.iter().filter(|(name, _)| !name.starts_with("google.protobuf."));
+        let mut all: Vec<(&str, TokenStream)> = own
+            .filter_map(|(name, segments)| Some((name.as_str(), path(segments.iter().map(String::as_str), span)?)))
+            .collect();
+        all.sort_by_key(|(name, _)| *name);
+        all
+    }
+
+    /// The Rust paths that are looked up.
+    pub(super) fn lookups(&self) -> &Lookups {
+        &self.of_rust
+    }
+}
+
+/// The types of the generated components, or all types in a file that is not a topology.
+fn named_types(loaded: &Loaded, includes: impl Fn(&str) -> bool) -> BTreeSet<String> {
+    if let Some(topology) = &loaded.topology {
+        let included = topology.components().map(|(_, component)| component).filter(|it| includes(it.name()));
+        let payloads = included.flat_map(|component| component.gates()).map(|&id| topology.gate(id).payload());
+        return payloads.flat_map(Payload::types).map(|name| name.dotted().to_owned()).collect();
+    }
+    let gates = loaded.model.components.iter().flat_map(|component| &component.gates);
+    let payloads = gates.filter_map(|gate| gate.payload.as_ref());
+    payloads.flat_map(|payload| payload.value.split("->")).map(|dotted| dotted.trim().to_owned()).collect()
+}
+
+/// `a::b::C`, or `None` if a segment is not an identifier.
+fn path<'a>(segments: impl IntoIterator<Item = &'a str>, span: Span) -> Option<TokenStream> {
+    let segments: Vec<Ident> = segments.into_iter().map(|name| segment(name, span)).collect::<Option<_>>()?;
+    Some(quote!(#(#segments)::*))
 }
 
 /// `crate`, `self` and `super` are not identifiers, but a path may start with them.
-fn segment(name: &str, span: Span) -> Option<syn::Ident> {
+fn segment(name: &str, span: Span) -> Option<Ident> {
     match name {
-        "crate" | "self" | "super" => Some(syn::Ident::new(name, span)),
+        "crate" | "self" | "super" => Some(Ident::new(name, span)),
         _ => identifier(name, span),
     }
 }
@@ -75,7 +128,7 @@ mod tests {
             ("", None),
         ];
         for (dotted, expected) in cases {
-            let path = MessageTypes::Written.path(dotted, Span::call_site()).map(|path| path.to_string());
+            let path = path(dotted.split('.'), Span::call_site()).map(|path| path.to_string());
             assert_eq!(path.as_deref(), expected, "{dotted:?}");
         }
     }

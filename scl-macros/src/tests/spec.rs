@@ -23,15 +23,15 @@ connections:
     let (text, tracking) = text.split_once("const _ : & [u8]").unwrap();
     assert!(tracking.contains("include_bytes"), "{tracking}");
     expect![[r##"
-        # [doc = "Reads the unit.\n\n| gate | kind | type | peers |\n|---|---|---|---|\n| `measurements` | `pub` | `rover.Measurement` | `controller.sensor` |\n\nThe component `sensor` of `t`, declared at `t.yaml:2:11`."] # [allow (dead_code , non_camel_case_types , non_snake_case)]
+        # [doc = "Reads the unit.\n\n| gate | kind | type | peers |\n|---|---|---|---|\n| `measurements` | `pub` | `rover.Measurement` | `controller.sensor` |\n\nThe component `sensor` of `t`, declared at `t.yaml:2:11`."] # [allow (dead_code , non_camel_case_types , non_snake_case , private_interfaces)]
         pub struct Sensor {
         # [doc = "`pub`: publishes `rover.Measurement` to `controller.sensor`.\n\nOne reading per period.\n\nDeclared at `t.yaml:5:9`."]
-        pub measurements : scl :: private :: Pub < rover :: Measurement > , __scl : scl :: private :: ComponentHandle }
-        # [cfg (test)] # [doc = "The other ends of all gates of `sensor`, for its unit tests."] # [allow (dead_code , non_camel_case_types , non_snake_case)]
+        pub measurements : scl :: private :: Pub < < __scl_types_t_yaml as scl :: private :: NamedType < 0usize >> :: Type > , __scl : scl :: private :: ComponentHandle }
+        # [cfg (test)] # [doc = "The other ends of all gates of `sensor`, for its unit tests."] # [allow (dead_code , non_camel_case_types , non_snake_case , private_interfaces)]
         pub struct SensorPeer {
         # [doc = "The other end of `sensor.measurements`."]
-        pub measurements : scl :: private :: Sub < rover :: Measurement > , __scl : scl :: private :: ComponentHandle }
-        # [allow (dead_code , non_camel_case_types , non_snake_case , clippy :: all , clippy :: pedantic)]
+        pub measurements : scl :: private :: Sub < < __scl_types_t_yaml as scl :: private :: NamedType < 0usize >> :: Type > , __scl : scl :: private :: ComponentHandle }
+        # [allow (dead_code , non_camel_case_types , non_snake_case , private_bounds , private_interfaces , clippy :: all , clippy :: pedantic)]
         const _ : () = {
         # [diagnostic :: on_unimplemented (message = "[SCL0606] `{Self}` is used as a message, but the codec `protobuf` does not support it" , label = "gate `sensor.measurements` sends `rover::Measurement`" , note = "derive `prost::Message` for it, or name a `.proto` file in `schemas:`" , note = "the gate is declared here\n --> t.yaml:5:9\n  |\n5 |       - measurements: {{pub: rover.Measurement, doc: One reading per period.}}\n  |         ^^^^^^^^^^^^")] trait RoverMeasurementSupportedByProtobuf_0 < > : :: core :: marker :: Sized {
         fn publisher (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Pub < Self > , scl :: private :: OpenError > ;
@@ -42,6 +42,11 @@ connections:
         __opener . publisher :: < Message , scl :: private :: codec :: Protobuf > (__index) }
         fn subscriber (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Sub < Self > , scl :: private :: OpenError > {
         __opener . subscriber :: < Message , scl :: private :: codec :: Protobuf > (__index) }
+        }
+        scl :: private :: stand_in_codec ! (scl :: private :: codec :: Protobuf , __scl_type_not_found_t_yaml) ;
+        # [diagnostic :: on_unimplemented (message = "[SCL0609] cannot find the Rust type `rover::Measurement`" , label = "used by the gate `sensor.measurements`" , note = "add the crate `rover` to the dependencies, or bring a module `rover` into scope with `use`" , note = "the type is named here\n --> t.yaml:5:29\n  |\n5 |       - measurements: {{pub: rover.Measurement, doc: One reading per period.}}\n  |                             ^^^^^^^^^^^^^^^^^")] trait TypeIsFound_0 {
+        }
+        # [diagnostic :: do_not_recommend] impl < Type : :: core :: marker :: Unpin + ? :: core :: marker :: Sized > TypeIsFound_0 for Type {
         }
         impl scl :: private :: Component for Sensor {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
@@ -57,12 +62,12 @@ connections:
         fn handle (& self) -> & scl :: private :: ComponentHandle {
         & self . __scl }
         }
-        scl :: private :: component_methods ! (Sensor) ;
+        scl :: private :: component_methods ! (Sensor where for < '__any > < __scl_types_t_yaml as scl :: private :: NamedType < 0usize >> :: Type : TypeIsFound_0) ;
         # [cfg (test)] impl scl :: private :: Component for SensorPeer {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
         system : "t" , name : "sensor's peers" , declared_at : "" , gates : & [scl :: private :: GateSpec {
-        name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "" , contract : "hl75aqsl" , max_size : :: core :: primitive :: u64 :: MAX , queue : :: core :: primitive :: u32 :: MAX , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: from_secs (10) , links : & [scl :: private :: LinkSpec {
-        peer_component : "sensor" , peer_gate : "measurements" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : :: core :: primitive :: u64 :: MAX , }] , }] , schema : :: core :: option :: Option :: None , }
+        name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "" , contract : "hl75aqsl" , max_size : 18446744073709551615u64 , queue : 4294967295u32 , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: new (10u64 , 0u32) , links : & [scl :: private :: LinkSpec {
+        peer_component : "sensor" , peer_gate : "measurements" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : 18446744073709551615u64 , }] , }] , schema : :: core :: option :: Option :: None , }
         ;
         fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
         :: core :: result :: Result :: Ok (Self {
@@ -72,7 +77,31 @@ connections:
         fn handle (& self) -> & scl :: private :: ComponentHandle {
         & self . __scl }
         }
-        # [cfg (test)] scl :: private :: component_test_methods ! (Sensor , SensorPeer) ;
+        # [cfg (test)] scl :: private :: component_test_methods ! (Sensor , SensorPeer where for < '__any > < __scl_types_t_yaml as scl :: private :: NamedType < 0usize >> :: Type : TypeIsFound_0) ;
+        }
+        ;
+        # [doc (hidden)] # [allow (dead_code , non_camel_case_types)]
+        pub struct __scl_type_not_found_t_yaml (scl :: private :: PhantomPinned) ;
+        # [doc (hidden)] # [allow (dead_code , non_camel_case_types)] struct __scl_types_t_yaml ;
+        # [allow (dead_code , unused_imports , non_camel_case_types , non_snake_case , clippy :: all , clippy :: pedantic)]
+        const _ : () = {
+        const _ : () = {
+        pub mod rover {
+        pub type Measurement = super :: __scl_type_not_found_t_yaml ;
+        }
+        const _ : () = {
+        use self :: * ;
+        macro_rules ! type_of_gate_sensor_measurements {
+        () => {
+        rover :: Measurement }
+        }
+        impl scl :: private :: NamedType < 0usize > for __scl_types_t_yaml {
+        type Type = type_of_gate_sensor_measurements ! () ;
+        }
+        }
+        ;
+        }
+        ;
         }
         ;
     "##]].assert_eq(text);
@@ -103,15 +132,15 @@ connections:
         "out" scl::private::GateKind::Pub endpoints "" "a.out--b.in.qud4qwa4" tap "a.out.tap" max_sizes 67108864u64 2u64
         "work" scl::private::GateKind::Push endpoints "" "b.jobs.7zodneik" tap "" max_sizes 67108864u64 3u64
         "ask" "a'speers" scl::private::GateKind::Req endpoints "" "b.answer.yrvcf33f" tap "" max_sizes 1u64 4u64
-        "out" scl::private::GateKind::Sub endpoints "" "a.out--b.in.qud4qwa4" tap "" max_sizes ::core::primitive::u64::MAX ::core::primitive::u64::MAX
-        "work" scl::private::GateKind::Pull endpoints "b.jobs.7zodneik" "b.jobs.7zodneik" tap "a.work.peer" max_sizes ::core::primitive::u64::MAX ::core::primitive::u64::MAX
-        "ask" "b" scl::private::GateKind::Rep endpoints "b.answer.yrvcf33f" "b.answer.yrvcf33f" tap "a.ask.peer" max_sizes ::core::primitive::u64::MAX 1u64
+        "out" scl::private::GateKind::Sub endpoints "" "a.out--b.in.qud4qwa4" tap "" max_sizes 18446744073709551615u64 18446744073709551615u64
+        "work" scl::private::GateKind::Pull endpoints "b.jobs.7zodneik" "b.jobs.7zodneik" tap "a.work.peer" max_sizes 18446744073709551615u64 18446744073709551615u64
+        "ask" "b" scl::private::GateKind::Rep endpoints "b.answer.yrvcf33f" "b.answer.yrvcf33f" tap "a.ask.peer" max_sizes 18446744073709551615u64 1u64
         "in" scl::private::GateKind::Sub endpoints "" "a.out--b.in.qud4qwa4" tap "" max_sizes 2u64 2u64
         "jobs" scl::private::GateKind::Pull endpoints "b.jobs.7zodneik" "b.jobs.7zodneik" tap "b.jobs.tap" max_sizes 3u64 3u64
         "answer" "b'speers" scl::private::GateKind::Rep endpoints "b.answer.yrvcf33f" "b.answer.yrvcf33f" tap "b.answer.tap" max_sizes 4u64 1u64
-        "in" scl::private::GateKind::Pub endpoints "" "a.out--b.in.qud4qwa4" tap "b.in.peer" max_sizes ::core::primitive::u64::MAX 2u64
-        "jobs" scl::private::GateKind::Push endpoints "" "b.jobs.7zodneik" tap "" max_sizes ::core::primitive::u64::MAX 3u64
-        "answer" scl::private::GateKind::Req endpoints "" "b.answer.yrvcf33f" tap "" max_sizes ::core::primitive::u64::MAX 4u64
+        "in" scl::private::GateKind::Pub endpoints "" "a.out--b.in.qud4qwa4" tap "b.in.peer" max_sizes 18446744073709551615u64 2u64
+        "jobs" scl::private::GateKind::Push endpoints "" "b.jobs.7zodneik" tap "" max_sizes 18446744073709551615u64 3u64
+        "answer" scl::private::GateKind::Req endpoints "" "b.answer.yrvcf33f" tap "" max_sizes 18446744073709551615u64 4u64
     "#]].assert_eq(&specs);
 }
 

@@ -39,7 +39,9 @@ connections:
 };
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
-    for (link, source, sink) in draft.flows() {
+    // The option of a replier has been refused already, and a requester has none that would allow it.
+    let sends = |source: usize| matches!(draft.gates[source].kind, Some(GateKind::Pub | GateKind::Push));
+    for (link, source, sink) in draft.flows().filter(|&(_, source, _)| sends(source)) {
         let waits = draft.gates[sink].options.when_full == WhenFull::Wait;
         if waits && !draft.gates[source].options.backpressure {
             problems.push(report(draft, link, source, sink));

@@ -4,7 +4,7 @@ use super::draft::Draft;
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
 use crate::rule::{Examples, Rule};
-use crate::topology::GateKind;
+use crate::topology::{GateKind, Payload};
 
 /// SCL0608.
 pub(crate) const RULE: Rule = Rule {
@@ -40,7 +40,9 @@ connections:
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for (link, source, sink) in draft.flows() {
         let (Some(a), Some(b)) = (&draft.gates[source].codec, &draft.gates[sink].codec) else { continue };
-        if a.value == b.value {
+        // Bytes of no type are sent as they are, whatever the codec.
+        let is_untyped = [source, sink].iter().any(|&gate| draft.gates[gate].payload == Some(Payload::Bytes));
+        if a.value == b.value || is_untyped {
             continue;
         }
         let (a_word, b_word) = (a.value.word(), b.value.word());

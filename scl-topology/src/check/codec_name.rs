@@ -14,9 +14,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0407",
     severity: Severity::Error,
     title: "unknown codec",
-    explanation: "A codec turns messages into bytes; this one is unknown. The built-in ones are `protobuf`, `json`, \
-                  `cbor`, `msgpack`, `postcard` and `raw`; one of your own is named by its Rust path, such as \
-                  `my_crate::Flat`.",
+    explanation: "A codec turns messages into bytes; this one is unknown. The message lists those of the \
+                  framework; one of your own is named by its Rust path, such as `my_crate::Flat`.",
     examples: Examples::Topology {
         bad: "components:
   - name: sensor
@@ -31,16 +30,6 @@ pub(crate) const RULE: Rule = Rule {
     },
 };
 
-/// What people write for a codec.
-const SYNONYMS: [(&str, &str); 6] = [
-    ("proto", "protobuf"),
-    ("pb", "protobuf"),
-    ("prost", "protobuf"),
-    ("messagepack", "msgpack"),
-    ("bytes", "raw"),
-    ("none", "raw"),
-];
-
 /// Reads the codecs of the gates, and gives the one of the whole file.
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) -> Codec {
     for gate in &mut draft.gates {
@@ -53,16 +42,15 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) -> Codec 
             }
         }
     }
-    let Some(written) = &draft.model.codec else { return Codec::Protobuf };
+    let Some(written) = &draft.model.codec else { return Codec::DEFAULT };
     codec_of(&written.value).unwrap_or_else(|| {
         problems.push(report(written));
-        Codec::Protobuf
+        Codec::DEFAULT
     })
 }
 
 fn codec_of(word: &str) -> Option<Codec> {
-    let built_in = Codec::BUILT_IN.into_iter().find(|codec| codec.word() == word);
-    built_in.or_else(|| is_rust_path(word).then(|| Codec::Path(word.to_owned())))
+    Codec::of(word).or_else(|| is_rust_path(word).then(|| Codec::Path(word.to_owned())))
 }
 
 fn is_rust_path(text: &str) -> bool {
@@ -77,15 +65,25 @@ fn report(written: &Spanned<String>) -> Diagnostic {
     let headline = format!("unknown codec `{}`", written.value);
     let found = RULE.at(headline, written.span, "");
     let lower = written.value.to_lowercase();
-    let synonym = SYNONYMS.iter().find(|(other, _)| *other == lower).map(|(_, name)| vec![*name]);
-    let meant = synonym.unwrap_or_else(|| similar(&written.value, Codec::BUILT_IN.iter().map(Codec::word)));
+    let mut rows = Codec::BUILT_IN.iter().filter_map(Codec::row);
+    let synonym = rows.find(|row| row.synonyms.contains(&lower.as_str())).map(|row| vec![row.word]);
+    let meant = synonym.unwrap_or_else(|| similar(&written.value, Codec::words()));
     let found = if meant.is_empty() { found } else { found.help(format!("did you mean {}?", either(&meant))) };
     let found = if written.value.contains('.') {
         found.help(format!("a codec of your own is named by its Rust path: `{}`", written.value.replace('.', "::")))
     } else {
         found
     };
-    found.note("codecs: `protobuf` (default), `json`, `cbor`, `msgpack`, `postcard`, `raw`")
+    found.note(codecs())
+}
+
+fn codecs() -> String {
+    let default = Codec::DEFAULT;
+    let words = Codec::words().map(|word| match default.word() == word {
+        true => format!("`{word}` (default)"),
+        false => format!("`{word}`"),
+    });
+    format!("codecs: {}", words.collect::<Vec<_>>().join(", "))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 
 mod command;
 
-use super::circle;
+use super::feedback;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
 use crate::model::{ControlModel, Model};
 use crate::rule::{Examples, Rule};
@@ -86,6 +86,16 @@ pub(super) fn threshold(model: &Model, of: &Rule) -> Option<u32> {
     })
 }
 
+/// The lines about which a comment allows a check.
+pub(super) fn allowed_lines(model: &Model, of: &Rule) -> HashSet<u32> {
+    let mut told_later = Vec::new();
+    let allows = model.controls.iter().filter(|control| match read(control, &mut told_later) {
+        Some(Command::Allow { rules, .. }) => rules.contains(&of),
+        _ => false,
+    });
+    allows.map(|control| control.line).collect()
+}
+
 /// What all comments together ask for.
 struct Wishes<'m> {
     /// By rule and line.
@@ -140,10 +150,10 @@ impl<'m> Wishes<'m> {
     }
 }
 
-/// The lines of a problem: that of its place; of a circle, those of all its connections.
+/// The lines of a problem: that of its place; of a loop of messages, those of all its connections.
 fn lines(problem: &Diagnostic, sources: &Sources) -> Vec<u32> {
-    let is_circle = [&circle::REQUESTS, &circle::PUSHES, &circle::PUBLISHERS].contains(&problem.rule);
-    let others = problem.secondary.iter().filter(|_| is_circle);
+    let is_loop = [&feedback::PUSHES, &feedback::LOOP].contains(&problem.rule);
+    let others = problem.secondary.iter().filter(|_| is_loop);
     let labels = problem.primary.iter().chain(others);
     labels.map(|label| sources.file(label.span.file).line(label.span.start)).collect()
 }

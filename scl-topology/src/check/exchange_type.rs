@@ -103,12 +103,12 @@ connections:
 
 type Exchange<'a> = (&'a TypeName, &'a TypeName);
 
-pub(super) fn check(draft: &Draft<'_>, with_schemas: bool, problems: &mut Diagnostics) {
+pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for (link, asker, answerer) in draft.flows() {
         let (Some(asked), Some(answered)) = (exchange(draft, asker), exchange(draft, answerer)) else { continue };
         let span = draft.links[link].model.span;
-        let requests = differ(asked.0, answered.0, with_schemas);
-        let replies = differ(asked.1, answered.1, with_schemas);
+        let requests = differ(asked.0, answered.0);
+        let replies = differ(asked.1, answered.1);
         let swapped = asked.0.dotted() == answered.1.dotted() && asked.1.dotted() == answered.0.dotted();
         match (requests, replies) {
             (false, false) => {}

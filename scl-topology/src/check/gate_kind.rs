@@ -3,6 +3,7 @@
 use super::draft::Draft;
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::grammar::{PATTERNS, Pattern};
 use crate::rule::{Examples, Rule};
 use crate::source::{Sources, Spanned};
 use crate::suggest;
@@ -29,13 +30,10 @@ pub(crate) const RULE: Rule = Rule {
     },
 };
 
-const KINDS: &str = "kinds: `pub` and `sub` (one to many, no answer), `req` and `rep` (question and answer), `push` and \
-                     `pull` (many to one, no answer)";
-
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     for gate in &mut draft.gates {
         let word = &gate.model.kind;
-        gate.kind = kind_of(&word.value);
+        gate.kind = GateKind::of(&word.value);
         // An empty word stands for a gate that could not be read, which has its own problem.
         if gate.kind.is_none() && !word.value.is_empty() {
             problems.push(report(word, draft.sources));
@@ -60,20 +58,25 @@ fn poison_contradictions(draft: &mut Draft<'_>) {
     }
 }
 
-fn kind_of(word: &str) -> Option<GateKind> {
-    GateKind::ALL.into_iter().find(|kind| kind.word() == word)
+/// The kinds in pairs, each pair with what it is for.
+fn kinds() -> String {
+    let pair = |pattern: &Pattern| {
+        let ends = [pattern.source.word(), pattern.source.opposite().word()];
+        format!("{} ({})", crate::wording::all_of(&ends), pattern.summary)
+    };
+    format!("kinds: {}", PATTERNS.iter().map(pair).collect::<Vec<_>>().join(", "))
 }
 
 fn report(word: &Spanned<String>, sources: &Sources) -> Diagnostic {
     let found = RULE.at(format!("unknown gate kind `{}`", word.value), word.span, "");
-    let kinds = suggest::kind(&word.value);
-    let replacements: Vec<String> = kinds.iter().map(|kind| sources.quoted_as(word.span, kind)).collect();
-    let found = match kinds.as_slice() {
+    let meant = suggest::kind(&word.value);
+    let replacements: Vec<String> = meant.iter().map(|kind| sources.quoted_as(word.span, kind)).collect();
+    let found = match meant.as_slice() {
         [] => found,
         [one] => found.help(format!("the kind is called `{one}`")),
         several => found.help(format!("did you mean {}?", crate::wording::either(several))),
     };
-    found.fix_if_single(word.span, &replacements).note(KINDS)
+    found.fix_if_single(word.span, &replacements).note(kinds())
 }
 
 #[cfg(test)]

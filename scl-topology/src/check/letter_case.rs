@@ -14,8 +14,9 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0310",
     severity: Severity::Warning,
     title: "names that differ only in letter case",
-    explanation: "Two names differ only in capitals or `_`. People mix them up, and on file systems that ignore case \
-                  their socket files would be one. Rename one.",
+    explanation: "Two names differ only in capitals, `_` or `-`. People mix them up, a language that writes names in \
+                  another case makes one name of them, and on file systems that ignore case their socket files would \
+                  be one. Rename one.",
     examples: Examples::Topology {
         bad: "components:
   - name: gps

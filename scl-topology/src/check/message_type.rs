@@ -44,11 +44,11 @@ connections:
 /// A connection whose ends differ: its index, and the gate at the other end of the gate it is grouped by.
 type Peer = (usize, usize);
 
-pub(super) fn check(draft: &Draft<'_>, with_schemas: bool, problems: &mut Diagnostics) {
+pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     let mut by_source: BTreeMap<usize, Vec<Peer>> = BTreeMap::new();
     for (link, source, sink) in draft.flows() {
         if let (Some(sent), Some(expected)) = (message(draft, source), message(draft, sink))
-            && differ(sent, expected, with_schemas)
+            && differ(sent, expected)
         {
             by_source.entry(source).or_default().push((link, sink));
         }
@@ -65,9 +65,10 @@ pub(super) fn check(draft: &Draft<'_>, with_schemas: bool, problems: &mut Diagno
     }
 }
 
-/// Whether two types are surely not one. Without schemas, names that end alike may be aliases, which the compiler knows.
-pub(super) fn differ(a: &TypeName, b: &TypeName, with_schemas: bool) -> bool {
-    a.dotted() != b.dotted() && (with_schemas || last(a) != last(b))
+/// Returns true if two types are certainly not the same. Rust paths with the same last part may be aliases, which only
+/// rustc can tell; the types of schemas have one name each.
+pub(super) fn differ(a: &TypeName, b: &TypeName) -> bool {
+    a.dotted() != b.dotted() && (a.in_schemas() || b.in_schemas() || last(a) != last(b))
 }
 
 fn last(name: &TypeName) -> Option<&str> {

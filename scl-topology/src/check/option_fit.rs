@@ -2,13 +2,11 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::grammar;
 use crate::model::OptionModel;
-use crate::parse::option;
 use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 use crate::wording::all_of;
-
-use GateKind::{Pub, Pull, Push, Rep, Req, Sub};
 
 /// SCL0408.
 pub(crate) const RULE: Rule = Rule {
@@ -49,30 +47,17 @@ pub(super) fn check(kind: Option<GateKind>, option: &OptionModel) -> Option<Diag
 /// Why a kind has no such option, if it has none.
 pub(super) fn misfit(kind: Option<GateKind>, key: &str) -> Option<String> {
     let kind = kind.filter(|&kind| !fits(kind, key))?;
-    let words: Vec<&str> = option::rule(key)?.kinds.iter().map(|kind| kind.word()).collect();
+    let option = grammar::option(key)?;
+    let words: Vec<&str> = option.kinds.iter().map(|kind| kind.word()).collect();
     let belongs = format!("`{key}` is for {}", all_of(&words));
-    Some(match reason(kind, key) {
+    Some(match option.reason(kind) {
         Some(reason) => format!("{reason}; {belongs}"),
         None => belongs,
     })
 }
 
 fn fits(kind: GateKind, key: &str) -> bool {
-    option::rule(key).is_none_or(|rule| rule.kinds.contains(&kind))
-}
-
-fn reason(kind: GateKind, key: &str) -> Option<&'static str> {
-    match (kind, key) {
-        (Req | Rep, "queue" | "when_full") => {
-            Some("`req` and `rep` take turns, so there is never more than one message waiting")
-        }
-        (Pub | Push, "queue" | "when_full") => Some("each receiver says how many messages may wait for it"),
-        (Pub | Push, "max_size") => Some("each receiving gate sets its own limit"),
-        (Sub | Pull, "backpressure") => Some("a receiver asks for it with `when_full: wait`"),
-        (Rep, "timeout") => Some("each requester says how long it waits"),
-        (Pub, "share") => Some("every subscriber gets every message"),
-        _ => None,
-    }
+    grammar::option(key).is_none_or(|option| option.fits(kind))
 }
 
 #[cfg(test)]

@@ -77,7 +77,7 @@ fn read_payload(
     for (at, part) in parts.iter().enumerate() {
         let span = if parts.len() == 1 { written.span } else { draft.part(written.span, part, at > 0) };
         match fault(part) {
-            None => types.push(TypeName { dotted: (*part).to_owned(), span }),
+            None => types.push(TypeName { dotted: (*part).to_owned(), span, in_schemas: false }),
             Some(fault) => problems.push(no_type(part, span, &fault)),
         }
     }

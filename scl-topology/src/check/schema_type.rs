@@ -1,4 +1,7 @@
-//! SCL0405: a type that none of the `schemas` declares. Without schemas the compiler looks types up instead.
+//! SCL0405: a type of the schemas that none of them declares. Decides which types are those of the schemas.
+//!
+//! A type whose first part is a package of the schemas is one of theirs. Any other is a Rust path, which rustc looks up
+//! where the macro is called, unless it is nearly the name of a message.
 
 use super::draft::Draft;
 use super::{Facts, SchemaMessages};
@@ -6,17 +9,21 @@ use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::{Examples, Rule};
 use crate::suggest::{same_parts, similar};
-use crate::topology::{Payload, TypeName};
+use crate::topology::TypeName;
 use crate::wording::{either, listed};
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashMap};
+
+/// No message offers more names than this.
+const MOST: usize = 3;
 
 /// SCL0405.
 pub(crate) const RULE: Rule = Rule {
     code: "SCL0405",
     severity: Severity::Error,
     title: "unknown message type",
-    explanation: "The file names `schemas`, and none of them declares this message. It is mostly misspelt, or its \
-                  package is missing before the dot. Without `schemas` the name is looked up by rustc instead.",
+    explanation: "The first part of this type is a package of the `schemas`, or nearly one, but no schema declares such \
+                  a message. It is mostly misspelt, or its package is missing before the dot. A type whose first part \
+                  is no package is a Rust path, which rustc looks up where the macro is called.",
     examples: Examples::Topology {
         bad: "schemas: [uav.proto]
 components:
@@ -35,38 +42,107 @@ components:
 
 pub(super) fn check(draft: &mut Draft<'_>, facts: &Facts, problems: &mut Diagnostics) {
     let Some(schemas) = &facts.messages else { return };
-    let known: HashSet<&str> = schemas.iter().flat_map(|schema| schema.names.iter()).map(String::as_str).collect();
+    let known = Known::of(schemas);
     for at in 0..draft.gates.len() {
-        let unknown: Vec<TypeName> = types(draft.gates[at].payload.as_ref())
-            .into_iter()
-            .filter(|name| !known.contains(name.dotted()))
-            .cloned()
-            .collect();
-        for name in &unknown {
-            problems.push(report(draft, schemas, &known, name));
-            draft.gates[at].payload = None;
+        let Some(mut payload) = draft.gates[at].payload.take() else { continue };
+        let mut unknown = false;
+        for name in payload.types_mut() {
+            if known.all.contains(name.dotted()) {
+                name.in_schemas = true;
+                continue;
+            }
+            let meant = known.nearest(name.dotted(), || draft.may_search());
+            if known.has_root(name.dotted()) || !meant.is_empty() {
+                problems.push(report(draft, schemas, &known, name, &meant));
+                unknown = true;
+            }
         }
+        draft.gates[at].payload = if unknown { None } else { Some(payload) };
     }
 }
 
-fn types(payload: Option<&Payload>) -> Vec<&TypeName> {
-    match payload {
-        Some(Payload::Message(name)) => vec![name],
-        Some(Payload::Exchange { request, reply }) => vec![request, reply],
-        Some(Payload::Bytes) | None => Vec::new(),
+/// The messages of all schemas.
+struct Known<'s> {
+    all: BTreeSet<&'s str>,
+    /// The first part of every name: a package, or a message without one.
+    roots: BTreeSet<&'s str>,
+    /// The names by their last part.
+    by_last: HashMap<&'s str, Vec<&'s str>>,
+}
+
+impl<'s> Known<'s> {
+    fn of(schemas: &'s [SchemaMessages]) -> Self {
+        let all: BTreeSet<&str> = schemas.iter().flat_map(|schema| schema.names.iter()).map(String::as_str).collect();
+        let roots = all.iter().map(|name| root(name)).chain(["google"]).collect();
+        let mut by_last: HashMap<&str, Vec<&str>> = HashMap::new();
+        for name in &all {
+            by_last.entry(name.rsplit('.').next().unwrap_or_default()).or_default().push(name);
+        }
+        Self { all, roots, by_last }
+    }
+
+    /// Returns true if the type can only be one of the schemas, because its first part belongs to them.
+    fn has_root(&self, dotted: &str) -> bool {
+        self.roots.contains(root(dotted))
+    }
+
+    /// The messages that an unknown type may mean. For a type outside of the schemas' packages, only those whose package
+    /// is misspelt or missing: any other is a Rust path.
+    ///
+    /// `may_search` is asked before a search that takes long in a file with very many types.
+    fn nearest(&self, dotted: &str, mut may_search: impl FnMut() -> bool) -> Vec<&'s str> {
+        let all = || self.all.iter().copied();
+        if self.has_root(dotted) {
+            return match may_search() {
+                true => some(same_parts(dotted, all())).unwrap_or_else(|| similar(dotted, all())),
+                false => Vec::new(),
+            };
+        }
+        let Some((first, rest)) = dotted.split_once('.') else { return self.without_package(dotted) };
+        let swapped: Vec<&str> = dotted.rsplit('.').collect();
+        if let Some(&name) = self.all.get(swapped.join(".").as_str()) {
+            return vec![name];
+        }
+        let roots = similar(first, self.roots.iter().copied());
+        let misspelt = roots.iter().filter_map(|root| self.all.get(format!("{root}.{rest}").as_str()).copied());
+        if let Some(found) = some(misspelt.collect()) {
+            return found;
+        }
+        if roots.is_empty() || !may_search() {
+            return Vec::new();
+        }
+        let fits = |name: &&str| {
+            name.split_once('.')
+                .is_some_and(|(root, other)| roots.contains(&root) && !similar(rest, [other]).is_empty())
+        };
+        all().filter(fits).take(MOST).collect()
+    }
+
+    /// `Measurement` means `uav.Measurement`, and `Mesurement` a message that has no package.
+    fn without_package(&self, name: &str) -> Vec<&'s str> {
+        let same_end = self.by_last.get(name).map(|names| names.iter().copied().take(MOST).collect());
+        same_end.unwrap_or_else(|| similar(name, self.roots.iter().copied().filter(|root| self.all.contains(root))))
     }
 }
 
-fn report(draft: &Draft<'_>, schemas: &[SchemaMessages], known: &HashSet<&str>, name: &TypeName) -> Diagnostic {
-    let mut all: Vec<&str> = known.iter().copied().collect();
-    all.sort_unstable();
-    let mut meant = same_parts(name.dotted(), all.iter().copied());
-    if meant.is_empty() {
-        meant = similar(name.dotted(), all.iter().copied());
-    }
+fn some(names: Vec<&str>) -> Option<Vec<&str>> {
+    (!names.is_empty()).then_some(names)
+}
+
+fn root(dotted: &str) -> &str {
+    dotted.split('.').next().unwrap_or_default()
+}
+
+fn report(
+    draft: &Draft<'_>,
+    schemas: &[SchemaMessages],
+    known: &Known<'_>,
+    name: &TypeName,
+    meant: &[&str],
+) -> Diagnostic {
     let headline = format!("unknown message type `{}`", name.dotted());
     let mut found = RULE.at(headline, name.span(), "not in the schemas");
-    if let [only] = meant.as_slice() {
+    if let [only] = meant {
         let declares = |schema: &SchemaMessages| schema.names.iter().any(|other| other == only);
         let place = schemas.iter().position(declares).and_then(|at| draft.model.schemas.get(at));
         if let Some(place) = place {
@@ -74,18 +150,21 @@ fn report(draft: &Draft<'_>, schemas: &[SchemaMessages], known: &HashSet<&str>, 
         }
     }
     if !meant.is_empty() {
-        found = found.help(format!("did you mean {}?", either(&meant)));
+        found = found.help(format!("did you mean {}?", either(meant)));
     }
-    if all.is_empty() {
+    if !known.has_root(name.dotted()) {
+        found = found.help(format!("if it is a Rust type of your own, write its path: `crate.{}`", name.dotted()));
+    }
+    if known.all.is_empty() {
         return found.note("the `schemas` declare no message types");
     }
-    found.note(format!("message types in `schemas`: {}", listed(all)))
+    found.note(format!("message types in `schemas`: {}", listed(&known.all)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::RULE;
-    use crate::check::testing::{example_with, rule_example_with};
+    use crate::check::testing::{example_with, problems, rule_example_with};
     use expect_test::expect;
 
     #[test]
@@ -123,18 +202,51 @@ components:
             yaml.trim_start(),
             Some(&["uav.Measurement"]),
             expect![[r#"
-            error: [SCL0405] unknown message type `Measurement`
-             --> topology.yaml:5:29
-              |
-            1 | schemas: [uav.proto]
-              |           --------- declares `uav.Measurement`
-            ...
-            5 |       - measurements: {pub: Measurement}
-              |                             ^^^^^^^^^^^ not in the schemas
-              |
-              = help: did you mean `uav.Measurement`?
-              = note: message types in `schemas`: `uav.Measurement`
-        "#]],
+                error: [SCL0405] unknown message type `Measurement`
+                 --> topology.yaml:5:29
+                  |
+                1 | schemas: [uav.proto]
+                  |           --------- declares `uav.Measurement`
+                ...
+                5 |       - measurements: {pub: Measurement}
+                  |                             ^^^^^^^^^^^ not in the schemas
+                  |
+                  = help: did you mean `uav.Measurement`?
+                  = help: if it is a Rust type of your own, write its path: `crate.Measurement`
+                  = note: message types in `schemas`: `uav.Measurement`
+            "#]],
         );
+    }
+
+    /// What is said about types in a file whose schemas declare `uav.Measurement`, `uav.v1.Fix` and `Time`.
+    #[test]
+    fn types_outside_of_the_packages_are_rust_paths() {
+        let told = |message: &str| {
+            let yaml =
+                format!("schemas: [uav.proto]\ncomponents:\n  - name: a\n    gates:\n      - x: {{pub: {message}}}\n");
+            let (found, _) = problems(&yaml, Some(&["uav.Measurement", "uav.v1.Fix", "Time"]));
+            let found = found.into_iter().find(|found| found.code() == RULE.code);
+            found.map_or_else(|| "Rust or known".to_owned(), |found| found.helps.first().cloned().unwrap_or_default())
+        };
+        let cases = [
+            ("uav.Measurement", "Rust or known"),
+            ("Time", "Rust or known"),
+            ("camera.Image", "Rust or known"),
+            ("camera.Measurement", "Rust or known"),
+            ("Image", "Rust or known"),
+            ("crate.uav.Other", "Rust or known"),
+            ("uva.Image", "Rust or known"),
+            ("uav.Image", ""),
+            ("uav.v2.Fix", "did you mean `uav.v1.Fix`?"),
+            ("uva.Measurement", "did you mean `uav.Measurement`?"),
+            ("UAV.Mesurement", "did you mean `uav.Measurement`?"),
+            ("Measurement", "did you mean `uav.Measurement`?"),
+            ("Measurement.uav", "did you mean `uav.Measurement`?"),
+            ("Tmie", "did you mean `Time`?"),
+            ("google.protobuf.Timestamp", ""),
+        ];
+        for (message, expected) in cases {
+            assert_eq!(told(message), expected, "{message}");
+        }
     }
 }

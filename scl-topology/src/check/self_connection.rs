@@ -1,10 +1,14 @@
-//! SCL0507: a gate connected to itself. SCL0508: a component that asks itself. SCL0509: one that subscribes to itself.
+//! SCL0507: a gate connected to itself. SCL0508: a component that waits for itself. SCL0509: one that subscribes to
+//! itself.
 
+use super::deadlock::drop_messages;
 use super::draft::Draft;
+use super::waits::{self, Wait};
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
+use std::collections::HashSet;
 
 /// SCL0507.
 pub(crate) const ITSELF: Rule = Rule {
@@ -35,12 +39,13 @@ connections:
 };
 
 /// SCL0508.
-pub(crate) const ASKS_ITSELF: Rule = Rule {
+pub(crate) const WAITS_FOR_ITSELF: Rule = Rule {
     code: "SCL0508",
     severity: Severity::Error,
-    title: "component asks itself",
-    explanation: "A component that asks itself waits for an answer that only it can give, and with one thread it waits \
-                  for ever. Call a function inside the component instead.",
+    title: "component waits for itself",
+    explanation: "A component that asks itself waits for an answer that only it can give; one that sends itself \
+                  messages with `backpressure: true` and `when_full: wait` waits for room in a queue that only it can \
+                  empty. Call a function inside the component, or keep the value in it.",
     examples: Examples::Topology {
         bad: "components:
   - name: planner
@@ -104,38 +109,54 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             problems.push(found);
         }
     }
-    for (link, source, sink) in draft.flows() {
+    let waits: Vec<Wait> = waits::all(draft).into_iter().filter(Wait::is_for_itself).collect();
+    let waiting: HashSet<usize> = waits.iter().flat_map(|wait| &wait.steps).map(|step| step.link).collect();
+    let receivers = waits::receivers_that_wait(draft);
+    problems.extend(waits.iter().filter_map(|wait| waits_for_itself(draft, wait, &receivers)));
+    for (link, source, sink) in draft.flows().filter(|(link, ..)| !waiting.contains(link)) {
         if draft.component_name(source) == draft.component_name(sink) {
-            problems.push(to_itself(draft, link, source));
+            problems.push(hears_itself(draft, link, source));
         }
     }
 }
 
-fn to_itself(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
+fn waits_for_itself(draft: &Draft<'_>, wait: &Wait, receivers: &[usize]) -> Option<Diagnostic> {
+    let first = wait.steps[0].link;
+    let (source, sink) = draft.links[first].flow?;
     let name = draft.component_name(source);
-    let span = draft.links[link].model.span;
-    match draft.gates[source].kind {
-        Some(GateKind::Req) => {
-            let headline = format!("component `{name}` sends requests to itself");
-            let label = format!("`{name}` would wait for an answer that only `{name}` can give");
-            ASKS_ITSELF
-                .at(headline, span, label)
-                .help("call a function inside the component instead")
-                .note("a component with one thread stops here for ever")
-        }
-        kind => {
-            let does =
-                if kind == Some(GateKind::Push) { "pulls its own work" } else { "subscribes to its own messages" };
-            let headline = format!("component `{name}` {does}");
-            HEARS_ITSELF.at(headline, span, "leaves the process and comes back").help("keep the value in the component")
-        }
+    if draft.gates[source].kind == Some(GateKind::Req) {
+        let label = format!("`{name}` would wait for an answer that only `{name}` can give");
+        let headline = format!("component `{name}` sends requests to itself");
+        let found = WAITS_FOR_ITSELF.at(headline, draft.links[first].model.span, label);
+        return Some(found.help("call a function inside the component instead"));
     }
+    let label = |sink| {
+        format!("`{name}` waits while the queue of `{}` is full, and only `{name}` can empty it", draft.path(sink))
+    };
+    let headline = format!("component `{name}` waits for itself");
+    let mut found = WAITS_FOR_ITSELF.at(headline, draft.links[first].model.span, label(sink));
+    for step in &wait.steps[1..] {
+        let (_, sink) = draft.links[step.link].flow?;
+        found = found.label(draft.links[step.link].model.span, label(sink));
+    }
+    let found = found.help("keep the value in the component");
+    Some(drop_messages(draft, found, source, sink, receivers[source]))
+}
+
+fn hears_itself(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
+    let name = draft.component_name(source);
+    let is_work = draft.gates[source].kind == Some(GateKind::Push);
+    let does = if is_work { "pulls its own work" } else { "subscribes to its own messages" };
+    let span = draft.links[link].model.span;
+    HEARS_ITSELF
+        .at(format!("component `{name}` {does}"), span, "leaves the process and comes back")
+        .help("keep the value in the component")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{ASKS_ITSELF, HEARS_ITSELF, ITSELF};
-    use crate::check::testing::rule_example;
+    use super::{HEARS_ITSELF, ITSELF, WAITS_FOR_ITSELF};
+    use crate::check::testing::{example, rule_example};
     use expect_test::expect;
 
     #[test]
@@ -155,18 +176,43 @@ mod tests {
     }
 
     #[test]
-    fn component_asks_itself() {
+    fn component_waits_for_itself() {
         rule_example(
-            &ASKS_ITSELF,
+            &WAITS_FOR_ITSELF,
             expect![[r#"
-            error: [SCL0508] component `planner` sends requests to itself
+                error: [SCL0508] component `planner` sends requests to itself
+                 --> topology.yaml:7:5
+                  |
+                7 |   - [planner.ask, planner.answer]
+                  |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `planner` would wait for an answer that only `planner` can give
+                  |
+                  = help: call a function inside the component instead
+            "#]],
+        );
+    }
+
+    #[test]
+    fn component_waits_for_room_in_its_own_queue() {
+        let yaml = "components:
+  - name: planner
+    gates:
+      - plan: {pub: Plan, backpressure: true}
+      - old_plan: {sub: Plan, when_full: wait}
+connections:
+  - [planner.plan, planner.old_plan]
+";
+        example(
+            "SCL0508",
+            yaml,
+            expect![[r#"
+            error: [SCL0508] component `planner` waits for itself
              --> topology.yaml:7:5
               |
-            7 |   - [planner.ask, planner.answer]
-              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `planner` would wait for an answer that only `planner` can give
+            7 |   - [planner.plan, planner.old_plan]
+              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `planner` waits while the queue of `planner.old_plan` is full, and only `planner` can empty it
               |
-              = help: call a function inside the component instead
-              = note: a component with one thread stops here for ever
+              = help: keep the value in the component
+              = help: let `planner.old_plan` drop messages: `when_full: drop_oldest`, and remove `backpressure` from `planner.plan`
         "#]],
         );
     }

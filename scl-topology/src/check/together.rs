@@ -76,7 +76,7 @@ fn sound_files_are_silent() {
             "untyped gates with options",
             file(
                 "x: {pub: , backpressure: true}; w: {pub: null, unconnected: ok}",
-                "x: {sub: ~, queue: 1}",
+                "x: {sub: ~, when_full: wait}",
                 "[a.x, b.x]",
             ),
         ),
@@ -96,6 +96,7 @@ components:
     doc: Reads the inertial unit.
     gates:
       - measurements: {pub: rover.Measurement, backpressure: true}
+      - jobs: pull
   - name: pilot
     optional: true
     gates:
@@ -110,6 +111,7 @@ connections:
   - [sensor.measurements, pilot.sensor]
   - [ground.orders, pilot.orders]
   - [pilot.jobs, ground.jobs]
+  - [pilot.jobs, sensor.jobs]
 ";
 
 /// The places of words, with `.` and `-` as ends of words.

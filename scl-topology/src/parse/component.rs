@@ -2,12 +2,13 @@
 
 use super::fields::{Field, Fields};
 use super::{Reader, gate, pitfall, scalar, shape};
+use crate::grammar;
 use crate::model::ComponentModel;
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
 
 /// The keys of a component, in the order in which messages list them.
-pub(super) const KEYS: [&str; 4] = ["name", "gates", "doc", "optional"];
+pub(super) const KEYS: [&str; grammar::COMPONENT_KEYS.len()] = grammar::words(&grammar::COMPONENT_KEYS);
 
 impl Reader<'_> {
     pub(super) fn read_components(&mut self, section: Field<'_>) {

@@ -1,10 +1,10 @@
 //! A mapping as the keys that we can read, each once.
 
-use super::{Reader, component, option, pitfall, sections};
+use super::{Reader, pitfall};
 use crate::confusable;
 use crate::diagnostic::Diagnostic;
+use crate::grammar::{self, GateKind};
 use crate::source::Span;
-use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -122,8 +122,8 @@ impl Reader<'_> {
 
 /// One of the words that the format knows as keys.
 pub(super) fn known_word(word: &str) -> Option<&'static str> {
-    let keys = sections::SECTIONS.iter().chain(&component::KEYS).copied();
+    let keys = grammar::SECTIONS.iter().chain(&grammar::COMPONENT_KEYS).map(|key| key.key);
     let kinds = GateKind::ALL.into_iter().map(GateKind::word);
-    let options = option::OPTIONS.iter().map(|option| option.key);
+    let options = grammar::OPTIONS.iter().map(|option| option.key);
     keys.chain(kinds).chain(options).find(|known| *known == word)
 }

@@ -315,7 +315,7 @@ fn odd_arrow(payload: &str) -> Option<(&str, String)> {
 }
 
 pub(super) fn is_kind(word: &str) -> bool {
-    GateKind::ALL.iter().any(|kind| kind.word() == word)
+    GateKind::of(word).is_some()
 }
 
 fn bare_gate(name: Spanned<String>, kind: Spanned<String>, span: Span) -> GateModel {

@@ -11,6 +11,7 @@ pub(super) mod duplicate_key;
 mod empty_file;
 mod indentation;
 mod invisible;
+pub(super) mod leading_zero;
 pub(super) mod look_alike;
 pub(super) mod merge_key;
 mod missing_colon;
@@ -26,6 +27,7 @@ mod reserved_character;
 mod scan;
 mod second_document;
 mod tab;
+mod tab_separator;
 mod tag;
 pub(super) mod text_block_name;
 mod unexpected;
@@ -36,7 +38,7 @@ use crate::source::{FileId, SourceFile, Span};
 use crate::yaml::{SyntaxError, SyntaxErrorKind, Tree};
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 27] = [
+pub(crate) const RULES: [&Rule; 29] = [
     &tab::RULE,
     &bracket::RULE,
     &missing_space::RULE,
@@ -64,6 +66,8 @@ pub(crate) const RULES: [&Rule; 27] = [
     &unexpected::RULE,
     &conflict_marker::RULE,
     &look_alike::RULE,
+    &leading_zero::RULE,
+    &tab_separator::RULE,
 ];
 
 /// The rules about words that YAML reads as something else, or that hold an invisible character.
@@ -125,6 +129,7 @@ pub(super) fn check_text(source: &SourceFile, file: FileId, problems: &mut Diagn
     let is_cleaned = invisible::check(&place, &scan, &mut text, problems);
     directive::check(&place, &mut text, problems);
     let has_tabs = tab::check(&place, &scan, &mut text, problems);
+    tab_separator::check(&place, &scan, &mut text, problems);
     CheckedText { text, is_mended: is_cleaned || has_tabs || has_conflict, has_conflict }
 }
 

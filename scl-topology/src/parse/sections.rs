@@ -2,12 +2,13 @@
 
 use super::fields::{Field, Fields};
 use super::{Reader, shape};
+use crate::grammar;
 use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
 
 /// The sections of a topology, in the order in which messages list them.
-pub(super) const SECTIONS: [&str; 6] = ["components", "connections", "system", "schemas", "codec", "scl"];
+pub(super) const SECTIONS: [&str; grammar::SECTIONS.len()] = grammar::words(&grammar::SECTIONS);
 
 impl Reader<'_> {
     pub(super) fn read_sections(&mut self, entries: &[(Node, Node)]) {
@@ -20,7 +21,7 @@ impl Reader<'_> {
                 "scl" => self.read_version(*field),
                 "components" => fields.all("components").for_each(|section| self.read_components(section)),
                 "connections" => fields.all("connections").for_each(|section| self.read_connections(section)),
-                key if key.starts_with("x-") => {}
+                key if key.starts_with(grammar::OWN_PREFIX) => {}
                 _ => self.report_unknown_section(*field),
             }
         }
@@ -72,7 +73,7 @@ impl Reader<'_> {
         let perhaps = |section: &str| fields.damaged || fields.list.iter().any(|field| is_misspelt(field.key, section));
         let is_odd_list = |field: &Field<'_>| {
             !SECTIONS.contains(&field.key)
-                && !field.key.starts_with("x-")
+                && !field.key.starts_with(grammar::OWN_PREFIX)
                 && matches!(field.value.kind, NodeKind::Sequence { .. })
         };
         let has_connections = fields.get("connections").is_some();

@@ -1,10 +1,15 @@
-//! JSON, for any serde type.
+//! JSON, for any serde type. The messages of `schemas:` are serde types too, see `message_json`.
 
 use super::{Codec, DecodeError, EncodeError};
 use bytes::{BufMut, Bytes, BytesMut};
 use serde::{Serialize, de::DeserializeOwned};
 
-/// Encodes any serde type as one JSON value.
+/// Encodes any serde type as one JSON value, and the messages of `schemas:` as canonical protobuf JSON.
+///
+/// [Canonical protobuf JSON](https://protobuf.dev/programming-guides/json) is what protobuf's libraries of other
+/// languages read and write: names in lowerCamelCase, 64-bit integers as strings, bytes in base64, enum values by name,
+/// fields with their default left out. A field that the receiver does not know is skipped, as in `protobuf`, so a
+/// Python program reads such frames with `json_format.Parse(.., ignore_unknown_fields=True)` to do the same.
 ///
 /// JSON has neither infinity nor NaN: such numbers are encoded as `null`, which does not decode as a number. Values
 /// nested deeper than 128 levels, and anything but white space after the value, are refused.

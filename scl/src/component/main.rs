@@ -15,38 +15,16 @@ use tokio::runtime::{Builder, Runtime};
 /// How long a program that ends by itself waits for its peers to receive what was sent.
 const LINGER: Duration = Duration::from_secs(1);
 
-/// What a main function may return.
-pub trait Outcome {
-    #[doc(hidden)]
-    fn into_result(self) -> Result<(), Error>;
-}
-
-impl Outcome for () {
-    fn into_result(self) -> Result<(), Error> {
-        Ok(())
-    }
-}
-
-impl<E: Into<Error>> Outcome for Result<(), E> {
-    fn into_result(self) -> Result<(), Error> {
-        self.map_err(Into::into)
-    }
-}
-
 /// Runs an async main function on a current-thread runtime, the fastest for gates, until it returns or a stop request
 /// ends it at its next `.await`.
-pub fn run_async<C: Component, F, R>(main: fn(C) -> F) -> ExitCode
-where
-    F: Future<Output = R>,
-    R: Outcome,
-{
+pub fn run_async<C: Component, F: Future<Output = Result<(), Error>>>(main: fn(C) -> F) -> ExitCode {
     let result = set_up().and_then(|()| {
         let runtime = Builder::new_current_thread().enable_all().build()?;
         run(runtime, async {
             let component = super::open::<C>(OpenOptions::new()).await?;
             let handle = C::handle(&component).clone();
             let returned = stop::until_stopped(main(component)).await;
-            let result = returned.map_err(Error::from).and_then(Outcome::into_result);
+            let result = returned.map_err(Error::from).and_then(|result| result);
             let (mode, timeout) = last_flush();
             conclude(result, handle.flush(mode, timeout).await)
         })
@@ -56,11 +34,11 @@ where
 
 /// Runs a main function without async. After a stop request its calls to gates fail with
 /// [`BlockingError::Stopped`](crate::BlockingError::Stopped), which counts as success.
-pub fn run_blocking<C: Component, R: Outcome>(main: fn(C) -> R) -> ExitCode {
+pub fn run_blocking<C: Component>(main: fn(C) -> Result<(), Error>) -> ExitCode {
     let result = set_up().and_then(|()| {
         let component = super::open_blocking::<C>(OpenOptions::new())?;
         let handle = C::handle(&component).clone();
-        let result = main(component).into_result();
+        let result = main(component);
         let (mode, timeout) = last_flush();
         conclude(result, handle.flush_blocking(mode, timeout))
     });

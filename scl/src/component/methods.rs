@@ -4,7 +4,8 @@
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __component_methods {
-    ($component:ident) => {
+    // After the name: the bounds of the functions that open the component.
+    ($component:ident $($bounds:tt)*) => {
         impl $component {
             /// Opens the component on the tokio runtime of the caller, whatever its flavour: registers the component,
             /// announces it and opens its gates. Peers connect by themselves, in whatever order they start.
@@ -14,7 +15,9 @@ macro_rules! __component_methods {
             ///
             /// # Cancel safety
             /// It never waits.
-            pub async fn open() -> ::core::result::Result<Self, $crate::OpenError> {
+            pub async fn open() -> ::core::result::Result<Self, $crate::OpenError>
+            $($bounds)*
+            {
                 $crate::private::open(::core::default::Default::default()).await
             }
 
@@ -22,7 +25,9 @@ macro_rules! __component_methods {
             ///
             /// # Errors
             /// Those of `open`.
-            pub async fn open_with(options: $crate::OpenOptions) -> ::core::result::Result<Self, $crate::OpenError> {
+            pub async fn open_with(options: $crate::OpenOptions) -> ::core::result::Result<Self, $crate::OpenError>
+            $($bounds)*
+            {
                 $crate::private::open(options).await
             }
 
@@ -31,7 +36,9 @@ macro_rules! __component_methods {
             ///
             /// # Errors
             /// Those of `open`.
-            pub fn open_blocking() -> ::core::result::Result<Self, $crate::OpenError> {
+            pub fn open_blocking() -> ::core::result::Result<Self, $crate::OpenError>
+            $($bounds)*
+            {
                 $crate::private::open_blocking(::core::default::Default::default())
             }
 
@@ -39,7 +46,9 @@ macro_rules! __component_methods {
             ///
             /// # Errors
             /// Those of `open`.
-            pub fn open_blocking_with(options: $crate::OpenOptions) -> ::core::result::Result<Self, $crate::OpenError> {
+            pub fn open_blocking_with(options: $crate::OpenOptions) -> ::core::result::Result<Self, $crate::OpenError>
+            $($bounds)*
+            {
                 $crate::private::open_blocking(options)
             }
 
@@ -90,17 +99,24 @@ macro_rules! __component_methods {
             }
 
             #[doc(hidden)]
-            pub fn __scl_main_async<F, R>(main: fn(Self) -> F) -> ::std::process::ExitCode
-            where
-                F: ::core::future::Future<Output = R>,
-                R: $crate::private::Outcome,
+            pub fn __scl_main_async<F: ::core::future::Future<Output = $crate::Result<()>>>(
+                main: fn(Self) -> F,
+            ) -> ::std::process::ExitCode
+            $($bounds)*
             {
                 $crate::private::run_async(main)
             }
 
             #[doc(hidden)]
-            pub fn __scl_main_blocking<R: $crate::private::Outcome>(main: fn(Self) -> R) -> ::std::process::ExitCode {
+            pub fn __scl_main_blocking(main: fn(Self) -> $crate::Result<()>) -> ::std::process::ExitCode
+            $($bounds)*
+            {
                 $crate::private::run_blocking(main)
+            }
+
+            #[doc(hidden)]
+            pub fn __scl_returned<R>(returned: &R) -> $crate::private::Returned<R> {
+                $crate::private::Returned::of(returned)
             }
         }
     };
@@ -111,7 +127,7 @@ macro_rules! __component_methods {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __component_test_methods {
-    ($component:ident, $peer:ident) => {};
+    ($component:ident, $peer:ident $($bounds:tt)*) => {};
 }
 
 /// The functions for unit tests in the crate that calls `topology!`.
@@ -119,14 +135,16 @@ macro_rules! __component_test_methods {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __component_test_methods {
-    ($component:ident, $peer:ident) => {
+    ($component:ident, $peer:ident $($bounds:tt)*) => {
         impl $component {
             /// Opens the component for a unit test, together with the other ends of all its gates, without processes,
             /// sockets or files.
             ///
             /// # Errors
             /// There is no tokio runtime.
-            pub async fn test() -> ::core::result::Result<(Self, $peer), $crate::OpenError> {
+            pub async fn test() -> ::core::result::Result<(Self, $peer), $crate::OpenError>
+            $($bounds)*
+            {
                 let transport = $crate::private::Memory::new();
                 let component = $crate::private::open($crate::OpenOptions::new().transport(transport.clone())).await?;
                 let peer = $crate::private::open($crate::OpenOptions::new().transport(transport)).await?;
@@ -137,7 +155,9 @@ macro_rules! __component_test_methods {
             ///
             /// # Errors
             /// The operating system refuses a runtime.
-            pub fn test_blocking() -> ::core::result::Result<(Self, $peer), $crate::OpenError> {
+            pub fn test_blocking() -> ::core::result::Result<(Self, $peer), $crate::OpenError>
+            $($bounds)*
+            {
                 let transport = $crate::private::Memory::new();
                 let component =
                     $crate::private::open_blocking($crate::OpenOptions::new().transport(transport.clone()))?;

@@ -3,7 +3,7 @@
 use super::foreign::ForeignPeer;
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::stats::{Activity, PeerStats};
-use crate::error::{GateName, PeerName, Unflushed};
+use crate::error::{GateName, Missing, PeerName, Unflushed};
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
 use crate::state::{Changes, SendingEnd};
 use crate::transport::{Link, Peer, PeerKind, Sender};
@@ -121,6 +121,12 @@ impl Connection {
         }
     }
 
+    /// The peer, if it is required and not connected.
+    pub(crate) fn missing(&self) -> Option<Missing> {
+        let is_missing = self.link.required && !self.is_connected();
+        is_missing.then(|| Missing { link: self.link, refusal: self.sender.refusal() })
+    }
+
     /// Ready when a message would find room, or would not have to wait for it.
     pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         if self.would_wait() {
@@ -167,14 +173,6 @@ impl Connection {
 
     pub(crate) fn peer_name(&self) -> PeerName {
         PeerName::of(self.link)
-    }
-
-    pub(crate) fn link(&self) -> &'static LinkSpec {
-        self.link
-    }
-
-    pub(crate) fn refusal(&self) -> Option<String> {
-        self.sender.refusal()
     }
 
     pub(crate) fn account(&self) -> &Account {
@@ -279,6 +277,12 @@ impl Connection {
         }
     }
 
+    /// Returns true if all connected peers were given everything.
+    fn is_written(&self) -> bool {
+        self.peer.as_ref().is_none_or(|link| self.queue.is_empty() && link.is_written())
+            && self.foreign.iter().all(ForeignPeer::is_flushed)
+    }
+
     fn unacknowledged(&self) -> u64 {
         self.peer.as_ref().map_or(0, |link| link.unacknowledged())
     }
@@ -316,18 +320,16 @@ impl SendingEnd for Connection {
         if !self.waiting_flushes.iter().any(|known| known.will_wake(cx.waker())) {
             self.waiting_flushes.push(cx.waker().clone());
         }
-        let foreign = self.foreign.iter().all(ForeignPeer::is_flushed);
-        let component = match &mut self.peer {
-            Some(link) => {
-                let written = self.queue.is_empty() && link.is_written();
-                if written && acknowledged && link.unacknowledged() > 0 {
-                    link.request_acknowledgement(&mut Context::from_waker(&self.task));
-                }
-                written && !(acknowledged && link.unacknowledged() > 0)
-            }
-            None => true,
-        };
-        if foreign && component { Poll::Ready(()) } else { Poll::Pending }
+        if acknowledged
+            && let Some(link) = &mut self.peer
+            && self.queue.is_empty()
+            && link.is_written()
+            && link.unacknowledged() > 0
+        {
+            link.request_acknowledgement(&mut Context::from_waker(&self.task));
+        }
+        let taken = !acknowledged || self.unacknowledged() == 0;
+        if taken && self.is_written() { Poll::Ready(()) } else { Poll::Pending }
     }
 
     fn waits_for_absent_peer(&self) -> Option<Unflushed> {
@@ -342,6 +344,14 @@ impl SendingEnd for Connection {
 
     fn drive(&mut self, cx: &mut Context<'_>) {
         Self::drive(self, cx);
+    }
+
+    fn write_out(&mut self) -> bool {
+        if !self.is_written() {
+            let task = self.task.clone();
+            Self::drive(self, &mut Context::from_waker(&task));
+        }
+        self.is_written()
     }
 
     fn detach(&mut self) {

@@ -124,6 +124,11 @@ impl SendingEnd for Link {
         }
     }
 
+    /// Replies are never held back.
+    fn write_out(&mut self) -> bool {
+        true
+    }
+
     fn detach(&mut self) {
         self.replier.detach();
     }

@@ -227,7 +227,7 @@ mod tests {
             let error = RuntimeDirError::io("bind the socket", Path::new("/run/scl/a.b"), errno.into());
             let text = error.to_string();
             assert!(text.starts_with(&format!("cannot bind the socket `/run/scl/a.b`\nhelp: {expected}")), "{text}");
-            // The source's text is printed by whoever prints the chain of sources, and only there.
+            // The source's text belongs to the chain of sources only.
             let source = std::error::Error::source(&error).map(ToString::to_string).unwrap();
             assert_eq!(source, io::Error::from(errno).to_string());
             assert!(!text.contains(&source));

@@ -40,6 +40,9 @@ pub(crate) trait SendingEnd: Send {
     /// Does background work.
     fn drive(&mut self, cx: &mut Context<'_>);
 
+    /// Writes what was held back to be written together with later messages. Returns false if something is left.
+    fn write_out(&mut self) -> bool;
+
     /// Prepares for `drive` without a runtime.
     fn detach(&mut self);
 }
@@ -90,8 +93,6 @@ pub(super) fn flush_detached(
         let awaited = |left: Unflushed| flush == Flush::Running && is_running(left.peer.component());
         end.poll_flushed(acknowledged, cx).is_ready() && !end.waits_for_absent_peer().is_some_and(awaited)
     };
-    // Before the first poll: the runtime may have ended.
-    ends.iter().for_each(|end| lock(end).detach());
     let mut open: Vec<_> = ends.iter().filter(|end| !is_done(end)).collect();
     let started = Instant::now();
     while !open.is_empty() && started.elapsed() < timeout {

@@ -1,5 +1,6 @@
 //! Plays a component of `six_kinds.yaml` without async and follows commands: `plain source` or `plain sink`.
 
+use rustix::process::WaitOptions;
 use scl_tests::{say, stop_self};
 use std::time::{Duration, Instant};
 
@@ -22,6 +23,10 @@ fn play_source(mut source: Source) -> scl::Result<()> {
             "ready" => {
                 source.ready_blocking(Duration::from_secs(30))?;
                 say("ready");
+            }
+            "reap" => {
+                rustix::process::wait(WaitOptions::empty())?;
+                say("reaped");
             }
             "publish_forever" => publish_forever(&mut source)?,
             "push_and_stop" => {

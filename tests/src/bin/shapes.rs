@@ -1,6 +1,6 @@
 //! Plays `sensor` or `viewer`, built from one of several schemas: `shapes original|swapped|extended|renamed COMPONENT`.
 
-use scl_tests::{Commands, say, say_error};
+use scl_tests::{Commands, say, say_result};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -24,13 +24,6 @@ fn timeout(words: &[String]) -> Duration {
     Duration::from_millis(words[1].parse().unwrap_or_default())
 }
 
-fn answer<T, E: Into<scl::Error>>(result: Result<T, E>, text: impl Fn(T) -> String) {
-    match result {
-        Ok(value) => say(text(value)),
-        Err(error) => say_error(error),
-    }
-}
-
 /// The two programs of one topology. `#[scl::main]` also sets up the log.
 macro_rules! variant {
     ($name:ident, $topology:literal, $message:ident { $($field:ident: $value:literal)? }) => {
@@ -39,7 +32,7 @@ macro_rules! variant {
 
             pub(crate) mod sensor {
                 use super::{Sensor, nav::$message};
-                use crate::{Commands, answer, say, timeout};
+                use crate::{Commands, say, say_result, timeout};
 
                 #[scl::main]
                 pub(crate) async fn main(mut sensor: Sensor) -> scl::Result<()> {
@@ -48,10 +41,10 @@ macro_rules! variant {
                     let mut commands = Commands::listen();
                     while let Some(words) = commands.next().await {
                         match words[0].as_str() {
-                            "ready" => answer(sensor.ready(timeout(&words)).await, |()| "ready".to_owned()),
-                            "publish" => answer(sensor.position.send(&position).await, |()| "published".to_owned()),
-                            "push" => answer(sensor.jobs.send(&position).await, |()| "pushed".to_owned()),
-                            _ => answer(sensor.question.call(&position).await, |p| format!("{} {}", p.lat, p.lon)),
+                            "ready" => say_result(sensor.ready(timeout(&words)).await, |()| "ready".to_owned()),
+                            "publish" => say_result(sensor.position.send(&position).await, |()| "published".to_owned()),
+                            "push" => say_result(sensor.jobs.send(&position).await, |()| "pushed".to_owned()),
+                            _ => say_result(sensor.question.call(&position).await, |p| format!("{} {}", p.lat, p.lon)),
                         }
                     }
                     Ok(())
@@ -60,7 +53,7 @@ macro_rules! variant {
 
             pub(crate) mod viewer {
                 use super::Viewer;
-                use crate::{Commands, answer, say, timeout};
+                use crate::{Commands, say, say_result, timeout};
 
                 #[scl::main]
                 pub(crate) async fn main(mut viewer: Viewer) -> scl::Result<()> {
@@ -68,13 +61,13 @@ macro_rules! variant {
                     let mut commands = Commands::listen();
                     while let Some(words) = commands.next().await {
                         match words[0].as_str() {
-                            "ready" => answer(viewer.ready(timeout(&words)).await, |()| "ready".to_owned()),
-                            "receive" => answer(viewer.position.recv().await, |p| format!("{} {}", p.lat, p.lon)),
-                            "pull" => answer(viewer.jobs.recv().await, |p| format!("{} {}", p.lat, p.lon)),
+                            "ready" => say_result(viewer.ready(timeout(&words)).await, |()| "ready".to_owned()),
+                            "receive" => say_result(viewer.position.recv().await, |p| format!("{} {}", p.lat, p.lon)),
+                            "pull" => say_result(viewer.jobs.recv().await, |p| format!("{} {}", p.lat, p.lon)),
                             _ => {
                                 let request = viewer.answer.recv().await?;
                                 let echo = request.message().clone();
-                                answer(request.reply(&echo), |()| "served".to_owned());
+                                say_result(request.reply(&echo), |()| "served".to_owned());
                             }
                         }
                     }

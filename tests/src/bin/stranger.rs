@@ -31,7 +31,7 @@ fn connect(address: &Address, socket_type: &str) {
     say(format!("heard {} bytes", peer.wait_until_closed().len()));
 }
 
-/// Greets whoever connects, and reports what it hears.
+/// Greets every peer that connects, and reports what it sends.
 fn listen(listener: &TcpListener, socket_type: &str) {
     listener.set_nonblocking(true).expect("no waiting");
     say("listening");

@@ -123,7 +123,7 @@ pub(crate) fn unfinished_frame(end: &End) -> Vec<RawPeer> {
     })
 }
 
-/// A message has at most so many frames, empty ones included; whoever sends more is disconnected.
+/// The number of frames of a message is limited, empty ones included; a peer that sends more is disconnected.
 pub(crate) fn endless_message(end: &End) -> Vec<RawPeer> {
     for body in [&b""[..], b"\x01", &[1; 300]] {
         let mut peer = end.joined();

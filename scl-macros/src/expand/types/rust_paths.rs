@@ -25,7 +25,9 @@ fn collect(message: &DescriptorProto, outer: &str, modules: &[String], paths: &m
     path.push(type_name(name));
     let mut inside = modules.to_vec();
     inside.push(name.to_snake_case());
-    for nested in &message.nested_type {
+    // prost makes a map of them.
+    let is_map_entry = |nested: &&DescriptorProto| nested.options.as_ref().is_some_and(|it| it.map_entry());
+    for nested in message.nested_type.iter().filter(|nested| !is_map_entry(nested)) {
         collect(nested, &full, &inside, paths);
     }
     paths.insert(full, path);

@@ -1,6 +1,6 @@
 //! Reads one comment for the checker. SCL0901: nobody knows what it says. SCL0903: it wants to allow what cannot be.
 
-use crate::check::{ALL, circle, find, unconnected};
+use crate::check::{ALL, deadlock, find, unconnected};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::model::ControlModel;
 use crate::rule::{Examples, Rule};
@@ -42,7 +42,7 @@ components: []
 };
 
 /// Errors that somebody may know better than the checker.
-const ALLOWED_ERRORS: [&Rule; 2] = [&unconnected::NO_REPLIER, &circle::REQUESTS];
+const ALLOWED_ERRORS: [&Rule; 2] = [&unconnected::NO_REPLIER, &deadlock::RULE];
 
 /// For so many unknown codes similar ones are looked for.
 const MOST_SEARCHES: usize = 20;

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::grammar;
 use crate::parse::fields::Field;
 use crate::parse::{component, with_dash};
 use crate::rule::{Examples, Rule};
@@ -41,7 +42,9 @@ pub(in crate::parse) fn in_field(field: Field<'_>, what: &str, source: &SourceFi
     };
     let help = match key {
         "name" => "write the name after the colon: `name: sensor`".to_owned(),
-        "system" | "schemas" | "codec" => format!("write it after the colon, or remove `{key}`"),
+        key if grammar::section(key).is_some_and(|section| !section.is_required) => {
+            format!("write it after the colon, or remove `{key}`")
+        }
         _ => "write it after the colon".to_owned(),
     };
     diagnose(what, span, label).help(help).note("`~` and `null` are also read as \"no value\"")

@@ -88,7 +88,7 @@ fn indenting_tabs(text: &str, scan: &Scan) -> Vec<usize> {
 }
 
 /// Whether a line ends with the `|` or `>` of a text block.
-fn opens_block(line: &str) -> bool {
+pub(super) fn opens_block(line: &str) -> bool {
     let line = line.split(" #").next().unwrap_or(line).trim_end();
     let header = line.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-'));
     header.ends_with(": |") || header.ends_with(": >") || header.ends_with("- |") || header.ends_with("- >")

@@ -3,8 +3,8 @@
 use super::ticked;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::grammar::{OPTIONS, option};
 use crate::parse::fields::Field;
-use crate::parse::option::{OPTIONS, rule};
 use crate::rule::{Examples, Rule};
 use crate::suggest::similar;
 use crate::topology::GateKind;
@@ -44,15 +44,15 @@ pub(in crate::parse) fn diagnose(field: Field<'_>, kind: &str, path: &str) -> Di
         problem = problem.help(format!("a key with a similar name exists: `{name}`{}", only_of(name, kind)));
     }
     let keys = OPTIONS.iter().filter(|option| option.kinds.iter().any(|of| of.word() == kind)).map(|option| option.key);
-    match GateKind::ALL.iter().any(|known| known.word() == kind) {
+    match GateKind::of(kind).is_some() {
         true => problem.note(format!("keys of a `{kind}` gate: {}", ticked(std::iter::once(kind).chain(keys)))),
         false => problem.note(format!("keys of a gate: {}", ticked(OPTIONS.iter().map(|option| option.key)))),
     }
 }
 
 /// A word on the kinds that have an option, where this kind has not.
-fn only_of(option: &str, kind: &str) -> String {
-    let kinds = rule(option).map_or(&[][..], |rule| rule.kinds);
+fn only_of(key: &str, kind: &str) -> String {
+    let kinds = option(key).map_or(&[][..], |option| option.kinds);
     if kinds.iter().any(|of| of.word() == kind) {
         return String::new();
     }

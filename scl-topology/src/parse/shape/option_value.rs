@@ -2,13 +2,12 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::grammar::{self, Shape};
 use crate::parse::fields::Field;
-use crate::parse::option::Value;
 use crate::parse::{is_plain, shape_word};
 use crate::rule::{Examples, Rule};
 use crate::size;
 use crate::suggest::similar;
-use crate::wording::either;
 use crate::yaml::{Node, NodeKind};
 
 /// SCL0215.
@@ -32,23 +31,24 @@ pub(crate) const RULE: Rule = Rule {
     },
 };
 
-pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Value) -> Diagnostic {
+pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Shape) -> Diagnostic {
     let key = field.key;
-    let (rule, example) = match expected {
-        Value::Number if key == "scl" => ("a whole number".to_owned(), "1"),
-        Value::Number => ("a whole number".to_owned(), "16"),
-        Value::Duration => ("a number and a unit: `us`, `ms` or `s`".to_owned(), "500ms"),
-        Value::Size => (format!("a whole number and a unit: {}", either(&size::UNITS.map(|(unit, _)| unit))), "8MiB"),
-        Value::Boolean => ("`true` or `false`".to_owned(), "true"),
-        Value::Word(words) => (either(words), words.first().copied().unwrap_or("")),
-        Value::Text | Value::Name => ("text".to_owned(), "text"),
-    };
-    let problem = RULE.at(format!("`{key}` must be {rule}"), field.value.span, label(field.value, expected));
+    let problem =
+        RULE.at(format!("`{key}` must be {}", expected.rule()), field.value.span, label(field.value, expected));
     let meant: Vec<String> = meant(field.value, expected).iter().map(|value| format!("`{key}: {value}`")).collect();
     problem.help(match meant.is_empty() {
-        true => format!("for example `{key}: {example}`"),
+        true => format!("for example `{key}: {}`", example(key, expected)),
         false => format!("write {}", meant.join(" or ")),
     })
+}
+
+/// A value that the key could have.
+fn example(key: &str, expected: Shape) -> String {
+    match (grammar::option(key), expected) {
+        (Some(option), _) => option.example().to_owned(),
+        (None, Shape::Number { least, .. }) => least.to_string(),
+        _ => "true".to_owned(),
+    }
 }
 
 /// A list or mapping where text belongs; `place` is where, for example `` `name` ``.
@@ -57,13 +57,14 @@ pub(in crate::parse) fn not_text(place: &str, node: &Node) -> Diagnostic {
     RULE.at(message, node.span, format!("this is {}", shape_word(node)))
 }
 
-fn label(value: &Node, expected: Value) -> String {
+fn label(value: &Node, expected: Shape) -> String {
+    let is_size = matches!(expected, Shape::Size { .. });
     match &value.kind {
-        // Quotes around a size do no harm.
-        NodeKind::Scalar { text, .. } if expected == Value::Size && text.parse::<i64>().is_ok() => {
+        // Quotes around a number with a unit do no harm.
+        NodeKind::Scalar { text, .. } if is_size && text.parse::<i64>().is_ok() => {
             "this is a number without a unit".to_owned()
         }
-        NodeKind::Scalar { .. } if expected == Value::Size => "this is not a size".to_owned(),
+        NodeKind::Scalar { .. } if is_size => "this is not a size".to_owned(),
         NodeKind::Scalar { .. } if !is_plain(value) => "this is text, because of the quotes".to_owned(),
         NodeKind::Scalar { text, .. } if text.parse::<i64>().is_ok() => "this is a number without a unit".to_owned(),
         NodeKind::Scalar { text, .. } if text.parse::<f64>().is_ok() => "this is not a whole number".to_owned(),
@@ -72,16 +73,16 @@ fn label(value: &Node, expected: Value) -> String {
 }
 
 /// The value without its quotes, or words that are nearly right.
-fn meant(value: &Node, expected: Value) -> Vec<String> {
+fn meant(value: &Node, expected: Shape) -> Vec<String> {
     let NodeKind::Scalar { text, .. } = &value.kind else { return Vec::new() };
-    let words: &[&str] = match expected {
-        Value::Number if !is_plain(value) && text.parse::<u32>().is_ok() => return vec![text.clone()],
+    let words: Vec<&str> = match expected {
+        Shape::Number { .. } if !is_plain(value) && text.parse::<u32>().is_ok() => return vec![text.clone()],
         // A bare number is most probably meant as milliseconds.
-        Value::Duration if text.parse::<u32>().is_ok() => return vec![format!("{text}ms")],
-        Value::Size => return size::suggestions(text),
-        Value::Boolean => &["true", "false"],
-        Value::Word(words) => words,
-        Value::Number | Value::Duration | Value::Text | Value::Name => return Vec::new(),
+        Shape::Duration { .. } if text.parse::<u32>().is_ok() => return vec![format!("{text}ms")],
+        Shape::Size { .. } => return size::suggestions(text),
+        Shape::Boolean => vec!["true", "false"],
+        Shape::Word(words) => words.iter().map(|known| known.word).collect(),
+        _ => return Vec::new(),
     };
     let word = match text.to_ascii_lowercase().as_str() {
         "yes" | "on" if words.contains(&"true") => Some("true".to_owned()),
@@ -103,13 +104,13 @@ mod tests {
         check(
             &RULE,
             expect![[r#"
-            error: [SCL0215] `queue` must be a whole number
-             --> topology.yaml:4:49
-              |
-            4 |       - measurements: {pub: Measurement, queue: many}
-              |                                                 ^^^^ this is text
-              |
-              = help: for example `queue: 16`"#]],
+                error: [SCL0215] `queue` must be a whole number
+                 --> topology.yaml:4:49
+                  |
+                4 |       - measurements: {pub: Measurement, queue: many}
+                  |                                                 ^^^^ this is text
+                  |
+                  = help: for example `queue: 1`"#]],
         );
     }
 

@@ -3,9 +3,10 @@
 use super::option_value;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::grammar::{FORMAT, Shape, is_whole_number};
 use crate::parse::fields::Field;
 use crate::parse::is_plain;
-use crate::parse::option::{Value, is_whole_number};
+use crate::parse::pitfall::leading_zero;
 use crate::rule::{Examples, Rule};
 use crate::yaml::NodeKind;
 
@@ -26,17 +27,14 @@ components: []
     },
 };
 
-/// The only format so far.
-const FORMAT: &str = "1";
-
 pub(in crate::parse) fn find(field: Field<'_>) -> Option<Diagnostic> {
     match &field.value.kind {
         NodeKind::Unread => None,
-        NodeKind::Scalar { text, .. } if is_plain(field.value) && text == FORMAT => None,
+        NodeKind::Scalar { text, .. } if is_plain(field.value) && *text == FORMAT.to_string() => None,
         NodeKind::Scalar { text, .. } if is_plain(field.value) && is_whole_number(text) => {
-            Some(unsupported(field, text))
+            Some(leading_zero::find(field, text).unwrap_or_else(|| unsupported(field, text)))
         }
-        _ => Some(option_value::diagnose(field, Value::Number)),
+        _ => Some(option_value::diagnose(field, Shape::Number { least: FORMAT, most: FORMAT })),
     }
 }
 

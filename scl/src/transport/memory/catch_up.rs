@@ -29,7 +29,7 @@ pub(super) fn catch_up(end: &mut dyn Receiver, within: Duration) -> VecDeque<Byt
     }
 }
 
-/// Receives what has arrived, but not more than a connection holds: a busy sender could keep this going for ever.
+/// Receives what has arrived, but not more than a connection holds: a busy sender could keep this going without end.
 fn fetch(end: &mut dyn Receiver, cx: &mut Context<'_>, fetched: &mut VecDeque<Bytes>) {
     for _ in 0..=super::IN_FLIGHT {
         match end.poll_recv(cx) {

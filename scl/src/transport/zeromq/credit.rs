@@ -35,7 +35,7 @@ impl SendCredit {
         Self { window, sent: 0, in_flight: VecDeque::new(), bytes: 0 }
     }
 
-    /// Returns true if another message may be sent after so many others of a total length. One that is longer than the
+    /// Returns true if another message may be sent after the given number of others with that total length. One that is longer than the
     /// window may be sent as well.
     pub(super) fn is_open_after(&self, messages: usize, bytes: usize) -> bool {
         ((self.in_flight.len() + messages) as u64) < self.window.messages

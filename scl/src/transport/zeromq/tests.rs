@@ -1,5 +1,6 @@
 //! Tests of roles over real sockets.
 
+mod burst;
 mod credit;
 mod ends;
 mod hostile;

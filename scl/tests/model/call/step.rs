@@ -14,7 +14,7 @@ pub(super) struct Case {
 pub(super) enum Step {
     ReplierAppears,
     ReplierVanishes,
-    /// Takes so many requests, or fewer if there are no more.
+    /// Takes this number of requests, or fewer if there are no more.
     Take(usize),
     /// Answers one of the requests that were taken, perhaps late, perhaps after its replier has vanished.
     Answer(usize),
@@ -24,7 +24,7 @@ pub(super) enum Step {
     RequesterVanishes(usize),
     Ask(usize),
     GiveUp(usize),
-    /// Asks and gives up so many times.
+    /// Asks and gives up this number of times.
     AskAndGiveUp(usize, usize),
     /// The call of the impatient requester times out, unless something else ends it.
     TimeRunsOut,

@@ -47,7 +47,7 @@ impl Outbox {
         self.holds_back = false;
     }
 
-    /// A link is dropped; its peer has not acknowledged so many messages.
+    /// A link is dropped; its peer has not acknowledged this number of messages.
     pub(super) fn link_closes(&mut self, unacknowledged: u64) {
         self.links -= 1;
         self.lost += unacknowledged;

@@ -19,16 +19,16 @@ pub(super) enum Step {
     SenderVanishes,
     /// It is flushed before, as a program that ends does.
     SenderFinishes,
-    /// Sends so many messages. One that would have to wait is cancelled and ends the step, which then waits for room.
+    /// Sends this number of messages. One that would have to wait is cancelled and ends the step, which then waits for room.
     Send(usize),
     TrySend(usize),
     /// Waits to be woken when there is room.
     WaitForRoom,
     ReaderAppears(usize),
     ReaderVanishes(usize),
-    /// Receives so many messages. If there is none, the step ends, and the call waits.
+    /// Receives this number of messages. If there is none, the step ends, and the call waits.
     Recv(usize, usize),
-    /// Receives so many messages, or fewer if there are no more.
+    /// Receives this number of messages, or fewer if there are no more.
     TryRecv(usize, usize),
     Latest(usize),
     /// The gates' tasks run. Until then, gates only know of what their own calls have seen.

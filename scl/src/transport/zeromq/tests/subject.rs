@@ -142,7 +142,7 @@ pub(super) async fn exchange(stage: &Stage, role: Role, end: &mut End) {
         }
         match (&mut *end, &mut peer) {
             (End::Sender(sender), _) | (_, End::Sender(sender)) => {
-                // Whoever else is connected here does not matter.
+                // Other peers may be connected here too.
                 for peer in &mut sender.peers {
                     if peer.queue.is_empty() {
                         peer.queue.push_back(expected.clone());

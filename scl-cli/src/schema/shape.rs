@@ -1,0 +1,49 @@
+//! The schema of a single value.
+
+use scl_topology::grammar::{Codec, CodecRow, Shape};
+use scl_topology::{duration, size};
+use serde_json::{Value, json};
+
+/// A path of at least two words.
+const RUST_PATH: &str = "^(::[A-Za-z_][A-Za-z0-9_]*|[A-Za-z_][A-Za-z0-9_]*::[A-Za-z_][A-Za-z0-9_]*)\
+                         (::[A-Za-z_][A-Za-z0-9_]*)*$";
+
+/// What a value looks like, as far as a schema can say it. `True` and `0x10`, which the checker refuses, are `true` and
+/// 16 to a reader of YAML.
+pub(super) fn shape_schema(shape: Shape) -> Value {
+    match shape {
+        // A text without quotes may look like a number or a boolean.
+        Shape::Text => json!({ "type": ["string", "number", "boolean"], "pattern": "\\S" }),
+        Shape::Name => json!({ "type": "string", "pattern": "\\S" }),
+        Shape::Codec => codec_schema(),
+        Shape::Number { least, most } => json!({ "type": "integer", "minimum": least, "maximum": most }),
+        Shape::Duration { .. } => {
+            let units = duration::UNITS.map(|(unit, _)| unit).join("|");
+            json!({ "type": "string", "pattern": format!("^\\+?[0-9]+(\\.[0-9]+)?\\s*({units})$") })
+        }
+        Shape::Size { .. } => {
+            let units = size::UNITS.map(|(unit, _)| unit).join("|");
+            json!({ "type": "string", "pattern": format!("^\\s*\\+?[0-9]+\\s*({units})\\s*$") })
+        }
+        Shape::Boolean => json!({ "type": "boolean" }),
+        Shape::Word(words) => {
+            let summaries: Vec<&str> = words.iter().map(|word| word.summary).collect();
+            let words: Vec<&str> = words.iter().map(|word| word.word).collect();
+            json!({ "type": "string", "enum": words, "enumDescriptions": summaries })
+        }
+        Shape::List(_) => json!({ "type": "array" }),
+    }
+}
+
+/// A codec of the framework, or a Rust path to one of the user's own.
+fn codec_schema() -> Value {
+    let rows: Vec<&CodecRow> = Codec::BUILT_IN.iter().filter_map(Codec::row).collect();
+    let words: Vec<&str> = rows.iter().map(|row| row.word).collect();
+    let summaries: Vec<&str> = rows.iter().map(|row| row.summary).collect();
+    json!({
+        "anyOf": [
+            { "type": "string", "enum": words, "enumDescriptions": summaries },
+            { "type": "string", "pattern": RUST_PATH, "description": "A codec of your own: `my_crate::Flat`." },
+        ],
+    })
+}

@@ -1,0 +1,29 @@
+//! The integration tests of the command line, in one binary.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+#[cfg(feature = "bench")]
+mod bench;
+mod check;
+mod check_fix;
+mod check_formats;
+mod check_inputs;
+mod check_watch;
+mod completions;
+mod diff;
+mod editor;
+mod explain;
+mod graph;
+mod lsp;
+#[cfg(feature = "run")]
+mod quickstart;
+#[cfg(feature = "run")]
+mod run_mistakes;
+#[cfg(feature = "run")]
+mod run_output;
+#[cfg(feature = "run")]
+mod run_package;
+#[cfg(feature = "run")]
+mod run_stop;
+mod rust_analyzer;
+mod schema;
+mod system;

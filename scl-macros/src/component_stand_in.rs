@@ -1,0 +1,142 @@
+//! What rustc says if the component of `#[scl::main]` does not exist.
+//!
+//! A type of the component's name stands outside of the block in which the names of the module are in scope. If the
+//! module has the component, nothing refers to this type. Otherwise its use is the one error: what follows from it has
+//! an erroneous type, so rustc says no more.
+
+use crate::known_components::{self, KnownTopology};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote, quote_spanned};
+use scl_topology::external::UNKNOWN_IN_CODE;
+use scl_topology::suggest::similar;
+use syn::spanned::Spanned;
+use syn::{Ident, Type};
+
+/// The components that a text lists; more are counted.
+const MOST: usize = 10;
+
+/// The stand-in; nothing for a path of several parts, which may lead anywhere.
+pub(crate) fn expand_stand_in(component: &Type) -> TokenStream {
+    let Type::Path(path) = component else { return TokenStream::new() };
+    let Some(name) = path.path.get_ident() else { return TokenStream::new() };
+    let topologies = known_components::of_crate();
+    if let Some(broken) = topologies.iter().find(|topology| topology.broken) {
+        // The component may be in the part that could not be read, of which the file's own error speaks.
+        let unknown = Ident::new(&broken.unknown_type, component.span());
+        return quote!(#[allow(dead_code)] type #name = #unknown;);
+    }
+    let Words { message, notes } = words(&name.to_string(), &topologies);
+    let (message, notes) = (escape_braces(&message), notes.iter().map(|note| escape_braces(note)));
+    let not_found = format_ident!("__scl_component_not_found", span = component.span());
+    let label = "not a component of the topology";
+    quote_spanned! { component.span() =>
+        #[allow(non_camel_case_types, dead_code)]
+        struct #not_found;
+        #[diagnostic::on_unimplemented(message = #message, label = #label #(, note = #notes)*)]
+        #[allow(dead_code)]
+        trait __SclComponent { type Type; }
+        #[allow(dead_code)]
+        type #name = <#not_found as __SclComponent>::Type;
+        // For the erroneous type; the functions of a component come first.
+        #[allow(dead_code)]
+        trait __SclMain {
+            fn __scl_main_async<Main>(_: Main) -> ::std::process::ExitCode { ::core::unreachable!() }
+            fn __scl_main_blocking<Main>(_: Main) -> ::std::process::ExitCode { ::core::unreachable!() }
+            fn __scl_returned<Any>(_: &Any) -> __SclReturned { __SclReturned }
+        }
+        #[allow(dead_code)]
+        struct __SclReturned;
+        #[allow(dead_code)]
+        impl __SclReturned {
+            fn into_result<Any>(&self, _: Any) {}
+        }
+        impl<Any> __SclMain for Any {}
+    }
+}
+
+/// rustc reads braces as format parameters.
+fn escape_braces(text: &str) -> String {
+    text.replace('{', "{{").replace('}', "}}")
+}
+
+struct Words {
+    message: String,
+    notes: Vec<String>,
+}
+
+fn words(name: &str, topologies: &[KnownTopology]) -> Words {
+    let code = UNKNOWN_IN_CODE.code;
+    let all = || topologies.iter().flat_map(|topology| topology.components.iter().map(move |it| (topology, it)));
+    if let Some((topology, component)) = all().find(|(_, it)| it.rust_name == name && !it.included) {
+        let message = format!(
+            "[{code}] the component `{}` is left out by `only = [..]` of `topology!(\"{}\")`",
+            component.name, topology.path
+        );
+        let entry = component.name.replace('-', "_");
+        return Words { message, notes: vec![format!("add `{entry}` to `only`, or leave `only` out")] };
+    }
+    let message = format!("[{code}] cannot find the component `{name}`");
+    let names: Vec<&str> = all().filter(|(_, it)| it.included).map(|(_, it)| it.rust_name.as_str()).collect();
+    if names.is_empty() {
+        let note = "`scl::topology!` makes one struct of each component: `user_interface` becomes `UserInterface`";
+        return Words { message, notes: vec![note.to_owned()] };
+    }
+    let mut notes = Vec::new();
+    if let Some(near) = similar(name, names.iter().copied()).first() {
+        notes.push(format!("did you mean `{near}`?"));
+    }
+    let shown: Vec<String> = names.iter().take(MOST).map(|name| format!("`{name}`")).collect();
+    let more = match names.len().saturating_sub(MOST) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let files: Vec<String> = topologies.iter().map(|topology| format!("`{}`", topology.path)).collect();
+    notes.push(format!("components of {}: {}{more}", files.join(", "), shown.join(", ")));
+    Words { message, notes }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::known_components::KnownComponent;
+
+    fn topology(components: &[(&str, bool)]) -> KnownTopology {
+        let component = |&(name, included): &(&str, bool)| KnownComponent {
+            name: name.to_lowercase(),
+            rust_name: name.to_owned(),
+            included,
+        };
+        let components = components.iter().map(component).collect();
+        KnownTopology { path: "t.yaml".into(), components, broken: false, unknown_type: String::new() }
+    }
+
+    #[test]
+    fn unknown_components_are_told_with_those_that_exist() {
+        let cases: [(&str, &[KnownTopology], &str, &str); 4] = [
+            ("Gps", &[], "cannot find the component `Gps`", "`scl::topology!` makes one struct of each"),
+            (
+                "Gsp",
+                &[topology(&[("Gps", true), ("Camera", true)])],
+                "cannot find",
+                "did you mean `Gps`? / components of `t.yaml`: `Gps`, `Camera`",
+            ),
+            (
+                "Gps",
+                &[topology(&[("Gps", false), ("Camera", true)])],
+                "the component `gps` is left out by `only = [..]`",
+                "add `gps` to `only`",
+            ),
+            (
+                "Radar",
+                &[topology(&[("Gps", false), ("Camera", true)])],
+                "cannot find",
+                "components of `t.yaml`: `Camera`",
+            ),
+        ];
+        for (name, topologies, message, notes) in cases {
+            let found = words(name, topologies);
+            assert!(found.message.contains(message), "{}", found.message);
+            assert!(found.notes.join(" / ").starts_with(notes), "{}", found.notes.join(" / "));
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! No orphans, even when `scl run` itself is killed with -9.
+//!
+//! Two mechanisms, because each one has a gap:
+//!
+//! - Every component is started through `scl __start`, which asks the kernel to be killed when `scl run` ends, and
+//!   then becomes the program. This holds from the first moment, but only for the program itself.
+//! - One `scl __guard` holds the read end of a pipe whose write end only `scl run` holds. When the pipe ends, it kills
+//!   the whole process group of each component, including the processes that the programs have started.
+
+use super::problem::print_err;
+use nix::sys::signal::{SigSet, Signal, killpg};
+use nix::unistd::Pid;
+use std::ffi::OsString;
+use std::io::{self, BufRead, Write};
+use std::os::unix::process::CommandExt;
+use std::process::{Child, ChildStdin, Command, ExitCode, Stdio};
+
+/// The hidden command that starts one component: `scl __start PARENT -- COMMAND...`.
+pub const START_WORD: &str = "__start";
+/// The hidden command that keeps watch: `scl __guard`.
+pub const GUARD_WORD: &str = "__guard";
+
+/// The exit code of shells for a program that exists but cannot be executed.
+const CANNOT_EXECUTE: u8 = 126;
+
+/// The command that starts `command` so that it ends with this process.
+///
+/// # Errors
+///
+/// If the path of the running `scl` cannot be found.
+pub(crate) fn bound_command(command: &[OsString]) -> io::Result<Command> {
+    let mut bound = Command::new(std::env::current_exe()?);
+    bound.arg(START_WORD).arg(std::process::id().to_string()).arg("--").args(command);
+    Ok(bound)
+}
+
+/// The body of `scl __start`: becomes the program `command`, which ends when the process `parent` ends. Returns only if
+/// the program cannot be executed.
+pub fn start_component(parent: u32, command: &[OsString]) -> ExitCode {
+    // `scl run` blocks these signals to wait for them, and a program would inherit that.
+    let unblocked = stop_signals().thread_unblock();
+    if let Err(error) = unblocked.and_then(|()| die_with_parent()) {
+        print_err(&format!("scl: cannot prepare the start: {error}\n"));
+        return ExitCode::from(CANNOT_EXECUTE);
+    }
+    // If the parent ended before the call to prctl, nothing would ever stop this program.
+    if u32::try_from(Pid::parent().as_raw()) != Ok(parent) {
+        return ExitCode::from(CANNOT_EXECUTE);
+    }
+    let [program, rest @ ..] = command else { return ExitCode::from(CANNOT_EXECUTE) };
+    let error = Command::new(program).args(rest).exec();
+    print_err(&format!("scl: cannot execute `{}`: {error}\n", program.display()));
+    ExitCode::from(CANNOT_EXECUTE)
+}
+
+#[cfg(target_os = "linux")]
+fn die_with_parent() -> nix::Result<()> {
+    nix::sys::prctl::set_pdeathsig(Signal::SIGKILL)
+}
+
+/// Other systems have the guard only.
+#[cfg(not(target_os = "linux"))]
+fn die_with_parent() -> nix::Result<()> {
+    Ok(())
+}
+
+/// The signals by which `scl run` is asked to stop.
+pub(crate) fn stop_signals() -> SigSet {
+    [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP].into_iter().collect()
+}
+
+/// The process that watches this one. Dropping this value makes it kill the process groups added so far.
+#[derive(Debug)]
+pub(crate) struct OrphanGuard {
+    process: Child,
+    pipe: Option<ChildStdin>,
+}
+
+impl OrphanGuard {
+    /// Starts the watch, in a process group of its own, so that a Ctrl-C does not reach it.
+    ///
+    /// # Errors
+    ///
+    /// If no process can be started.
+    pub(crate) fn start() -> io::Result<Self> {
+        let mut process = Command::new(std::env::current_exe()?)
+            .arg(GUARD_WORD)
+            .process_group(0)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()?;
+        let pipe = process.stdin.take();
+        Ok(Self { process, pipe })
+    }
+
+    /// Adds the process group of a component that has just been started.
+    ///
+    /// # Errors
+    ///
+    /// If the guard has ended.
+    pub(crate) fn watch(&mut self, group: Pid) -> io::Result<()> {
+        let pipe = self.pipe.as_mut().ok_or(io::ErrorKind::BrokenPipe)?;
+        pipe.write_all(format!("{group}\n").as_bytes())
+    }
+}
+
+impl Drop for OrphanGuard {
+    fn drop(&mut self) {
+        // The end of the pipe is what the guard waits for, so it must come before the wait for the guard.
+        drop(self.pipe.take());
+        let _ = self.process.wait();
+    }
+}
+
+/// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told.
+pub fn keep_watch() -> ExitCode {
+    let groups: Vec<i32> =
+        io::stdin().lock().lines().map_while(Result::ok).filter_map(|line| line.parse().ok()).collect();
+    for group in groups {
+        // The group has usually ended already.
+        let _ = killpg(Pid::from_raw(group), Signal::SIGKILL);
+    }
+    ExitCode::SUCCESS
+}

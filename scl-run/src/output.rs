@@ -1,0 +1,113 @@
+//! The output of all components on one screen: whole lines, each with the name of its component before it.
+
+use anstream::ColorChoice;
+use owo_colors::{AnsiColors, OwoColorize};
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::sync::{Mutex, PoisonError};
+
+/// Maximum length of a line in bytes. Longer ones are split, so that output without line breaks cannot exhaust memory.
+const LONGEST_LINE: u64 = 64 * 1024 * 1024;
+
+const COLOURS: [AnsiColors; 10] = [
+    AnsiColors::Cyan,
+    AnsiColors::Green,
+    AnsiColors::Yellow,
+    AnsiColors::Blue,
+    AnsiColors::Magenta,
+    AnsiColors::BrightCyan,
+    AnsiColors::BrightGreen,
+    AnsiColors::BrightYellow,
+    AnsiColors::BrightBlue,
+    AnsiColors::BrightMagenta,
+];
+
+/// One of the two output streams of a program, and of this one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stream {
+    /// Standard output.
+    Out,
+    /// Standard error.
+    Err,
+}
+
+/// Writes the lines of all components; shared by the threads that read them.
+#[derive(Debug)]
+pub(crate) struct Output {
+    names: Vec<String>,
+    width: usize,
+    colour_out: bool,
+    colour_err: bool,
+    /// One lock for both streams: on a terminal they share the screen.
+    writing: Mutex<()>,
+}
+
+impl Output {
+    /// Output for components of these names, in colour if the stream is a terminal that supports it.
+    pub(crate) fn new(names: Vec<String>) -> Self {
+        let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+        let wants_colour = |choice| !matches!(choice, ColorChoice::Never);
+        let colour_out = wants_colour(anstream::AutoStream::choice(&io::stdout()));
+        let colour_err = wants_colour(anstream::AutoStream::choice(&io::stderr()));
+        Self { names, width, colour_out, colour_err, writing: Mutex::new(()) }
+    }
+
+    /// The name of a component.
+    pub(crate) fn name(&self, component: usize) -> &str {
+        &self.names[component]
+    }
+
+    /// Copies every line of a component's stream, with its name before it, until the stream ends.
+    ///
+    /// Bytes are copied as they are, whether or not they are UTF-8; a missing line break at the end is added.
+    ///
+    /// # Errors
+    ///
+    /// If our own stream can no longer be written. A component's stream that cannot be read counts as ended.
+    pub(crate) fn copy_lines(&self, component: usize, stream: Stream, from: impl Read) -> io::Result<()> {
+        let mut reader = BufReader::with_capacity(64 * 1024, from);
+        let prefix = format!("{} | ", self.painted_name(component, stream)).into_bytes();
+        let mut line = prefix.clone();
+        while matches!(reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line), Ok(1..)) {
+            if !line.ends_with(b"\n") {
+                line.push(b'\n');
+            }
+            self.write(stream, &line)?;
+            line.truncate(prefix.len());
+            line.shrink_to(64 * 1024);
+        }
+        Ok(())
+    }
+
+    /// The name of a component as it stands before a report on it.
+    pub(crate) fn report_name(&self, component: usize) -> String {
+        self.painted_name(component, Stream::Err)
+    }
+
+    /// Writes one of our own reports to standard error.
+    pub(crate) fn write_report(&self, line: &str) {
+        // If standard error is closed, there is no place to report that.
+        let _ = self.write(Stream::Err, line.as_bytes());
+    }
+
+    fn painted_name(&self, component: usize, stream: Stream) -> String {
+        let name = format!("{:width$}", self.names[component], width = self.width);
+        let coloured = match stream {
+            Stream::Out => self.colour_out,
+            Stream::Err => self.colour_err,
+        };
+        if coloured { name.color(COLOURS[component % COLOURS.len()]).to_string() } else { name }
+    }
+
+    fn write(&self, stream: Stream, line: &[u8]) -> io::Result<()> {
+        let _writing = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
+        match stream {
+            Stream::Out => write_whole(&mut io::stdout().lock(), line),
+            Stream::Err => write_whole(&mut io::stderr().lock(), line),
+        }
+    }
+}
+
+fn write_whole(to: &mut impl Write, line: &[u8]) -> io::Result<()> {
+    to.write_all(line)?;
+    to.flush()
+}

@@ -1,0 +1,112 @@
+//! SCL0707: components that wait for each other. `docs/deadlocks.md` is about this rule.
+
+mod report;
+mod search;
+#[cfg(test)]
+mod tests;
+
+pub(super) use report::drop_messages;
+
+use super::circles::Step;
+use super::draft::Draft;
+use super::feedback::PUSHES;
+use super::waits::{self, Call, Wait};
+use crate::diagnostic::{Diagnostics, Severity};
+use crate::rule::{Examples, Rule};
+use crate::topology::GateKind;
+use report::{HEADLINE, is_request, kind, place, report, waiting};
+use std::collections::HashSet;
+
+/// SCL0707.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0707",
+    severity: Severity::Error,
+    title: "components wait for each other",
+    explanation: "Each component of a circle can wait for the next one: for the answer to a request, or, with \
+                  `backpressure: true` and `when_full: wait`, for room in its queue. A component that waits answers \
+                  nothing and receives nothing, so once all of them wait, nothing moves until a request fails, or ever. \
+                  Let one queue of the circle drop messages, or publish what another component asks for. If a \
+                  component never waits at a connection while another one waits for it, say so: `# scl: allow(SCL0707) \
+                  reason` above that connection. docs/deadlocks.md shows every shape and its ways out.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: arbiter
+    gates:
+      - power: req
+      - mission: rep
+  - name: power
+    gates:
+      - status: rep
+      - mission: req
+connections:
+  - [arbiter.power, power.status]
+  - [power.mission, arbiter.mission]
+",
+        good: "components:
+  - name: arbiter
+    gates:
+      - power: req
+      - mission: pub
+  - name: power
+    gates:
+      - status: rep
+      - mission: sub
+connections:
+  - [arbiter.power, power.status]
+  - [power.mission, arbiter.mission]
+",
+    },
+};
+
+/// `allowed_lines` tells about which lines a comment allows a rule.
+pub(super) fn check(draft: &Draft<'_>, allowed_lines: impl Fn(&Rule) -> HashSet<u32>, problems: &mut Diagnostics) {
+    let waits: Vec<Wait> = waits::all(draft).into_iter().filter(|wait| !wait.is_for_itself()).collect();
+    let allowed = Allowed { waiting: allowed_lines(&RULE), pushing: allowed_lines(&PUSHES) };
+    let judged: Vec<Wait> = waits.iter().filter(|wait| !allowed.any(draft, wait)).cloned().collect();
+    let components = draft.components.len();
+    let mut found = search::find(components, &requests(&judged), |_| true);
+    found.extend(search::find(components, &endless(&judged), |step| !is_request(draft, step)));
+    let receivers = waits::receivers_that_wait(draft);
+    problems.extend(found.iter().map(|deadlock| report(&RULE, draft, deadlock, &receivers)));
+    if judged.len() < waits.len() {
+        // What a comment allows is found all the same: that tells whether the comment has an effect.
+        let knots = [requests(&waits), endless(&waits)].map(|waits| search::knots(components, &waits));
+        let is_deadlocked = |step: &&Step| knots.iter().any(|knots| knots[step.from] == knots[step.to]);
+        let steps = waits.iter().flat_map(|wait| &wait.steps).filter(is_deadlocked);
+        problems.extend(steps.filter_map(|step| {
+            allowed.rule(draft, step).map(|rule| rule.at(HEADLINE, place(draft, step), waiting(draft, step)))
+        }));
+    }
+}
+
+/// A request that is sent while answering one is never answered, however long its timeout.
+fn requests(waits: &[Wait]) -> Vec<Wait> {
+    waits.iter().filter(|wait| wait.call != Call::Send).cloned().collect()
+}
+
+/// A full queue is emptied once a request has failed. Where the file says how long that takes, it is intended.
+fn endless(waits: &[Wait]) -> Vec<Wait> {
+    waits.iter().filter(|wait| wait.call != Call::Request { has_timeout: true }).cloned().collect()
+}
+
+/// The connections at which a comment allows to wait.
+struct Allowed {
+    waiting: HashSet<u32>,
+    pushing: HashSet<u32>,
+}
+
+impl Allowed {
+    /// The rule that is allowed. A comment that allows a circle of push gates allows it to wait, too.
+    fn rule(&self, draft: &Draft<'_>, step: &Step) -> Option<&'static Rule> {
+        let span = place(draft, step);
+        let line = draft.sources.file(span.file).line(span.start);
+        if self.waiting.contains(&line) {
+            return Some(&RULE);
+        }
+        (self.pushing.contains(&line) && kind(draft, step) == Some(GateKind::Push)).then_some(&PUSHES)
+    }
+
+    fn any(&self, draft: &Draft<'_>, wait: &Wait) -> bool {
+        wait.steps.iter().any(|step| self.rule(draft, step).is_some())
+    }
+}

@@ -1,0 +1,212 @@
+//! SCL0315: a name that C++ or Python reserves. The same file is read by programs in these languages.
+
+use super::named::{Noun, is_well_formed, names};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::Model;
+use crate::rule::{Examples, Rule, Severity};
+use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
+use crate::source::Spanned;
+use crate::wording::all_of;
+
+/// SCL0315.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0315",
+    severity: Severity::Warning,
+    title: "name is reserved in C++ or Python",
+    explanation: "The name is a keyword of C++ or Python, or has two underscores in a row, which C++ reserves. Programs in \
+                  these languages read the same file, and cannot use the name for a variable, a field or a module. \
+                  Choose a name that says more; if no such program will ever exist, allow the warning.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: scheduler
+    gates:
+      - delete: sub
+",
+        good: "components:
+  - name: scheduler
+    gates:
+      - delete_job: sub
+",
+    },
+};
+
+/// The keywords of C++23, with the alternative spellings of operators.
+const CPP: [&str; 92] = [
+    "alignas",
+    "alignof",
+    "and",
+    "and_eq",
+    "asm",
+    "auto",
+    "bitand",
+    "bitor",
+    "bool",
+    "break",
+    "case",
+    "catch",
+    "char",
+    "char8_t",
+    "char16_t",
+    "char32_t",
+    "class",
+    "co_await",
+    "co_return",
+    "co_yield",
+    "compl",
+    "concept",
+    "const",
+    "const_cast",
+    "consteval",
+    "constexpr",
+    "constinit",
+    "continue",
+    "decltype",
+    "default",
+    "delete",
+    "do",
+    "double",
+    "dynamic_cast",
+    "else",
+    "enum",
+    "explicit",
+    "export",
+    "extern",
+    "false",
+    "float",
+    "for",
+    "friend",
+    "goto",
+    "if",
+    "inline",
+    "int",
+    "long",
+    "mutable",
+    "namespace",
+    "new",
+    "noexcept",
+    "not",
+    "not_eq",
+    "nullptr",
+    "operator",
+    "or",
+    "or_eq",
+    "private",
+    "protected",
+    "public",
+    "register",
+    "reinterpret_cast",
+    "requires",
+    "return",
+    "short",
+    "signed",
+    "sizeof",
+    "static",
+    "static_assert",
+    "static_cast",
+    "struct",
+    "switch",
+    "template",
+    "this",
+    "thread_local",
+    "throw",
+    "true",
+    "try",
+    "typedef",
+    "typeid",
+    "typename",
+    "union",
+    "unsigned",
+    "using",
+    "virtual",
+    "void",
+    "volatile",
+    "wchar_t",
+    "while",
+    "xor",
+    "xor_eq",
+];
+
+/// The keywords of Python 3; soft keywords, such as `match`, are good names.
+const PYTHON: [&str; 35] = [
+    "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class", "continue", "def", "del",
+    "elif", "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is", "lambda", "nonlocal",
+    "not", "or", "pass", "raise", "return", "try", "while", "with", "yield",
+];
+
+pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+    for (noun, name) in names(model).filter(|(_, name)| is_well_formed(&name.value)) {
+        let field = gate_field(&name.value);
+        let spellings = match noun {
+            Noun::System => continue,
+            // Another rule tells what Rust reserves.
+            Noun::Gate if is_keyword(&field) => continue,
+            _ if is_unescapable(&field) => continue,
+            Noun::Gate => vec![field],
+            Noun::Component => vec![field, component_type(&name.value)],
+        };
+        problems.extend(spellings.iter().find_map(|spelling| find(noun, name, spelling)));
+    }
+}
+
+/// `spelling` is the name in the case of a field, a module or a class.
+fn find(noun: Noun, name: &Spanned<String>, spelling: &str) -> Option<Diagnostic> {
+    let start = format!("{} name `{}`", noun.word(), name.value);
+    let languages: Vec<&str> = [("C++", &CPP[..]), ("Python", &PYTHON)]
+        .iter()
+        .filter(|(_, words)| words.contains(&spelling))
+        .map(|it| it.0)
+        .collect();
+    let headline = match languages.as_slice() {
+        // Those at the start are an error of their own.
+        [] if spelling.trim_start_matches('_').contains("__") => {
+            format!("{start} has two underscores in a row, which C++ reserves")
+        }
+        [] => return None,
+        [one] => format!("{start} is a keyword of {one}"),
+        _ => format!("{start} is a keyword of {}", all_of(&languages).replace('`', "")),
+    };
+    let label = if spelling == name.value { String::new() } else { format!("becomes `{spelling}`") };
+    let another = match languages.as_slice() {
+        [] => spelling.replace("__", "_"),
+        _ => format!("{}_{}", spelling.to_ascii_lowercase(), noun.word()),
+    };
+    Some(
+        RULE.at(headline, name.span, label)
+            .help(format!("choose another name, for example `{another}`"))
+            .note("programs in C++ and Python read the same file"),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CPP, PYTHON, RULE};
+    use crate::check::testing::rule_example;
+    use expect_test::expect;
+
+    #[test]
+    fn name_is_reserved_in_cpp_or_python() {
+        rule_example(
+            &RULE,
+            expect![[r#"
+            warning: [SCL0315] gate name `delete` is a keyword of C++
+             --> topology.yaml:4:9
+              |
+            4 |       - delete: sub
+              |         ^^^^^^
+              |
+              = help: choose another name, for example `delete_gate`
+              = note: programs in C++ and Python read the same file
+        "#]],
+        );
+    }
+
+    #[test]
+    fn keywords_are_listed_once() {
+        for words in [&CPP[..], &PYTHON] {
+            let mut sorted = words.to_vec();
+            sorted.sort_unstable();
+            sorted.dedup();
+            assert_eq!(sorted.len(), words.len());
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! SCL0413: an option that changes nothing: `backpressure` without a receiver that waits, `share` with one puller, `codec`
+//! at a gate that carries bytes.
+
+use super::draft::Draft;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule::{Examples, Rule, Severity};
+use crate::topology::{Payload, WhenFull};
+use crate::wording::listed;
+
+/// SCL0413.
+pub(crate) const RULE: Rule = Rule {
+    code: "SCL0413",
+    severity: Severity::Warning,
+    title: "option without effect",
+    explanation: "The option changes nothing in this system: no receiver of a gate with `backpressure: true` waits, a \
+                  gate with `share: true` has one puller, or a gate with a `codec` carries bytes of no type. The \
+                  system does not do what the file seems to say. Remove the option, or change the other end.",
+    examples: Examples::Topology {
+        bad: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, backpressure: true}
+  - name: recorder
+    gates:
+      - measurements: {sub: Measurement}
+connections:
+  - [sensor.measurements, recorder.measurements]
+",
+        good: "components:
+  - name: sensor
+    gates:
+      - measurements: {pub: Measurement, backpressure: true}
+  - name: recorder
+    gates:
+      - measurements: {sub: Measurement, when_full: wait}
+connections:
+  - [sensor.measurements, recorder.measurements]
+",
+    },
+};
+
+/// Looks at sound files only: what is missing may be an option or a connection that could not be read.
+pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
+    if problems.has_errors() || draft.model.connections_unread {
+        return;
+    }
+    let mut receivers = vec![Vec::new(); draft.gates.len()];
+    for (_, source, sink) in draft.flows() {
+        receivers[source].push(sink);
+    }
+    for (at, gate) in draft.gates.iter().enumerate() {
+        let waits = |&receiver: &usize| draft.gates[receiver].options.when_full == WhenFull::Wait;
+        let receivers = receivers[at].as_slice();
+        if gate.options.backpressure && !receivers.is_empty() && !receivers.iter().any(waits) {
+            problems.extend(without_waiting(draft, at, receivers));
+        }
+        if let (true, [puller]) = (gate.options.share, receivers) {
+            problems.extend(without_sharing(draft, at, *puller));
+        }
+        if gate.payload == Some(Payload::Bytes) {
+            problems.extend(without_type(draft, at));
+        }
+    }
+}
+
+fn without_waiting(draft: &Draft<'_>, gate: usize, receivers: &[usize]) -> Option<Diagnostic> {
+    let reason = match receivers {
+        [_] => "its receiver does not wait",
+        _ => "none of its receivers waits",
+    };
+    let names = listed(receivers.iter().map(|&receiver| draft.path(receiver)));
+    let found = report(draft, gate, "backpressure", reason)?.help("or let a receiver wait: `when_full: wait`");
+    Some(found.note(format!("receivers: {names}")))
+}
+
+fn without_sharing(draft: &Draft<'_>, gate: usize, puller: usize) -> Option<Diagnostic> {
+    let found = report(draft, gate, "share", "it has one puller")?;
+    Some(found.help("or connect another puller").note(format!("its puller: `{}`", draft.path(puller))))
+}
+
+fn without_type(draft: &Draft<'_>, gate: usize) -> Option<Diagnostic> {
+    Some(report(draft, gate, "codec", "the gate carries bytes")?.help("or give the gate a type"))
+}
+
+fn report(draft: &Draft<'_>, gate: usize, key: &str, reason: &str) -> Option<Diagnostic> {
+    let option = draft.gates[gate].option(key)?;
+    let written = format!("{key}: {}", option.value.value);
+    let headline = format!("`{written}` of `{}` has no effect: {reason}", draft.path(gate));
+    Some(RULE.at(headline, option.key.span.to(option.value.span), "").help(format!("remove `{written}`")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RULE;
+    use crate::check::testing::rule_example;
+    use expect_test::expect;
+
+    #[test]
+    fn option_without_effect() {
+        rule_example(
+            &RULE,
+            expect![[r#"
+            warning: [SCL0413] `backpressure: true` of `sensor.measurements` has no effect: its receiver does not wait
+             --> topology.yaml:4:42
+              |
+            4 |       - measurements: {pub: Measurement, backpressure: true}
+              |                                          ^^^^^^^^^^^^^^^^^^
+              |
+              = help: remove `backpressure: true`
+              = help: or let a receiver wait: `when_full: wait`
+              = note: receivers: `recorder.measurements`
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,23 @@
+//! The grammar of the topology file, told once: sections, keys, kinds of gate, options, queue policies, codecs.
+//!
+//! The parser, the checks, the suggestions, the JSON Schema of `scl schema`, the reference page `docs/topology.md`,
+//! `scl explain` and the macro read these tables. A new option is a row of [`OPTIONS`] and its meaning at run time; a
+//! new codec is a row of [`Codec`] and its implementation.
+
+mod codec;
+mod kind;
+mod option;
+mod page;
+mod queue_policy;
+mod section;
+mod shape;
+
+pub use codec::{Codec, CodecRow};
+pub use kind::{GateKind, KindRow, PATTERNS, Pattern};
+pub use option::{GateOption, GateOptions, OPTIONS, option};
+pub use page::{Entry, entries, explain, page, without_references};
+
+pub use queue_policy::WhenFull;
+pub use section::{COMPONENT_KEYS, FORMAT, Key, OWN_PREFIX, SECTIONS, component_key, section, words};
+pub(crate) use shape::is_whole_number;
+pub use shape::{Item, OutOfRange, Shape, Word};

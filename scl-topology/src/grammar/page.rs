@@ -1,0 +1,206 @@
+//! The grammar as text for people: one entry for the terminal, all of it as the page `docs/topology.md`.
+
+use super::{COMPONENT_KEYS, Codec, CodecRow, GateKind, GateOption, Key, OPTIONS, SECTIONS, WhenFull, Word};
+use crate::wording::all_of;
+use crate::{duration, size};
+
+/// A word of the grammar with its documentation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    /// As in the file.
+    pub word: &'static str,
+    /// What it is: `option`.
+    pub what: &'static str,
+    /// What it says, in one sentence.
+    pub summary: &'static str,
+    /// Everything there is to know, as Markdown, without a heading.
+    pub text: String,
+}
+
+/// Every word of the grammar, in the order of the page.
+pub fn entries() -> Vec<Entry> {
+    let keys = |keys: &'static [Key], what| keys.iter().map(move |key| of_key(key, what));
+    let mut all: Vec<Entry> = keys(&SECTIONS, "section").chain(keys(&COMPONENT_KEYS, "key of a component")).collect();
+    all.extend(GateKind::ALL.map(of_kind));
+    all.extend(OPTIONS.iter().map(of_option));
+    all.extend(policies().iter().map(of_policy));
+    all.extend(Codec::BUILT_IN.iter().filter_map(Codec::row).map(of_codec));
+    all
+}
+
+/// What there is to say about a word of the grammar, as Markdown; none if it is not one.
+///
+/// ```
+/// use scl_topology::grammar::explain;
+///
+/// assert!(explain("queue").is_some_and(|text| text.starts_with("# queue (option)")));
+/// assert_eq!(explain("que"), None);
+/// ```
+pub fn explain(word: &str) -> Option<String> {
+    let found = entries().into_iter().filter(|entry| entry.word == word);
+    let texts = found.map(|entry| format!("# {} ({})\n\n{}", entry.word, entry.what, without_references(&entry.text)));
+    let texts: Vec<String> = texts.collect();
+    (!texts.is_empty()).then(|| texts.join("\n"))
+}
+
+/// The reference page of the file format: `docs/topology.md`.
+pub fn page() -> String {
+    let units = |units: &[&str]| units.iter().map(|unit| format!("`{unit}`")).collect::<Vec<_>>().join(", ");
+    let option_entries: Vec<String> =
+        OPTIONS.iter().map(|option| format!("### {}\n\n{}", option.key, of_option(option).text)).collect();
+    let parts = [
+        ("{sections}", key_table(&SECTIONS)),
+        ("{component_keys}", key_table(&COMPONENT_KEYS)),
+        ("{kinds}", kind_table()),
+        ("{options}", option_table()),
+        ("{option_entries}", option_entries.join("\n").trim_end().to_owned()),
+        ("{policies}", policy_table()),
+        ("{codecs}", codec_table()),
+        ("{duration_units}", units(&duration::UNITS.map(|(unit, _)| unit))),
+        ("{size_units}", units(&size::UNITS.map(|(unit, _)| unit))),
+    ];
+    parts.iter().fold(include_str!("page.md").to_owned(), |page, (mark, text)| page.replace(mark, text))
+}
+
+fn of_key(key: &'static Key, what: &'static str) -> Entry {
+    let is_required = if key.is_required { ", required" } else { "" };
+    let default = if key.default.is_empty() { String::new() } else { format!(" Default: {}.", key.default) };
+    let rest = if key.text.is_empty() { String::new() } else { format!("{}\n\n", key.text) };
+    let facts = format!("Value: {}{is_required}.{default}", key.shape.values());
+    let text = format!("{}\n\n{rest}{facts}\n\n```yaml\n{}```\n", key.summary, key.example);
+    Entry { word: key.key, what, summary: key.summary, text }
+}
+
+fn of_kind(kind: GateKind) -> Entry {
+    let row = kind.row();
+    let keys: Vec<&str> = OPTIONS.iter().filter(|option| option.fits(kind)).map(|option| option.key).collect();
+    let other = row.opposite.word();
+    let text = format!(
+        "{}\n\nIt connects to: {} Its options: {}. The other end is `{other}`.\n\n```yaml\n- example: {}\n- typed: {{{}: {}}}\n```\n",
+        row.summary,
+        row.peers,
+        all_of(&keys),
+        row.word,
+        row.word,
+        example_type(kind),
+    );
+    Entry { word: row.word, what: "kind of gate", summary: row.summary, text }
+}
+
+fn of_option(option: &'static GateOption) -> Entry {
+    let kinds: Vec<&str> = option.kinds.iter().map(|kind| kind.word()).collect();
+    let default = option.default().map_or(String::new(), |default| format!(" Default: `{default}`."));
+    let examples: String = option.examples.iter().map(|example| format!("- {example}\n")).collect();
+    let text = format!(
+        "{}\n\n{}\n\nGates: {}. Value: {}.{default}\n\n```yaml\n{examples}```\n",
+        option.summary,
+        option.text,
+        all_of(&kinds),
+        option.shape.values(),
+    );
+    Entry { word: option.key, what: "option", summary: option.summary, text }
+}
+
+fn of_policy(policy: &'static Word) -> Entry {
+    let text = format!(
+        "A full queue {}.\n\n{}\n\n```yaml\n- samples: {{sub: Sample, when_full: {}}}\n```\n",
+        policy.summary, policy.text, policy.word
+    );
+    Entry { word: policy.word, what: "value of `when_full`", summary: policy.summary, text }
+}
+
+fn of_codec(row: &'static CodecRow) -> Entry {
+    let feature = if row.is_default_feature { ", on by default" } else { "" };
+    let text = format!(
+        "{}\n\nMessages: {} Cargo feature of the crate `scl`: `{}`{feature}.\n\n```yaml\n- attitude: {{pub: Attitude, codec: {}}}\n```\n",
+        row.summary, row.messages, row.word, row.word
+    );
+    Entry { word: row.word, what: "codec", summary: row.summary, text }
+}
+
+fn key_table(keys: &[Key]) -> String {
+    let mut table = "| key | value | default | meaning |\n|---|---|---|---|\n".to_owned();
+    for key in keys {
+        let default = if key.is_required { "required" } else { key.default };
+        let meaning = format!("{} {}", key.summary, key.text);
+        table.push_str(&row(&[&format!("`{}`", key.key), &key.shape.values(), default, meaning.trim_end()]));
+    }
+    table.trim_end().to_owned()
+}
+
+fn kind_table() -> String {
+    let mut table = "| kind | other end | what it does | connects to |\n|---|---|---|---|\n".to_owned();
+    for kind in GateKind::ALL {
+        let facts = kind.row();
+        let [word, other] = [facts.word, facts.opposite.word()].map(|word| format!("`{word}`"));
+        table.push_str(&row(&[&word, &other, facts.summary, facts.peers]));
+    }
+    table.trim_end().to_owned()
+}
+
+fn option_table() -> String {
+    let mut table = "| option | gates | value | default | meaning |\n|---|---|---|---|---|\n".to_owned();
+    for option in &OPTIONS {
+        let key = option.key;
+        let words = option.kinds.iter().map(|kind| format!("`{}`", kind.word()));
+        let kinds = if option.kinds.len() == GateKind::ALL.len() {
+            "all".to_owned()
+        } else {
+            words.collect::<Vec<_>>().join(", ")
+        };
+        let default = option.default().map_or(String::new(), |default| format!("`{default}`"));
+        table.push_str(&row(&[
+            &format!("[`{key}`](#{key})"),
+            &kinds,
+            &option.shape.values(),
+            &default,
+            option.summary,
+        ]));
+    }
+    table.trim_end().to_owned()
+}
+
+fn policy_table() -> String {
+    let mut table = "| `when_full` | a full queue | when to choose it |\n|---|---|---|\n".to_owned();
+    for policy in policies() {
+        let is_default = if policy.word == WhenFull::default().word() { " (default)" } else { "" };
+        table.push_str(&row(&[&format!("`{}`{is_default}", policy.word), policy.summary, policy.text]));
+    }
+    table.trim_end().to_owned()
+}
+
+fn codec_table() -> String {
+    let mut table = "| codec and feature | messages | when to choose it |\n|---|---|---|\n".to_owned();
+    for codec in Codec::BUILT_IN.iter().filter_map(Codec::row) {
+        let mark = if codec.is_default_feature { " *" } else { "" };
+        table.push_str(&row(&[&format!("`{}`{mark}", codec.word), codec.messages, codec.summary]));
+    }
+    table.trim_end().to_owned()
+}
+
+fn row(cells: &[&str]) -> String {
+    let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+    format!("| {} |\n", cells.join(" | ").replace("  ", " "))
+}
+
+fn example_type(kind: GateKind) -> &'static str {
+    if kind.is_exchange() { "Request -> Reply" } else { "Message" }
+}
+
+fn policies() -> &'static [Word] {
+    &WhenFull::ROWS
+}
+
+/// Markdown without the sentences that refer to other parts of the page, `See [codecs](#codecs).`
+pub fn without_references(markdown: &str) -> String {
+    let mut out = String::new();
+    let mut rest = markdown;
+    while let Some((before, reference)) = rest.split_once("See [") {
+        out.push_str(before.trim_end_matches(' '));
+        rest = reference.split_once(").").map_or("", |(_, after)| after);
+    }
+    out + rest
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,195 @@
+//! What the value of a key looks like, and its range.
+
+use crate::duration::{self, DurationError};
+use crate::size::{self, SizeError};
+use crate::wording::{either, listed};
+use std::time::Duration;
+
+/// What a value looks like, and its range. The parser refuses another look, the checks another range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// A paragraph.
+    Text,
+    /// A name.
+    Name,
+    /// The word of a codec, or a Rust path.
+    Codec,
+    /// A whole number.
+    Number {
+        /// The smallest.
+        least: u32,
+        /// The largest.
+        most: u32,
+    },
+    /// A number and a unit of [`duration`]: more than nothing.
+    Duration {
+        /// The longest.
+        most: Duration,
+    },
+    /// A whole number and a unit of [`size`]: at least 1 byte.
+    Size {
+        /// The largest, in bytes.
+        most: u64,
+    },
+    /// `true` or `false`.
+    Boolean,
+    /// One of some words.
+    Word(&'static [Word]),
+    /// A list.
+    List(Item),
+}
+
+/// A word that an option knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Word {
+    /// As in the file.
+    pub word: &'static str,
+    /// What it does, in a few words.
+    pub summary: &'static str,
+    /// When to choose it: some sentences.
+    pub text: &'static str,
+}
+
+/// What a list consists of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Item {
+    /// Components.
+    Component,
+    /// Pairs of gates.
+    Connection,
+    /// Names of files.
+    File,
+    /// Gates.
+    Gate,
+}
+
+/// A value that looks right and is out of its range.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutOfRange {
+    /// What it must be: `at least 1`.
+    pub rule: String,
+    /// Whether it is above the range, not below.
+    pub is_above: bool,
+}
+
+impl Shape {
+    /// What a value must be, as a sentence goes on after `must be`.
+    pub fn rule(self) -> String {
+        match self {
+            Shape::Text | Shape::Name | Shape::Codec => "text".to_owned(),
+            Shape::Number { .. } => "a whole number".to_owned(),
+            Shape::Duration { .. } => {
+                format!("a number and a unit: {}", either(&duration::UNITS.map(|(unit, _)| unit)))
+            }
+            Shape::Size { .. } => format!("a whole number and a unit: {}", either(&size::UNITS.map(|(unit, _)| unit))),
+            Shape::Boolean => "`true` or `false`".to_owned(),
+            Shape::Word(words) => either(&words.iter().map(|word| word.word).collect::<Vec<_>>()),
+            Shape::List(_) => "a list".to_owned(),
+        }
+    }
+
+    /// The shape and the range, for tables: `1 to 1000000`.
+    pub fn values(self) -> String {
+        match self {
+            Shape::Text => "text".to_owned(),
+            Shape::Name => "a name".to_owned(),
+            Shape::Codec => "a codec or a Rust path".to_owned(),
+            Shape::Number { least, most } if least == most => least.to_string(),
+            Shape::Number { least, most } => format!("{least} to {most}"),
+            Shape::Duration { most } => {
+                format!("1us to {} (units: {})", duration::text(most), listed(duration::UNITS.map(|(unit, _)| unit)))
+            }
+            Shape::Size { most } => {
+                format!("1B to {} (units: {})", size::text(most), listed(size::UNITS.map(|(unit, _)| unit)))
+            }
+            Shape::Boolean => "`true`, `false`".to_owned(),
+            Shape::Word(words) => listed(words.iter().map(|word| word.word)),
+            Shape::List(Item::Component) => "a list of components".to_owned(),
+            Shape::List(Item::Connection) => "a list of pairs".to_owned(),
+            Shape::List(Item::File) => "a list of files".to_owned(),
+            Shape::List(Item::Gate) => "a list of gates".to_owned(),
+        }
+    }
+
+    /// Whether a scalar looks right; `is_plain` if it stands without quotes. The range is another matter.
+    pub fn fits(self, text: &str, is_plain: bool) -> bool {
+        match self {
+            Shape::Number { .. } => is_plain && is_whole_number(text),
+            Shape::Boolean => is_plain && matches!(text, "true" | "false"),
+            Shape::Duration { .. } => duration::parse(text) != Err(DurationError::Malformed),
+            Shape::Size { .. } => size::parse(text) != Err(SizeError::Malformed),
+            Shape::Word(words) => words.iter().any(|known| known.word == text),
+            Shape::Text | Shape::Name | Shape::Codec => true,
+            Shape::List(_) => false,
+        }
+    }
+}
+
+/// Digits, perhaps with a sign; the sign is a matter of range.
+pub(crate) fn is_whole_number(text: &str) -> bool {
+    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
+    !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// A whole number in its range.
+pub(super) fn number(text: &str, least: u32, most: u32) -> Result<u32, OutOfRange> {
+    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
+    let is_negative = text.starts_with('-') && digits.bytes().any(|digit| digit != b'0');
+    // Digits alone fail to parse only if they are too many.
+    match digits.parse::<u32>() {
+        _ if is_negative => Err(below(format!("at least {least}"))),
+        Ok(number) if number < least => Err(below(format!("at least {least}"))),
+        Ok(number) if number <= most => Ok(number),
+        _ => Err(above(format!("at most {most}"))),
+    }
+}
+
+/// A duration in its range.
+pub(super) fn duration(text: &str, most: Duration) -> Result<Duration, OutOfRange> {
+    match duration::parse(text) {
+        Ok(duration) if duration <= most => Ok(duration),
+        Err(DurationError::TooSmall | DurationError::Malformed) => Err(below("more than 0".to_owned())),
+        Ok(_) | Err(DurationError::TooLarge) => Err(above(format!("at most {}", duration::text(most)))),
+    }
+}
+
+/// A number of bytes in its range.
+pub(super) fn size(text: &str, most: u64) -> Result<u64, OutOfRange> {
+    match size::parse(text) {
+        Ok(0) | Err(SizeError::Negative | SizeError::Malformed) => Err(below("at least 1B".to_owned())),
+        Ok(bytes) if bytes <= most => Ok(bytes),
+        Ok(_) | Err(SizeError::TooLarge) => Err(above(format!("at most {}", size::text(most)))),
+    }
+}
+
+fn below(rule: String) -> OutOfRange {
+    OutOfRange { rule, is_above: false }
+}
+
+fn above(rule: String) -> OutOfRange {
+    OutOfRange { rule, is_above: true }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{is_whole_number, number};
+
+    #[test]
+    fn whole_numbers() {
+        for good in ["0", "16", "-1", "+4"] {
+            assert!(is_whole_number(good), "{good}");
+        }
+        for bad in ["", "-", "1.5", "0x10", "1_000", "many", "1e3"] {
+            assert!(!is_whole_number(bad), "{bad}");
+        }
+    }
+
+    #[test]
+    fn numbers_have_two_ends() {
+        let is_above = |text| number(text, 1, 9).map_err(|error| error.is_above);
+        assert_eq!(
+            ["1", "+9", "-0", "-5", "0", "10", "99999999999"].map(is_above),
+            [Ok(1), Ok(9), Err(false), Err(false), Err(false), Err(true), Err(true)]
+        );
+    }
+}

@@ -1,0 +1,95 @@
+//! Canonical protobuf JSON, for the messages of `schemas:`.
+//!
+//! Messages convert through their protobuf encoding and a description of their type, so that they need no code per
+//! field, and well-known types, `NaN`, unknown enum values and presence are as in every other implementation
+//! (<https://protobuf.dev/programming-guides/json>).
+
+use prost::Message;
+use prost_reflect::{DescriptorPool, DeserializeOptions, DynamicMessage, MessageDescriptor, SerializeOptions};
+use serde::de::{Deserializer, Error as _};
+use serde::ser::{Error as _, Serializer};
+use std::sync::OnceLock;
+
+/// The types of a topology's schemas.
+#[derive(Debug)]
+pub struct MessagePool {
+    descriptors: &'static [u8],
+    decoded: OnceLock<Result<DescriptorPool, String>>,
+}
+
+impl MessagePool {
+    /// Types described by a serialized `google.protobuf.FileDescriptorSet`.
+    pub const fn new(descriptors: &'static [u8]) -> Self {
+        Self { descriptors, decoded: OnceLock::new() }
+    }
+
+    fn find(&self, name: &str) -> Result<MessageDescriptor, String> {
+        let decode = || DescriptorPool::decode(self.descriptors).map_err(|error| error.to_string());
+        let pool = self.decoded.get_or_init(decode).as_ref().map_err(String::clone)?;
+        pool.get_message_by_name(name).ok_or_else(|| format!("the schemas do not declare `{name}`"))
+    }
+}
+
+/// One type of a pool, looked up once.
+#[derive(Debug)]
+pub struct MessageType {
+    pool: &'static MessagePool,
+    name: &'static str,
+    found: OnceLock<Result<MessageDescriptor, String>>,
+}
+
+impl MessageType {
+    /// The type with this full name.
+    pub const fn new(pool: &'static MessagePool, name: &'static str) -> Self {
+        Self { pool, name, found: OnceLock::new() }
+    }
+
+    /// Serializes a message of this type.
+    pub fn serialize<S: Serializer>(&self, message: &impl Message, serializer: S) -> Result<S::Ok, S::Error> {
+        let bytes = message.encode_to_vec();
+        let described = DynamicMessage::decode(self.descriptor().map_err(S::Error::custom)?, bytes.as_slice());
+        described.map_err(S::Error::custom)?.serialize_with_options(serializer, &SerializeOptions::new())
+    }
+
+    /// Deserializes a message of this type. Unknown fields are skipped, as in every other codec: a newer program may
+    /// send them.
+    pub fn deserialize<'de, M: Message + Default, D: Deserializer<'de>>(&self, deserializer: D) -> Result<M, D::Error> {
+        let options = DeserializeOptions::new().deny_unknown_fields(false);
+        let descriptor = self.descriptor().map_err(D::Error::custom)?;
+        let described = DynamicMessage::deserialize_with_options(descriptor, deserializer, &options)?;
+        M::decode(described.encode_to_vec().as_slice()).map_err(D::Error::custom)
+    }
+
+    fn descriptor(&self) -> Result<MessageDescriptor, String> {
+        self.found.get_or_init(|| self.pool.find(self.name)).clone()
+    }
+}
+
+/// Implements serde's traits for the messages of a topology's schemas.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __message_json {
+    ($descriptors:literal $($message:ty = $name:literal)*) => {
+        static POOL: $crate::private::MessagePool = $crate::private::MessagePool::new($descriptors);
+        $(
+            const _: () = {
+                static TYPE: $crate::private::MessageType = $crate::private::MessageType::new(&POOL, $name);
+                impl $crate::private::serde::Serialize for $message {
+                    fn serialize<S: $crate::private::serde::Serializer>(
+                        &self,
+                        serializer: S,
+                    ) -> ::core::result::Result<S::Ok, S::Error> {
+                        TYPE.serialize(self, serializer)
+                    }
+                }
+                impl<'de> $crate::private::serde::Deserialize<'de> for $message {
+                    fn deserialize<D: $crate::private::serde::Deserializer<'de>>(
+                        deserializer: D,
+                    ) -> ::core::result::Result<Self, D::Error> {
+                        TYPE.deserialize(deserializer)
+                    }
+                }
+            };
+        )*
+    };
+}

@@ -1,0 +1,4 @@
+//! Generated code in unfriendly surroundings, in one binary.
+
+mod renamed;
+mod shadowed;
