@@ -22,7 +22,7 @@ fn problems(text: &str) -> (bool, Vec<(Diagnostic, Vec<u32>)>) {
     let file = sources.add("topology.yaml", text);
     let mut problems = Diagnostics::new();
     let model = parse(&sources, file, &mut problems);
-    let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec() };
+    let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec(), ..SchemaMessages::default() };
     let messages = (!model.schemas.is_empty()).then(|| vec![messages]);
     let topology =
         check(&model, &Facts { default_system: "t".to_owned(), messages, ..Facts::default() }, &sources, &mut problems);

@@ -20,7 +20,7 @@ impl Reader<'_> {
                 "scl" => self.read_version(*field),
                 "components" => self.read_components(*field),
                 "connections" => self.read_connections(*field),
-                key if key.starts_with("x-") => {}
+                key if key.starts_with("x-") => self.check_extension(*field),
                 _ => self.report_unknown_section(*field),
             }
         }
