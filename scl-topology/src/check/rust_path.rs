@@ -14,8 +14,7 @@ pub(super) fn check(draft: &mut Draft<'_>, facts: &Facts, problems: &mut Diagnos
     }
     for gate in &mut draft.gates {
         let types = gate.payload.as_ref().map(Payload::types).unwrap_or_default();
-        let found: Vec<Diagnostic> =
-            types.into_iter().filter(|name| !name.in_schemas()).filter_map(|name| diagnose(name)).collect();
+        let found: Vec<Diagnostic> = types.into_iter().filter(|name| !name.in_schemas()).filter_map(diagnose).collect();
         if !found.is_empty() {
             problems.extend(found);
             gate.payload = None;
