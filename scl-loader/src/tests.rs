@@ -366,7 +366,7 @@ mod schemas {
             &[("t.yaml", &yaml), ("rover.proto", PROTO)],
             "t.yaml",
             expect![[r#"
-            error: [SCL0414] the schemas `rover.proto` and `./rover.proto` are the same file
+            error: [SCL0416] the schemas `rover.proto` and `./rover.proto` are the same file
              --> t.yaml:1:24
               |
             1 | schemas: [rover.proto, ./rover.proto, rover.proto]
@@ -375,7 +375,7 @@ mod schemas {
               |           first time
               |
               = help: remove one of them
-            error: [SCL0414] the schema `rover.proto` is named twice
+            error: [SCL0416] the schema `rover.proto` is named twice
              --> t.yaml:1:39
               |
             1 | schemas: [rover.proto, ./rover.proto, rover.proto]
@@ -393,7 +393,7 @@ mod schemas {
             &[("below/t.yaml", &yaml), ("rover.proto", PROTO)],
             "below/t.yaml",
             expect![[r#"
-            warning: [SCL0413] the schema path leaves the folder of the topology file; it will not be found if only that folder is copied
+            warning: [SCL0415] the schema path leaves the folder of the topology file; it will not be found if only that folder is copied
              --> below/t.yaml:1:11
               |
             1 | schemas: [../rover.proto]
@@ -406,7 +406,7 @@ mod schemas {
         let absolute = folder.path().join("rover.proto").display().to_string();
         let file = super::folder(&[("t.yaml", &typed(&format!("[{absolute}]"), "rover.Measurement"))]);
         let loaded = load_from(&file, "t.yaml");
-        assert!(rendered(&loaded).contains("warning: [SCL0413] the schema path is absolute"), "{}", rendered(&loaded));
+        assert!(rendered(&loaded).contains("warning: [SCL0415] the schema path is absolute"), "{}", rendered(&loaded));
         assert!(loaded.topology.is_some());
     }
 

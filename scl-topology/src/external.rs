@@ -131,9 +131,9 @@ components:
     },
 };
 
-/// SCL0413.
+/// SCL0415.
 pub const SCHEMA_ELSEWHERE: Rule = Rule {
-    code: "SCL0413",
+    code: "SCL0415",
     severity: Severity::Warning,
     title: "schema path works on this machine only",
     explanation: "An absolute path of a schema, or one that leaves the folder of the topology file, exists on this \
@@ -142,9 +142,9 @@ pub const SCHEMA_ELSEWHERE: Rule = Rule {
     examples: Examples::None,
 };
 
-/// SCL0414.
+/// SCL0416.
 pub const SCHEMA_TWICE: Rule = Rule {
-    code: "SCL0414",
+    code: "SCL0416",
     severity: Severity::Error,
     title: "schema named twice",
     explanation: "Two entries of `schemas` lead to the same file, perhaps in two spellings such as `rover.proto` and \

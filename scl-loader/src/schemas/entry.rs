@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 pub(super) struct Named(HashMap<PathBuf, (String, Span)>);
 
 impl Named {
-    /// `SCL0414`: an earlier entry leads to the same file.
+    /// `SCL0416`: an earlier entry leads to the same file.
     pub(super) fn twice(&mut self, schema: &Spanned<String>, folder: &Path) -> Option<Diagnostic> {
         // A file that does not exist is reported elsewhere, under each name.
         let path = folder.join(&schema.value).canonicalize().ok()?;
@@ -30,7 +30,7 @@ impl Named {
     }
 }
 
-/// `SCL0413`: a path that does not exist on other machines.
+/// `SCL0415`: a path that does not exist on other machines.
 pub(super) fn elsewhere(schema: &Spanned<String>) -> Option<Diagnostic> {
     let path = Path::new(&schema.value);
     let message = if path.is_absolute() {
