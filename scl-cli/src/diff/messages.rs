@@ -25,9 +25,10 @@ pub(super) fn find_message_changes(old: &Side, new: &Side) -> MessageChanges {
     let mut found = MessageChanges::default();
     let mut decoded = Decoded::default();
     let mut compared: HashMap<(String, &str, &str, &str), Vec<Difference>> = HashMap::new();
-    for meeting in meetings(&new.plan) {
+    let (old, new) = (Schemas::of(&old.plan), Schemas::of(&new.plan));
+    for meeting in meetings(new.plan) {
         let Some(encoding) = Encoding::of_codec(&meeting.gate.codec) else { continue };
-        let (Some(before), Some(after)) = (schema(&old.plan, &meeting), schema(&new.plan, &meeting)) else { continue };
+        let (Some(before), Some(after)) = (old.of_sender(&meeting), new.of_sender(&meeting)) else { continue };
         if before.hash == after.hash {
             continue;
         }
@@ -41,9 +42,22 @@ pub(super) fn find_message_changes(old: &Side, new: &Side) -> MessageChanges {
     found
 }
 
-/// The schema of the sending component, which describes what both ends exchange.
-fn schema<'p>(plan: &'p SystemPlan, meeting: &Meeting<'_>) -> Option<&'p Schema> {
-    plan.component(meeting.component).ok()?.schema.as_ref()
+/// The schemas of the components of a system.
+struct Schemas<'p> {
+    plan: &'p SystemPlan,
+    by_component: HashMap<&'p str, &'p Schema>,
+}
+
+impl<'p> Schemas<'p> {
+    fn of(plan: &'p SystemPlan) -> Self {
+        let schemas = plan.components.iter().filter_map(|one| Some((one.component.as_str(), one.schema.as_ref()?)));
+        Self { plan, by_component: schemas.collect() }
+    }
+
+    /// The schema of the sending component, which describes what both ends exchange.
+    fn of_sender(&self, meeting: &Meeting<'_>) -> Option<&'p Schema> {
+        self.by_component.get(meeting.component).copied()
+    }
 }
 
 impl MessageChanges {
