@@ -96,6 +96,9 @@ impl Reader<'_> {
         };
         let has_connections = fields.get("connections").is_some();
         let is_stray = self.has_stray_connections;
+        if has_connections && is_stray {
+            self.problems.retain(shape::stray_connection::with_section);
+        }
         let connections_unread =
             !has_connections && !is_stray && (perhaps("connections") || fields.list.iter().any(is_odd_list));
         self.model.connections_unread = connections_unread;

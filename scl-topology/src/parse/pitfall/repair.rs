@@ -89,7 +89,7 @@ const DOUBTFUL: usize = 4;
 const MOST_PROBLEMS: usize = 2;
 
 /// No text is read again more often.
-const MOST_TRIES: usize = 160;
+const MOST_TRIES: usize = 100;
 
 /// What the best change explains.
 pub(super) struct Repair {
@@ -159,7 +159,10 @@ fn problems_left(text: &str) -> Option<usize> {
 
 /// Words that have a shape and yet no meaning.
 fn implausible(model: &Model) -> usize {
-    let is_name = |name: &str| name.chars().all(|letter| letter.is_alphanumeric() || matches!(letter, '_' | '-'));
+    let is_name = |name: &str| {
+        let is_letter = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '-');
+        name.chars().all(is_letter) && !name.starts_with('-')
+    };
     let is_type = |written: &str| {
         written.split("->").all(|part| !part.trim().contains(|c: char| c.is_whitespace() || "[]{},;#".contains(c)))
     };

@@ -51,6 +51,16 @@ pub(in crate::parse) fn diagnose(item: &Node, source: &SourceFile) -> Diagnostic
         .fix(Span { start: line, end: line, ..span }, "connections:\n")
 }
 
+/// Says of such a problem that the section exists, below the pairs; keeps every problem.
+pub(in crate::parse) fn with_section(problem: &mut Diagnostic) -> bool {
+    if *problem.rule == RULE {
+        problem.message = "this connection stands above `connections:`".to_owned();
+        problem.helps = vec!["move it below `connections:`".to_owned()];
+        problem.fixes.clear();
+    }
+    true
+}
+
 #[cfg(test)]
 mod tests {
     use super::RULE;

@@ -288,6 +288,10 @@ fn dash(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Edit>
     let mut above = text[..line.start].lines().rev().take(MOST_ABOVE);
     if let Some(item) = above.find(|line| line.trim_start().starts_with("- ")) {
         let column = item.len() - item.trim_start().len();
+        if text[start..].starts_with('-') && !text[start + 1..].starts_with(['-', '>']) {
+            let kind = Kind::DashSpace(start..start + 1);
+            edits.push(edit(kind, line.start..start + 1, format!("{}- ", " ".repeat(column)), 2));
+        }
         edits.push(edit(kind, line.start..start, format!("{}- ", " ".repeat(column)), 3));
     }
 }
