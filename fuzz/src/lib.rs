@@ -6,13 +6,19 @@
 
 mod model;
 
+use scl_plan::{Plan, SystemPlan};
 use scl_topology::check::{Facts, check};
 use scl_topology::diagnostic::{Diagnostics, render, render_headless, to_json};
 use scl_topology::model::Model;
 use scl_topology::parse::parse;
-use scl_topology::resolve::{LONGEST_PATH, contract, endpoint, gate_endpoint, tap_endpoint};
+use scl_topology::resolve::{CONTRACT_LENGTH, resolve};
+use scl_topology::socket_paths::SocketPaths;
 use scl_topology::source::Sources;
 use scl_topology::topology::Topology;
+
+/// The folder of all systems, and the longest path of a socket.
+const LONGEST_ROOT: &str = "/run/user/4294967295/scl";
+const LONGEST_PATH: usize = 107;
 
 /// Parses and checks a text, renders what is found, and resolves a topology that comes out.
 pub fn yaml_to_topology(text: &str) {
@@ -32,7 +38,8 @@ pub fn model_to_topology(data: &[u8]) {
 }
 
 fn judge(model: &Model, sources: &Sources, mut problems: Diagnostics) {
-    let facts = Facts { default_system: "fuzz".to_owned(), messages: None };
+    let sockets = SocketPaths { longest_root: LONGEST_ROOT.to_owned(), limit: LONGEST_PATH };
+    let facts = Facts { default_system: "fuzz".to_owned(), messages: None, sockets };
     let topology = check(model, &facts, sources, &mut problems);
     assert!(topology.is_none() || !problems.has_errors(), "a topology in spite of errors");
     // Where the parser has told a problem, here by the marks in the model, the checker adds none.
@@ -42,7 +49,7 @@ fn judge(model: &Model, sources: &Sources, mut problems: Diagnostics) {
         assert!(!render_headless(problem, sources).starts_with("error"));
         assert!(!to_json(problem, sources).contains('\n'));
     }
-    topology.iter().for_each(resolve);
+    topology.iter().for_each(plan);
 }
 
 /// Whether the model says that parts of the file could not be read.
@@ -55,14 +62,18 @@ fn is_damaged(model: &Model) -> bool {
         || gates.any(|gate| gate.kind.value.is_empty())
 }
 
-/// Every socket fits the kernel.
-fn resolve(topology: &Topology) {
-    let root = "/run/user/4294967295/scl/".len() + topology.system().len() + 1;
-    let connections = topology.connections().map(|(id, _)| endpoint(topology, id));
-    let gates = topology.components().flat_map(|(_, component)| component.gates());
-    let own = gates.flat_map(|&gate| [gate_endpoint(topology, gate), tap_endpoint(topology, gate)]).flatten();
-    for name in connections.chain(own) {
-        assert!(root + name.len() <= LONGEST_PATH, "{name}");
+/// Every socket fits the kernel, every plan makes sense, and it comes back from its text.
+fn plan(topology: &Topology) {
+    let root = LONGEST_ROOT.len() + topology.system().len() + 2;
+    let components: Vec<Plan> =
+        topology.components().map(|(id, _)| resolve(topology, id, &|_| String::new())).collect();
+    for gate in components.iter().flat_map(|plan| &plan.gates) {
+        let connections = gate.connections.iter().map(|connection| &connection.endpoint);
+        for name in connections.chain(&gate.endpoint).chain(&gate.tap) {
+            assert!(root + name.len() <= LONGEST_PATH, "{name}");
+        }
+        assert_eq!(gate.contract.len(), CONTRACT_LENGTH);
     }
-    assert!(topology.connections().all(|(id, _)| contract(topology, id).len() == 8));
+    let system = SystemPlan { system: topology.system().to_owned(), components };
+    assert_eq!(SystemPlan::from_json(&system.to_json()).expect("the plan is read as it was written"), system);
 }

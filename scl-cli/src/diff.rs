@@ -4,6 +4,7 @@ mod change;
 mod facts;
 mod rebuild;
 mod report;
+mod together;
 
 use crate::load::{STDIN, load_file, show_errors};
 use crate::print::{print_err, print_out};
@@ -11,18 +12,21 @@ use change::find_changes;
 use clap::{Args, ValueEnum};
 use rebuild::find_rebuilds;
 use report::{report_json, report_text};
+use scl_plan::SystemPlan;
 use scl_topology::topology::Topology;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use together::group;
 
 /// Exit code: one of the two is not a sound topology.
 const TROUBLE: u8 = 2;
 
 /// Compares two topologies, and names the components that must be rebuilt.
 ///
-/// Places, comments, order and spelling do not count, only what the files mean. A component must be rebuilt when something
-/// differs that is compiled into it: its gates, their options, its connections, and their contracts. What stands inside of
-/// schema files is not compared.
+/// Positions, comments, order and spelling do not count, only what the files mean. A component must be rebuilt if its plan
+/// differs (see `scl plan`): its gates, their options, its connections, and their contracts. Components are rebuilt together
+/// if a connection between them differs in its contract, or is new or gone: one that is left as it was does not connect to
+/// the others. The content of schema files is not compared.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -61,18 +65,20 @@ pub(crate) fn diff(arguments: &DiffArguments) -> ExitCode {
     let (old, new) = (read(&arguments.old), read(&arguments.new));
     let (Some(old), Some(new)) = (old, new) else { return ExitCode::from(TROUBLE) };
     let (changes, rebuilds) = (find_changes(&old, &new), find_rebuilds(&old, &new));
+    let groups = group(&old, &new, rebuilds);
     let report = match arguments.format {
         Format::Text => report_text,
         Format::Json => report_json,
     };
-    print_out(&report(&changes, &rebuilds));
+    print_out(&report(&changes, &groups));
     ExitCode::from(u8::from(!changes.is_empty()))
 }
 
 /// One of the two topologies.
 struct Side {
     topology: Topology,
-    /// The system's name as far as it is the file's own: a copy with another name is still the same topology.
+    plan: SystemPlan,
+    /// The system's name if the file gives one, else empty: a copy with another file name is still the same topology.
     system: String,
 }
 
@@ -81,6 +87,7 @@ fn read(path: &Path) -> Option<Side> {
     if loaded.topology.is_none() {
         show_errors(&loaded);
     }
-    let system = loaded.model.system.map_or_else(|| "that of the file".to_owned(), |system| system.value);
-    loaded.topology.map(|topology| Side { topology, system })
+    let plan = loaded.system_plan();
+    let system = loaded.model.system.map(|system| system.value).unwrap_or_default();
+    loaded.topology.zip(plan).map(|(topology, plan)| Side { topology, plan, system })
 }

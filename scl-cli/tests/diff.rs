@@ -56,7 +56,7 @@ fn a_copy_of_a_file_without_a_system_is_the_same() {
     };
     assert_eq!(told("new.yaml"), (Some(0), String::new()));
     let (code, text) = told("named.yaml");
-    assert!(code == Some(1) && text.starts_with("~ system: name that of the file -> rover\n"), "{text}");
+    assert!(code == Some(1) && text.starts_with("~ system: name from nothing to `rover`\n"), "{text}");
 }
 
 #[test]
@@ -65,14 +65,14 @@ fn a_type_concerns_both_ends() {
         &[("rover.Measurement", "rover.Reading")],
         1,
         expect![[r#"
-        ~ gate `sensor.measurements`: type rover.Measurement -> rover.Reading
-        ~ gate `controller.sensor`: type rover.Measurement -> rover.Reading
-        ~ connection `sensor.measurements -> controller.sensor`: contract hl75aqsl -> 24knrqzm, socket sensor.measurements--controller.sensor.hl75aqsl -> sensor.measurements--controller.sensor.24knrqzm
+            ~ gate `sensor.measurements`: type from `rover.Measurement` to `rover.Reading`
+            ~ gate `controller.sensor`: type from `rover.Measurement` to `rover.Reading`
+            ~ connection `sensor.measurements -> controller.sensor`: contract from `hl75aqsl` to `24knrqzm`, socket from `sensor.measurements--controller.sensor.hl75aqsl` to `sensor.measurements--controller.sensor.24knrqzm`
 
-        to rebuild:
-          sensor: gate `measurements` differs, connection `sensor.measurements -> controller.sensor` differs
-          controller: gate `sensor` differs, connection `sensor.measurements -> controller.sensor` differs
-    "#]],
+            to rebuild together:
+              sensor: gate `measurements` differs, connection `sensor.measurements -> controller.sensor` differs
+              controller: gate `sensor` differs, connection `sensor.measurements -> controller.sensor` differs
+        "#]],
     );
 }
 
@@ -82,12 +82,12 @@ fn a_queue_concerns_its_senders() {
         &[("sensor: sub", "sensor: {sub: rover.Measurement, queue: 1}")],
         1,
         expect![[r#"
-        ~ gate `controller.sensor`: queue 100 -> 1
+            ~ gate `controller.sensor`: queue from `100` to `1`
 
-        to rebuild:
-          sensor: connection `sensor.measurements -> controller.sensor` differs
-          controller: gate `sensor` differs, connection `sensor.measurements -> controller.sensor` differs
-    "#]],
+            to rebuild:
+              sensor: connection `sensor.measurements -> controller.sensor` differs
+              controller: gate `sensor` differs, connection `sensor.measurements -> controller.sensor` differs
+        "#]],
     );
 }
 
@@ -97,12 +97,12 @@ fn the_longest_message_of_a_gate_concerns_its_peers() {
         &[("{rep: A -> B}", "{rep: A -> B, max_size: 1024KiB}")],
         1,
         expect![[r#"
-        ~ gate `controller.commands`: max_size 64MiB -> 1MiB
+            ~ gate `controller.commands`: max_size from `64MiB` to `1MiB`
 
-        to rebuild:
-          controller: gate `commands` differs
-          panel: connection `panel.commands -> controller.commands` differs
-    "#]],
+            to rebuild:
+              controller: gate `commands` differs
+              panel: connection `panel.commands -> controller.commands` differs
+        "#]],
     );
 }
 
@@ -122,15 +122,79 @@ fn a_component_comes_and_another_goes() {
             - component `panel`
             + component `logger`
             - gate `panel.commands`: req A -> B
-            ~ gate `controller.commands`: unconnected false -> true
+            ~ gate `controller.commands`: unconnected from `none` to `ok`
             + gate `logger.input`: sub rover.Measurement
             - connection `panel.commands -> controller.commands`
             + connection `sensor.measurements -> logger.input`
 
-            to rebuild:
+            to rebuild together:
               sensor: connection `sensor.measurements -> logger.input` is new
-              controller: connection `panel.commands -> controller.commands` is gone
               logger: it is new
+
+            to rebuild:
+              controller: connection `panel.commands -> controller.commands` is gone
+        "#]],
+    );
+}
+
+#[test]
+fn a_type_of_two_parts_is_told_clearly() {
+    check(
+        &[("{rep: A -> B}", "{rep: C -> B}")],
+        1,
+        expect![[r#"
+        ~ gate `controller.commands`: type from `A -> B` to `C -> B`
+        ~ gate `panel.commands`: type from `A -> B` to `C -> B`
+        ~ connection `panel.commands -> controller.commands`: contract from `yrvcf33f` to `7wfuyvid`, socket from `controller.commands.yrvcf33f` to `controller.commands.7wfuyvid`
+
+        to rebuild together:
+          controller: gate `commands` differs, connection `panel.commands -> controller.commands` differs
+          panel: gate `commands` differs, connection `panel.commands -> controller.commands` differs
+    "#]],
+    );
+}
+
+#[test]
+fn only_components_that_part_are_rebuilt_together() {
+    check(
+        &[("rover.Measurement", "rover.Reading"), ("{rep: A -> B}", "{rep: A -> B, max_size: 1KiB}")],
+        1,
+        expect![[r#"
+            ~ gate `sensor.measurements`: type from `rover.Measurement` to `rover.Reading`
+            ~ gate `controller.sensor`: type from `rover.Measurement` to `rover.Reading`
+            ~ gate `controller.commands`: max_size from `64MiB` to `1KiB`
+            ~ connection `sensor.measurements -> controller.sensor`: contract from `hl75aqsl` to `24knrqzm`, socket from `sensor.measurements--controller.sensor.hl75aqsl` to `sensor.measurements--controller.sensor.24knrqzm`
+
+            to rebuild together:
+              sensor: gate `measurements` differs, connection `sensor.measurements -> controller.sensor` differs
+              controller: gate `sensor` differs, connection `sensor.measurements -> controller.sensor` differs, gate `commands` differs
+
+            to rebuild:
+              panel: connection `panel.commands -> controller.commands` differs
+        "#]],
+    );
+    // Both were connected to the component that is gone, but not to each other.
+    check(
+        &[
+            ("  - name: controller\n    gates:\n      - sensor: sub\n      - commands: {rep: A -> B}\n", ""),
+            ("  - [sensor.measurements, controller.sensor]\n  - [panel.commands, controller.commands]\n", ""),
+            ("{pub: rover.Measurement}", "{pub: rover.Measurement, unconnected: ok}"),
+            ("commands: req", "commands: {req: A -> B, unconnected: ok}"),
+            ("connections:", "connections: []"),
+        ],
+        1,
+        expect![[r#"
+            - component `controller`
+            - gate `controller.sensor`: sub rover.Measurement
+            - gate `controller.commands`: rep A -> B
+            ~ gate `sensor.measurements`: unconnected from `none` to `ok`
+            ~ gate `panel.commands`: unconnected from `none` to `ok`
+            - connection `sensor.measurements -> controller.sensor`
+            - connection `panel.commands -> controller.commands`
+
+            to rebuild:
+              sensor: connection `sensor.measurements -> controller.sensor` is gone
+              panel: connection `panel.commands -> controller.commands` is gone
         "#]],
     );
 }
@@ -141,10 +205,10 @@ fn words_for_people_need_no_rebuild() {
         &[("- name: sensor", "- name: sensor\n    doc: Reads.")],
         1,
         expect![[r#"
-        ~ component `sensor`: doc none -> "Reads."
+            ~ component `sensor`: doc from `none` to `"Reads."`
 
-        nothing to rebuild
-    "#]],
+            nothing to rebuild
+        "#]],
     );
 }
 
@@ -158,12 +222,12 @@ fn a_kind_and_the_system_change() {
         ],
         1,
         expect![[r#"
-            ~ system: name rover -> tank
-            ~ gate `sensor.measurements`: kind pub -> push
-            ~ gate `controller.sensor`: kind sub -> pull
-            ~ connection `sensor.measurements -> controller.sensor`: contract hl75aqsl -> yj2a5wbk, socket sensor.measurements--controller.sensor.hl75aqsl -> controller.sensor.yj2a5wbk
+            ~ system: name from `rover` to `tank`
+            ~ gate `sensor.measurements`: kind from `pub` to `push`, share from nothing to `false`
+            ~ gate `controller.sensor`: kind from `sub` to `pull`
+            ~ connection `sensor.measurements -> controller.sensor`: contract from `hl75aqsl` to `yj2a5wbk`, socket from `sensor.measurements--controller.sensor.hl75aqsl` to `controller.sensor.yj2a5wbk`
 
-            to rebuild:
+            to rebuild together:
               sensor: the system's name differs, gate `measurements` differs, connection `sensor.measurements -> controller.sensor` differs
               controller: the system's name differs, gate `sensor` differs, connection `sensor.measurements -> controller.sensor` differs
               panel: the system's name differs
@@ -177,11 +241,11 @@ fn optional_peers_are_not_waited_for() {
         &[("- name: panel", "- name: panel\n    optional: true")],
         1,
         expect![[r#"
-        ~ component `panel`: optional false -> true
+            ~ component `panel`: optional from `false` to `true`
 
-        to rebuild:
-          controller: connection `panel.commands -> controller.commands` differs
-    "#]],
+            to rebuild:
+              controller: connection `panel.commands -> controller.commands` differs
+        "#]],
     );
 }
 
@@ -196,6 +260,7 @@ fn json_says_the_same() {
     assert_eq!(found["changes"], changes);
     let rebuilt: Vec<_> = found["rebuild"].as_array().unwrap().iter().map(|it| &it["component"]).collect();
     assert_eq!(rebuilt, ["sensor", "controller"]);
+    assert_eq!(found["together"], json!([["sensor"], ["controller"]]), "a queue does not part them");
 }
 
 #[test]

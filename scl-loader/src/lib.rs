@@ -4,11 +4,12 @@
 //! that reads these files; what is in them, `scl-topology` judges.
 //!
 //! ```text
-//! Request --read--> text --parse--> Model --compile--> messages --check--> Topology
+//! Request --read--> text --parse--> Model --compile--> messages --check--> Topology --resolve--> Plan
 //! ```
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 #![deny(missing_docs)]
 
+mod plan;
 mod read;
 mod request;
 mod schemas;
@@ -88,7 +89,8 @@ fn check_text(request: &Request, text: String, loaded: &mut Loaded, problems: &m
     loaded.file = Some(file);
     loaded.model = parse(&loaded.sources, file, problems);
     let compiled = schemas::compile(request, &loaded.model, &mut loaded.sources, problems);
-    let facts = Facts { default_system: request.default_system(), messages: compiled.messages };
+    let facts =
+        Facts { default_system: request.default_system(), messages: compiled.messages, sockets: plan::socket_paths() };
     loaded.files_read.extend(compiled.files_read);
     loaded.schemas = compiled.schemas;
     loaded.topology = check(&loaded.model, &facts, &loaded.sources, problems);

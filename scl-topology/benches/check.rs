@@ -52,7 +52,7 @@ fn measure(text: &str, misspelt: bool) -> (Duration, Duration) {
     let model = parse(&sources, file, &mut problems);
     let parsed = start.elapsed();
     let topology =
-        check(&model, &Facts { default_system: "bench".to_owned(), messages: None }, &sources, &mut problems);
+        check(&model, &Facts { default_system: "bench".to_owned(), ..Facts::default() }, &sources, &mut problems);
     let checked = start.elapsed() - parsed;
     assert_eq!(topology.is_none(), misspelt, "the file is not what it should be");
     let found = problems.into_sorted();

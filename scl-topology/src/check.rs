@@ -58,6 +58,7 @@ mod unknown_gate;
 use crate::diagnostic::Diagnostics;
 use crate::model::Model;
 use crate::rule::Rule;
+use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 use crate::topology::Topology;
 use draft::Draft;
@@ -139,6 +140,8 @@ pub struct Facts {
     /// What the schemas declare, in the order of the file's `schemas`. `None` if the file names none or they could not
     /// be compiled: then types are not looked up.
     pub messages: Option<Vec<SchemaMessages>>,
+    /// How long names may be: they become paths of sockets.
+    pub sockets: SocketPaths,
 }
 
 /// The messages of one schema file.
@@ -188,13 +191,14 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     circle::check(&draft, problems);
     island::check(&draft, problems);
     crowd::check(&draft, problems);
-    path_length::check(&draft, &system, problems);
-    shared_socket::check(&draft, &system, problems);
+    path_length::check(&draft, &facts.sockets, &system, problems);
+    let connection_room = facts.sockets.connection_room(&system);
+    shared_socket::check(&draft, connection_room, problems);
 
     misread::tell_once(problems);
     repeated::tell_once(problems);
     control::apply(model, sources, problems);
-    if problems.has_errors() { None } else { finish::finish(&draft, system, &codec) }
+    if problems.has_errors() { None } else { finish::finish(&draft, system, &codec, connection_room) }
 }
 
 fn check_names(model: &Model, problems: &mut Diagnostics) {

@@ -3,7 +3,7 @@
 //! The stages, each with its own type, so that a later stage cannot be handed what an earlier one rejected:
 //!
 //! ```text
-//! text --parse--> Model (as written) --check--> Topology (names resolved, no error left) --resolve--> endpoints
+//! text --parse--> Model (as written) --check--> Topology (names resolved, no error left) --resolve--> Plan
 //! ```
 //!
 //! This crate does no input or output: the caller reads the files and prints the diagnostics.
@@ -46,7 +46,7 @@
 //! let file = sources.add("topology.yaml", text);
 //! let mut problems = Diagnostics::new();
 //! let model = parse(&sources, file, &mut problems);
-//! let facts = Facts { default_system: "topology".to_owned(), messages: None };
+//! let facts = Facts { default_system: "topology".to_owned(), ..Facts::default() };
 //! let topology = check(&model, &facts, &sources, &mut problems);
 //! for problem in problems.into_sorted() {
 //!     println!("{}", render(&problem, &sources));
@@ -71,6 +71,7 @@ pub mod resolve;
 pub mod rule;
 pub mod rust_name;
 pub mod size;
+pub mod socket_paths;
 pub mod source;
 pub mod suggest;
 pub mod topology;

@@ -1,14 +1,20 @@
-//! Where the gates of a checked topology meet: contracts and the names of sockets.
+//! The plan of a component: everything its program needs to run, from the checked topology.
 //!
-//! A contract is a short mark of what two ends must agree on: pattern, types, codec. It stands in the name of the
-//! socket, so programs that were built from different contracts never meet. Names of gates, options and other parts of
-//! the file do not change it.
+//! Gates meet by names that this stage fixes: contracts and the names of sockets. A contract is a short mark of what two
+//! ends must agree on: pattern, types, codec. It stands in the name of the socket, so programs that were built from
+//! different contracts never meet. Names of gates, options and other parts of the file do not change it.
+
+mod contract;
+mod socket_name;
+
+pub(crate) use socket_name::shortened;
 
 use crate::fingerprint;
-use crate::topology::{ConnectionId, Gate, GateId, GateKind, Payload, Topology};
-
-/// The longest path of a socket, in bytes, without the final zero (`sun_path` of Linux).
-pub const LONGEST_PATH: usize = 107;
+use crate::source::Span;
+use crate::topology::{ComponentId, ConnectionId, GateId, GateKind, GateOptions, Payload, Topology};
+use contract::{contract, gate_contract};
+use scl_plan::{ConnectionPlan, GatePlan, Plan};
+use socket_name::{endpoint, gate_endpoint, tap_endpoint};
 
 /// The characters of a contract.
 pub const CONTRACT_LENGTH: usize = fingerprint::SHORT_LENGTH;
@@ -16,85 +22,78 @@ pub const CONTRACT_LENGTH: usize = fingerprint::SHORT_LENGTH;
 /// The end of the name of a tap.
 pub(crate) const TAP: &str = ".tap";
 
-/// The folder of all systems where it is longest: the largest user id there is.
-const LONGEST_ROOT: &str = "/run/user/4294967295/scl";
-
-/// The contract of a connection: eight characters of `a-z2-7`.
-pub fn contract(topology: &Topology, connection: ConnectionId) -> String {
-    // The receiving end has one contract for all its peers, so it is the one that counts.
-    gate_contract(topology, topology.connection(connection).sink())
+/// The plan of one component. `location` tells where a declaration stands, for example `topology.yaml:4:11`.
+///
+/// Which protobuf messages the component uses is not known here: [`Plan::schema`] is left empty.
+pub fn resolve(topology: &Topology, component: ComponentId, location: &dyn Fn(Span) -> String) -> Plan {
+    let component = topology.component(component);
+    Plan {
+        system: topology.system().to_owned(),
+        component: component.name().to_owned(),
+        declared_at: location(component.span()),
+        schema: None,
+        gates: component.gates().iter().map(|&gate| resolve_gate(topology, gate, location)).collect(),
+    }
 }
 
-/// The contract of a gate with any of its peers: eight characters of `a-z2-7`.
-pub fn gate_contract(topology: &Topology, gate: GateId) -> String {
-    let gate = topology.gate(gate);
-    let pattern = match gate.kind() {
-        GateKind::Pub | GateKind::Sub => "pub/sub",
-        GateKind::Req | GateKind::Rep => "req/rep",
-        GateKind::Push | GateKind::Pull => "push/pull",
+fn resolve_gate(topology: &Topology, id: GateId, location: &dyn Fn(Span) -> String) -> GatePlan {
+    let gate = topology.gate(id);
+    let GateOptions { queue, when_full, backpressure, max_size, timeout, .. } = *gate.options();
+    GatePlan {
+        name: gate.name().to_owned(),
+        kind: gate.kind(),
+        payload: payload(gate.payload()),
+        codec: gate.codec().word().to_owned(),
+        declared_at: location(gate.span()),
+        endpoint: gate_endpoint(topology, id),
+        tap: tap_endpoint(topology, id),
+        contract: gate_contract(topology, id),
+        max_size,
+        queue,
+        when_full,
+        backpressure,
+        timeout,
+        connections: gate
+            .connections()
+            .iter()
+            .map(|&connection| resolve_connection(topology, id, connection))
+            .collect(),
+    }
+}
+
+fn resolve_connection(topology: &Topology, gate: GateId, id: ConnectionId) -> ConnectionPlan {
+    let connection = topology.connection(id);
+    let peer = topology.gate(connection.peer_of(gate));
+    let owner = topology.component(peer.component());
+    let receiver = topology.gate(connection.sink()).options();
+    ConnectionPlan {
+        peer_component: owner.name().to_owned(),
+        peer_gate: peer.name().to_owned(),
+        endpoint: endpoint(topology, id),
+        contract: contract(topology, id),
+        required: !owner.optional(),
+        queue: receiver.queue,
+        when_full: receiver.when_full,
+        max_size: max_size(topology, gate, id),
+    }
+}
+
+/// The longest message that the peer accepts from a gate. `sub` and `pull` send nothing, so theirs is their own limit.
+fn max_size(topology: &Topology, gate: GateId, id: ConnectionId) -> u64 {
+    let receiver = match topology.gate(gate).kind() {
+        GateKind::Sub | GateKind::Pull => gate,
+        GateKind::Pub | GateKind::Push | GateKind::Req | GateKind::Rep => topology.connection(id).peer_of(gate),
     };
-    let [first, second] = type_texts(gate);
-    fingerprint::short([pattern, first, second, gate.codec().word()])
+    topology.gate(receiver).options().max_size
 }
 
-/// The name of a connection's socket in the folder of its system.
-///
-/// For `pub` and `sub` it is `<pub>.<gate>--<sub>.<gate>.<contract>`. Where the longest usual folder leaves no room for
-/// that, the end of the gates' names is replaced by `~` and a fingerprint of them; the contract always stays the part
-/// after the last dot. For `req` and `push` it is the socket of the gate at the other end, see [`gate_endpoint`].
-pub fn endpoint(topology: &Topology, connection: ConnectionId) -> String {
-    let link = topology.connection(connection);
-    if let Some(own) = gate_endpoint(topology, link.sink()) {
-        return own;
-    }
-    let pair = format!("{}--{}", topology.gate_path(link.source()), topology.gate_path(link.sink()));
-    let room = connection_room(topology.system());
-    format!("{}.{}", shortened(&pair, room), contract(topology, connection))
-}
-
-/// How many bytes of a path are left for the two gates of a connection.
-pub(crate) fn connection_room(system: &str) -> usize {
-    LONGEST_PATH.saturating_sub(folder_length(system) + 1 + CONTRACT_LENGTH)
-}
-
-/// The name of the socket at which a `rep` or `pull` gate listens for all its peers: `<component>.<gate>.<contract>`.
-/// The other kinds have none.
-pub fn gate_endpoint(topology: &Topology, gate: GateId) -> Option<String> {
-    let listens = matches!(topology.gate(gate).kind(), GateKind::Rep | GateKind::Pull);
-    listens.then(|| format!("{}.{}", topology.gate_path(gate), gate_contract(topology, gate)))
-}
-
-/// The name of the socket at which tools observe a `pub`, `rep` or `pull` gate: `<component>.<gate>.tap`. The other
-/// kinds have none.
-///
-/// No contract is `tap`, and no other file of a component has this ending, so gates may be called `lock` or `json`.
-pub fn tap_endpoint(topology: &Topology, gate: GateId) -> Option<String> {
-    topology.gate(gate).kind().listens().then(|| format!("{}{TAP}", topology.gate_path(gate)))
-}
-
-/// The longest usual folder of a system, with a slash at its end.
-pub(crate) fn longest_folder(system: &str) -> String {
-    format!("{LONGEST_ROOT}/{system}/")
-}
-
-pub(crate) fn folder_length(system: &str) -> usize {
-    LONGEST_ROOT.len() + system.len() + 2
-}
-
-/// Names are ASCII once they are checked, so that any byte is the end of a character.
-pub(crate) fn shortened(pair: &str, room: usize) -> String {
-    if pair.len() <= room {
-        return pair.to_owned();
-    }
-    let kept = room.saturating_sub(1 + CONTRACT_LENGTH);
-    format!("{}~{}", pair.get(..kept).unwrap_or(""), fingerprint::short([pair]))
-}
-
-fn type_texts(gate: &Gate) -> [&str; 2] {
-    match gate.payload() {
-        Payload::Bytes => ["", ""],
-        Payload::Message(name) => [name.dotted(), ""],
-        Payload::Exchange { request, reply } => [request.dotted(), reply.dotted()],
+fn payload(payload: &Payload) -> scl_plan::Payload {
+    match payload {
+        Payload::Bytes => scl_plan::Payload::Bytes,
+        Payload::Message(name) => scl_plan::Payload::Message(name.dotted().to_owned()),
+        Payload::Exchange { request, reply } => {
+            scl_plan::Payload::Exchange { request: request.dotted().to_owned(), reply: reply.dotted().to_owned() }
+        }
     }
 }
 
@@ -102,6 +101,7 @@ fn type_texts(gate: &Gate) -> [&str; 2] {
 mod tests {
     use super::*;
     use crate::check::testing::topology;
+    use crate::socket_paths::SocketPaths;
 
     const FILE: &str = "components:
   - name: sensor
@@ -193,7 +193,8 @@ connections:
         let yaml = FILE.replace("pilot", &format!("{long}_one")).replace("other", &format!("{long}_two"));
         let yaml = format!("system: {SYSTEM}\n{yaml}");
         let names = endpoints(&yaml);
-        let room = LONGEST_PATH - folder_length(SYSTEM);
+        let paths = SocketPaths::example();
+        let room = paths.limit - paths.folder(SYSTEM).len();
         assert!(names.iter().all(|name| name.len() <= room), "{names:?}");
         assert!(names[0].starts_with("sensor.fix--") && names[0].contains('~'), "{names:?}");
         assert_ne!(names[0], names[3]);

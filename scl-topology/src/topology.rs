@@ -193,6 +193,8 @@ pub struct Topology {
     pub(crate) components: Vec<Component>,
     pub(crate) gates: Vec<Gate>,
     pub(crate) connections: Vec<Connection>,
+    /// How many bytes the names of a connection's gates may have in the name of its socket.
+    pub(crate) connection_room: usize,
 }
 
 impl Topology {

@@ -24,7 +24,8 @@ fn problems(text: &str) -> (bool, Vec<(Diagnostic, Vec<u32>)>) {
     let model = parse(&sources, file, &mut problems);
     let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec() };
     let messages = (!model.schemas.is_empty()).then(|| vec![messages]);
-    let topology = check(&model, &Facts { default_system: "t".to_owned(), messages }, &sources, &mut problems);
+    let topology =
+        check(&model, &Facts { default_system: "t".to_owned(), messages, ..Facts::default() }, &sources, &mut problems);
     let found = problems.into_sorted().into_iter().filter(|found| found.severity != Severity::Lint);
     let lines = |found: &Diagnostic| {
         let labels = found.primary.iter().chain(&found.secondary);

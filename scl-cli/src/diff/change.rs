@@ -1,8 +1,8 @@
 //! The differences between two topologies, part by part.
 
 use super::Side;
-use super::facts::{Fact, component_facts, connection_facts, connection_name, gate_facts};
-use scl_topology::topology::Topology;
+use super::facts::{Fact, component_facts, connection_facts, gate_facts};
+use super::together::meetings;
 
 /// One part that differs.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,28 +29,30 @@ pub(super) enum How {
 /// A part by its name, with what there is to say about it.
 type Part = (String, Vec<Fact>);
 
-/// Every difference: the system, then components, gates and connections, each in file order, what is gone first.
+/// Every difference: the system, then components, gates and connections, each in the order of the new file after what is
+/// gone; connections in the order of their sending gates.
 pub(super) fn find_changes(old: &Side, new: &Side) -> Vec<Change> {
     let system = |side: &Side| vec![(String::new(), vec![("name", side.system.clone())])];
     let mut changes = compare("system", &system(old), &system(new));
-    let (old, new) = (&old.topology, &new.topology);
     changes.extend(compare("component", &components(old), &components(new)));
     changes.extend(compare("gate", &gates(old), &gates(new)));
     changes.extend(compare("connection", &connections(old), &connections(new)));
     changes
 }
 
-fn components(topology: &Topology) -> Vec<Part> {
-    topology.components().map(|(_, it)| (it.name().to_owned(), component_facts(it))).collect()
+fn components(side: &Side) -> Vec<Part> {
+    side.topology.components().map(|(_, it)| (it.name().to_owned(), component_facts(it))).collect()
 }
 
-fn gates(topology: &Topology) -> Vec<Part> {
-    let gates = topology.components().flat_map(|(_, component)| component.gates());
-    gates.map(|&id| (topology.gate_path(id), gate_facts(topology.gate(id)))).collect()
+fn gates(side: &Side) -> Vec<Part> {
+    let declared = side.topology.components().flat_map(|(_, component)| component.gates());
+    let planned = side.plan.components.iter().flat_map(|plan| &plan.gates);
+    let gates = declared.zip(planned);
+    gates.map(|(&id, plan)| (side.topology.gate_path(id), gate_facts(side.topology.gate(id), plan))).collect()
 }
 
-fn connections(topology: &Topology) -> Vec<Part> {
-    topology.connections().map(|(id, _)| (connection_name(topology, id), connection_facts(topology, id))).collect()
+fn connections(side: &Side) -> Vec<Part> {
+    meetings(&side.plan).map(|it| (it.name(), connection_facts(it.connection))).collect()
 }
 
 fn compare(part: &'static str, old: &[Part], new: &[Part]) -> Vec<Change> {

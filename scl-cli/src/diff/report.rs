@@ -3,18 +3,30 @@
 use super::change::{Change, How};
 use super::facts::Fact;
 use super::rebuild::Rebuild;
+use super::together::Group;
 use serde_json::{Map, Value, json};
 
-/// A line a difference (`+` new, `-` gone, `~` differs), then the components to rebuild; nothing if nothing differs.
-pub(super) fn report_text(changes: &[Change], rebuilds: &[Rebuild]) -> String {
+/// A line a difference (`+` new, `-` gone, `~` differs), then the components to rebuild, first those that must be rebuilt
+/// together; nothing if nothing differs.
+pub(super) fn report_text(changes: &[Change], groups: &[Group]) -> String {
     let mut text: String = changes.iter().map(change_line).collect();
-    if !rebuilds.is_empty() {
-        text.push_str("\nto rebuild:\n");
-    } else if !changes.is_empty() {
+    if groups.is_empty() && !changes.is_empty() {
         text.push_str("\nnothing to rebuild\n");
     }
-    text.extend(rebuilds.iter().map(|it| format!("  {}: {}\n", it.component, it.reasons.join(", "))));
+    let (together, alone): (Vec<&Group>, Vec<&Group>) = groups.iter().partition(|group| group.len() > 1);
+    for group in together {
+        text.push_str("\nto rebuild together:\n");
+        text.extend(group.iter().map(rebuild_line));
+    }
+    if !alone.is_empty() {
+        text.push_str("\nto rebuild:\n");
+        text.extend(alone.into_iter().flatten().map(rebuild_line));
+    }
     text
+}
+
+fn rebuild_line(it: &Rebuild) -> String {
+    format!("  {}: {}\n", it.component, it.reasons.join(", "))
 }
 
 fn change_line(change: &Change) -> String {
@@ -23,7 +35,8 @@ fn change_line(change: &Change) -> String {
         How::Added(facts) => ('+', summary(facts)),
         How::Removed(facts) => ('-', summary(facts)),
         How::Changed(facts) => {
-            let facts = facts.iter().map(|(key, old, new)| format!("{key} {} -> {}", shown(old), shown(new)));
+            // Types contain `->` themselves.
+            let facts = facts.iter().map(|(key, old, new)| format!("{key} from {} to {}", shown(old), shown(new)));
             ('~', format!(": {}", facts.collect::<Vec<_>>().join(", ")))
         }
     };
@@ -36,20 +49,22 @@ fn summary(facts: &[Fact]) -> String {
     value("kind").zip(value("type")).map_or_else(String::new, |(kind, payload)| format!(": {kind} {payload}"))
 }
 
-fn shown(value: &str) -> &str {
-    if value.is_empty() { "nothing" } else { value }
+fn shown(value: &str) -> String {
+    if value.is_empty() { "nothing".to_owned() } else { format!("`{value}`") }
 }
 
 /// One object without line breaks but the last:
-/// `{"changes":[{"part","name","change","facts"}],"rebuild":[{"component","reasons"}]}`.
+/// `{"changes":[{"part","name","change","facts"}],"rebuild":[{"component","reasons"}],"together":[["component"]]}`.
 ///
 /// `change` is `added`, `removed` or `changed`; `facts` is an object of values, or of `{"old","new"}` if changed, each
-/// `null` where there is no such fact.
-pub(super) fn report_json(changes: &[Change], rebuilds: &[Rebuild]) -> String {
+/// `null` where there is no such fact. `together` has every component to rebuild, with those that must be rebuilt with it.
+pub(super) fn report_json(changes: &[Change], groups: &[Group]) -> String {
     let changes: Vec<Value> = changes.iter().map(change_json).collect();
-    let rebuilds: Vec<Value> =
-        rebuilds.iter().map(|it| json!({ "component": it.component, "reasons": it.reasons })).collect();
-    format!("{}\n", json!({ "changes": changes, "rebuild": rebuilds }))
+    let rebuild = |it: &Rebuild| json!({ "component": it.component, "reasons": it.reasons });
+    let rebuilds: Vec<Value> = groups.iter().flatten().map(rebuild).collect();
+    let names = |group: &Group| group.iter().map(|it| it.component.clone()).collect::<Vec<_>>();
+    let together: Vec<Vec<String>> = groups.iter().map(names).collect();
+    format!("{}\n", json!({ "changes": changes, "rebuild": rebuilds, "together": together }))
 }
 
 fn change_json(change: &Change) -> Value {

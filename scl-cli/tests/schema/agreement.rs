@@ -30,7 +30,7 @@ fn errors(text: &str) -> Vec<&'static str> {
     let file = sources.add("topology.yaml", text);
     let mut problems = Diagnostics::new();
     let model = parse(&sources, file, &mut problems);
-    check(&model, &Facts { default_system: "t".to_owned(), messages: None }, &sources, &mut problems);
+    check(&model, &Facts { default_system: "t".to_owned(), ..Facts::default() }, &sources, &mut problems);
     let found = problems.into_sorted().into_iter().filter(|found| found.severity == Severity::Error);
     found.map(|found| found.rule.code).collect()
 }
@@ -96,7 +96,7 @@ fn variants() -> Vec<String> {
         for option in &OPTIONS {
             let other = GateKind::ALL.into_iter().find(|&kind| !option.fits(kind));
             for kind in option.kinds.iter().take(1).copied().chain(other) {
-                let payload = if kind.is_exchange() { "A -> B" } else { "T" };
+                let payload = if kind.exchanges() { "A -> B" } else { "T" };
                 let options = if option.key == "unconnected" { "" } else { ", unconnected: ok" };
                 let gate = format!("x: {{{}: {payload}, {}: {value}{options}}}", kind.word(), option.key);
                 texts.push(format!("components:\n  - name: a\n    gates:\n      - {gate}\n"));

@@ -9,20 +9,23 @@ use super::schemas::EmbeddedSchemas;
 use super::{counterpart, docs, spec, type_agreement};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
+use scl_plan::Plan;
 use scl_topology::topology::{Component, Topology};
 
 /// All generated components, with the checks that only rustc can make.
 pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> TokenStream {
-    let components = topology.components().map(|(_, component)| component);
-    let components: Vec<&Component> = components.filter(|component| context.includes(component.name())).collect();
+    let included = topology.components().filter(|(_, component)| context.includes(component.name()));
+    let location = |span| context.location(span);
+    let components: Vec<(&Component, Plan)> =
+        included.map(|(id, component)| (component, context.loaded.plan(topology, id, &location))).collect();
     let codec_traits = CodecTraits::collect(context, topology);
-    let structs = components.iter().map(|component| expand_struct(context, topology, component));
+    let structs = components.iter().map(|(component, _)| expand_struct(context, topology, component));
     let traits = codec_traits.expand(context, topology);
-    let schemas = EmbeddedSchemas::collect(context, topology);
+    let schemas = EmbeddedSchemas::collect(components.iter().map(|(_, plan)| plan));
     let constants = schemas.expand(context);
-    let expand_implementation =
-        |component: &&Component| expand_implementation(context, topology, component, &codec_traits, &schemas);
-    let implementations = components.iter().map(expand_implementation);
+    let implementations = components
+        .iter()
+        .map(|(component, plan)| expand_implementation(context, topology, component, plan, &codec_traits, &schemas));
     let agreements = type_agreement::expand_agreements(context, topology);
     // With the span of the literal, rustc's own errors about a type point there and not into a macro.
     quote_spanned! { context.span =>
@@ -64,14 +67,15 @@ fn expand_implementation(
     context: &Context<'_>,
     topology: &Topology,
     component: &Component,
+    plan: &Plan,
     codec_traits: &CodecTraits<'_>,
-    schemas: &EmbeddedSchemas,
+    schemas: &EmbeddedSchemas<'_>,
 ) -> TokenStream {
     let private = &context.private;
     let (name, peer) = (struct_name(component), counterpart_name(component));
-    let spec = spec::expand_spec(context, topology, component, schemas);
+    let spec = spec::expand_spec(context, plan, schemas);
     let methods = expand_methods(context, topology, component, codec_traits, Side::Component);
-    let counterpart = counterpart::expand_implementation(context, topology, component, codec_traits);
+    let counterpart = counterpart::expand_implementation(context, topology, component, plan, codec_traits);
     quote_spanned! { context.span =>
         impl #private::Component for #name {
             const SPEC: &'static #private::ComponentSpec = &#spec;

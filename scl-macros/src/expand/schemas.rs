@@ -1,15 +1,13 @@
 //! Compiled schemas: one module of Rust types for each protobuf package, and the descriptors that programs embed.
 
-#[cfg(feature = "protobuf")]
 mod embedded;
 #[cfg(feature = "protobuf")]
 mod modules;
 #[cfg(not(feature = "protobuf"))]
 mod switched_off;
 
-#[cfg(feature = "protobuf")]
 pub(super) use embedded::EmbeddedSchemas;
 #[cfg(feature = "protobuf")]
 pub(super) use modules::expand_modules;
 #[cfg(not(feature = "protobuf"))]
-pub(super) use switched_off::{EmbeddedSchemas, expand_modules};
+pub(super) use switched_off::expand_modules;

@@ -61,8 +61,8 @@ connections:
         # [cfg (test)] impl scl :: private :: Component for SensorPeer {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
         system : "t" , name : "sensor's peers" , declared_at : "" , gates : & [scl :: private :: GateSpec {
-        name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "" , contract : "hl75aqsl" , max_size : :: core :: primitive :: u64 :: MAX , queue : :: core :: primitive :: u32 :: MAX , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: from_secs (10) , links : & [scl :: private :: LinkSpec {
-        peer_component : "sensor" , peer_gate : "measurements" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : :: core :: primitive :: u64 :: MAX , }] , }] , schema : :: core :: option :: Option :: None , }
+        name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "" , contract : "hl75aqsl" , max_size : 18446744073709551615u64 , queue : 4294967295u32 , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: new (10u64 , 0u32) , links : & [scl :: private :: LinkSpec {
+        peer_component : "sensor" , peer_gate : "measurements" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : 18446744073709551615u64 , }] , }] , schema : :: core :: option :: Option :: None , }
         ;
         fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
         :: core :: result :: Result :: Ok (Self {
@@ -103,15 +103,15 @@ connections:
         "out" scl::private::GateKind::Pub endpoints "" "a.out--b.in.qud4qwa4" tap "a.out.tap" max_sizes 67108864u64 2u64
         "work" scl::private::GateKind::Push endpoints "" "b.jobs.7zodneik" tap "" max_sizes 67108864u64 3u64
         "ask" "a'speers" scl::private::GateKind::Req endpoints "" "b.answer.yrvcf33f" tap "" max_sizes 1u64 4u64
-        "out" scl::private::GateKind::Sub endpoints "" "a.out--b.in.qud4qwa4" tap "" max_sizes ::core::primitive::u64::MAX ::core::primitive::u64::MAX
-        "work" scl::private::GateKind::Pull endpoints "b.jobs.7zodneik" "b.jobs.7zodneik" tap "a.work.peer" max_sizes ::core::primitive::u64::MAX ::core::primitive::u64::MAX
-        "ask" "b" scl::private::GateKind::Rep endpoints "b.answer.yrvcf33f" "b.answer.yrvcf33f" tap "a.ask.peer" max_sizes ::core::primitive::u64::MAX 1u64
+        "out" scl::private::GateKind::Sub endpoints "" "a.out--b.in.qud4qwa4" tap "" max_sizes 18446744073709551615u64 18446744073709551615u64
+        "work" scl::private::GateKind::Pull endpoints "b.jobs.7zodneik" "b.jobs.7zodneik" tap "a.work.peer" max_sizes 18446744073709551615u64 18446744073709551615u64
+        "ask" "b" scl::private::GateKind::Rep endpoints "b.answer.yrvcf33f" "b.answer.yrvcf33f" tap "a.ask.peer" max_sizes 18446744073709551615u64 1u64
         "in" scl::private::GateKind::Sub endpoints "" "a.out--b.in.qud4qwa4" tap "" max_sizes 2u64 2u64
         "jobs" scl::private::GateKind::Pull endpoints "b.jobs.7zodneik" "b.jobs.7zodneik" tap "b.jobs.tap" max_sizes 3u64 3u64
         "answer" "b'speers" scl::private::GateKind::Rep endpoints "b.answer.yrvcf33f" "b.answer.yrvcf33f" tap "b.answer.tap" max_sizes 4u64 1u64
-        "in" scl::private::GateKind::Pub endpoints "" "a.out--b.in.qud4qwa4" tap "b.in.peer" max_sizes ::core::primitive::u64::MAX 2u64
-        "jobs" scl::private::GateKind::Push endpoints "" "b.jobs.7zodneik" tap "" max_sizes ::core::primitive::u64::MAX 3u64
-        "answer" scl::private::GateKind::Req endpoints "" "b.answer.yrvcf33f" tap "" max_sizes ::core::primitive::u64::MAX 4u64
+        "in" scl::private::GateKind::Pub endpoints "" "a.out--b.in.qud4qwa4" tap "b.in.peer" max_sizes 18446744073709551615u64 2u64
+        "jobs" scl::private::GateKind::Push endpoints "" "b.jobs.7zodneik" tap "" max_sizes 18446744073709551615u64 3u64
+        "answer" scl::private::GateKind::Req endpoints "" "b.answer.yrvcf33f" tap "" max_sizes 18446744073709551615u64 4u64
     "#]].assert_eq(&specs);
 }
 

@@ -5,6 +5,7 @@ use crate::check::{Facts, SchemaMessages, check};
 use crate::diagnostic::{Diagnostics, Severity, render};
 use crate::parse::parse;
 use crate::rule::{Examples, Rule};
+use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 
 /// What the schema of the examples declares.
@@ -86,7 +87,8 @@ fn told(code: &str, text: &str) -> String {
     let model = parse(&sources, file, &mut problems);
     let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec() };
     let messages = (!model.schemas.is_empty()).then(|| vec![messages]);
-    check(&model, &Facts { default_system: "topology".to_owned(), messages }, &sources, &mut problems);
+    let facts = Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example() };
+    check(&model, &facts, &sources, &mut problems);
     let found = problems.into_sorted();
     let texts = found.iter().filter(|problem| problem.code() == code).map(|problem| render(problem, &sources));
     texts.collect::<Vec<_>>().join("\n\n")

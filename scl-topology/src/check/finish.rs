@@ -5,7 +5,7 @@ use crate::rust_name::{component_type, gate_field};
 use crate::topology::{Codec, Component, ComponentId, Connection, ConnectionId, Gate, GateId, Payload, Topology};
 
 /// `None` if a part of the draft has been rejected, of which a problem speaks.
-pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec) -> Option<Topology> {
+pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec, connection_room: usize) -> Option<Topology> {
     let connections: Vec<Connection> = draft.links.iter().map(connection).collect::<Option<_>>()?;
     let mut gates: Vec<Gate> = draft.gates.iter().map(|gate| finish_gate(gate, codec)).collect::<Option<_>>()?;
     for (at, connection) in connections.iter().enumerate() {
@@ -21,7 +21,7 @@ pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec) -> Option
         span: component.model.name.span,
         gates: component.gates.iter().map(|&gate| GateId(gate as u32)).collect(),
     });
-    Some(Topology { system, components: components.collect(), gates, connections })
+    Some(Topology { system, components: components.collect(), gates, connections, connection_room })
 }
 
 fn connection(link: &super::draft::Link<'_>) -> Option<Connection> {

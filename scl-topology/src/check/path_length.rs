@@ -5,8 +5,9 @@ use super::draft::Draft;
 use super::named::is_well_formed;
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::resolve::{CONTRACT_LENGTH, LONGEST_PATH, TAP, folder_length, longest_folder};
+use crate::resolve::{CONTRACT_LENGTH, TAP};
 use crate::rule::{Examples, Rule};
+use crate::socket_paths::SocketPaths;
 use crate::topology::GateKind;
 
 /// SCL0801.
@@ -34,16 +35,17 @@ pub(crate) const RULE: Rule = Rule {
 /// Names longer than this have an error of their own.
 const LONGEST_NAME: usize = 64;
 
-pub(super) fn check(draft: &Draft<'_>, system: &str, problems: &mut Diagnostics) {
+pub(super) fn check(draft: &Draft<'_>, paths: &SocketPaths, system: &str, problems: &mut Diagnostics) {
+    let folder = paths.folder(system);
     for (at, gate) in draft.gates.iter().enumerate() {
         let Some(ending) = gate.kind.and_then(longest_ending) else { continue };
         let names = [draft.component_name(at), &gate.model.name.value];
         if gate.duplicate || names.iter().any(|name| name.len() > LONGEST_NAME || !is_well_formed(name)) {
             continue;
         }
-        let length = folder_length(system) + names[0].len() + 1 + names[1].len() + ending.len();
-        if length > LONGEST_PATH {
-            problems.push(report(draft, at, format!("{}{}{ending}", longest_folder(system), draft.path(at))));
+        let length = folder.len() + names[0].len() + 1 + names[1].len() + ending.len();
+        if length > paths.limit {
+            problems.push(report(draft, at, paths.limit, format!("{folder}{}{ending}", draft.path(at))));
         }
     }
 }
@@ -56,14 +58,14 @@ fn longest_ending(kind: GateKind) -> Option<String> {
     tap.into_iter().chain(all_peers).max_by_key(String::len)
 }
 
-fn report(draft: &Draft<'_>, gate: usize, path: String) -> Diagnostic {
+fn report(draft: &Draft<'_>, gate: usize, limit: usize, path: String) -> Diagnostic {
     let length = path.len();
     let component = &draft.components[draft.gates[gate].component].model.name;
     let name = &draft.gates[gate].model.name;
-    let headline = format!("the socket path of this gate has {length} bytes; the kernel allows {LONGEST_PATH}");
+    let headline = format!("the socket path of this gate has {length} bytes; the kernel allows {limit}");
     RULE.at(headline, name.span, format!("{} bytes", name.value.len()))
         .label(component.span, format!("{} bytes", component.value.len()))
-        .help(format!("shorten the names by {} bytes", length - LONGEST_PATH))
+        .help(format!("shorten the names by {} bytes", length - limit))
         .note(format!("path: {path}"))
         .note("the folder is the longest usual one, so that the file works for every user of the machine")
 }

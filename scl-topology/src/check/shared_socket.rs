@@ -6,7 +6,7 @@
 use super::draft::Draft;
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
-use crate::resolve::{connection_room, shortened};
+use crate::resolve::shortened;
 use crate::rule::{Examples, Rule};
 use crate::topology::GateKind;
 use std::collections::HashMap;
@@ -22,8 +22,7 @@ pub(crate) const RULE: Rule = Rule {
     examples: Examples::None,
 };
 
-pub(super) fn check(draft: &Draft<'_>, system: &str, problems: &mut Diagnostics) {
-    let room = connection_room(system);
+pub(super) fn check(draft: &Draft<'_>, room: usize, problems: &mut Diagnostics) {
     let mut cut = Vec::new();
     for (link, source, sink) in draft.flows().filter(|&(_, source, _)| draft.gates[source].kind == Some(GateKind::Pub))
     {

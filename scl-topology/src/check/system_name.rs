@@ -33,7 +33,7 @@ mod tests {
     #[test]
     fn file_names_become_folders() {
         let name = |file: &str| {
-            let facts = Facts { default_system: file.to_owned(), messages: None };
+            let facts = Facts { default_system: file.to_owned(), ..Facts::default() };
             system_name(&Model::default(), &facts)
         };
         assert_eq!(name("rover"), "rover");

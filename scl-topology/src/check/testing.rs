@@ -5,6 +5,7 @@ use crate::diagnostic::render;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
 use crate::parse::parse;
 use crate::rule::{Examples, Rule};
+use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 use crate::topology::Topology;
 use expect_test::Expect;
@@ -89,7 +90,7 @@ fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnost
     let model = parse(&sources, file, &mut problems);
     let declared = |names: &[&str]| SchemaMessages { names: names.iter().map(|&name| name.to_owned()).collect() };
     let messages = messages.map(|names| vec![declared(names)]);
-    let facts = Facts { default_system: "topology".to_owned(), messages };
+    let facts = Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example() };
     let topology = check(&model, &facts, &sources, &mut problems);
     assert_eq!(
         topology.is_none(),

@@ -1,10 +1,11 @@
 //! The options of a gate: one row each. The checks, the schema, the reference page and the generated documentation read
 //! the row; what the option does at run time reads the field of [`GateOptions`] that the row names.
 
-use super::kind::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
-use super::queue_policy::WhenFull;
+use super::queue_policy::POLICIES;
 use super::shape::{self, OutOfRange, Shape, Word};
 use crate::{duration, size};
+use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
+use scl_plan::WhenFull;
 use std::time::Duration;
 
 /// The options of a gate, defaults filled in.
@@ -94,7 +95,7 @@ pub static OPTIONS: [GateOption; 9] = [
     },
     GateOption {
         key: "when_full",
-        shape: Shape::Word(&WhenFull::ROWS),
+        shape: Shape::Word(&POLICIES),
         kinds: &[Sub, Pull],
         field: Field::Word {
             read: |options| Some(options.when_full.word()),
@@ -264,6 +265,11 @@ impl GateOption {
             Field::Switch(field) => Some(field(&mut options).to_string()),
             Field::Word { read, .. } => read(&options).map(str::to_owned),
         }
+    }
+
+    /// Whether the gate has the value itself, not its [`GateOptions`]: `doc` and `codec`.
+    pub fn is_text(&self) -> bool {
+        matches!(self.field, Field::Elsewhere)
     }
 
     /// The default as in the file, where it has one.

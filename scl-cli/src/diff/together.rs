@@ -1,0 +1,102 @@
+//! Which components must be rebuilt together, because their programs would not connect otherwise.
+
+use super::Side;
+use super::rebuild::Rebuild;
+use scl_plan::{ConnectionPlan, GateKind, GatePlan, SystemPlan};
+use std::collections::{BTreeSet, HashMap};
+
+/// Components to rebuild; those of a group with several are of no use to each other until all are rebuilt.
+pub(super) type Group = Vec<Rebuild>;
+
+/// Groups of several first, each in the order of the new file.
+pub(super) fn group(old: &Side, new: &Side, rebuilds: Vec<Rebuild>) -> Vec<Group> {
+    let mut leaders = Leaders::default();
+    if old.system != new.system {
+        // Systems have folders of their own.
+        rebuilds.windows(2).for_each(|pair| leaders.join(&pair[0].component, &pair[1].component));
+    }
+    for (one, other) in parted(&old.plan, &new.plan) {
+        // What a component that is gone was connected to has nothing else in common.
+        if [&one, &other].iter().all(|name| new.plan.component(name).is_ok()) {
+            leaders.join(&one, &other);
+        }
+    }
+    let mut groups: Vec<(String, Group)> = Vec::new();
+    for rebuild in rebuilds {
+        let leader = leaders.of(&rebuild.component);
+        match groups.iter_mut().find(|(other, _)| *other == leader) {
+            Some((_, group)) => group.push(rebuild),
+            None => groups.push((leader, vec![rebuild])),
+        }
+    }
+    groups.sort_by_key(|(_, group)| group.len() == 1);
+    groups.into_iter().map(|(_, group)| group).collect()
+}
+
+/// A connection, seen from its sending gate.
+pub(super) struct Meeting<'p> {
+    component: &'p str,
+    gate: &'p GatePlan,
+    pub(super) connection: &'p ConnectionPlan,
+}
+
+impl Meeting<'_> {
+    /// Two gates are connected at most once, so this is a name.
+    pub(super) fn name(&self) -> String {
+        connection_name(self.component, self.gate, self.connection)
+    }
+
+    fn components(&self) -> (String, String) {
+        (self.component.to_owned(), self.connection.peer_component.clone())
+    }
+}
+
+/// All connections, in the order of their sending gates.
+pub(super) fn meetings(plan: &SystemPlan) -> impl Iterator<Item = Meeting<'_>> {
+    let gates = plan.components.iter().flat_map(|it| it.gates.iter().map(|gate| (it.component.as_str(), gate)));
+    let sending = gates.filter(|(_, gate)| sends(gate.kind));
+    sending.flat_map(|(component, gate)| {
+        gate.connections.iter().map(move |connection| Meeting { component, gate, connection })
+    })
+}
+
+/// `sensor.measurements -> controller.sensor`, from the gate at which messages start.
+pub(super) fn connection_name(component: &str, gate: &GatePlan, connection: &ConnectionPlan) -> String {
+    let own = format!("{component}.{}", gate.name);
+    let peer = format!("{}.{}", connection.peer_component, connection.peer_gate);
+    if sends(gate.kind) { format!("{own} -> {peer}") } else { format!("{peer} -> {own}") }
+}
+
+fn sends(kind: GateKind) -> bool {
+    matches!(kind, GateKind::Pub | GateKind::Push | GateKind::Req)
+}
+
+/// The components at both ends of each connection that is new, gone, or found under another name.
+fn parted(old: &SystemPlan, new: &SystemPlan) -> BTreeSet<(String, String)> {
+    let found = |plan| -> BTreeSet<(String, String, (String, String))> {
+        meetings(plan).map(|it| (it.name(), it.connection.endpoint.clone(), it.components())).collect()
+    };
+    let (old, new) = (found(old), found(new));
+    old.symmetric_difference(&new).map(|(_, _, components)| components.clone()).collect()
+}
+
+/// Groups of components, each by the name of one of them.
+#[derive(Default)]
+struct Leaders(HashMap<String, String>);
+
+impl Leaders {
+    fn of(&self, component: &str) -> String {
+        let mut found = component;
+        while let Some(next) = self.0.get(found) {
+            found = next;
+        }
+        found.to_owned()
+    }
+
+    fn join(&mut self, one: &str, other: &str) {
+        let (one, other) = (self.of(one), self.of(other));
+        if one != other {
+            self.0.insert(other, one);
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! The plans of a loaded topology's components, with the protobuf messages that they refer to.
+
+use crate::Loaded;
+use scl_plan::{Plan, SystemPlan};
+use scl_topology::resolve::resolve;
+use scl_topology::socket_paths::SocketPaths;
+use scl_topology::source::Span;
+use scl_topology::topology::{ComponentId, Topology};
+
+/// The paths of sockets on Linux: the runtime folder of the user with the largest id there is, and `sun_path` without its
+/// final zero. The longest usual folder counts, so that one file works for every user.
+pub(crate) fn socket_paths() -> SocketPaths {
+    SocketPaths { longest_root: "/run/user/4294967295/scl".to_owned(), limit: 107 }
+}
+
+impl Loaded {
+    /// The plans of all components, in file order; `None` if the topology has errors.
+    pub fn system_plan(&self) -> Option<SystemPlan> {
+        let topology = self.topology.as_ref()?;
+        let components = topology.components().map(|(id, _)| self.plan(topology, id, &|span| self.location(span)));
+        Some(SystemPlan { system: topology.system().to_owned(), components: components.collect() })
+    }
+
+    /// The plan of one component of [`Loaded::topology`]. `location` tells where a declaration stands, for example
+    /// `topology.yaml:4:11`.
+    pub fn plan(&self, topology: &Topology, component: ComponentId, location: &dyn Fn(Span) -> String) -> Plan {
+        let plan = resolve(topology, component, location);
+        let schema = self.schema_of(&plan);
+        Plan { schema, ..plan }
+    }
+
+    /// `None` without `schemas:`, and if no gate carries one of its messages.
+    #[cfg(feature = "protobuf")]
+    fn schema_of(&self, plan: &Plan) -> Option<scl_plan::Schema> {
+        let messages = plan.gates.iter().flat_map(|gate| gate.payload.types()).collect();
+        let descriptors = self.schemas.as_ref()?.descriptors_of(&messages)?;
+        Some(scl_plan::Schema { hash: descriptors.hash, descriptors: descriptors.bytes.into() })
+    }
+
+    /// Without the feature `protobuf`, a topology with `schemas:` is an error.
+    #[cfg(not(feature = "protobuf"))]
+    fn schema_of(&self, _plan: &Plan) -> Option<scl_plan::Schema> {
+        None
+    }
+
+    fn location(&self, span: Span) -> String {
+        let file = self.sources.file(span.file);
+        let start = file.line_column(span.start);
+        format!("{}:{}:{}", file.path(), start.line, start.column)
+    }
+}

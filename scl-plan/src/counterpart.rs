@@ -1,0 +1,66 @@
+//! The counterpart of a component: one opposite gate for each of its gates, for unit tests on the in-process transport.
+
+use crate::kind::{GateKind, WhenFull};
+use crate::plan::{ConnectionPlan, GatePlan, Plan};
+use std::time::Duration;
+
+/// How long the counterpart's calls may take. Tests fail after that, so it is long.
+const TIMEOUT: Duration = Duration::from_secs(10);
+
+impl Plan {
+    /// The plan of this component's counterpart.
+    ///
+    /// Each of its gates takes the part of all peers of one gate, at the endpoint of the first connection. It drops and
+    /// refuses nothing: a message that a test misses was dropped by the component under test. The counterpart of a gate
+    /// that is connected to nothing may have no connection either.
+    #[must_use]
+    pub fn counterpart(&self) -> Plan {
+        Plan {
+            system: self.system.clone(),
+            component: format!("{}'s peers", self.component),
+            declared_at: String::new(),
+            schema: None,
+            gates: self.gates.iter().map(|gate| opposite(&self.component, gate)).collect(),
+        }
+    }
+}
+
+fn opposite(owner: &str, gate: &GatePlan) -> GatePlan {
+    let kind = gate.kind.opposite();
+    let first = gate.connections.first();
+    let endpoint = first.map(|connection| connection.endpoint.clone()).or_else(|| gate.endpoint.clone());
+    let contract = first.map_or(&gate.contract, |connection| &connection.contract).clone();
+    GatePlan {
+        name: gate.name.clone(),
+        kind,
+        payload: gate.payload.clone(),
+        codec: gate.codec.clone(),
+        declared_at: gate.declared_at.clone(),
+        // A gate that is connected to nothing has no endpoint to share, but two of them must not share a name either.
+        endpoint: kind
+            .shares_endpoint()
+            .then(|| endpoint.clone().unwrap_or_else(|| format!("{owner}.{}.unconnected", gate.name))),
+        tap: kind.listens().then(|| format!("{owner}.{}.peer", gate.name)),
+        max_size: u64::MAX,
+        queue: u32::MAX,
+        when_full: WhenFull::Wait,
+        backpressure: true,
+        timeout: TIMEOUT,
+        connections: endpoint.into_iter().map(|endpoint| connection(owner, gate, endpoint, contract.clone())).collect(),
+        contract,
+    }
+}
+
+fn connection(owner: &str, gate: &GatePlan, endpoint: String, contract: String) -> ConnectionPlan {
+    let receives = matches!(gate.kind.opposite(), GateKind::Sub | GateKind::Pull);
+    ConnectionPlan {
+        peer_component: owner.to_owned(),
+        peer_gate: gate.name.clone(),
+        endpoint,
+        contract,
+        required: true,
+        queue: gate.queue,
+        when_full: gate.when_full,
+        max_size: if receives { u64::MAX } else { gate.max_size },
+    }
+}

@@ -1,0 +1,15 @@
+//! Plans as JSON. One format for one component and for a whole system:
+//!
+//! ```text
+//! {"version": 1, "system": "rover", "components": [{"name": .., "gates": [..], ..}], "schemas": {"<hash>": "<base64>"}}
+//! ```
+//!
+//! A component refers to its schema by the hash, because most components of a system share one.
+
+mod object;
+mod read;
+mod text;
+mod write;
+
+/// The version of the format. It grows with every change, because readers accept no unknown field.
+pub const VERSION: u64 = 1;

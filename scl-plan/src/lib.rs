@@ -1,0 +1,48 @@
+//! The plan of a component: everything a program needs to run it, as owned values and as JSON.
+//!
+//! `scl-topology` makes plans from a checked topology. Generated code contains them as constants, `scl::untyped` opens a
+//! component from one at run time, and `scl plan` prints them: the JSON text is the only thing of SCL that programs in
+//! other languages have to read. This crate knows neither YAML nor sockets nor files, so a finished program may contain
+//! it.
+//!
+//! # Example
+//!
+//! ```
+//! use scl_plan::SystemPlan;
+//!
+//! let text = r#"{
+//!   "version": 1,
+//!   "system": "rover",
+//!   "components": [
+//!     {"name": "clock", "declared_at": "rover.yaml:2:5", "schema": null, "gates": []}
+//!   ],
+//!   "schemas": {}
+//! }"#;
+//! let system = SystemPlan::from_json(text)?;
+//! assert_eq!(system.component("clock")?.gates.len(), 0);
+//!
+//! let error = system.component("clok").unwrap_err();
+//! assert_eq!(error.to_string(), "system `rover` has no component `clok`; did you mean `clock`?");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![deny(missing_docs)]
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+mod base64;
+mod counterpart;
+mod error;
+mod json;
+mod kind;
+mod nearest;
+mod plan;
+mod system;
+#[cfg(test)]
+mod tests;
+mod validate;
+
+pub use error::{PlanError, UnknownComponent};
+pub use json::VERSION;
+pub use kind::{GateKind, WhenFull};
+pub use nearest::nearest;
+pub use plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
+pub use system::SystemPlan;

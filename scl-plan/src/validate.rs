@@ -1,0 +1,69 @@
+//! What the values of a plan must have in common to work. A plan that was made from a checked topology always has it.
+
+use crate::error::PlanError;
+use crate::plan::{GatePlan, Payload, Plan};
+use std::collections::HashSet;
+use std::time::Duration;
+
+/// The longest timeout of a call: a day. Far longer ones could not be added to a time.
+const LONGEST_TIMEOUT: Duration = Duration::from_secs(24 * 60 * 60);
+
+impl Plan {
+    /// Checks that the plan contradicts neither itself nor the kinds of its gates.
+    ///
+    /// # Errors
+    /// [`PlanError::Inconsistent`] names the part and says what is wrong with it.
+    pub fn validate(&self) -> Result<(), PlanError> {
+        let component = format!("component `{}`", self.component);
+        ensure(!self.component.is_empty(), "a component", "has no name")?;
+        ensure(!self.system.is_empty(), &component, "belongs to a system without a name")?;
+        let mut names = HashSet::new();
+        for gate in &self.gates {
+            let part = format!("gate `{}.{}`", self.component, gate.name);
+            ensure(names.insert(&gate.name), &part, "is declared twice")?;
+            validate_gate(&part, gate)?;
+        }
+        Ok(())
+    }
+}
+
+fn validate_gate(part: &str, gate: &GatePlan) -> Result<(), PlanError> {
+    let kind = gate.kind;
+    let fits = match gate.payload {
+        Payload::Bytes => true,
+        Payload::Message(_) => !kind.exchanges(),
+        Payload::Exchange { .. } => kind.exchanges(),
+    };
+    ensure(!gate.name.is_empty(), part, "has no name")?;
+    ensure(fits, part, &format!("is a `{}` gate, which cannot carry `{}`", kind.word(), gate.payload))?;
+    ensure(
+        gate.endpoint.is_some() == kind.shares_endpoint(),
+        part,
+        if gate.endpoint.is_some() {
+            "has an endpoint, which only `rep` and `pull` gates have"
+        } else {
+            "has no endpoint"
+        },
+    )?;
+    ensure(gate.tap.is_none() || kind.listens(), part, "has a tap, which only `pub`, `rep` and `pull` gates have")?;
+    ensure(gate.queue > 0, part, "has a queue of 0 messages")?;
+    ensure(gate.max_size > 0, part, "accepts messages of 0 bytes only")?;
+    ensure(!gate.timeout.is_zero() && gate.timeout <= LONGEST_TIMEOUT, part, "has a timeout of nothing or over a day")?;
+    let one_replier = kind != crate::GateKind::Req || gate.connections.len() <= 1;
+    ensure(one_replier, part, "is a `req` gate with several repliers")?;
+    let mut peers = HashSet::new();
+    for connection in &gate.connections {
+        let peer = (&connection.peer_component, &connection.peer_gate);
+        let part = format!("the connection of {part} to `{}.{}`", peer.0, peer.1);
+        ensure(!peer.0.is_empty() && !peer.1.is_empty(), &part, "lacks the name of its peer")?;
+        ensure(peers.insert(peer), &part, "is declared twice")?;
+        ensure(!connection.endpoint.is_empty(), &part, "has no endpoint")?;
+        ensure(connection.queue > 0, &part, "has a queue of 0 messages")?;
+        ensure(connection.max_size > 0, &part, "accepts messages of 0 bytes only")?;
+    }
+    Ok(())
+}
+
+fn ensure(holds: bool, part: &str, reason: &str) -> Result<(), PlanError> {
+    if holds { Ok(()) } else { Err(PlanError::Inconsistent { part: part.to_owned(), reason: reason.to_owned() }) }
+}
