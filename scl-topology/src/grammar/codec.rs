@@ -153,6 +153,24 @@ mod tests {
     }
 
     #[test]
+    fn each_codec_of_the_runtime_has_a_row() {
+        let folder = format!("{}/../scl/src/codec", env!("CARGO_MANIFEST_DIR"));
+        let texts = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
+        let texts = texts.map(|path| std::fs::read_to_string(path).unwrap());
+        let mut words: Vec<String> = texts
+            .filter_map(|text| {
+                let (_, name) = text.split_once("const NAME: &'static str = \"")?;
+                name.split('"').next().map(str::to_owned)
+            })
+            .filter(|word| word != "bytes")
+            .collect();
+        words.sort();
+        let mut rows: Vec<&str> = Codec::words().collect();
+        rows.sort_unstable();
+        assert_eq!(words, rows);
+    }
+
+    #[test]
     fn each_codec_exists_in_the_runtime() {
         let manifest = runtime("Cargo.toml");
         let default = manifest.lines().find(|line| line.starts_with("default = ")).unwrap();

@@ -287,7 +287,7 @@ impl GateOption {
 
 #[cfg(test)]
 mod tests {
-    use super::{Field, GateOptions, OPTIONS, Shape};
+    use super::{Field, GateOptions, OPTIONS, Shape, option};
     use crate::grammar::GateKind;
 
     #[test]
@@ -306,6 +306,14 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_limit_has_the_reason_of_its_end() {
+        let max_size = option("max_size").unwrap();
+        let reason = |text| max_size.set(&mut GateOptions::default(), text).map_err(|error| max_size.limit(&error));
+        assert_eq!(reason("0B"), Err(Some("a gate with this limit would accept empty messages only")));
+        assert!(reason("2GiB").is_err_and(|reason| reason.is_some_and(|text| text.contains("held in memory"))));
     }
 
     #[test]
