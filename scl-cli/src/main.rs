@@ -9,6 +9,7 @@ mod duration;
 mod explain;
 mod graph;
 mod load;
+mod plan;
 mod print;
 mod run;
 mod schema;
@@ -35,6 +36,7 @@ enum Command {
     Diff(diff::DiffArguments),
     Explain(explain::ExplainArguments),
     Graph(graph::GraphArguments),
+    Plan(plan::PlanArguments),
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
     #[command(name = run::START_WORD, hide = true)]
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
         Command::Diff(arguments) => diff::diff(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
+        Command::Plan(arguments) => plan::plan(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
         Command::Start(arguments) => run::start_component(&arguments),

@@ -12,9 +12,13 @@ fn bash_completes_commands_and_formats() {
     let script = system.scl(&["completions", "bash"]).output().unwrap();
     assert_eq!(script.status.code(), Some(0));
     system.write("scl.bash", &String::from_utf8(script.stdout).unwrap());
-    for (words, expected) in
-        [("scl exp", "explain"), ("scl check --format sar", "sarif"), ("scl check --den", "--deny")]
-    {
+    for (words, expected) in [
+        ("scl exp", "explain"),
+        ("scl pla", "plan"),
+        ("scl plan --com", "--component"),
+        ("scl check --format sar", "sarif"),
+        ("scl check --den", "--deny"),
+    ] {
         let last = words.split(' ').count() - 1;
         let ask = format!(
             "source ./scl.bash; COMP_WORDS=({words}); COMP_CWORD={last}; _scl scl \"${{COMP_WORDS[{last}]}}\" \

@@ -1,5 +1,6 @@
 //! Why a text is not a plan, or a plan cannot work.
 
+#[cfg(feature = "json")]
 use crate::json::VERSION;
 use thiserror::Error;
 
@@ -10,9 +11,11 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum PlanError {
     /// The text is not JSON.
+    #[cfg(feature = "json")]
     #[error("the plan is not valid JSON")]
     Syntax(#[source] serde_json::Error),
     /// The plan was written in another version of the format.
+    #[cfg(feature = "json")]
     #[error(
         "this plan has version {found} of the format, but this program reads version {VERSION}; \
          write it anew with `scl plan` of this release"

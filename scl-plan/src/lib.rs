@@ -5,9 +5,12 @@
 //! other languages have to read. This crate knows neither YAML nor sockets nor files, so a finished program may contain
 //! it.
 //!
+//! The JSON text needs the feature `json`, which is off by default: the macros use the values only.
+//!
 //! # Example
 //!
 //! ```
+//! # #[cfg(feature = "json")] {
 //! use scl_plan::SystemPlan;
 //!
 //! let text = r#"{
@@ -23,24 +26,28 @@
 //!
 //! let error = system.component("clok").unwrap_err();
 //! assert_eq!(error.to_string(), "system `rover` has no component `clok`; did you mean `clock`?");
+//! # }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+#[cfg(feature = "json")]
 mod base64;
 mod counterpart;
 mod error;
+#[cfg(feature = "json")]
 mod json;
 mod kind;
 mod nearest;
 mod plan;
 mod system;
-#[cfg(test)]
+#[cfg(all(test, feature = "json"))]
 mod tests;
 mod validate;
 
 pub use error::{PlanError, UnknownComponent};
+#[cfg(feature = "json")]
 pub use json::VERSION;
 pub use kind::{GateKind, WhenFull};
 pub use nearest::nearest;

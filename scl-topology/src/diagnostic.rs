@@ -1,11 +1,8 @@
 //! What the checker has to say: one [`Diagnostic`] a problem, gathered in [`Diagnostics`].
 
-mod cargo;
 mod fix;
-mod json;
 mod limit;
 mod render;
-mod sarif;
 #[cfg(test)]
 mod testing;
 
@@ -14,13 +11,10 @@ use crate::source::Span;
 use std::borrow::Cow;
 
 pub use crate::rule::Severity;
-pub use cargo::{CargoUnit, cargo_end, cargo_start, to_cargo};
 pub use fix::Fix;
-pub use json::to_json;
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};
-pub use sarif::{CheckedFile, to_sarif};
 
 /// A place with a word on it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -185,10 +179,13 @@ impl Diagnostics {
         self.items.iter().any(|item| item.severity == Severity::Error)
     }
 
-    /// All of them, sorted by position; those without a place come first.
+    /// All of them, sorted by position, errors first at one position; those without a place come before all others.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
         let mut items = std::mem::take(&mut self.items);
-        items.sort_by_key(|item| item.primary.as_ref().map(|label| (label.span, item.code())));
+        items.sort_by_key(|item| {
+            let span = item.primary.as_ref().map(|label| label.span);
+            (span.map(|span| (span.file, span.start)), item.severity, span, item.code())
+        });
         items
     }
 }
@@ -203,7 +200,7 @@ impl Drop for Diagnostics {
 #[cfg(test)]
 mod tests {
     use super::{Diagnostics, LONGEST_TEXT, MOST_LABELS};
-    use crate::external::FILE_NOT_FOUND;
+    use crate::external::{FILE_NOT_FOUND, FILE_TOO_LARGE, PATH_OF_ONE_MACHINE};
     use crate::source::{FileId, Span};
 
     #[test]
@@ -220,6 +217,19 @@ mod tests {
         all.append(some);
         assert!(all.has_errors());
         assert_eq!(all.into_sorted().len(), 1);
+    }
+
+    #[test]
+    fn errors_come_first_at_one_place() {
+        let mut problems = Diagnostics::new();
+        let span = |start, end| Span { file: FileId(0), start, end };
+        for (rule, start, end) in [(&FILE_NOT_FOUND, 5, 9), (&PATH_OF_ONE_MACHINE, 5, 7), (&PATH_OF_ONE_MACHINE, 1, 2)]
+        {
+            problems.push(rule.at("", span(start, end), ""));
+        }
+        problems.push(FILE_TOO_LARGE.without_place(""));
+        let codes: Vec<_> = problems.into_sorted().iter().map(|problem| problem.code()).collect();
+        assert_eq!(codes, ["SCL0004", "SCL0006", "SCL0001", "SCL0006"]);
     }
 
     #[test]

@@ -60,6 +60,8 @@
 mod cases;
 pub mod catalogue;
 pub mod check;
+#[cfg(test)]
+mod cost;
 pub mod diagnostic;
 pub mod duration;
 pub mod external;
@@ -76,4 +78,5 @@ pub mod source;
 pub mod suggest;
 pub mod topology;
 mod wording;
+mod work;
 mod yaml;

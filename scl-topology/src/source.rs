@@ -37,7 +37,12 @@ pub struct SourceFile {
     path: String,
     text: String,
     line_starts: Vec<u32>,
+    /// Number of characters before each block of [`BLOCK`] bytes: lines may be as long as the file.
+    characters_before: Vec<u32>,
 }
+
+/// Size of the blocks of a text that are counted once.
+const BLOCK: usize = 512;
 
 /// A place as people count: line and column from 1, the column in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,22 +72,38 @@ impl SourceFile {
         while !self.text.is_char_boundary(end) {
             end -= 1;
         }
-        let column = self.text[start..end].chars().count() + 1;
-        LineColumn { line: line as u32, column: column as u32 }
+        LineColumn { line: line as u32, column: self.characters(end) - self.characters(start) + 1 }
     }
 
-    /// The line of a byte, from 1, without the time that the column takes on a very long line.
+    /// Number of characters that begin before a byte.
+    fn characters(&self, byte: usize) -> u32 {
+        let block = byte / BLOCK;
+        let before = self.characters_before.get(block).copied().unwrap_or_default();
+        before + characters_in(&self.text.as_bytes()[block * BLOCK..byte])
+    }
+
+    /// The line of a byte, from 1.
     pub(crate) fn line(&self, byte: u32) -> u32 {
         self.line_starts.partition_point(|&start| start <= byte).max(1) as u32
     }
 
     /// The bytes of the line in which a byte lies, without the line break.
     pub(crate) fn line_range(&self, byte: u32) -> std::ops::Range<usize> {
-        let line = self.line_starts.partition_point(|&start| start <= byte).max(1);
+        self.range_of_line(self.line(byte))
+    }
+
+    /// The bytes of a line, counted from 1, without the line break.
+    pub(crate) fn range_of_line(&self, line: u32) -> std::ops::Range<usize> {
+        let line = line as usize;
         let start = self.line_starts[line - 1] as usize;
         let end = self.line_starts.get(line).map_or(self.text.len(), |&next| next as usize);
         start..start + self.text[start..end].trim_end_matches(['\r', '\n']).len()
     }
+}
+
+/// Counts the bytes that begin a character.
+fn characters_in(bytes: &[u8]) -> u32 {
+    bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32
 }
 
 /// All texts of one run: the topology file, and the schema files it names.
@@ -104,7 +125,13 @@ impl Sources {
             text.drain(..'\u{feff}'.len_utf8());
         }
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at as u32 + 1)).collect();
-        self.files.push(SourceFile { path: path.into(), text, line_starts });
+        let characters_before = std::iter::once(0)
+            .chain(text.as_bytes().chunks(BLOCK).scan(0, |sum, block| {
+                *sum += characters_in(block);
+                Some(*sum)
+            }))
+            .collect();
+        self.files.push(SourceFile { path: path.into(), text, line_starts, characters_before });
         FileId((self.files.len() - 1) as u16)
     }
 

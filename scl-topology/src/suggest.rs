@@ -1,10 +1,14 @@
 //! The names that a misspelt word may have meant.
 
 use crate::grammar::{GateKind, KindRow};
+use crate::work;
 use strsim::damerau_levenshtein;
 
 /// No message offers more names than this.
 const MOST: usize = 3;
+
+/// Longer words, in bytes, are not compared: the comparison takes quadratic time.
+const LONGEST: usize = 128;
 
 /// The start of a name is a hint only from this many letters on.
 const ABBREVIATION: usize = 3;
@@ -70,15 +74,32 @@ fn distance(word: &str, candidate: &str, limit: usize) -> Option<usize> {
         return Some(limit);
     }
     // A difference in length is a lower bound, and cheap: it keeps long lists of names fast.
-    if word.chars().count().abs_diff(candidate.chars().count()) > limit {
+    if word.len().max(candidate.len()) > LONGEST || word.chars().count().abs_diff(candidate.chars().count()) > limit {
         return None;
     }
-    Some(damerau_levenshtein(word, candidate)).filter(|distance| *distance <= limit)
+    let (word, candidate) = without_common_ends(word, candidate);
+    work::add(1 + word.len() * candidate.len());
+    let distance = match word.is_empty() || candidate.is_empty() {
+        true => word.chars().count().max(candidate.chars().count()),
+        false => damerau_levenshtein(word, candidate),
+    };
+    Some(distance).filter(|distance| *distance <= limit)
+}
+
+/// What is left of two words without their common start and end, which do not change the distance: names of one file
+/// often differ by a number only, and the comparison takes quadratic time.
+fn without_common_ends<'a>(one: &'a str, other: &'a str) -> (&'a str, &'a str) {
+    let same = |(one, other): &(char, char)| one == other;
+    let start: usize = one.chars().zip(other.chars()).take_while(same).map(|(letter, _)| letter.len_utf8()).sum();
+    let (one, other) = (&one[start..], &other[start..]);
+    let end: usize =
+        one.chars().rev().zip(other.chars().rev()).take_while(same).map(|(letter, _)| letter.len_utf8()).sum();
+    (&one[..one.len() - end], &other[..other.len() - end])
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{kind, same_parts, similar};
+    use super::{LONGEST, kind, same_parts, similar, without_common_ends};
 
     #[test]
     fn kinds_have_other_names() {
@@ -101,6 +122,20 @@ mod tests {
         assert_eq!(same_parts("Measurement.uav", types), ["uav.Measurement"]);
         assert_eq!(same_parts("Status", types), ["uav.Status", "log.Status"]);
         assert!(same_parts("Command", types).is_empty());
+    }
+
+    #[test]
+    fn only_what_differs_is_compared() {
+        for (one, other, left) in [
+            ("sensor_12", "sensor_21", ("12", "21")),
+            ("aab", "aba", ("ab", "ba")),
+            ("aa", "a", ("a", "")),
+            ("größe", "grüße", ("ö", "ü")),
+            ("same", "same", ("", "")),
+        ] {
+            assert_eq!(without_common_ends(one, other), left, "{one} {other}");
+        }
+        assert!(similar(&"a".repeat(LONGEST + 1), ["a".repeat(LONGEST).as_str()]).is_empty());
     }
 
     #[test]

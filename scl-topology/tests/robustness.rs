@@ -1,6 +1,6 @@
 //! Whatever the text: no panic, every problem can be shown, and the time grows with the text and no faster.
 
-use scl_topology::diagnostic::{Diagnostic, Diagnostics, limit, render, to_json};
+use scl_topology::diagnostic::{Diagnostic, Diagnostics, limit, render};
 use scl_topology::model::Model;
 use scl_topology::parse::parse;
 use scl_topology::source::Sources;
@@ -14,11 +14,8 @@ fn run(text: &str) -> (Model, Vec<Diagnostic>) {
     let mut problems = Diagnostics::new();
     let model = parse(&sources, file, &mut problems);
     let problems = problems.into_sorted();
-    // An excerpt of a very long line takes its time, and one is as good as twenty.
-    let shown = if text.len() > 100_000 { 1 } else { usize::MAX };
-    for problem in limit(problems.clone(), "topology.yaml").into_iter().take(shown) {
+    for problem in limit(problems.clone(), "topology.yaml") {
         assert!(render(&problem, &sources).contains(problem.code()));
-        assert!(!to_json(&problem, &sources).contains('\n'));
     }
     (model, problems)
 }

@@ -8,10 +8,10 @@ mod realtime;
 pub use main::{Outcome, run_async, run_blocking};
 pub use opener::Opener;
 
-use crate::error::{BlockingError, MissingPeer, NotFlushed, NotReady, OpenError, PeerName};
+use crate::error::{BlockingError, Missing, MissingPeer, NotFlushed, NotReady, OpenError, PeerName};
 use crate::gate::AnyGate;
 use crate::options::OpenOptions;
-use crate::spec::ComponentSpec;
+use crate::spec::{ComponentSpec, GateSpec};
 pub use crate::state::ComponentHandle;
 use crate::state::{Flush, OwnedRuntime};
 use std::sync::Arc;
@@ -53,14 +53,28 @@ pub fn open_blocking<C: Component>(options: OpenOptions) -> Result<C, OpenError>
 /// Waits until all required peers are connected.
 #[doc(hidden)]
 pub async fn ready<C: Component>(component: &C, timeout: Duration) -> Result<(), NotReady> {
-    let changes = component.handle().0.changes();
+    let missing = || {
+        let gates = component.gates();
+        gates.iter().flat_map(|gate| gate.missing().into_iter().map(|missing| (gate.spec(), missing))).collect()
+    };
+    wait_for_peers(component.handle(), missing, timeout).await
+}
+
+/// Waits until no peer is missing at any gate.
+pub(crate) async fn wait_for_peers(
+    handle: &ComponentHandle,
+    missing: impl Fn() -> Vec<(&'static GateSpec, Missing)>,
+    timeout: Duration,
+) -> Result<(), NotReady> {
+    let state = &handle.0;
+    let changes = state.changes();
     let started = Instant::now();
     let deadline = started.checked_add(timeout);
     loop {
         let mut changed = std::pin::pin!(changes.next());
         // Before the look, so that no change after it is missed.
         changed.as_mut().enable();
-        if !is_anybody_missing(component) {
+        if missing().is_empty() {
             return Ok(());
         }
         let changed = async {
@@ -74,30 +88,16 @@ pub async fn ready<C: Component>(component: &C, timeout: Duration) -> Result<(),
             }
         };
         if !changed.await {
-            let missing = missing(component);
-            return if missing.is_empty() {
-                Ok(())
-            } else {
-                Err(NotReady { component: C::SPEC.name, missing, waited: started.elapsed() })
+            let missing = missing().into_iter().map(|(gate, missing)| {
+                MissingPeer::new(gate.name, PeerName::of(missing.link), state.explain(gate, &missing))
+            });
+            let missing: Vec<MissingPeer> = missing.collect();
+            return match missing.is_empty() {
+                true => Ok(()),
+                false => Err(NotReady { component: state.spec().name, missing, waited: started.elapsed() }),
             };
         }
     }
-}
-
-fn is_anybody_missing<C: Component>(component: &C) -> bool {
-    component.gates().iter().any(|gate| !gate.missing().is_empty())
-}
-
-fn missing<C: Component>(component: &C) -> Vec<MissingPeer> {
-    let state = &component.handle().0;
-    let of_gate = |gate: &&dyn AnyGate| {
-        let spec = gate.spec();
-        let named = move |missing: crate::error::Missing| {
-            MissingPeer::new(spec.name, PeerName::of(missing.link), state.explain(spec, &missing))
-        };
-        gate.missing().into_iter().map(named).collect::<Vec<_>>()
-    };
-    component.gates().iter().flat_map(of_gate).collect()
 }
 
 /// Hands over what is left, then closes.
@@ -123,7 +123,7 @@ pub fn block_on<C: Component, F: Future>(component: &C, future: F) -> Result<F::
 }
 
 /// A peer that is not running could not be waited for, which is worth a warning but no error.
-fn only_failures(flushed: Result<(), NotFlushed>) -> Result<(), NotFlushed> {
+pub(crate) fn only_failures(flushed: Result<(), NotFlushed>) -> Result<(), NotFlushed> {
     match flushed {
         Err(error) if !error.is_failure() => {
             tracing::warn!("{error}");

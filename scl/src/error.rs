@@ -124,6 +124,25 @@ pub enum OpenError {
         /// The component.
         component: &'static str,
     },
+    /// The plan of an untyped component contradicts itself.
+    #[error("component `{component}` cannot be opened: its plan is wrong")]
+    Plan {
+        /// The component.
+        component: String,
+        /// What is wrong with it.
+        source: Box<scl_plan::PlanError>,
+    },
+    /// This process has opened too many different plans. They are kept until it ends.
+    #[error(
+        "component `{component}` cannot be opened: the different plans that this process has opened take {limit} bytes, \
+         and they are kept until it ends; open each component with the same plan every time"
+    )]
+    TooManyPlans {
+        /// The component.
+        component: String,
+        /// Maximum size of all plans, in bytes.
+        limit: usize,
+    },
     /// An environment variable has a value that it cannot have.
     #[error("`{variable}={value}` is not understood; expected {expected}")]
     Environment {

@@ -20,6 +20,7 @@ mod sending_gate;
 mod stats;
 mod subscriber;
 mod tap;
+mod watch;
 
 pub(crate) use connection::Connection;
 pub(crate) use incoming::Incoming;
@@ -32,6 +33,7 @@ pub use requester::Req;
 pub use stats::{GateStats, PeerStats};
 pub use subscriber::Sub;
 pub(crate) use tap::GateTap;
+pub(crate) use watch::Watch;
 
 use crate::error::Missing;
 use crate::spec::GateSpec;
@@ -44,6 +46,10 @@ pub trait AnyGate: sealed::Sealed {
     /// The required peers that are not connected. Gates that listen for any number of peers (`rep`, `pull`) have none.
     #[doc(hidden)]
     fn missing(&self) -> Vec<Missing>;
+
+    /// The same, for as long as the gate exists.
+    #[doc(hidden)]
+    fn watch(&self) -> Watch;
 }
 
 mod sealed {

@@ -99,6 +99,7 @@ mod stop;
 mod sync;
 pub mod time;
 pub mod transport;
+pub mod untyped;
 
 pub use bytes;
 pub use component::Component;
@@ -110,6 +111,7 @@ pub use gate::{AnyGate, GateStats, PeerStats, Pub, Pull, Push, Rep, Req, Request
 pub use medium::Medium;
 pub use options::OpenOptions;
 pub use scl_macros::main;
+pub use scl_plan as plan;
 pub use stop::{is_stop_requested, stop_requested, stop_requested_blocking};
 
 /// Turns a topology file into one struct for each of its components, with a field for each gate.

@@ -1,5 +1,6 @@
-//! What `topology!` knows about a component when the program is compiled, as constants.
+//! The plan of a component as constants, which is how `topology!` puts it into a program.
 
+pub use scl_plan::{GateKind, WhenFull};
 use std::time::Duration;
 
 /// A component: its name and its gates.
@@ -24,34 +25,6 @@ pub struct Schema {
     pub hash: &'static str,
     /// A serialized `google.protobuf.FileDescriptorSet`.
     pub descriptors: &'static [u8],
-}
-
-/// What a gate does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GateKind {
-    /// Sends to any number of subscribers.
-    Pub,
-    /// Receives from one or several publishers.
-    Sub,
-    /// Asks one replier.
-    Req,
-    /// Answers any number of requesters.
-    Rep,
-    /// Hands work to a puller.
-    Push,
-    /// Takes work from any number of pushers.
-    Pull,
-}
-
-/// What a full queue does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WhenFull {
-    /// The oldest waiting message is dropped.
-    DropOldest,
-    /// The new message is dropped.
-    DropNewest,
-    /// The sender waits, if it allows that.
-    Wait,
 }
 
 /// A gate: what it carries, how, and between which gates.

@@ -17,3 +17,5 @@ mod model;
 mod runtime_dir_files;
 mod runtime_dir_folder;
 mod runtime_dir_processes;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod untyped;

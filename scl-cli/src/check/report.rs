@@ -1,10 +1,19 @@
 //! The result of a check, in each format.
 
+mod cargo;
+mod json;
+mod sarif;
+#[cfg(test)]
+mod testing;
+
 use super::Format;
 use super::checked::Checked;
 use crate::load::{show_diagnostics, shown_path};
 use crate::print::{print_err, print_out};
-use scl_topology::diagnostic::{CargoUnit, CheckedFile, Severity, cargo_end, cargo_start, to_cargo, to_json, to_sarif};
+use cargo::{CargoUnit, cargo_end, cargo_start, to_cargo};
+use json::to_json;
+use sarif::{CheckedFile, to_sarif};
+use scl_topology::diagnostic::Severity;
 use scl_topology::topology::Topology;
 use std::path::{Path, PathBuf};
 

@@ -102,11 +102,15 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
         }
         return RULE.at(headline, text.span, label).help(format!("write `{mended}`"));
     }
-    let owners = if draft.may_search() { owners(draft, &text.value) } else { Vec::new() };
+    let may_search = draft.may_search();
+    let owners = if may_search { owners(draft, &text.value) } else { Vec::new() };
     if let Some(&gate) = owners.first() {
         return without_component(draft, headline, text, gate, &owners);
     }
     if draft.component(&text.value).is_some() {
+        if !may_search {
+            return RULE.at(headline, text.span, "which gate?");
+        }
         let gates: Vec<String> = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
         return RULE.at(headline, text.span, "which gate?").note(format!(
             "gates of `{}`: {}",

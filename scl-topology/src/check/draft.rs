@@ -5,10 +5,14 @@
 use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use crate::source::{Sources, Span, Spanned};
 use crate::topology::{Codec, GateKind, GateOptions, Payload};
+use crate::work;
 use std::collections::HashMap;
 
-/// How many unknown names are compared with all others.
+/// Maximum number of unknown names that are compared with all others.
 const MOST_SEARCHES: usize = 200;
+
+/// Maximum number of comparisons of an unknown name with another one, in all.
+const MOST_COMPARISONS: usize = 400_000;
 
 /// The whole file.
 pub(super) struct Draft<'m> {
@@ -71,7 +75,7 @@ impl<'m> Draft<'m> {
             gates: Vec::new(),
             links,
             component_names: sorted_names(model),
-            searches_left: MOST_SEARCHES,
+            searches_left: searches(model),
             components_by_name: HashMap::new(),
             gate_by_name: HashMap::new(),
         };
@@ -93,17 +97,19 @@ impl<'m> Draft<'m> {
         self.components.push(DraftComponent { model, gates: (first_gate..self.gates.len()).collect() });
     }
 
-    /// Whether the names that an unknown one resembles should be looked for. That compares it with all names, so in a
-    /// file with very many mistakes the later ones go without: time stays linear, and nobody reads so many.
+    /// Whether the names that an unknown one resembles should be looked for, and the known ones be listed. That takes a
+    /// look at all names, so in a file with very many mistakes the later ones go without: time stays linear, and nobody
+    /// reads so many.
     pub(super) fn may_search(&mut self) -> bool {
+        let may_search = self.searches_left > 0;
         self.searches_left = self.searches_left.saturating_sub(1);
-        self.searches_left > 0
+        may_search
     }
 
     /// All declarations of a component.
     pub(super) fn declarations(&self, name: &str) -> impl Iterator<Item = &'m ComponentModel> + '_ {
         let indices = self.components_by_name.get(name).into_iter().flatten();
-        indices.map(|&index| self.components[index].model)
+        indices.inspect(|_| work::add(1)).map(|&index| self.components[index].model)
     }
 
     pub(super) fn component(&self, name: &str) -> Option<usize> {
@@ -119,7 +125,7 @@ impl<'m> Draft<'m> {
     pub(super) fn gates_of(&self, component: &str) -> impl Iterator<Item = usize> + '_ {
         let declarations = self.components_by_name.get(component).into_iter().flatten();
         let gates = declarations.flat_map(|&index| self.components[index].gates.iter().copied());
-        gates.filter(|&gate| !self.gates[gate].duplicate)
+        gates.inspect(|_| work::add(1)).filter(|&gate| !self.gates[gate].duplicate)
     }
 
     pub(super) fn component_name(&self, gate: usize) -> &'m str {
@@ -193,6 +199,11 @@ impl<'m> DraftGate<'m> {
             None => self.model.span,
         }
     }
+}
+
+fn searches(model: &Model) -> usize {
+    let gates: usize = model.components.iter().map(|component| component.gates.len()).sum();
+    (MOST_COMPARISONS / (model.components.len() + gates).max(1)).clamp(1, MOST_SEARCHES)
 }
 
 fn sorted_names(model: &Model) -> Vec<&str> {

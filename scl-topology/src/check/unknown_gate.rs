@@ -53,8 +53,10 @@ pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &m
     if draft.declarations(component).any(|twin| twin.gates_unread) {
         return;
     }
-    let meant = meant(draft, link, end, component, gate);
-    problems.push(report(draft, text, headline, [component, gate], &meant));
+    let may_search = draft.may_search();
+    let meant = if may_search { meant(draft, link, end, component, gate) } else { Vec::new() };
+    let found = report(draft, text, headline, gate, &meant);
+    problems.push(if may_search { found.note(known(draft, component)) } else { found });
     for gate in meant {
         draft.gates[gate].named = true;
     }
@@ -71,13 +73,7 @@ fn meant(draft: &Draft<'_>, link: usize, end: usize, component: &str, gate: &str
     similar(gate, candidates).into_iter().filter_map(|name| draft.gate(component, name)).collect()
 }
 
-fn report(
-    draft: &Draft<'_>,
-    text: &Spanned<String>,
-    headline: String,
-    [component, gate]: [&str; 2],
-    meant: &[usize],
-) -> Diagnostic {
+fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &str, meant: &[usize]) -> Diagnostic {
     let place = draft.part(text.span, gate, true);
     let mut found = RULE.at(headline, place, "unknown gate");
     if let [only] = meant {
@@ -87,10 +83,14 @@ fn report(
         let names: Vec<&str> = meant.iter().map(|&at| draft.gates[at].model.name.value.as_str()).collect();
         found = found.help(format!("did you mean {}?", either(&names)));
     }
+    found
+}
+
+fn known(draft: &Draft<'_>, component: &str) -> String {
     let all: Vec<String> = draft.gates_of(component).map(|at| described(draft, at)).collect();
     match all.is_empty() {
-        true => found.note(format!("`{component}` has no gates")),
-        false => found.note(format!("gates of `{component}`: {}", shortened(&all))),
+        true => format!("`{component}` has no gates"),
+        false => format!("gates of `{component}`: {}", shortened(&all)),
     }
 }
 

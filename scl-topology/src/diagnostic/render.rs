@@ -1,9 +1,13 @@
 //! A diagnostic as text for people, in the style of rustc.
 
-use super::{Diagnostic, Label, Severity};
-use crate::source::{FileId, SourceFile, Sources};
-use annotate_snippets::{Annotation, AnnotationKind, Element, Group, Level, Renderer, Snippet};
-use std::ops::Range;
+mod excerpt;
+
+use super::{Diagnostic, Severity};
+use crate::source::{FileId, LineColumn, Sources};
+use crate::work;
+use annotate_snippets::{Annotation, AnnotationKind, Element, Group, Level, Origin, Padding, Renderer, Snippet};
+use excerpt::{Chunk, Excerpt};
+use std::borrow::Cow;
 
 /// The whole text of a diagnostic, without a line break at its end:
 ///
@@ -44,32 +48,12 @@ fn render_with(renderer: &Renderer, diagnostic: &Diagnostic, sources: &Sources) 
     };
     let excerpts = excerpts(diagnostic, sources);
     let title = format!("[{}] {}", diagnostic.code(), one_line(&diagnostic.message));
-    let mut elements: Vec<Element<'_>> = excerpts.iter().map(|excerpt| excerpt.snippet().into()).collect();
+    let mut elements = elements(&excerpts);
     elements.extend(diagnostic.helps.iter().map(|help| Level::HELP.message(lines(help)).into()));
     elements.extend(diagnostic.all_notes().map(|note| Level::NOTE.message(lines(&note)).into()));
     let group: Group<'_> = level.primary_title(title).elements(elements);
     let text = renderer.render(&[group]);
-    // The renderer fills the gutter of lines without text with spaces.
-    text.lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
-}
-
-/// The lines of one file that a diagnostic points into.
-struct Excerpt<'s> {
-    path: &'s str,
-    first_line: usize,
-    text: String,
-    marks: Vec<(Range<usize>, bool, String)>,
-}
-
-impl Excerpt<'_> {
-    fn snippet(&self) -> Snippet<'_, Annotation<'_>> {
-        let annotations = self.marks.iter().map(|(range, is_primary, text)| {
-            let kind = if *is_primary { AnnotationKind::Primary } else { AnnotationKind::Context };
-            let label = (!text.is_empty()).then_some(text.as_str());
-            kind.span(range.clone()).label(label)
-        });
-        Snippet::source(self.text.as_str()).line_start(self.first_line).path(self.path).annotations(annotations)
-    }
+    joined(&text, excerpts.iter().map(|excerpt| excerpt.chunks.len()))
 }
 
 /// One excerpt a file, that of the primary label first.
@@ -82,42 +66,61 @@ fn excerpts<'s>(diagnostic: &Diagnostic, sources: &'s Sources) -> Vec<Excerpt<'s
             files.push(label.span.file);
         }
     }
-    files.into_iter().map(|file| excerpt(sources.file(file), file, &labels)).collect()
+    files.into_iter().map(|file| Excerpt::new(sources.file(file), file, &labels)).collect()
 }
 
-fn excerpt<'s>(source: &'s SourceFile, file: FileId, labels: &[(&Label, bool)]) -> Excerpt<'s> {
-    let marks: Vec<_> = labels
-        .iter()
-        .filter(|(label, _)| label.span.file == file)
-        .map(|(label, is_primary)| (first_line_of(label, source), *is_primary, one_line(&label.text)))
-        .collect();
-    let start = marks.iter().map(|(range, ..)| source.line_range(range.start as u32).start).min().unwrap_or(0);
-    let end = marks.iter().map(|(range, ..)| source.line_range(range.end as u32).end).max().unwrap_or(start);
-    let written = source.text().get(start..end).unwrap_or("");
-    let moved = |at: usize| at - start - written.get(..at - start).map_or(0, |before| before.matches("\r\n").count());
-    let marks = marks.into_iter().map(|(range, primary, text)| (moved(range.start)..moved(range.end), primary, text));
-    Excerpt {
-        path: source.path(),
-        first_line: source.line_column(start as u32).line as usize,
-        marks: marks.collect(),
-        text: written.replace("\r\n", "\n"),
+/// Each file with its path and position, then its chunks as snippets without a path: only so can the position be one in
+/// the file, although the snippet is cut.
+fn elements<'e>(excerpts: &'e [Excerpt<'_>]) -> Vec<Element<'e>> {
+    let mut elements: Vec<Element<'e>> = Vec::new();
+    for (number, excerpt) in excerpts.iter().enumerate() {
+        if number > 0 {
+            elements.push(Padding.into());
+        }
+        let LineColumn { line, column } = excerpt.at;
+        elements.push(Origin::path(excerpt.path).line(line as usize).char_column(column as usize).into());
+        elements.extend(excerpt.chunks.iter().map(|chunk| snippet(chunk).into()));
     }
+    elements
 }
 
-/// The part of a label in its first line: a frame around many lines would hide what it is about.
-fn first_line_of(label: &Label, source: &SourceFile) -> Range<usize> {
-    let text = source.text();
-    let mut start = (label.span.start as usize).min(text.len());
-    while !text.is_char_boundary(start) {
-        start -= 1;
+fn snippet(chunk: &Chunk) -> Snippet<'_, Annotation<'_>> {
+    work::add(chunk.text.len());
+    let annotations = chunk.marks.iter().map(|mark| {
+        let kind = if mark.is_primary { AnnotationKind::Primary } else { AnnotationKind::Context };
+        kind.span(mark.range.clone()).label((!mark.text.is_empty()).then_some(mark.text.as_str()))
+    });
+    Snippet::source(chunk.text.as_str()).line_start(chunk.first_line as usize).annotations(annotations)
+}
+
+/// Makes one excerpt of the chunks of a file. The renderer writes `|` and `:::` before each snippet without a path: after
+/// the path, only `|` is needed; between two chunks `...` stands for the lines that are not shown.
+fn joined(text: &str, chunks: impl Iterator<Item = usize>) -> String {
+    let mut is_first = chunks.flat_map(|count| (0..count).map(|chunk| chunk == 0));
+    let mut out: Vec<Cow<'_, str>> = Vec::new();
+    for line in text.lines() {
+        // The renderer fills the gutter of lines without text with spaces.
+        let line = line.trim_end();
+        if !is_gap(line) {
+            out.push(line.into());
+        } else if is_first.next() == Some(false) {
+            out.pop();
+            out.push(line.trim_start().replacen(":::", "...", 1).into());
+        }
     }
-    let line = source.line_range(start as u32);
-    let start = start.min(line.end);
-    let mut end = (label.span.end as usize).clamp(start, line.end);
-    while !text.is_char_boundary(end) {
-        end += 1;
-    }
-    start..end
+    out.join("\n")
+}
+
+/// Whether a line is `:::` and nothing else but spaces and colours.
+fn is_gap(line: &str) -> bool {
+    line.split_once(":::").is_some_and(|(before, after)| is_blank(before) && is_blank(after))
+}
+
+fn is_blank(text: &str) -> bool {
+    text.split('\u{1b}').enumerate().all(|(number, part)| {
+        let text = if number == 0 { part } else { part.split_once('m').map_or("", |(_, rest)| rest) };
+        text.trim().is_empty()
+    })
 }
 
 /// Text of one line in which nothing moves the cursor.

@@ -1,4 +1,4 @@
-//! Rules for the tests of renderers.
+//! Rules for the tests of the renderer.
 
 use crate::rule::{Examples, Rule, Severity};
 
@@ -7,9 +7,6 @@ pub(super) const ERROR: Rule = rule("SCL0999", Severity::Error);
 
 /// A warning.
 pub(super) const WARNING: Rule = rule("SCL0999", Severity::Warning);
-
-/// Another error.
-pub(super) const OTHER: Rule = rule("SCL0100", Severity::Error);
 
 const fn rule(code: &'static str, severity: Severity) -> Rule {
     Rule { code, severity, title: "", explanation: "", examples: Examples::None }

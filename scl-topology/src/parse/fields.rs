@@ -1,9 +1,11 @@
 //! A mapping as the keys that we can read, each once.
 
 use super::{Reader, pitfall};
+use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::yaml::{Node, NodeKind};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// One key and its value.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +41,7 @@ impl Reader<'_> {
     pub(super) fn fields<'n>(&mut self, entries: &'n [(Node, Node)], owner: &str) -> Fields<'n> {
         let mut fields = Fields::default();
         let mut seen: HashMap<&str, Span> = HashMap::new();
+        let mut repeated: HashMap<&str, Diagnostic> = HashMap::new();
         for (key_node, value) in entries {
             if value.span.start == value.span.end
                 && let Some(problem) = pitfall::missing_space::in_node(key_node, self.source)
@@ -53,12 +56,16 @@ impl Reader<'_> {
             };
             let field = Field { key, key_span: key_node.span, key_node, value };
             if let Some(&first) = seen.get(key) {
-                self.report(pitfall::duplicate_key::diagnose(&field, first, owner));
+                match repeated.entry(key) {
+                    Entry::Occupied(found) => found.into_mut().add_label(field.key_span, "and here"),
+                    Entry::Vacant(none) => _ = none.insert(pitfall::duplicate_key::diagnose(&field, first, owner)),
+                }
                 continue;
             }
             seen.insert(key, key_node.span);
             fields.list.push(field);
         }
+        repeated.into_values().for_each(|problem| self.report(problem));
         fields
     }
 

@@ -22,7 +22,7 @@ pub struct Opener {
 
 impl Opener {
     /// Registers and announces the component.
-    pub(super) fn begin(
+    pub(crate) fn begin(
         spec: &'static ComponentSpec,
         options: &OpenOptions,
         runtime: Option<Arc<OwnedRuntime>>,

@@ -3,7 +3,7 @@
 use super::foreign::ForeignPeer;
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::stats::{Activity, PeerStats};
-use crate::error::{GateName, PeerName, Unflushed};
+use crate::error::{GateName, Missing, PeerName, Unflushed};
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
 use crate::state::{Changes, SendingEnd};
 use crate::transport::{Link, Peer, PeerKind, Sender};
@@ -121,6 +121,12 @@ impl Connection {
         }
     }
 
+    /// The peer, if it is required and not connected.
+    pub(crate) fn missing(&self) -> Option<Missing> {
+        let is_missing = self.link.required && !self.is_connected();
+        is_missing.then(|| Missing { link: self.link, refusal: self.sender.refusal() })
+    }
+
     /// Ready when a message would find room, or would not have to wait for it.
     pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         if self.would_wait() {
@@ -167,14 +173,6 @@ impl Connection {
 
     pub(crate) fn peer_name(&self) -> PeerName {
         PeerName::of(self.link)
-    }
-
-    pub(crate) fn link(&self) -> &'static LinkSpec {
-        self.link
-    }
-
-    pub(crate) fn refusal(&self) -> Option<String> {
-        self.sender.refusal()
     }
 
     pub(crate) fn account(&self) -> &Account {

@@ -1,6 +1,9 @@
 //! The end of a `req` gate, shared by its calls and its background task.
 
 use super::io_waker::IoWaker;
+use super::watch::Watch;
+use crate::error::Missing;
+use crate::spec::GateSpec;
 use crate::state::{Changes, ComponentState};
 use crate::sync::{AbortOnDrop, lock};
 use crate::time::Watchdog;
@@ -121,8 +124,13 @@ impl Exchange {
         self.lock().link.is_connected()
     }
 
-    pub(super) fn refusal(&self) -> Option<String> {
-        self.lock().link.refusal()
+    pub(super) fn missing(&self, spec: &'static GateSpec) -> Vec<Missing> {
+        self.lock().missing(spec)
+    }
+
+    pub(super) fn watch(&self, spec: &'static GateSpec) -> Watch {
+        let end = Arc::downgrade(&self.end);
+        Watch::new(spec, move || end.upgrade().map(|end| lock(&end).missing(spec)).unwrap_or_default())
     }
 
     /// Keeps the end from being dropped in a forked child, where that would disturb the parent.
@@ -169,6 +177,14 @@ impl End {
                 Poll::Pending => return Poll::Pending,
             }
         }
+    }
+
+    fn missing(&self, spec: &'static GateSpec) -> Vec<Missing> {
+        if self.link.is_connected() {
+            return Vec::new();
+        }
+        let required = spec.links.iter().filter(|link| link.required);
+        required.map(|link| Missing { link, refusal: self.link.refusal() }).collect()
     }
 
     fn report_change(&mut self) {

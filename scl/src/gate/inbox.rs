@@ -4,13 +4,14 @@ use super::io_waker::IoWaker;
 use super::queue::{Queue, QueuePolicy};
 use super::stats::Activity;
 use super::tap::{GateTap, Observed};
+use crate::error::Missing;
 use crate::spec::{GateSpec, WhenFull};
 use crate::state::Changes;
 use crate::sync::{AbortOnDrop, lock};
 use crate::transport::Receiver;
 use bytes::Bytes;
 use std::future::poll_fn;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker};
 use std::time::{Duration, Instant};
 
@@ -83,6 +84,10 @@ impl SharedInbox {
 
     pub(super) fn lock(&self) -> std::sync::MutexGuard<'_, Inbox> {
         lock(&self.inbox)
+    }
+
+    pub(super) fn downgrade(&self) -> Weak<Mutex<Inbox>> {
+        Arc::downgrade(&self.inbox)
     }
 
     /// Keeps the ends from being dropped in a forked child, where that would disturb the parent.
@@ -244,8 +249,11 @@ impl Inbox {
         }
     }
 
-    pub(super) fn links(&self) -> &[Box<dyn Receiver>] {
-        &self.links
+    /// The required peers that are not connected, of a gate with one link per peer.
+    pub(super) fn missing(&self, spec: &'static GateSpec) -> Vec<Missing> {
+        let links = spec.links.iter().zip(&self.links);
+        let missing = links.filter(|(link, end)| link.required && end.peers() == 0);
+        missing.map(|(link, end)| Missing { link, refusal: end.refusal() }).collect()
     }
 
     pub(super) fn queue(&self) -> &Queue<Arrived> {

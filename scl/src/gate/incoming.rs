@@ -3,10 +3,12 @@
 use super::inbox::{Arrived, SharedInbox};
 use super::stats::GateStats;
 use super::tap::GateTap;
+use super::watch::Watch;
 use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, GateName, Missing, Peers, RecvError, RecvTimeoutError};
 use crate::spec::GateSpec;
 use crate::state::ComponentState;
+use crate::sync::lock;
 use crate::transport::Receiver;
 use bytes::Bytes;
 use std::sync::Arc;
@@ -124,10 +126,15 @@ impl<T> Incoming<T> {
         if !self.spec.endpoint.is_empty() {
             return Vec::new();
         }
-        let inbox = self.inbox.lock();
-        let links = self.spec.links.iter().zip(inbox.links());
-        let missing = links.filter(|(link, end)| link.required && end.peers() == 0);
-        missing.map(|(link, end)| Missing { link, refusal: end.refusal() }).collect()
+        self.inbox.lock().missing(self.spec)
+    }
+
+    pub(crate) fn watch(&self) -> Watch {
+        let (spec, inbox) = (self.spec, self.inbox.downgrade());
+        Watch::new(spec, move || match inbox.upgrade().filter(|_| spec.endpoint.is_empty()) {
+            Some(inbox) => lock(&inbox).missing(spec),
+            None => Vec::new(),
+        })
     }
 
     pub(crate) fn stats(&self) -> GateStats {

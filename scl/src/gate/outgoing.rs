@@ -4,6 +4,7 @@ use super::Connection;
 use super::encoding::Encoding;
 use super::stats::{GateStats, PeerStats};
 use super::tap::{GateTap, Observed};
+use super::watch::Watch;
 use crate::codec::Codec;
 use crate::error::{GateName, Missing, PeerName, SendError, TrySendError};
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
@@ -11,7 +12,7 @@ use crate::state::{ComponentState, SendingEnd};
 use crate::sync::lock;
 use bytes::Bytes;
 use std::future::poll_fn;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker};
 
 pub(crate) struct Outgoing<T> {
@@ -169,9 +170,15 @@ impl<T> Outgoing<T> {
     }
 
     pub(crate) fn missing(&self) -> Vec<Missing> {
-        let connections = self.connections.iter().map(lock_connection);
-        let missing = connections.filter(|connection| connection.link().required && !connection.is_connected());
-        missing.map(|connection| Missing { link: connection.link(), refusal: connection.refusal() }).collect()
+        self.connections.iter().filter_map(|connection| lock(connection).missing()).collect()
+    }
+
+    pub(crate) fn watch(&self) -> Watch {
+        let connections: Vec<Weak<Mutex<Connection>>> = self.connections.iter().map(Arc::downgrade).collect();
+        Watch::new(self.spec, move || {
+            let connections = connections.iter().filter_map(Weak::upgrade);
+            connections.filter_map(|connection| lock(&connection).missing()).collect()
+        })
     }
 
     pub(crate) fn peer_stats(&self) -> Vec<PeerStats> {

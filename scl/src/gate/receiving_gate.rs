@@ -5,7 +5,7 @@
 macro_rules! receiving_gate {
     ($gate:ident) => {
         use crate::error::Missing;
-        use crate::gate::{AnyGate, sealed};
+        use crate::gate::{AnyGate, Watch, sealed};
         use crate::spec::GateSpec;
         use futures_core::Stream;
         use std::pin::Pin;
@@ -20,6 +20,10 @@ macro_rules! receiving_gate {
 
             fn missing(&self) -> Vec<Missing> {
                 self.incoming.missing()
+            }
+
+            fn watch(&self) -> Watch {
+                self.incoming.watch()
             }
         }
 

@@ -5,6 +5,7 @@ use super::encoding::Encoding;
 use super::reply_end::ReplyEnd;
 use super::stats::{Activity, GateStats};
 use super::tap::{GateTap, Observed};
+use super::watch::Watch;
 use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, GateName, Missing, PeerName, Peers, RecvError, ReplyError};
 use crate::spec::{GateSpec, LinkSpec};
@@ -246,6 +247,10 @@ impl<A, B> AnyGate for Rep<A, B> {
 
     fn missing(&self) -> Vec<Missing> {
         Vec::new()
+    }
+
+    fn watch(&self) -> Watch {
+        Watch::new(self.spec, Vec::new)
     }
 }
 

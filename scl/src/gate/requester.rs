@@ -4,9 +4,10 @@ use super::AnyGate;
 use super::encoding::Encoding;
 use super::exchange::{Exchange, ExchangeError};
 use super::stats::{Activity, GateStats};
+use super::watch::Watch;
 use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, CallError, GateName, Missing, PeerName, Peers};
-use crate::spec::{GateSpec, LinkSpec};
+use crate::spec::GateSpec;
 use crate::state::ComponentState;
 use crate::time::Watchdog;
 use crate::transport::Requester;
@@ -156,11 +157,7 @@ impl<A, B> Req<A, B> {
     }
 
     fn missing(&self) -> Vec<Missing> {
-        let Some(exchange) = self.exchange.as_ref().filter(|exchange| !exchange.is_connected()) else {
-            return Vec::new();
-        };
-        let required = self.spec.links.iter().filter(|link: &&LinkSpec| link.required);
-        required.map(|link| Missing { link, refusal: exchange.refusal() }).collect()
+        self.exchange.as_ref().map(|exchange| exchange.missing(self.spec)).unwrap_or_default()
     }
 }
 
@@ -181,6 +178,13 @@ impl<A, B> AnyGate for Req<A, B> {
 
     fn missing(&self) -> Vec<Missing> {
         self.missing()
+    }
+
+    fn watch(&self) -> Watch {
+        match &self.exchange {
+            Some(exchange) => exchange.watch(self.spec),
+            None => Watch::new(self.spec, Vec::new),
+        }
     }
 }
 

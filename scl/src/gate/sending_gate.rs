@@ -5,7 +5,7 @@
 macro_rules! sending_gate {
     ($gate:ident) => {
         use crate::error::Missing;
-        use crate::gate::{AnyGate, sealed};
+        use crate::gate::{AnyGate, Watch, sealed};
         use crate::spec::GateSpec;
         use futures_sink::Sink;
         use std::pin::Pin;
@@ -20,6 +20,10 @@ macro_rules! sending_gate {
 
             fn missing(&self) -> Vec<Missing> {
                 self.outgoing.missing()
+            }
+
+            fn watch(&self) -> Watch {
+                self.outgoing.watch()
             }
         }
 

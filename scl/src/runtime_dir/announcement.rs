@@ -4,7 +4,7 @@ use super::SystemDir;
 use super::error::RuntimeDirError;
 use super::owned_path::OwnedPath;
 use super::small_file::{read_file, write_temp};
-use crate::spec::{ComponentSpec, GateKind, GateSpec};
+use crate::spec::{ComponentSpec, GateSpec};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
@@ -164,7 +164,7 @@ fn endpoints(gate: &GateSpec) -> Vec<AnnouncedEndpoint> {
     let peers = || gate.links.iter().map(|link| format!("{}.{}", link.peer_component, link.peer_gate));
     let endpoint = |name: &str, contract: &str, peers: Vec<String>| AnnouncedEndpoint {
         gate: gate.name.to_owned(),
-        kind: kind_word(gate.kind).to_owned(),
+        kind: gate.kind.word().to_owned(),
         tap: false,
         endpoint: name.to_owned(),
         contract: contract.to_owned(),
@@ -184,17 +184,6 @@ fn endpoints(gate: &GateSpec) -> Vec<AnnouncedEndpoint> {
     endpoints
 }
 
-pub(super) fn kind_word(kind: GateKind) -> &'static str {
-    match kind {
-        GateKind::Pub => "pub",
-        GateKind::Sub => "sub",
-        GateKind::Req => "req",
-        GateKind::Rep => "rep",
-        GateKind::Push => "push",
-        GateKind::Pull => "pull",
-    }
-}
-
 fn text(json: &Value, key: &str) -> Option<String> {
     json[key].as_str().map(str::to_owned)
 }
@@ -202,7 +191,7 @@ fn text(json: &Value, key: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spec::{LinkSpec, Schema, WhenFull};
+    use crate::spec::{GateKind, LinkSpec, Schema, WhenFull};
 
     const fn link(peer_component: &'static str, endpoint: &'static str) -> LinkSpec {
         LinkSpec {

@@ -1,7 +1,7 @@
 //! Whether a running peer was built for the same connection: the same type, codec and messages.
 
 use super::SystemDir;
-use super::announcement::{AnnouncedEndpoint, Announcement, kind_word};
+use super::announcement::{AnnouncedEndpoint, Announcement};
 use super::error::running;
 use super::foreign_text::shown;
 use super::lock::ComponentLock;
@@ -84,7 +84,7 @@ fn compare_connection(
              build both from the same topology",
             link.peer_gate,
             shown(&theirs.kind),
-            kind_word(gate.kind)
+            gate.kind.word()
         )
     } else {
         format!(

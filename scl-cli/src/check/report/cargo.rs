@@ -3,20 +3,20 @@
 //!
 //! The format is that of `cargo check --message-format=json`; cargo's reference names it "external tools".
 
-use super::{Diagnostic, Label, Severity, render};
-use crate::source::{LineColumn, Sources};
+use scl_topology::diagnostic::{Diagnostic, Label, Severity, render};
+use scl_topology::source::{LineColumn, Sources};
 use serde_json::{Value, json};
 use std::path::Path;
 
 /// What the messages are about. To cargo everything belongs to a package and a target, so a topology file is one.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CargoUnit {
+pub(in crate::check) struct CargoUnit {
     /// The absolute path of the topology file.
-    pub file: String,
+    pub(in crate::check) file: String,
     /// The absolute path of the folder to which the paths of the sources are relative.
-    pub folder: String,
+    pub(in crate::check) folder: String,
     /// The Cargo.toml next to or above the file; the file itself where there is none.
-    pub manifest: String,
+    pub(in crate::check) manifest: String,
 }
 
 impl CargoUnit {
@@ -35,7 +35,7 @@ impl CargoUnit {
 
 /// The line before the diagnostics of a file: a `compiler-artifact`, at which editors forget what they were told about
 /// the file before.
-pub fn cargo_start(unit: &CargoUnit) -> String {
+pub(in crate::check) fn cargo_start(unit: &CargoUnit) -> String {
     json!({
         "reason": "compiler-artifact", "package_id": unit.package_id(), "manifest_path": unit.manifest,
         "target": unit.target(),
@@ -52,7 +52,7 @@ pub fn cargo_start(unit: &CargoUnit) -> String {
 /// The code is `scl::SCL0502`, in the manner of Clippy's lints, so that editors show `scl` as its source. Lines and
 /// columns count from 1, columns in characters, the end is one past the last one; bytes count from 0, without a byte
 /// order mark. A diagnostic without a place is put at the start of the file, as editors drop what is nowhere.
-pub fn to_cargo(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> String {
+pub(in crate::check) fn to_cargo(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> String {
     let level = match diagnostic.severity {
         Severity::Error => "error",
         Severity::Warning | Severity::Lint => "warning",
@@ -74,7 +74,7 @@ pub fn to_cargo(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) ->
 }
 
 /// The line after all others: `build-finished`.
-pub fn cargo_end(success: bool) -> String {
+pub(in crate::check) fn cargo_end(success: bool) -> String {
     json!({ "reason": "build-finished", "success": success }).to_string()
 }
 
@@ -141,9 +141,9 @@ fn children(diagnostic: &Diagnostic) -> Vec<Value> {
 #[cfg(test)]
 mod tests {
     use super::{CargoUnit, cargo_end, cargo_start, to_cargo};
-    use crate::diagnostic::testing::{ERROR, WARNING};
-    use crate::external::FILE_NOT_FOUND;
-    use crate::source::{Sources, Span};
+    use crate::check::report::testing::{ERROR, WARNING};
+    use scl_topology::external::FILE_NOT_FOUND;
+    use scl_topology::source::{Sources, Span};
     use serde_json::{Value, json};
 
     fn unit() -> CargoUnit {

@@ -1,7 +1,7 @@
 //! A diagnostic as one line of JSON, for programs.
 
-use super::{Diagnostic, Label, Severity};
-use crate::source::Sources;
+use scl_topology::diagnostic::{Diagnostic, Label, Severity};
+use scl_topology::source::Sources;
 use serde_json::Value;
 
 /// One object without line breaks:
@@ -10,7 +10,7 @@ use serde_json::Value;
 /// A label is `{"file","line","column","end_line","end_column","text"}`; the first one is the primary label. Lines and
 /// columns count from 1, columns in characters, and the end is one past the last character. Without a place, `file` and
 /// the positions are `null`.
-pub fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> String {
+pub(in crate::check) fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let severity = match diagnostic.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
@@ -59,10 +59,10 @@ fn object(fields: &[(&str, String)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::to_json;
-    use crate::diagnostic::testing::WARNING;
-    use crate::external::FILE_NOT_FOUND;
-    use crate::source::{Sources, Span};
+    use crate::check::report::testing::WARNING;
     use expect_test::expect;
+    use scl_topology::external::FILE_NOT_FOUND;
+    use scl_topology::source::{Sources, Span};
 
     #[test]
     fn one_line_with_every_field() {

@@ -1,19 +1,19 @@
 //! Diagnostics as SARIF 2.1.0, the format that code hosts and review tools read.
 
-use super::{Diagnostic, Label, Severity};
-use crate::catalogue::{explain, find};
-use crate::source::Sources;
+use scl_topology::catalogue::{explain, find};
+use scl_topology::diagnostic::{Diagnostic, Label, Severity};
+use scl_topology::source::Sources;
 use serde_json::{Value, json};
 
 /// One checked file with what was found in it.
 #[derive(Debug, Clone, Copy)]
-pub struct CheckedFile<'a> {
+pub(in crate::check) struct CheckedFile<'a> {
     /// The path as messages name it.
-    pub path: &'a str,
+    pub(in crate::check) path: &'a str,
     /// The texts that the diagnostics point into.
-    pub sources: &'a Sources,
+    pub(in crate::check) sources: &'a Sources,
     /// What was found.
-    pub diagnostics: &'a [Diagnostic],
+    pub(in crate::check) diagnostics: &'a [Diagnostic],
 }
 
 /// One SARIF log with one run over all files, over several lines.
@@ -22,7 +22,7 @@ pub struct CheckedFile<'a> {
 /// text of a result is the headline, then the label, the helps and the notes, each on its own line; the secondary labels
 /// are related locations. Paths become relative URIs, absolute ones `file:` URIs. A diagnostic without a place is
 /// located at its file as a whole.
-pub fn to_sarif(files: &[CheckedFile<'_>]) -> String {
+pub(in crate::check) fn to_sarif(files: &[CheckedFile<'_>]) -> String {
     let mut found: Vec<&Diagnostic> = files.iter().flat_map(|file| file.diagnostics).collect();
     found.sort_by_key(|diagnostic| diagnostic.code());
     found.dedup_by_key(|diagnostic| diagnostic.rule);
@@ -127,9 +127,9 @@ fn uri(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{CheckedFile, to_sarif, uri};
-    use crate::diagnostic::testing::{OTHER, WARNING};
-    use crate::external::FILE_NOT_FOUND;
-    use crate::source::{Sources, Span};
+    use crate::check::report::testing::{OTHER, WARNING};
+    use scl_topology::external::FILE_NOT_FOUND;
+    use scl_topology::source::{Sources, Span};
     use serde_json::{Value, json};
 
     fn example() -> Value {

@@ -1,0 +1,300 @@
+//! Components without generated code: opened at run time from a [`Plan`], with gates by name and bytes as messages.
+//!
+//! For programs that learn only when they run which component they are: tools, recorders, gateways, bindings for other
+//! languages. Everything else uses [`topology!`](crate::topology), which checks names, kinds and types while it compiles.
+//!
+//! An untyped component keeps every promise of a typed one, because it consists of the same gates: it takes the same lock,
+//! announces itself, and compares contracts and messages with its peers, which may be typed or not. Only encoding and
+//! decoding are left to the program: [`GatePlan::payload`] and [`GatePlan::codec`] say what the bytes are.
+//!
+//! `scl plan topology.yaml` prints the plans of a system.
+//!
+//! # Example
+//!
+//! ```
+//! use scl::plan::SystemPlan;
+//! use scl::untyped::Component;
+//! # #[tokio::main(flavor = "current_thread")]
+//! # async fn main() -> scl::Result<()> {
+//! # let options = || scl::OpenOptions::new().transport(MEMORY.clone());
+//! # static MEMORY: std::sync::LazyLock<scl::transport::memory::Memory> = std::sync::LazyLock::new(Default::default);
+//!
+//! // Written by `scl plan rover.yaml > rover.json`.
+//! let system = SystemPlan::from_json(include_str!("../doc/rover.json"))?;
+//!
+//! // `Component::open(plan)` outside of tests: it uses the runtime folder.
+//! let mut sensor = Component::open_with(system.component("sensor")?, options()).await?;
+//! let mut recorder = Component::open_with(system.component("recorder")?, options()).await?;
+//!
+//! let mut log = recorder.puller("log")?;
+//! sensor.pusher("log")?.send(&"any bytes".into()).await?;
+//! assert_eq!(log.recv().await?, "any bytes");
+//!
+//! let error = sensor.publisher("measurement").unwrap_err();
+//! assert_eq!(error.to_string(), "component `sensor` has no gate `measurement`; did you mean `measurements`?");
+//! # Ok(())
+//! # }
+//! ```
+
+mod error;
+mod gate;
+mod intern;
+
+pub use error::GateError;
+pub use gate::Gate;
+
+use crate::component::{Opener, only_failures, wait_for_peers};
+use crate::error::{GateName, NotFlushed, NotReady, OpenError};
+use crate::gate::{Pub, Pull, Push, Rep, Req, Sub, Watch};
+use crate::options::OpenOptions;
+#[cfg(doc)]
+use crate::plan::GatePlan;
+use crate::plan::Plan;
+use crate::spec::{ComponentSpec, GateKind};
+use crate::state::{ComponentHandle, Flush, OwnedRuntime};
+use bytes::Bytes;
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::runtime::Handle;
+
+/// A component whose gates are found by name.
+///
+/// Each gate is taken out of the component once, and then belongs to the caller, who may move it to another task or
+/// thread. The component stays open, under its lock, until the component and all of its gates have been dropped.
+pub struct Component {
+    spec: &'static ComponentSpec,
+    /// In the order of `spec.gates`; `None` once taken.
+    gates: Vec<Option<Gate>>,
+    /// Of all gates, also of those that were taken.
+    watches: Vec<Watch>,
+    /// The last field: fields are dropped in order, and the gates go first.
+    handle: ComponentHandle,
+}
+
+impl Component {
+    /// Opens a component on the tokio runtime of the caller, whatever its flavour: registers the component, announces it
+    /// and opens its gates. Peers connect by themselves, in whatever order they start.
+    ///
+    /// Each different plan is kept in memory until the process ends, usually some kilobytes; opening an equal plan again
+    /// needs no more. All of them may take 64 MiB.
+    ///
+    /// # Errors
+    /// [`OpenError`]: another process runs this component, the runtime folder cannot be used, the plan contradicts itself,
+    /// or there is no tokio runtime; the text says which.
+    ///
+    /// # Cancel safety
+    /// It never waits.
+    pub async fn open(plan: &Plan) -> Result<Self, OpenError> {
+        Self::open_with(plan, OpenOptions::new()).await
+    }
+
+    /// [`open`](Self::open) with options other than the environment's.
+    ///
+    /// # Errors
+    /// Those of `open`.
+    pub async fn open_with(plan: &Plan, options: OpenOptions) -> Result<Self, OpenError> {
+        let spec = intern::intern(plan)?;
+        if Handle::try_current().is_err() {
+            return Err(OpenError::NoRuntime { component: spec.name });
+        }
+        Self::assemble(spec, &options, None)
+    }
+
+    /// Opens the component for a program without async, which uses the blocking and the non-waiting calls of its gates,
+    /// from as many threads as it likes.
+    ///
+    /// # Errors
+    /// Those of [`open`](Self::open), except that no runtime is needed: it starts one of its own.
+    pub fn open_blocking(plan: &Plan) -> Result<Self, OpenError> {
+        Self::open_blocking_with(plan, OpenOptions::new())
+    }
+
+    /// [`open_blocking`](Self::open_blocking) with options other than the environment's.
+    ///
+    /// # Errors
+    /// Those of `open_blocking`.
+    pub fn open_blocking_with(plan: &Plan, options: OpenOptions) -> Result<Self, OpenError> {
+        let spec = intern::intern(plan)?;
+        let runtime = OwnedRuntime::start(spec.name)?;
+        let _entered = runtime.enter();
+        Self::assemble(spec, &options, Some(Arc::clone(&runtime)))
+    }
+
+    fn assemble(
+        spec: &'static ComponentSpec,
+        options: &OpenOptions,
+        runtime: Option<Arc<OwnedRuntime>>,
+    ) -> Result<Self, OpenError> {
+        let mut opener = Opener::begin(spec, options, runtime)?;
+        let kinds = spec.gates.iter().map(|gate| gate.kind).enumerate();
+        let gates = kinds.map(|(index, kind)| Gate::open(&mut opener, index, kind));
+        let gates: Vec<Gate> = gates.collect::<Result<_, _>>()?;
+        let watches = gates.iter().map(|gate| gate.any().watch()).collect();
+        Ok(Self { spec, gates: gates.into_iter().map(Some).collect(), watches, handle: opener.handle() })
+    }
+
+    /// What the plan says about the component and its gates.
+    pub fn spec(&self) -> &ComponentSpec {
+        self.spec
+    }
+
+    /// Takes a gate of whatever kind out of the component.
+    ///
+    /// # Errors
+    /// [`GateError`]: there is no gate with this name, or it was taken before.
+    pub fn gate(&mut self, name: &str) -> Result<Gate, GateError> {
+        let index = self.index(name)?;
+        self.gates[index].take().ok_or(GateError::Taken { gate: self.name(index) })
+    }
+
+    /// Takes a `pub` gate out of the component.
+    ///
+    /// # Errors
+    /// [`GateError`]: there is no gate with this name, it is of another kind, or it was taken before.
+    pub fn publisher(&mut self, gate: &str) -> Result<Pub<Bytes>, GateError> {
+        self.take(gate, GateKind::Pub, |gate| match gate {
+            Gate::Pub(gate) => Some(gate),
+            _ => None,
+        })
+    }
+
+    /// Takes a `sub` gate out of the component.
+    ///
+    /// # Errors
+    /// Those of [`publisher`](Self::publisher).
+    pub fn subscriber(&mut self, gate: &str) -> Result<Sub<Bytes>, GateError> {
+        self.take(gate, GateKind::Sub, |gate| match gate {
+            Gate::Sub(gate) => Some(gate),
+            _ => None,
+        })
+    }
+
+    /// Takes a `req` gate out of the component.
+    ///
+    /// # Errors
+    /// Those of [`publisher`](Self::publisher).
+    pub fn requester(&mut self, gate: &str) -> Result<Req<Bytes, Bytes>, GateError> {
+        self.take(gate, GateKind::Req, |gate| match gate {
+            Gate::Req(gate) => Some(gate),
+            _ => None,
+        })
+    }
+
+    /// Takes a `rep` gate out of the component.
+    ///
+    /// # Errors
+    /// Those of [`publisher`](Self::publisher).
+    pub fn replier(&mut self, gate: &str) -> Result<Rep<Bytes, Bytes>, GateError> {
+        self.take(gate, GateKind::Rep, |gate| match gate {
+            Gate::Rep(gate) => Some(gate),
+            _ => None,
+        })
+    }
+
+    /// Takes a `push` gate out of the component.
+    ///
+    /// # Errors
+    /// Those of [`publisher`](Self::publisher).
+    pub fn pusher(&mut self, gate: &str) -> Result<Push<Bytes>, GateError> {
+        self.take(gate, GateKind::Push, |gate| match gate {
+            Gate::Push(gate) => Some(gate),
+            _ => None,
+        })
+    }
+
+    /// Takes a `pull` gate out of the component.
+    ///
+    /// # Errors
+    /// Those of [`publisher`](Self::publisher).
+    pub fn puller(&mut self, gate: &str) -> Result<Pull<Bytes>, GateError> {
+        self.take(gate, GateKind::Pull, |gate| match gate {
+            Gate::Pull(gate) => Some(gate),
+            _ => None,
+        })
+    }
+
+    /// Waits until all required peers are connected, also those of gates that were taken. Gates that listen for any number
+    /// of peers (`rep`, `pull`) have none to wait for, and neither have gates that were dropped.
+    ///
+    /// # Errors
+    /// The peers that are missing after `timeout`, and why.
+    ///
+    /// # Cancel safety
+    /// Cancel safe.
+    pub async fn ready(&self, timeout: Duration) -> Result<(), NotReady> {
+        let missing = || {
+            let watches = self.watches.iter();
+            watches.flat_map(|watch| watch.missing().into_iter().map(|missing| (watch.spec, missing))).collect()
+        };
+        wait_for_peers(&self.handle, missing, timeout).await
+    }
+
+    /// [`ready`](Self::ready) from a plain thread.
+    ///
+    /// # Errors
+    /// Those of `ready`; inside async code or after a stop request, [`BlockingError`](crate::BlockingError).
+    pub fn ready_blocking(&self, timeout: Duration) -> crate::Result<()> {
+        Ok(self.handle.0.block_on(self.ready(timeout))??)
+    }
+
+    /// Waits until every peer that is running has taken all messages, then closes. Peers that are running but not
+    /// connected yet are waited for; one that is not running is named in a log line.
+    ///
+    /// Messages of gates that were taken are waited for, too. As long as such a gate exists, the component stays open.
+    ///
+    /// Dropping the component hands over what is left, too, but waits no longer than a second, and only until it is
+    /// written.
+    ///
+    /// # Errors
+    /// The peers that have not taken everything after `timeout`, with the number of messages.
+    ///
+    /// # Cancel safety
+    /// The component is closed in any case; what was not handed over is lost.
+    pub async fn close(self, timeout: Duration) -> Result<(), NotFlushed> {
+        let handle = self.handle.clone();
+        drop(self);
+        only_failures(handle.flush(Flush::Running, timeout).await)
+    }
+
+    /// [`close`](Self::close) from a plain thread.
+    ///
+    /// # Errors
+    /// Those of `close`; inside async code, [`BlockingError`](crate::BlockingError), and the component is dropped.
+    pub fn close_blocking(self, timeout: Duration) -> crate::Result<()> {
+        let handle = self.handle.clone();
+        handle.0.may_block()?;
+        drop(self);
+        Ok(only_failures(handle.flush_blocking(Flush::Running, timeout))?)
+    }
+
+    fn take<G>(
+        &mut self,
+        name: &str,
+        expected: GateKind,
+        unwrap: impl FnOnce(Gate) -> Option<G>,
+    ) -> Result<G, GateError> {
+        let index = self.index(name)?;
+        // Told before whether it was taken: the kind is what the program has to correct.
+        let (gate, found) = (self.name(index), self.spec.gates[index].kind);
+        if found != expected {
+            return Err(GateError::Kind { gate, found, expected });
+        }
+        let taken = self.gates[index].take().ok_or(GateError::Taken { gate })?;
+        unwrap(taken).ok_or(GateError::Kind { gate, found, expected })
+    }
+
+    fn index(&self, name: &str) -> Result<usize, GateError> {
+        let found = self.spec.gates.iter().position(|gate| gate.name == name);
+        found.ok_or_else(|| GateError::unknown(self.spec, name))
+    }
+
+    fn name(&self, index: usize) -> GateName {
+        GateName::new(self.spec.name, self.spec.gates[index].name)
+    }
+}
+
+impl std::fmt::Debug for Component {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Component").field(&self.spec.name).finish()
+    }
+}

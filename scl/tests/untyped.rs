@@ -1,0 +1,55 @@
+//! Untyped components: every call of their gates on every medium, typed peers, and what errors say.
+#![allow(clippy::unwrap_used)]
+
+mod asynchronous;
+mod blocking;
+mod errors;
+mod specs;
+mod typed_peers;
+
+use bytes::Bytes;
+use scl::plan::{Plan, SystemPlan};
+use scl::transport::memory::Memory;
+use scl::{Medium, OpenOptions};
+use std::path::Path;
+use std::time::Duration;
+
+scl::topology!("untyped.yaml");
+
+type Values = Vec<f64>;
+
+/// Far longer than anything takes.
+const LONG: Duration = Duration::from_secs(60);
+
+/// The plans of a topology file in this folder or in `doc/`, with locations as in generated code.
+fn system_plan(file: &str) -> SystemPlan {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let path = if file.starts_with("doc/") { package.join(file) } else { package.join("tests").join(file) };
+    let loaded = scl_loader::load(&scl_loader::Request { shown_as: file.to_owned(), ..scl_loader::Request::new(path) });
+    loaded.system_plan().unwrap_or_else(|| panic!("{file}: {:?}", loaded.diagnostics))
+}
+
+fn plan(component: &str) -> Plan {
+    system_plan("untyped.yaml").component(component).unwrap().clone()
+}
+
+/// Runs a test in memory, on Unix sockets and on TCP. All its components are to be opened with the same options.
+fn on_each_medium(test: impl Fn(OpenOptions)) {
+    test(OpenOptions::new().transport(Memory::new()));
+    for medium in [Medium::Ipc, Medium::Tcp] {
+        let folder = tempfile::tempdir().unwrap();
+        test(OpenOptions::new().runtime_dir(folder.path()).medium(medium));
+    }
+}
+
+/// The same for async code.
+fn on_each_medium_async<F: Future<Output = ()>>(test: impl Fn(OpenOptions) -> F) {
+    on_each_medium(|options| {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
+        runtime.block_on(test(options));
+    });
+}
+
+fn bytes(text: &str) -> Bytes {
+    Bytes::copy_from_slice(text.as_bytes())
+}
