@@ -11,7 +11,7 @@ pub(crate) use socket_name::shortened;
 
 use crate::fingerprint;
 use crate::source::Span;
-use crate::topology::{ComponentId, ConnectionId, GateId, GateKind, GateOptions, Payload, Topology};
+use crate::topology::{ComponentId, ConnectionId, GateId, GateKind, Payload, Topology};
 use contract::{contract, gate_contract};
 use scl_plan::{ConnectionPlan, GatePlan, Plan};
 use socket_name::{endpoint, gate_endpoint, tap_endpoint};
@@ -38,7 +38,6 @@ pub fn resolve(topology: &Topology, component: ComponentId, location: &dyn Fn(Sp
 
 fn resolve_gate(topology: &Topology, id: GateId, location: &dyn Fn(Span) -> String) -> GatePlan {
     let gate = topology.gate(id);
-    let GateOptions { queue, when_full, backpressure, max_size, timeout, .. } = *gate.options();
     GatePlan {
         name: gate.name().to_owned(),
         kind: gate.kind(),
@@ -48,11 +47,7 @@ fn resolve_gate(topology: &Topology, id: GateId, location: &dyn Fn(Span) -> Stri
         endpoint: gate_endpoint(topology, id),
         tap: tap_endpoint(topology, id),
         contract: gate_contract(topology, id),
-        max_size,
-        queue,
-        when_full,
-        backpressure,
-        timeout,
+        options: gate.options().program.clone(),
         connections: gate
             .connections()
             .iter()

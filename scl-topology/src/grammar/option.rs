@@ -6,38 +6,32 @@ use super::shape::{self, OutOfRange, Shape, Word};
 use crate::{duration, size};
 use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
 use scl_plan::WhenFull;
+use std::ops::{Deref, DerefMut};
 use std::time::Duration;
 
-/// The options of a gate, defaults filled in.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// The options of a gate, defaults filled in: those of its program, which read as if they were here, and those of the
+/// checker alone.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct GateOptions {
-    /// `queue`: how many messages may wait for this gate.
-    pub queue: u32,
-    /// `when_full`.
-    pub when_full: WhenFull,
-    /// `backpressure`.
-    pub backpressure: bool,
-    /// `max_size`: the longest message that this gate accepts, in bytes.
-    pub max_size: u64,
-    /// `timeout` of a call.
-    pub timeout: Duration,
+    /// Those that the program needs.
+    pub program: scl_plan::GateOptions,
     /// `share`.
     pub share: bool,
     /// `unconnected: ok`.
     pub unconnected_ok: bool,
 }
 
-impl Default for GateOptions {
-    fn default() -> Self {
-        Self {
-            queue: 100,
-            when_full: WhenFull::default(),
-            backpressure: false,
-            max_size: 64 << 20,
-            timeout: Duration::from_secs(1),
-            share: false,
-            unconnected_ok: false,
-        }
+impl Deref for GateOptions {
+    type Target = scl_plan::GateOptions;
+
+    fn deref(&self) -> &Self::Target {
+        &self.program
+    }
+}
+
+impl DerefMut for GateOptions {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.program
     }
 }
 
