@@ -74,3 +74,16 @@ pub enum Place {
     /// A queue policy.
     Policy(fn(&mut GateOptions) -> &mut WhenFull),
 }
+
+#[cfg(test)]
+mod tests {
+    use super::GateOptions;
+
+    #[test]
+    fn every_field_is_in_the_list() {
+        let debug = format!("{:?}", GateOptions::DEFAULT);
+        let fields: Vec<&str> =
+            debug.split([',', '{']).filter_map(|part| part.split_once(": ")).map(|it| it.0.trim()).collect();
+        assert_eq!(fields, GateOptions::ALL.map(|option| option.key));
+    }
+}

@@ -303,6 +303,14 @@ mod tests {
     }
 
     #[test]
+    fn every_option_of_a_program_can_be_written() {
+        for field in scl_plan::GateOptions::ALL {
+            let row = option(field.key).unwrap_or_else(|| panic!("no row `{}`", field.key));
+            assert!(row.default().is_some(), "{}", field.key);
+        }
+    }
+
+    #[test]
     fn a_limit_has_the_reason_of_its_end() {
         let max_size = option("max_size").unwrap();
         let reason = |text| max_size.set(&mut GateOptions::default(), text).map_err(|error| max_size.limit(&error));
