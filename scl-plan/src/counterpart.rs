@@ -1,12 +1,8 @@
 //! The counterpart of a component: one opposite gate for each of its gates, for unit tests on the in-process transport.
 
-use crate::kind::{GateKind, WhenFull};
+use crate::kind::GateKind;
 use crate::options::GateOptions;
 use crate::plan::{ConnectionPlan, GatePlan, Plan};
-use std::time::Duration;
-
-/// How long the counterpart's calls may take. Tests fail after that, so it is long.
-const TIMEOUT: Duration = Duration::from_secs(10);
 
 impl Plan {
     /// The plan of this component's counterpart.
@@ -42,13 +38,7 @@ fn opposite(owner: &str, gate: &GatePlan) -> GatePlan {
             .shares_endpoint()
             .then(|| endpoint.clone().unwrap_or_else(|| format!("{owner}.{}.unconnected", gate.name))),
         tap: kind.listens().then(|| format!("{owner}.{}.peer", gate.name)),
-        options: GateOptions {
-            max_size: u64::MAX,
-            queue: u32::MAX,
-            when_full: WhenFull::Wait,
-            backpressure: true,
-            timeout: TIMEOUT,
-        },
+        options: GateOptions::COUNTERPART,
         connections: endpoint.into_iter().map(|endpoint| connection(owner, gate, endpoint, contract.clone())).collect(),
         contract,
     }

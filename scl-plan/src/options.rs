@@ -29,6 +29,16 @@ impl GateOptions {
         timeout: Duration::from_secs(1),
     };
 
+    /// A gate of a component's counterpart in unit tests: it drops and refuses nothing. A call that takes longer fails the
+    /// test, so its timeout is long.
+    pub(crate) const COUNTERPART: Self = Self {
+        max_size: u64::MAX,
+        queue: u32::MAX,
+        when_full: WhenFull::Wait,
+        backpressure: true,
+        timeout: Duration::from_secs(10),
+    };
+
     /// All of them, in the order of the JSON text.
     pub const ALL: [OptionField; 5] = [
         OptionField { key: "max_size", json: "max_size", place: Place::Size(|options| &mut options.max_size) },
