@@ -1,6 +1,6 @@
 //! `scl plan`: the plans of a system's components as JSON.
 
-use crate::load::{load_file, show_errors};
+use crate::load::{MaxSize, load_file, show_errors};
 use crate::print::{print_err, print_out};
 use clap::Args;
 use scl_plan::SystemPlan;
@@ -30,11 +30,13 @@ pub(crate) struct PlanArguments {
     /// Print the plan of this component only.
     #[arg(long, value_name = "NAME")]
     component: Option<String>,
+    #[command(flatten)]
+    max_size: MaxSize,
 }
 
 /// The body of `scl plan`.
 pub(crate) fn plan(arguments: &PlanArguments) -> ExitCode {
-    let loaded = load_file(&arguments.file);
+    let loaded = load_file(&arguments.file, arguments.max_size);
     let Some(system) = loaded.system_plan() else {
         show_errors(&loaded);
         return ExitCode::from(if loaded.file.is_some() { 1 } else { 2 });
