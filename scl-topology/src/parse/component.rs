@@ -145,7 +145,7 @@ impl Reader<'_> {
                 key if fields.get("name").is_none() && shape::component_key::is_misnamed(key) => {}
                 "doc" => component.doc = self.text(*field),
                 "optional" => component.optional = self.boolean(*field).unwrap_or(false),
-                "gates" => self.read_all_gates(&fields, &mut component),
+                "gates" => self.read_all_gates(fields, &mut component),
                 _ => self.read_unknown_key(*field, &mut component),
             }
         }

@@ -230,7 +230,7 @@ fn surplus(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Ed
 /// A quote too many or too few, in a line with an odd number of them.
 fn quotes(line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
     let content = &text[line.clone()];
-    if content.matches('"').count() % 2 == 0 {
+    if content.matches('"').count().is_multiple_of(2) {
         return;
     }
     let is_word = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.' | b'-');
