@@ -71,7 +71,7 @@ const EXAMPLES: &str = "Examples:
 
 #[derive(Subcommand)]
 enum Benchmark {
-    /// The time of a message to another process and back: pub/sub and req/rep, async and blocking.
+    /// Measure the time of a message to another process and back: pub/sub and req/rep, async and blocking.
     ///
     /// Baselines: Unix sockets (tokio and blocking), the same patterns of `zeromq`, and of libzmq if this program was
     /// built with its feature `libzmq`.
@@ -83,7 +83,7 @@ enum Benchmark {
         #[arg(long, default_value_t = 20_000, value_parser = within(MESSAGES))]
         messages: usize,
     },
-    /// Messages per second from one process to another, none lost: pub/sub and push/pull, async and blocking.
+    /// Measure messages per second from one process to another, none lost: pub/sub and push/pull, async and blocking.
     ///
     /// Baselines: the same patterns of `zeromq`, a Unix socket, and of libzmq, with bounded and unbounded queues, if
     /// this program was built with its feature `libzmq`.
@@ -95,7 +95,7 @@ enum Benchmark {
         #[arg(long, default_value_t = 500_000, value_parser = within(MESSAGES))]
         messages: usize,
     },
-    /// The age of the first value that a subscriber with `queue: 1` receives after a pause.
+    /// Measure the age of the first value that a subscriber with `queue: 1` receives after a pause.
     ///
     /// Baselines: a SUB socket of `zeromq`, and one of libzmq with ZMQ_CONFLATE if this program was built with its
     /// feature `libzmq`.
@@ -107,7 +107,7 @@ enum Benchmark {
         #[arg(long, default_value_t = 2.0, value_parser = parse_seconds)]
         pause: f64,
     },
-    /// The time until messages flow again after one side was killed and restarted, for all six roles.
+    /// Measure the time until messages flow again after one side was killed and restarted, for all six roles.
     ///
     /// Baselines: a process that connects to a Unix socket, `zeromq`, and libzmq if this program was built with its
     /// feature `libzmq`.
@@ -116,7 +116,7 @@ enum Benchmark {
         #[arg(long, default_value_t = 30, value_parser = within(REPETITIONS))]
         restarts: usize,
     },
-    /// The delay of 20 bytes at 1000 Hz: idle, under load, and with real-time priority if permitted.
+    /// Measure the delay of 20 bytes at 1000 Hz: idle, under load, and with real-time priority if permitted.
     ///
     /// The load is one thread per core that computes, and one that writes to the disk. Real-time priority is set by
     /// `chrt -f 80`, which needs root or the limit `rtprio`. Baselines: `zeromq` and a Unix socket.
@@ -125,7 +125,7 @@ enum Benchmark {
         #[arg(long, default_value_t = 5.0, value_parser = parse_seconds)]
         seconds: f64,
     },
-    /// The delay from one publisher to eight subscribers at 1000 Hz, while all run and while one is stopped.
+    /// Measure the delay from one publisher to eight subscribers at 1000 Hz, while all run and while one is stopped.
     ///
     /// Measured at the other seven. Baseline: a PUB socket of `zeromq` for all eight.
     Fanout {
@@ -133,7 +133,7 @@ enum Benchmark {
         #[arg(long, default_value_t = 5.0, value_parser = parse_seconds)]
         seconds: f64,
     },
-    /// The time to encode and decode a record, and its size, for every codec.
+    /// Measure the time to encode and decode a record, and its size, for every codec.
     ///
     /// Baselines: the libraries `prost` and `serde_json` without SCL, and XML, which SCL does not support.
     Codecs {
@@ -141,7 +141,7 @@ enum Benchmark {
         #[arg(long, default_value_t = 100_000, value_parser = within(MESSAGES))]
         messages: usize,
     },
-    /// The time to open a component with ten gates, its memory, and its wake-ups per second when idle.
+    /// Measure the time to open a component with ten gates, its memory, and its wake-ups per second when idle.
     ///
     /// Baselines: ten sockets of `zeromq`, and a process with nothing but the async runtime.
     Open {

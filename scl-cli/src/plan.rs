@@ -10,7 +10,7 @@ use std::process::ExitCode;
 /// Maximum number of components that an error lists.
 const LISTED: usize = 10;
 
-/// Prints the plan of a system as JSON: for each component everything its program needs to run.
+/// Print the plan of a system as JSON: for each component everything its program needs to run.
 ///
 /// That is its gates with kind, type, codec, options, and every connection with its peer, socket and contract, and the
 /// protobuf messages as a descriptor set. Programs in other languages and `scl::untyped` open components from this text; no

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 /// Writes to standard output; the text brings its own line ends.
 pub(crate) fn print_out(text: &str) {
-    // Who closes our output does not want to know.
+    // A reader that closes our output does not need an error.
     let _ = io::stdout().lock().write_all(text.as_bytes());
 }
 

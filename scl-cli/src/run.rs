@@ -43,7 +43,7 @@ pub(crate) struct RunArguments {
     /// The system's folder, or a launch file.
     #[arg(default_value = ".")]
     folder: PathBuf,
-    /// Stop by itself after this time, for example `5s`; that is success.
+    /// Stop after this time, for example `5s`, and succeed.
     #[arg(long = "for", value_name = "TIME", value_parser = parse_duration)]
     run_for: Option<Duration>,
     /// How long components may take to stop before they are killed.
@@ -54,7 +54,7 @@ pub(crate) struct RunArguments {
     release: bool,
 }
 
-/// Becomes a component's program, which ends when its parent ends.
+/// Become a component's program, which ends when its parent ends.
 #[derive(Args)]
 pub(crate) struct StartArguments {
     /// The process that must be alive.

@@ -9,13 +9,13 @@ use std::process::{Command, Stdio};
 /// A program that cargo has built.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct BuiltProgram {
-    /// Cargo's name of it.
+    /// The name of the cargo target.
     pub(crate) name: String,
-    /// Where it is.
+    /// Path of the executable.
     pub(crate) executable: PathBuf,
 }
 
-/// The part of cargo's messages that is of interest.
+/// The fields of cargo's messages that are read.
 #[derive(Deserialize)]
 struct Message {
     reason: String,
@@ -28,11 +28,11 @@ struct Target {
     name: String,
 }
 
-/// Builds the programs of the package in a folder; what cargo says is shown as it comes.
+/// Builds the programs of the package in a folder. Cargo's own output is passed through.
 ///
 /// # Errors
 ///
-/// When there is no package or no cargo, or the build fails.
+/// If there is no package, cargo cannot be run, or the build fails.
 pub(crate) fn build_package(folder: &Path, release: bool) -> Result<Vec<BuiltProgram>, Problem> {
     if !folder.join("Cargo.toml").is_file() {
         return Err(Problem::new(format!("there is no cargo package in `{}`", folder.display()))

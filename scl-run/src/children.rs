@@ -23,19 +23,19 @@ pub(crate) enum Event {
     Ended { component: usize, ending: Ending },
     /// One of the two streams of a component ended.
     StreamClosed { component: usize },
-    /// Nobody reads our output any more.
+    /// The reader of our output has gone.
     OutputLost,
     /// A signal asks us to stop.
     Asked(Signal),
 }
 
-/// The program of a component. It stays unreaped until this value is dropped, so that the number of its process group
-/// cannot be given to a stranger meanwhile.
+/// The program of a component. It is reaped when this value is dropped, so that its process group id is not reused
+/// before that.
 #[derive(Debug)]
 pub(crate) struct Running {
     process: Child,
     group: Pid,
-    /// When it was started.
+    /// Start time.
     pub(crate) started: Instant,
 }
 
@@ -44,7 +44,7 @@ impl Running {
     ///
     /// # Errors
     ///
-    /// When no process can be started, or the guard is gone.
+    /// If no process can be started, or the guard has ended.
     pub(crate) fn start(
         component: usize,
         program: &Program,
@@ -71,9 +71,9 @@ impl Running {
         Ok(running)
     }
 
-    /// Sends a signal to the program and to all that it has started in its group.
+    /// Sends a signal to the program's process group.
     pub(crate) fn signal(&self, signal: Signal) {
-        // The group may be empty but for the program that has ended, and that is no fault.
+        // The group may hold nothing but the ended program, which is not an error.
         let _ = killpg(self.group, signal);
     }
 }
@@ -95,7 +95,7 @@ fn watch_stream(
     let (output, events) = (Arc::clone(output), events.clone());
     thread::spawn(move || {
         let copied = from.map_or(Ok(()), |from| output.copy_lines(component, stream, from));
-        // Nobody hears the event once the supervisor has finished, and then nobody needs it.
+        // After the supervisor has finished, nothing receives or needs the event.
         let _ = events.send(if copied.is_ok() { Event::StreamClosed { component } } else { Event::OutputLost });
     });
 }
@@ -116,7 +116,7 @@ fn wait_for_end(program: Pid) -> Ending {
                 }
             }
             Err(Errno::EINTR) => {}
-            // The program has ended by a signal for which the library has no name.
+            // The program was ended by a signal that the library does not know.
             Err(_) => return Ending::KilledByUnnamedSignal,
         }
     }

@@ -16,7 +16,7 @@ pub(crate) enum Ending {
 }
 
 impl Ending {
-    /// What the operating system says about a program that has ended; `None` if it has not.
+    /// From the status of the operating system; `None` if the program is still running.
     pub(crate) fn from_wait(status: WaitStatus) -> Option<Self> {
         match status {
             WaitStatus::Exited(_, code) => Some(Ending::Exited(code)),
@@ -25,9 +25,9 @@ impl Ending {
         }
     }
 
-    /// Whether this is in order, given the signal that asked the program to stop, if one did.
+    /// Returns true for a successful end. `asked_by` is the signal that asked the program to stop, if any.
     ///
-    /// Besides 0, a program may end by that very signal, or with the code (128 + number) by which shells report it.
+    /// Besides code 0, ending by that signal counts as success, and so does code 128 + number, as shells report it.
     pub(crate) fn is_in_order(self, asked_by: Option<Signal>) -> bool {
         match self {
             Ending::Exited(0) => true,

@@ -25,7 +25,7 @@ const TRANSPORTS: [&str; 2] = ["ipc", "tcp"];
 /// A launch file without mistakes.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct LaunchFile {
-    /// In file order, at least one.
+    /// At least one, in file order.
     pub(crate) components: Vec<LaunchComponent>,
     /// For all programs.
     pub(crate) environment: Vec<(String, String)>,
@@ -50,7 +50,7 @@ pub(crate) struct LaunchComponent {
 ///
 /// # Errors
 ///
-/// Every mistake of the file; of a text that is no YAML, the first.
+/// Every mistake of the file; for invalid YAML, the first one.
 pub(crate) fn parse_launch_file(path: &str, text: &str, known: Option<&[String]>) -> Result<LaunchFile, Vec<Problem>> {
     let text = LaunchText::new(path, text);
     let value = serde_yaml::from_str::<Value>(text.text()).map_err(|error| vec![text.syntax_problem(&error)])?;
@@ -59,7 +59,7 @@ pub(crate) fn parse_launch_file(path: &str, text: &str, known: Option<&[String]>
     if reader.problems.is_empty() { Ok(file) } else { Err(reader.problems) }
 }
 
-/// Walks the values and collects what is wrong; every `read_*` goes on after a mistake.
+/// Walks the values and collects the problems; every `read_*` continues after a mistake.
 struct Reader<'a> {
     text: LaunchText<'a>,
     known: Option<&'a [String]>,
@@ -221,7 +221,7 @@ impl Reader<'_> {
     }
 }
 
-/// The text of a word, a number or a truth value; none of anything else, or of what no program can be given.
+/// The text of a string, number or boolean that can be passed to a program, else `None`.
 fn scalar_text(value: &Value) -> Option<String> {
     match value {
         Value::String(text) if !text.contains('\0') => Some(text.clone()),
@@ -231,7 +231,7 @@ fn scalar_text(value: &Value) -> Option<String> {
     }
 }
 
-/// How messages name a value that is not what was expected.
+/// Describes an unexpected value in messages.
 fn shown(value: &Value) -> String {
     match value {
         Value::Sequence(_) => "a list".to_owned(),

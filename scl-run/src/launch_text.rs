@@ -1,4 +1,4 @@
-//! Where things stand in a launch file. The YAML library gives no places of values, so keys are looked up in the text.
+//! Positions in a launch file. The YAML library reports none for values, so keys are looked up in the text.
 
 use super::problem::Problem;
 use serde_yaml::Error;
@@ -11,7 +11,7 @@ pub(crate) struct LaunchText<'a> {
 }
 
 impl<'a> LaunchText<'a> {
-    /// A text; a byte order mark at its start is left out.
+    /// Takes a text, without its byte order mark.
     pub(crate) fn new(path: &'a str, text: &'a str) -> Self {
         Self { path, text: text.strip_prefix('\u{feff}').unwrap_or(text) }
     }
@@ -21,7 +21,7 @@ impl<'a> LaunchText<'a> {
         self.text
     }
 
-    /// What the library says of a text that is no YAML, with its place before it instead of inside it.
+    /// The library's error for invalid YAML, with the position moved in front of the message.
     pub(crate) fn syntax_problem(&self, error: &Error) -> Problem {
         let words = error.to_string();
         let Some(location) = error.location() else { return Problem::new(words).at(self.path) };
@@ -30,8 +30,8 @@ impl<'a> LaunchText<'a> {
         Problem::new(headline).at(format!("{}:{line}:{column}", self.path))
     }
 
-    /// `launch.yaml:3:5`, where the last of these keys stands: each is looked for after the one before it. If one cannot
-    /// be found (it is quoted with escapes, say), the place of the key before it.
+    /// Position of the last of these keys, as `launch.yaml:3:5`. Each is searched for after the one before it. If one is
+    /// not found (for example because it is written with escapes), the position of the key before it.
     pub(crate) fn place(&self, keys: &[&str]) -> String {
         let mut at = None;
         for key in keys {
@@ -46,7 +46,7 @@ impl<'a> LaunchText<'a> {
         format!("{}:{line}:{column}", self.path)
     }
 
-    /// The first place from `start` on where `key` stands as a key, outside comments.
+    /// The first position from `start` on where `key` is used as a key, outside comments.
     fn find_key(&self, key: &str, start: usize) -> Option<usize> {
         let from = self.text.get(start..)?;
         let candidates = from.match_indices(key).map(|(at, _)| start + at);

@@ -1,11 +1,11 @@
 //! No orphans, even when `scl run` itself is killed with -9.
 //!
-//! Two safe means together, because each leaves a gap:
+//! Two mechanisms, because each one has a gap:
 //!
 //! - Every component is started through `scl __start`, which asks the kernel to be killed when `scl run` ends, and
 //!   then becomes the program. This holds from the first moment, but only for the program itself.
 //! - One `scl __guard` holds the read end of a pipe whose write end only `scl run` holds. When the pipe ends, it kills
-//!   the whole process group of each component, and so what the programs have started in their turn.
+//!   the whole process group of each component, including the processes that the programs have started.
 
 use super::problem::print_err;
 use nix::sys::signal::{SigSet, Signal, killpg};
@@ -20,14 +20,14 @@ pub const START_WORD: &str = "__start";
 /// The hidden command that keeps watch: `scl __guard`.
 pub const GUARD_WORD: &str = "__guard";
 
-/// What shells answer for a program that is there but cannot be executed.
+/// The exit code of shells for a program that exists but cannot be executed.
 const CANNOT_EXECUTE: u8 = 126;
 
 /// The command that starts `command` so that it ends with this process.
 ///
 /// # Errors
 ///
-/// When the path of the running `scl` cannot be found.
+/// If the path of the running `scl` cannot be found.
 pub(crate) fn bound_command(command: &[OsString]) -> io::Result<Command> {
     let mut bound = Command::new(std::env::current_exe()?);
     bound.arg(START_WORD).arg(std::process::id().to_string()).arg("--").args(command);
@@ -43,7 +43,7 @@ pub fn start_component(parent: u32, command: &[OsString]) -> ExitCode {
         print_err(&format!("scl: cannot prepare the start: {error}\n"));
         return ExitCode::from(CANNOT_EXECUTE);
     }
-    // The parent may have ended before the kernel knew of our wish; then nobody would ever stop this program.
+    // If the parent ended before the call to prctl, nothing would ever stop this program.
     if u32::try_from(Pid::parent().as_raw()) != Ok(parent) {
         return ExitCode::from(CANNOT_EXECUTE);
     }
@@ -58,7 +58,7 @@ fn die_with_parent() -> nix::Result<()> {
     nix::sys::prctl::set_pdeathsig(Signal::SIGKILL)
 }
 
-/// Elsewhere the guard alone must do.
+/// Other systems have the guard only.
 #[cfg(not(target_os = "linux"))]
 fn die_with_parent() -> nix::Result<()> {
     Ok(())
@@ -69,7 +69,7 @@ pub(crate) fn stop_signals() -> SigSet {
     [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP].into_iter().collect()
 }
 
-/// The process that keeps watch over this one. It kills the groups that it knows when this value is dropped.
+/// The process that watches this one. Dropping this value makes it kill the process groups added so far.
 #[derive(Debug)]
 pub(crate) struct OrphanGuard {
     process: Child,
@@ -81,7 +81,7 @@ impl OrphanGuard {
     ///
     /// # Errors
     ///
-    /// When no process can be started.
+    /// If no process can be started.
     pub(crate) fn start() -> io::Result<Self> {
         let mut process = Command::new(std::env::current_exe()?)
             .arg(GUARD_WORD)
@@ -98,7 +98,7 @@ impl OrphanGuard {
     ///
     /// # Errors
     ///
-    /// When the guard is gone.
+    /// If the guard has ended.
     pub(crate) fn watch(&mut self, group: Pid) -> io::Result<()> {
         let pipe = self.pipe.as_mut().ok_or(io::ErrorKind::BrokenPipe)?;
         pipe.write_all(format!("{group}\n").as_bytes())
@@ -118,7 +118,7 @@ pub fn keep_watch() -> ExitCode {
     let groups: Vec<i32> =
         io::stdin().lock().lines().map_while(Result::ok).filter_map(|line| line.parse().ok()).collect();
     for group in groups {
-        // A group that has ended already is the usual case.
+        // The group has usually ended already.
         let _ = killpg(Pid::from_raw(group), Signal::SIGKILL);
     }
     ExitCode::SUCCESS

@@ -5,7 +5,7 @@ use owo_colors::{AnsiColors, OwoColorize};
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::sync::{Mutex, PoisonError};
 
-/// A line longer than this many bytes is broken, so that a program that never ends its line cannot fill the memory.
+/// Maximum length of a line in bytes. Longer ones are split, so that output without line breaks cannot exhaust memory.
 const LONGEST_LINE: u64 = 64 * 1024 * 1024;
 
 const COLOURS: [AnsiColors; 10] = [
@@ -21,7 +21,7 @@ const COLOURS: [AnsiColors; 10] = [
     AnsiColors::BrightMagenta,
 ];
 
-/// Which of the two streams of a program, and of ours.
+/// One of the two output streams of a program, and of this one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stream {
     /// Standard output.
@@ -42,7 +42,7 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Output for components of these names; coloured where the stream is a terminal that wants colours.
+    /// Output for components of these names, in colour if the stream is a terminal that supports it.
     pub(crate) fn new(names: Vec<String>) -> Self {
         let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
         let wants_colour = |choice| !matches!(choice, ColorChoice::Never);
@@ -58,11 +58,11 @@ impl Output {
 
     /// Copies every line of a component's stream, with its name before it, until the stream ends.
     ///
-    /// Bytes are copied as they are, whether or not they are UTF-8; a last line without its end gets one.
+    /// Bytes are copied as they are, whether or not they are UTF-8; a missing line break at the end is added.
     ///
     /// # Errors
     ///
-    /// When our own stream cannot be written any more. A component's stream that cannot be read has ended.
+    /// If our own stream can no longer be written. A component's stream that cannot be read counts as ended.
     pub(crate) fn copy_lines(&self, component: usize, stream: Stream, from: impl Read) -> io::Result<()> {
         let mut reader = BufReader::with_capacity(64 * 1024, from);
         let prefix = format!("{} | ", self.painted_name(component, stream)).into_bytes();
@@ -83,9 +83,9 @@ impl Output {
         self.painted_name(component, Stream::Err)
     }
 
-    /// Writes a report of our own, on standard error.
+    /// Writes one of our own reports to standard error.
     pub(crate) fn write_report(&self, line: &str) {
-        // When standard error is gone there is nobody left to tell.
+        // If standard error is closed, there is no place to report that.
         let _ = self.write(Stream::Err, line.as_bytes());
     }
 

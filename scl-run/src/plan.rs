@@ -13,7 +13,7 @@ const TOPOLOGY_FILE: &str = "topology.yaml";
 /// Reads the names of the components from a topology file, or says what is wrong with it and returns `None`.
 pub type ComponentNames<'a> = &'a dyn Fn(&Path) -> Option<Vec<String>>;
 
-/// What to start for the system in a folder, or for a launch file; all of it can be started.
+/// Returns the programs to start for a system's folder or a launch file, after checking that each can be started.
 ///
 /// # Errors
 ///
@@ -35,7 +35,7 @@ pub(crate) fn plan_programs(
     if problems.is_empty() { Ok(programs) } else { Err(problems) }
 }
 
-/// The folder of the system, and where its launch file would be.
+/// The system's folder, and the path of its launch file, which need not exist.
 fn find_folder(place: &Path) -> Result<(PathBuf, PathBuf), Problem> {
     let message = |words| format!("cannot run `{}`: {words}", place.display());
     let folder = if place.is_file() { place.parent().unwrap_or(Path::new("")) } else { place };
@@ -76,7 +76,7 @@ fn plan_from_launch_file(
     Ok(launch.components.iter().map(|component| plan_component(folder, &launch, component)).collect())
 }
 
-/// A launch file may leave components to other hands (another terminal, a replay), but not in silence.
+/// A launch file may omit components that are started elsewhere (another terminal, a replay), but not silently.
 fn note_missing(launch: &LaunchFile, components: &[String]) {
     let is_launched = |name: &String| launch.components.iter().any(|component| component.name == *name);
     let missing: Vec<&str> = components.iter().filter(|name| !is_launched(name)).map(String::as_str).collect();
@@ -112,7 +112,7 @@ fn plan_from_package(folder: &Path, components: &[String], release: bool) -> Res
     Ok(components.iter().filter_map(|name| Some((name, program_of(name)?))).map(plan).collect())
 }
 
-/// Cargo's names are often written with hyphens, which names of components cannot have.
+/// Cargo targets are often named with hyphens, which component names cannot contain.
 fn plays(program: &BuiltProgram, component: &str) -> bool {
     program.name == component || program.name.replace('-', "_") == component
 }

@@ -1,4 +1,4 @@
-//! What to start for each component, wherever that was said: in a launch file or by a cargo package.
+//! The program of each component, from a launch file or a cargo package.
 
 use super::problem::Problem;
 use std::ffi::{OsStr, OsString};
@@ -12,13 +12,13 @@ pub(crate) struct Program {
     pub(crate) component: String,
     /// The program and its arguments.
     pub(crate) command: Vec<OsString>,
-    /// What is added to our own environment.
+    /// Variables added to our own environment.
     pub(crate) environment: Vec<(String, String)>,
-    /// Where it runs.
+    /// Its working folder.
     pub(crate) folder: PathBuf,
 }
 
-/// Checks before anything is started that every program can be: every folder and every executable is there.
+/// Checks, before any program is started, that every folder and every executable exists.
 pub(crate) fn check_programs(programs: &[Program]) -> Vec<Problem> {
     programs.iter().filter_map(|program| check_folder(program).or_else(|| check_executable(program))).collect()
 }

@@ -1,5 +1,5 @@
-//! What `scl run` itself has to say. A thread of its own says it, so that the supervisor never waits for a screen that
-//! takes nothing (a paused `less`, Ctrl-S), and can still stop its programs.
+//! Reports of `scl run` itself, written by a separate thread: the supervisor must not wait for a blocked terminal (a
+//! paused `less`, Ctrl-S) while it has programs to stop.
 
 use super::output::Output;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Takes reports at once and writes them, in order, as soon as they can be written.
+/// Accepts reports without waiting and writes them in order.
 #[derive(Debug)]
 pub(crate) struct Reports {
     output: Arc<Output>,
@@ -29,12 +29,12 @@ impl Reports {
         Self { output, lines, written }
     }
 
-    /// Says something about a component.
+    /// Reports on a component.
     pub(crate) fn report(&self, component: usize, text: &str) {
         self.send(format!("{}  {text}\n", self.output.report_name(component)));
     }
 
-    /// Says something about the whole run.
+    /// Reports on the whole run.
     pub(crate) fn announce(&self, text: &str) {
         self.send(format!("scl: {text}\n"));
     }
@@ -51,7 +51,7 @@ impl Reports {
     }
 
     fn send(&self, line: String) {
-        // The thread takes lines as long as this value lives.
+        // The thread runs until this sender is dropped.
         let _ = self.lines.send(line);
     }
 }

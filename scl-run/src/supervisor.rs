@@ -1,4 +1,4 @@
-//! From the first start to the last end: what `scl run` does with its programs, event by event.
+//! Supervises the programs from the first start to the last end, event by event.
 
 use super::children::{Event, Running};
 use super::ending::Ending;
@@ -7,7 +7,7 @@ use nix::sys::signal::Signal;
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
-/// How long the output of a program that has ended may still come, from what it has started elsewhere.
+/// How long to wait for output after a program has ended: processes it started may still write.
 const LATE_OUTPUT: Duration = Duration::from_millis(500);
 
 /// How long a run may take.
@@ -19,7 +19,7 @@ pub(crate) struct Limits {
     pub(crate) grace: Duration,
 }
 
-/// How far the run is.
+/// The phase of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Phase {
     Running { until: Option<Instant> },
@@ -27,7 +27,7 @@ enum Phase {
     Killing { asked_by: Signal },
 }
 
-/// One component's program, and what is known of its end.
+/// One component's program, and how it ended.
 #[derive(Debug)]
 struct Component {
     program: Running,
@@ -48,20 +48,20 @@ pub(crate) struct Supervisor<'a> {
 }
 
 impl<'a> Supervisor<'a> {
-    /// No programs yet; the time of the run counts from here.
+    /// Starts without programs. The time of the run counts from here.
     pub(crate) fn new(events: Receiver<Event>, reports: &'a Reports, limits: Limits) -> Self {
-        // A time too far to be counted is never.
+        // A time too far in the future to be represented means never.
         let until = limits.run_for.and_then(|time| Instant::now().checked_add(time));
         let phase = Phase::Running { until };
         Self { components: Vec::new(), events, reports, grace: limits.grace, phase, failed: false }
     }
 
-    /// Takes charge of a program that has just been started; the order is that of the component numbers in events.
+    /// Adds a program that has just been started, in the order of the component numbers in events.
     pub(crate) fn add(&mut self, program: Running) {
         self.components.push(Component { program, open_streams: 2, ended: None, reported: false });
     }
 
-    /// Waits until every program has ended; tells whether all was in order.
+    /// Waits until every program has ended. Returns true if all ended successfully.
     pub(crate) fn wait_for_all(&mut self) -> bool {
         while self.components.iter().any(|component| !component.reported) {
             match self.next_event() {
@@ -73,7 +73,7 @@ impl<'a> Supervisor<'a> {
         !self.failed
     }
 
-    /// The next event, or none when something is due first.
+    /// The next event, or `None` if a deadline comes first.
     fn next_event(&self) -> Option<Event> {
         let Some(due) = self.next_due() else { return self.events.recv().ok() };
         self.events.recv_timeout(due.saturating_duration_since(Instant::now())).ok()
@@ -101,7 +101,7 @@ impl<'a> Supervisor<'a> {
 
     fn take_ending(&mut self, component: usize, ending: Ending) {
         self.components[component].ended = Some((ending, Instant::now()));
-        // What the program has left behind in its group has lost its purpose.
+        // Processes that the program left behind in its group are no longer needed.
         self.components[component].program.signal(Signal::SIGTERM);
         if !ending.is_in_order(self.asked_by()) {
             self.failed = true;
@@ -132,7 +132,7 @@ impl<'a> Supervisor<'a> {
         }
     }
 
-    /// Asks every program to stop; only the first call does anything.
+    /// Asks every program to stop. Further calls have no effect.
     fn stop(&mut self, signal: Signal) {
         if let Phase::Running { .. } = self.phase {
             self.phase = Phase::Stopping { asked_by: signal, kill_at: Instant::now().checked_add(self.grace) };

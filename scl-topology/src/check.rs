@@ -187,7 +187,6 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     codec_agreement::check(&draft, problems);
     schema_codec::check(&draft, &codec, problems);
     no_effect::check(&draft, problems);
-    short_timeout::check(&draft, problems);
 
     if !model.connections_unread {
         unconnected::check(&draft, problems);
@@ -195,6 +194,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     needless_mark::check(&draft, problems);
     deadlock::check(&draft, |rule| control::allowed_lines(model, rule), problems);
     feedback::check(&draft, problems);
+    short_timeout::check(&draft, problems);
     island::check(&draft, problems);
     crowd::check(&draft, problems);
     path_length::check(&draft, &facts.sockets, &system, problems);

@@ -12,6 +12,7 @@ use std::borrow::Cow;
 
 pub use crate::rule::Severity;
 pub use fix::Fix;
+pub(crate) use fix::removal;
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};

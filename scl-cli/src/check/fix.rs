@@ -17,8 +17,11 @@ use scl_loader::{Loaded, load_bytes};
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Maximum number of checks of one file: a fix that does not help must not keep the others waiting for long.
-const MOST_CHECKS: usize = 100;
+/// Maximum number of bytes that are checked in all, so that fixes that do not help end after some seconds.
+const MOST_BYTES: usize = 1 << 26;
+
+/// Maximum number of checks of one file.
+const MOST_CHECKS: usize = 1_000;
 
 /// What became of the fixes of a file.
 pub(super) struct Outcome {
@@ -76,13 +79,14 @@ fn fix(loaded: Loaded, text: String, check: impl Fn(&str) -> Loaded) -> Fixed {
     let mut fixed = Fixed { loaded, text, applied: 0 };
     let mut refused: HashSet<String> = HashSet::new();
     let mut groups = fixed.next_groups(&refused);
-    for _ in 0..MOST_CHECKS {
+    let most_checks = MOST_CHECKS.min(MOST_BYTES / fixed.text.len().max(1));
+    for _ in 0..most_checks {
         if groups.is_empty() {
             break;
         }
         let text = apply(&fixed.text, &groups);
         let loaded = check(&text);
-        if Damage::of(&loaded) < Damage::of(&fixed.loaded) {
+        if helps(&fixed.loaded, &loaded, groups.len()) {
             fixed = Fixed { loaded, text, applied: fixed.applied + groups.len() };
             groups = fixed.next_groups(&refused);
         } else if let [only] = groups.as_slice() {
@@ -93,6 +97,12 @@ fn fix(loaded: Loaded, text: String, check: impl Fn(&str) -> Loaded) -> Fixed {
         }
     }
     fixed
+}
+
+/// Whether `count` fixes made a file better; of several, that each of them did, as one could hide behind the others.
+fn helps(before: &Loaded, after: &Loaded, count: usize) -> bool {
+    let (before, after) = (Damage::of(before), Damage::of(after));
+    after < before && (count == 1 || after.problems() + count <= before.problems())
 }
 
 impl Fixed {

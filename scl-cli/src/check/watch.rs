@@ -25,7 +25,7 @@ const BEGIN: &str = "scl: checking\n";
 /// The line after a check; likewise.
 const END: &str = "scl: waiting for changes, Ctrl-C ends\n";
 
-/// Checks until a signal asks to stop; gives the exit code of the last check.
+/// Checks until a signal asks to stop. Returns the exit code of the last check.
 pub(super) fn watch(arguments: &CheckArguments) -> ExitCode {
     let stop = match listen_for_stop() {
         Ok(stop) => stop,
@@ -78,7 +78,7 @@ fn wait_for_change(before: Marks, stop: &Receiver<()>) -> Option<Marks> {
     }
 }
 
-/// What the files look like from outside.
+/// The state of the files, from their metadata.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Marks(Vec<(PathBuf, Option<Mark>)>);
 
@@ -123,7 +123,7 @@ fn listen_for_stop() -> io::Result<Receiver<()>> {
     signals.thread_block()?;
     let (sender, stop) = channel();
     thread::Builder::new().spawn(move || {
-        // Only a wrong set of signals fails; then nobody can stop us but by force, and so we stop at once.
+        // Fails only for an invalid set of signals. No signal could stop the loop then, so it stops at once.
         let _ = signals.wait();
         let _ = sender.send(());
     })?;

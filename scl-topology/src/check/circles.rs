@@ -1,6 +1,7 @@
 //! Circles in a graph of components, for the rules about the graph as a whole. Takes linear time.
 
 use super::draft::Draft;
+use crate::work;
 use std::collections::{HashMap, HashSet, VecDeque};
 
 /// How many circles of one knot are reported. Most knots have one; in a larger one, the first few show what is wrong, and
@@ -78,6 +79,7 @@ impl Graph {
         let mut arrived: HashMap<usize, Step> = HashMap::from([(first.to, first)]);
         let mut waiting = VecDeque::from([first.to]);
         while let Some(at) = waiting.pop_front() {
+            work::add(1 + self.steps[at].len());
             let inner = || self.steps[at].iter().filter(|step| knots[step.to] == knots[first.to]);
             let new = inner().filter(|step| !covered.contains(step));
             let old = inner().filter(|step| covered.contains(step));
@@ -107,6 +109,7 @@ impl Graph {
                 path.push((root, 0));
             }
             while let Some((at, step)) = path.pop() {
+                work::add(1);
                 if step == 0 {
                     (order[at], low[at]) = (next, next);
                     next += 1;

@@ -1,8 +1,8 @@
 //! SCL0510: the same two gates connected twice. Takes the second out, so that it is not counted as another peer.
 
 use super::draft::Draft;
-use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
+use crate::diagnostic::{Diagnostics, removal};
 use crate::rule::{Examples, Rule};
 use std::collections::HashMap;
 
@@ -53,7 +53,8 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
             .at("this connection is already declared", span, label)
             .label(draft.links[earlier].model.span, "first declared here")
             .help("remove one of the two");
-        problems.push(found);
+        let removed = removal(draft.sources.file(span.file), span);
+        problems.push(removed.into_iter().fold(found, |found, removed| found.fix(removed, "")));
         draft.links[at].flow = None;
         draft.links[at].ends = [None; 2];
     }

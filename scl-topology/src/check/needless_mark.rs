@@ -1,8 +1,8 @@
 //! SCL0711: `unconnected: ok` on a gate that is connected. The mark would hide the loss of the connection one day.
 
 use super::draft::Draft;
-use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Severity;
+use crate::diagnostic::{Diagnostics, removal};
 use crate::rule::{Examples, Rule};
 
 /// SCL0711.
@@ -52,7 +52,8 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
                 .at(headline, place, "no longer needed")
                 .label(connected_at, "connected here")
                 .help("remove the mark");
-            problems.push(found);
+            let removed = removal(draft.sources.file(place.file), place);
+            problems.push(removed.into_iter().fold(found, |found, removed| found.fix(removed, "")));
         }
     }
 }

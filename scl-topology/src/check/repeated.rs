@@ -30,6 +30,8 @@ pub(super) fn tell_once(problems: &mut Diagnostics) {
         if !uses.is_empty() {
             let what = if found.code().starts_with("SCL05") { "connections name it" } else { "places have it" };
             found.notes.push(format!("{} {what}", uses.len() + 1));
+            // The one place where the name is declared may be the one that is wrong.
+            found.fixes.iter_mut().for_each(|fix| fix.sure = false);
         }
         true
     });

@@ -121,7 +121,7 @@ impl Reader<'_> {
 }
 
 /// One of the words that the format knows as keys.
-fn known_word(word: &str) -> Option<&'static str> {
+pub(super) fn known_word(word: &str) -> Option<&'static str> {
     let keys = grammar::SECTIONS.iter().chain(&grammar::COMPONENT_KEYS).map(|key| key.key);
     let kinds = GateKind::ALL.into_iter().map(GateKind::word);
     let options = grammar::OPTIONS.iter().map(|option| option.key);

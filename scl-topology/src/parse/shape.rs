@@ -48,7 +48,9 @@ fn ticked<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
 
 /// Adds the names that a misspelt one may have meant; `thing` is what they name, for example `key`.
 fn suggest<'a>(problem: Diagnostic, thing: &str, word: &str, names: impl IntoIterator<Item = &'a str>) -> Diagnostic {
-    match similar(word, names).as_slice() {
+    let similar = similar(word, names);
+    let problem = problem.fix_word(word, &similar);
+    match similar.as_slice() {
         [] => problem,
         [one] => problem.help(format!("a {thing} with a similar name exists: `{one}`")),
         several => problem.help(format!("{thing}s with similar names exist: {}", ticked(several.iter().copied()))),

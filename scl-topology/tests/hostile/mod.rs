@@ -31,6 +31,8 @@ pub(crate) fn filled(size: usize) -> Vec<(&'static str, String)> {
         ("types that differ", different_types(size)),
         ("one circle", circle(size, size / 110)),
         ("many circles", circle(size, 2)),
+        ("circles with common connections", knot(size, "")),
+        ("allowed circles", knot(size, " # scl: allow(SCL0707) x")),
         ("gates", gates(size)),
         ("one declaration many times", fill("components:\n", "  - name: a\n    gates: []\n")),
         ("names of one sound", sound_alikes(size)),
@@ -118,6 +120,16 @@ fn crowd(size: usize) -> String {
 }
 
 /// Components that ask each other in circles of `length`.
+/// Components that each ask the next four.
+fn knot(size: usize, comment: &str) -> String {
+    let count = size / (160 + 4 * comment.len());
+    let component = "    gates:\n      - i: rep\n      - o0: req\n      - o1: req\n      - o2: req\n      - o3: req\n";
+    let components = (0..count).map(|at| format!("  - name: c{at}\n{component}"));
+    let steps = (0..count).flat_map(|at| (0..4).map(move |step| (at, step)));
+    let lines = steps.map(|(at, step)| format!("  - [c{at}.o{step}, c{}.i]{comment}\n", (at + 1 + step) % count));
+    format!("components:\n{}connections:\n{}", components.collect::<String>(), lines.collect::<String>())
+}
+
 fn circle(size: usize, length: usize) -> String {
     let count = size / 110 / length * length;
     let components = (0..count).map(|at| format!("  - name: c{at:06}\n    gates:\n      - o: req\n      - i: rep\n"));

@@ -26,6 +26,11 @@ impl Damage {
             warnings: number_of(Severity::Warning),
         }
     }
+
+    /// Number of errors and warnings.
+    pub(super) fn problems(&self) -> usize {
+        self.errors + self.warnings
+    }
 }
 
 fn first_error(loaded: &Loaded) -> usize {

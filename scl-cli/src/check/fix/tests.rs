@@ -1,11 +1,15 @@
 //! Whole files: what is fixed, and that everything else stays as it was.
 
+use super::edit::{apply, groups};
 use super::{fix, unified_diff};
 use expect_test::{Expect, expect};
-use scl_loader::{Request, load_bytes};
+use scl_loader::{Loaded, Request, load_bytes};
 use scl_topology::catalogue::ALL;
 use scl_topology::diagnostic::Severity;
+use scl_topology::external::FILE_NOT_FOUND;
 use scl_topology::rule::Examples;
+use scl_topology::source::Span;
+use std::collections::HashSet;
 
 fn fixed(text: &str) -> (String, usize, usize) {
     let check = |text: &str| load_bytes(&Request::new("topology.yaml"), text.as_bytes().to_vec());
@@ -75,6 +79,62 @@ fn a_file_without_problems_stays() {
     assert_eq!(fixed(text).0, text);
 }
 
+/// A check that finds the words `bad`, `worse` and `unsure` in a text: `bad` and `worse` have sure fixes, of which that of
+/// `worse` makes two problems of one.
+fn check_words(text: &str) -> Loaded {
+    let mut loaded = Loaded::default();
+    let file = loaded.sources.add("t.yaml", text);
+    loaded.file = Some(file);
+    for (word, replacement, sure) in
+        [("bad", "good\n", true), ("worse", "unsure unsure", true), ("unsure", "sure", false)]
+    {
+        for (at, _) in text.match_indices(word) {
+            let span = Span { file, start: at as u32, end: (at + word.len()) as u32 };
+            let found = FILE_NOT_FOUND.at(word, span, "");
+            let found = if sure { found.fix(span, replacement) } else { found.maybe_fix(span, replacement) };
+            loaded.diagnostics.push(found);
+        }
+    }
+    loaded
+}
+
+fn fixed_words(text: &str) -> (String, usize) {
+    let fixed = fix(check_words(text), text.to_owned(), check_words);
+    (fixed.text, fixed.applied)
+}
+
+#[test]
+fn only_sure_fixes_that_help_are_applied() {
+    let cases = [
+        ("unsure", "unsure", 0),
+        ("bad", "good\n", 1),
+        ("worse", "worse", 0),
+        ("bad, worse, bad", "good\n, worse, good\n", 2),
+        ("worse, bad, worse, unsure", "worse, good\n, worse, unsure", 1),
+    ];
+    for (text, new, applied) in cases {
+        assert_eq!(fixed_words(text), (new.to_owned(), applied), "{text}");
+    }
+}
+
+#[test]
+fn line_breaks_are_those_of_the_file() {
+    assert_eq!(fixed_words("a\r\nbad\r\n").0, "a\r\ngood\r\n\r\n");
+    assert_eq!(fixed_words("a\nb\nbad\r\n").0, "a\nb\ngood\n\r\n");
+}
+
+#[test]
+fn fixes_that_overlap_are_not_applied_at_once() {
+    let mut loaded = check_words("abcdef");
+    let file = loaded.file.unwrap();
+    for (start, end, replacement) in [(0, 2, "1"), (1, 3, "2"), (2, 2, "3"), (3, 4, "4"), (5, 5, "5")] {
+        let span = Span { file, start, end };
+        loaded.diagnostics.push(FILE_NOT_FOUND.at(replacement, span, "").fix(span, replacement));
+    }
+    let groups = groups(&loaded, &HashSet::new());
+    assert_eq!(apply("abcdef", &groups), "1c4e5f");
+}
+
 /// The rules whose examples are fixed, so that it shows when a rule stops offering its fix.
 #[test]
 fn a_sure_fix_of_an_example_removes_its_problem() {
@@ -92,6 +152,41 @@ fn a_sure_fix_of_an_example_removes_its_problem() {
             fixed_rules.push(rule.code);
         }
     }
-    expect!["SCL0102 SCL0103 SCL0122 SCL0123 SCL0124 SCL0127 SCL0401 SCL0501 SCL0502 SCL0503 SCL0504"]
+    expect!["SCL0101 SCL0102 SCL0103 SCL0117 SCL0118 SCL0119 SCL0122 SCL0123 SCL0124 SCL0127 SCL0202 SCL0207 SCL0216 SCL0304 SCL0401 SCL0501 SCL0502 SCL0503 SCL0504 SCL0510 SCL0711"]
         .assert_eq(&fixed_rules.join(" "));
+}
+
+/// A sound file with one character deleted, replaced or doubled: a fix that is called sure restores what was there, or
+/// leaves an error.
+#[test]
+fn a_sure_fix_restores_what_was_there() {
+    let path = format!("{}/../scl-topology/tests/files/rover.yaml", env!("CARGO_MANIFEST_DIR"));
+    let sound = std::fs::read_to_string(path).unwrap().replace("schemas:", "x-schemas:");
+    let expected = meaning(&sound);
+    assert_ne!(expected, "");
+    let mut restored = 0;
+    for (at, letter) in sound.char_indices() {
+        let other = ["", "q", "."][at % 3].to_owned();
+        for other in [other, format!("{letter}{letter}")] {
+            let mutant = format!("{}{other}{}", &sound[..at], &sound[at + letter.len_utf8()..]);
+            let (new, applied, errors) = fixed(&mutant);
+            if applied > 0 && errors == 0 {
+                assert_eq!(meaning(&new), expected, "{}", unified_diff("rover.yaml", &mutant, &new));
+                restored += 1;
+            }
+        }
+    }
+    println!("{restored} restored");
+    assert!(restored > 400, "{restored}");
+}
+
+/// A topology without its names: a misspelt declaration may be repaired by following it.
+fn meaning(text: &str) -> String {
+    let loaded = load_bytes(&Request::new("topology.yaml"), text.as_bytes().to_vec());
+    let Some(topology) = loaded.topology else { return String::new() };
+    let gates = topology.components().flat_map(|(_, component)| component.gates().to_vec());
+    let kinds: Vec<_> = gates.map(|gate| (topology.gate(gate).kind(), topology.gate(gate).options().clone())).collect();
+    let sizes: Vec<_> = topology.components().map(|(_, component)| component.gates().len()).collect();
+    let pairs: Vec<_> = topology.connections().map(|(_, pair)| (pair.source(), pair.sink())).collect();
+    format!("{kinds:?} {sizes:?} {pairs:?}")
 }

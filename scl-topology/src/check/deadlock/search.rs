@@ -5,6 +5,7 @@
 
 use crate::check::circles::{Graph, Step};
 use crate::check::waits::Wait;
+use crate::work;
 use std::collections::BTreeMap;
 
 /// Components that wait for each other.
@@ -85,6 +86,7 @@ fn stuck(components: usize, waits: &[&Wait]) -> Vec<bool> {
     while let Some(component) = free.pop() {
         stuck[component] = false;
         for &at in &ended_by[component] {
+            work::add(1);
             let from = waits[at].from();
             if !std::mem::replace(&mut has_ended[at], true) {
                 lasting[from] -= 1;

@@ -37,8 +37,13 @@ pub(super) fn diagnose(place: &Place<'_>, at: usize) -> Diagnostic {
     let line = place.line(at);
     let marker = place.source.text()[range.end..].trim_start().starts_with("---");
     let help = if marker { format!("remove lines {line} and {}", line + 1) } else { format!("remove line {line}") };
+    let text = place.source.text();
+    let end = range.end + text[range.end..].find('\n').map_or(0, |at| at + 1);
+    let with_marker = text[end..].find('\n').filter(|_| marker && text[end..].starts_with("---"));
+    let removed = place.span(range.start..end + with_marker.map_or(0, |at| at + 1));
     RULE.at("YAML directives are not supported", place.span(range), "directive")
         .help(help)
+        .fix(removed, "")
         .note("a topology is read as YAML 1.2; see SCL0108 for the words that differ")
 }
 

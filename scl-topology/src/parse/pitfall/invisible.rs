@@ -84,17 +84,26 @@ fn diagnose(character: char, places: &[usize], place: &Place<'_>) -> Diagnostic 
             "same check: U+FEFF inside the file, U+200B..U+200F, U+202A..U+202E (bidirectional control), U+0085, \
              U+2028, U+2029, and control characters below U+0020",
         );
+    let replacement = match help {
+        REPLACE => " ",
+        REMOVE => "",
+        _ => "\n",
+    };
+    for &at in places {
+        problem = problem.fix(place.span(at..at + character.len_utf8()), replacement);
+    }
     if places.len() > 1 {
         problem = problem.note(format!("it occurs {} times in this file", places.len()));
     }
     problem
 }
 
+const REPLACE: &str = "replace it with an ordinary space";
+const REMOVE: &str = "remove it";
+
 fn describe(character: char) -> (&'static str, &'static str, &'static str) {
     const SPACE: &str = "looks like a space, but YAML does not treat it as one";
     const BREAK: &str = "looks like a line break, but is read in different ways";
-    const REPLACE: &str = "replace it with an ordinary space";
-    const REMOVE: &str = "remove it";
     match character {
         '\0' => ("null", "YAML does not allow it", REMOVE),
         '\r' => ("carriage return without a line feed", BREAK, "save the file with ordinary line ends"),

@@ -69,7 +69,7 @@ pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &So
         }
         None => node.span,
     };
-    Some(match confusable::twin(letter) {
+    let problem = match confusable::twin(letter) {
         Some((script, twin)) => {
             let word = text.lines().next().unwrap_or("");
             let code = u32::from(letter);
@@ -86,6 +86,12 @@ pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &So
             }
         }
         None => look_alike_mark(letter, span),
+    };
+    // In quotes or over several lines, the text is not what is written.
+    let retyped = confusable::retyped(text);
+    Some(match written == text {
+        true => problem.fix(node.span, retyped.trim_matches(['"', '\''])),
+        false => problem,
     })
 }
 

@@ -3,6 +3,8 @@
 use super::Place;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
+use crate::parse::fields::known_word;
+use crate::parse::gate::is_kind;
 use crate::parse::is_plain;
 use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
@@ -79,25 +81,32 @@ fn with_words(problem: Diagnostic, error: &SyntaxError, start: usize, place: &Pl
     problem.note(format!("the parser notices it only on line {noticed}, where it says \"{}\"", error.words))
 }
 
-/// The problem; the span starts with the key.
-fn diagnose(key: &str, value: &str, at: Span) -> Diagnostic {
+/// The problem of a key and all that stands after its colon; the span starts with the key.
+fn diagnose(key: &str, written_after: &str, at: Span) -> Diagnostic {
+    let value = written_after.split_whitespace().next().unwrap_or("");
     let colon = at.start + key.len() as u32;
     let span = Span { start: colon, end: colon + 1, ..at };
     let problem = RULE.at("missing space after `:`", span, format!("YAML reads `{key}:{value}` as one word"));
-    match value.starts_with(['[', '{']) {
+    let problem = match value.starts_with(['[', '{']) {
         true => problem.help(format!("write a space after `{key}:`")),
         false => problem.help(format!("write `{key}: {value}`")),
+    };
+    let after = Span { start: span.end, ..span };
+    // More than one word after the colon: the colon may be a slip of its own.
+    let is_one = written_after.trim_end() == value || value.starts_with(['[', '{']);
+    match is_one && (known_word(key).is_some() || is_kind(value)) {
+        true => problem.fix(after, " "),
+        false => problem.maybe_fix(after, " "),
     }
-    .fix(Span { start: span.end, ..span }, " ")
 }
 
-/// Key and value of `name:sensor`; not of `my_crate::Codec`, nor of an address such as `tcp://host`.
+/// Key and rest of `name:sensor`; not of `my_crate::Codec`, nor of an address such as `tcp://host`.
 fn split(word: &str) -> Option<(&str, &str)> {
     let (key, rest) = word.split_once(':')?;
     let value = rest.split_whitespace().next().filter(|_| !rest.starts_with(char::is_whitespace))?;
     let is_word = key.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-'));
-    (is_word && !value.starts_with([':', '/', '\\'])).then_some((key, value))
+    (is_word && !value.starts_with([':', '/', '\\'])).then_some((key, rest))
 }
 
 #[cfg(test)]

@@ -34,12 +34,21 @@ pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems:
         let last = place.line(tabs.last().copied().unwrap_or(first));
         problem = problem.note(format!("{lines} lines are indented with tabs, up to line {last}"));
     }
+    if !is_mixed(text) {
+        let with_spaces = |problem: Diagnostic, at: &usize| problem.fix(place.span(*at..*at + 1), "  ");
+        problem = tabs.iter().fold(problem, with_spaces);
+    }
     problems.push(problem);
     let mut bytes = std::mem::take(text).into_bytes();
     tabs.iter().for_each(|at| bytes[*at] = b' ');
     // One ASCII byte took the place of another, so the text is as valid as before.
     *text = String::from_utf8_lossy(&bytes).into_owned();
     true
+}
+
+/// Whether some lines are indented with spaces alone: then the width of a tab is a guess.
+fn is_mixed(text: &str) -> bool {
+    text.lines().any(|line| line.starts_with(' ') && !line.trim_start_matches(' ').starts_with(['\t', '#']))
 }
 
 /// A tab elsewhere, where the parser accepts only spaces.

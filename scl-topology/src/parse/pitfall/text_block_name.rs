@@ -30,7 +30,14 @@ pub(in crate::parse) fn diagnose(node: &Node, text: &str, source: &SourceFile) -
     let label = format!("this starts a text block; its value is {text:?}{end}");
     let problem = RULE.at("a name must be written on one line", header(node, source), label);
     let name = text.trim();
-    if name.contains('\n') { problem } else { problem.help(format!("write `{}`", written(node, name, source))) }
+    if name.contains('\n') {
+        return problem;
+    }
+    let block = header(node, source).to(node.span);
+    // The block ends with its last line break, which stays.
+    let whole = source.text().get(block.start as usize..block.end as usize).unwrap_or("");
+    let end = block.start + whole.trim_end().len() as u32;
+    problem.help(format!("write `{}`", written(node, name, source))).fix(Span { end, ..block }, name)
 }
 
 /// The `|` or `>`, in the line above the text.

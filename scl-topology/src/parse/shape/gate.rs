@@ -60,7 +60,7 @@ pub(in crate::parse) fn equals_sign(name: &str, kind: &str, at: Span) -> Diagnos
 
 /// `{pub Type}`, `{pub: Type, queue=4}`.
 pub(in crate::parse) fn key_without_colon(field: Field<'_>, word: &str) -> Diagnostic {
-    let value = field.key[word.len()..].trim_matches([' ', '=']);
+    let value = field.key[word.len()..].trim_matches([' ', '=', ':']);
     let message = match field.key.contains('=') {
         true => format!("`=` stands where the `:` after `{word}` is expected"),
         false => format!("missing `:` after `{word}`"),

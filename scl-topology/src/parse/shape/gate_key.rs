@@ -35,7 +35,12 @@ pub(crate) const RULE: Rule = Rule {
 pub(in crate::parse) fn diagnose(field: Field<'_>, kind: &str, path: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in gate `{path}`", field.key);
     let mut problem = RULE.at(message, field.key_span, "");
-    for name in similar(field.key, OPTIONS.iter().map(|option| option.key)) {
+    let similar = similar(field.key, OPTIONS.iter().map(|option| option.key));
+    // An option of other kinds would be the next mistake.
+    if similar.iter().all(|name| only_of(name, kind).is_empty()) {
+        problem = problem.fix_word(field.key, &similar);
+    }
+    for name in similar {
         problem = problem.help(format!("a key with a similar name exists: `{name}`{}", only_of(name, kind)));
     }
     let keys = OPTIONS.iter().filter(|option| option.kinds.iter().any(|of| of.word() == kind)).map(|option| option.key);

@@ -1,0 +1,130 @@
+//! The text of a deadlock: what waits where, what follows, and the ways out.
+
+use super::search::Deadlock;
+use crate::check::circles::{self, Step};
+use crate::check::draft::Draft;
+use crate::diagnostic::Diagnostic;
+use crate::rule::Rule;
+use crate::source::Span;
+use crate::topology::{GateKind, WhenFull};
+use crate::wording::listed;
+use std::collections::BTreeSet;
+
+/// The headline of every deadlock, before the names.
+pub(super) const HEADLINE: &str = "components wait for each other";
+
+pub(super) fn report(rule: &'static Rule, draft: &Draft<'_>, deadlock: &Deadlock, receivers: &[usize]) -> Diagnostic {
+    let steps = &deadlock.steps;
+    let headline = format!("{HEADLINE}: {}", names(draft, deadlock));
+    let mut found = rule.at(headline, place(draft, &steps[0]), waiting(draft, &steps[0]));
+    for step in &steps[1..] {
+        found = found.label(place(draft, step), waiting(draft, step));
+    }
+    found = ways_out(draft, found, steps, receivers).note(consequence(draft, steps));
+    if !deadlock.is_circle {
+        found =
+            found.note("a `push` gate that shares its work waits only while the queues of all its pullers are full");
+    }
+    if deadlock.has_others {
+        found = found.note("more circles run through these components, and are shown when these are broken");
+    }
+    found
+}
+
+/// `` `a` -> `b` -> `a` `` of a circle, `` `a`, `b`, `c` `` of a knot.
+fn names(draft: &Draft<'_>, deadlock: &Deadlock) -> String {
+    if deadlock.is_circle {
+        return circles::round(draft, &deadlock.steps);
+    }
+    let members: BTreeSet<usize> = deadlock.steps.iter().map(|step| step.from).collect();
+    listed(members.iter().map(|&component| name(draft, component)))
+}
+
+/// What one connection does to its sender.
+pub(super) fn waiting(draft: &Draft<'_>, step: &Step) -> String {
+    let from = name(draft, step.from);
+    match draft.links[step.link].flow {
+        Some((source, _)) if draft.gates[source].kind == Some(GateKind::Req) => {
+            let timeout = draft.gates[source].options.timeout;
+            format!("`{from}` waits until `{}` answers, at most {timeout:?}", name(draft, step.to))
+        }
+        Some((_, sink)) => format!("`{from}` waits while the queue of `{}` is full", draft.path(sink)),
+        None => String::new(),
+    }
+}
+
+fn ways_out(draft: &Draft<'_>, mut found: Diagnostic, steps: &[Step], receivers: &[usize]) -> Diagnostic {
+    let first = |wanted| {
+        let step = steps.iter().find(|step| kind(draft, step) == Some(wanted));
+        step.and_then(|step| draft.links[step.link].flow)
+    };
+    // What is published is mostly replaced by newer values anyway; work is not.
+    let queue = first(GateKind::Pub).or_else(|| first(GateKind::Push));
+    if let Some((source, sink)) = queue {
+        found = drop_messages(draft, found, source, sink, receivers[source]);
+    }
+    if let Some((source, sink)) = first(GateKind::Req) {
+        let (asks, answers) = (draft.component_name(source), draft.component_name(sink));
+        if queue.is_some() {
+            let path = draft.path(source);
+            found = found.help(format!("or say how long the request may wait before it fails: `timeout` at `{path}`"));
+        }
+        let kinds = "`pub` and `sub` instead of `rep` and `req`";
+        let or = if queue.is_some() { "or " } else { "" };
+        found = found.help(format!("{or}let `{answers}` publish what `{asks}` asks for: {kinds}"));
+    }
+    let code = found.code();
+    found.help(format!(
+        "or, if a component never waits at its connection while another one waits for it, write\n`# scl: allow({code}) \
+         reason` above that connection"
+    ))
+}
+
+/// Says which option to change where, so that a queue drops messages. `receivers` make the gate `source` wait.
+pub(in crate::check) fn drop_messages(
+    draft: &Draft<'_>,
+    found: Diagnostic,
+    source: usize,
+    sink: usize,
+    receivers: usize,
+) -> Diagnostic {
+    let drop = WhenFull::DropOldest.word();
+    let found = match draft.gates[sink].option("when_full") {
+        Some(option) => found.maybe_fix(option.value.span, drop),
+        None => found,
+    };
+    let way = format!("let `{}` drop messages: `when_full: {drop}`", draft.path(sink));
+    match receivers {
+        0 | 1 => found.help(format!("{way}, and remove `backpressure` from `{}`", draft.path(source))),
+        _ => found.help(way),
+    }
+}
+
+fn consequence(draft: &Draft<'_>, steps: &[Step]) -> String {
+    let requests = steps.iter().filter(|step| is_request(draft, step));
+    let sources = requests.filter_map(|step| draft.links[step.link].flow).map(|(source, _)| &draft.gates[source]);
+    match sources.clone().map(|gate| gate.options.timeout).min() {
+        Some(_) if sources.count() == steps.len() => {
+            "a request sent while answering one of the same circle is never answered, however long its timeout"
+                .to_owned()
+        }
+        Some(timeout) => format!("once all of them wait, nothing moves until a request fails after {timeout:?}"),
+        None => "once all of them wait, nothing moves any more".to_owned(),
+    }
+}
+
+pub(super) fn kind(draft: &Draft<'_>, step: &Step) -> Option<GateKind> {
+    draft.links[step.link].flow.and_then(|(source, _)| draft.gates[source].kind)
+}
+
+pub(super) fn is_request(draft: &Draft<'_>, step: &Step) -> bool {
+    kind(draft, step) == Some(GateKind::Req)
+}
+
+fn name<'m>(draft: &Draft<'m>, component: usize) -> &'m str {
+    &draft.components[component].model.name.value
+}
+
+pub(super) fn place(draft: &Draft<'_>, step: &Step) -> Span {
+    draft.links[step.link].model.span
+}
