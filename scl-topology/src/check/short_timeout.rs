@@ -60,34 +60,22 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
         if requester.kind != Some(GateKind::Req) || requester.component == replier {
             continue;
         }
-        // A request back to the requester makes a circle, which is a problem of its own.
-        let inner = slowest[replier].into_iter().flatten().find(|inner| inner.replier != requester.component);
-        if let Some(inner) = inner.filter(|inner| requester.options.timeout < draft.gates[inner.gate].options.timeout) {
-            problems.push(report(draft, source, sink, inner.gate));
+        let Some(inner) = slowest[replier] else { continue };
+        if requester.options.timeout < draft.gates[inner].options.timeout {
+            problems.push(report(draft, source, sink, inner));
         }
     }
 }
 
-/// A `req` gate and the component that answers it.
-#[derive(Clone, Copy)]
-struct Request {
-    gate: usize,
-    replier: usize,
-}
-
-/// For each component, its request with the longest timeout, and the one with the longest timeout to another replier.
-fn slowest_requests(draft: &Draft<'_>) -> Vec<[Option<Request>; 2]> {
-    let mut slowest: Vec<[Option<Request>; 2]> = vec![[None; 2]; draft.components.len()];
-    for place in 0..2 {
-        for (_, source, sink) in draft.flows().filter(|(_, source, _)| draft.gates[*source].kind == Some(GateKind::Req))
-        {
-            let request = Request { gate: source, replier: draft.gates[sink].component };
-            let timeout = |request: Request| draft.gates[request.gate].options.timeout;
-            let found = &mut slowest[draft.gates[source].component];
-            let is_other = place == 0 || found[0].is_some_and(|first| first.replier != request.replier);
-            if is_other && found[place].is_none_or(|other| timeout(other) < timeout(request)) {
-                found[place] = Some(request);
-            }
+/// For each component, its connected `req` gate with the longest timeout.
+fn slowest_requests(draft: &Draft<'_>) -> Vec<Option<usize>> {
+    let mut slowest: Vec<Option<usize>> = vec![None; draft.components.len()];
+    for (_, source, _) in draft.flows() {
+        let gate = &draft.gates[source];
+        let so_far = &mut slowest[gate.component];
+        let is_slower = so_far.is_none_or(|other| draft.gates[other].options.timeout < gate.options.timeout);
+        if gate.kind == Some(GateKind::Req) && is_slower {
+            *so_far = Some(source);
         }
     }
     slowest
