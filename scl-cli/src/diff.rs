@@ -2,6 +2,7 @@
 
 mod change;
 mod facts;
+mod messages;
 mod rebuild;
 mod report;
 mod together;
@@ -10,6 +11,7 @@ use crate::load::{MaxSize, STDIN, load_file, show_errors};
 use crate::print::{print_err, print_out};
 use change::find_changes;
 use clap::{Args, ValueEnum};
+use messages::find_message_changes;
 use rebuild::find_rebuilds;
 use report::{report_json, report_text};
 use scl_plan::SystemPlan;
@@ -25,8 +27,9 @@ const TROUBLE: u8 = 2;
 ///
 /// Positions, comments, order and spelling do not count, only what the files mean. A component must be rebuilt if its plan
 /// differs (see `scl plan`): its gates, their options, its connections, and their contracts. Components are rebuilt together
-/// if a connection between them differs in its contract, or is new or gone: one that is left as it was does not connect to
-/// the others. The content of schema files is not compared.
+/// if a connection between them differs in its contract, or is new or gone, or if a message that they exchange differs in a
+/// way that keeps them from understanding each other: one that is left as it was does not connect to the others. Fields
+/// that are only new or gone are compatible and are not listed.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -66,8 +69,10 @@ pub(crate) fn diff(arguments: &DiffArguments) -> ExitCode {
     // Both are read, so that the problems of both are told.
     let (old, new) = (read(&arguments.old, arguments), read(&arguments.new, arguments));
     let (Some(old), Some(new)) = (old, new) else { return ExitCode::from(TROUBLE) };
-    let (changes, rebuilds) = (find_changes(&old, &new), find_rebuilds(&old, &new));
-    let groups = group(&old, &new, rebuilds);
+    let (mut changes, rebuilds) = (find_changes(&old, &new), find_rebuilds(&old, &new));
+    let messages = find_message_changes(&old, &new);
+    let groups = group(&old, &new, messages.add_rebuilds(rebuilds, &new), &messages.pairs);
+    changes.extend(messages.changes);
     let report = match arguments.format {
         Format::Text => report_text,
         Format::Json => report_json,

@@ -274,3 +274,87 @@ fn trouble_is_told_of_both_files() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
     }
 }
+
+const SCHEMA: &str = "\
+syntax = \"proto3\";
+package rover;
+message Measurement { double speed = 1; double angle = 2; Mode mode = 3; }
+enum Mode { OFF = 0; ON = 1; }
+message A { int32 x = 1; }
+message B { int32 x = 1; }
+";
+
+/// Compares the topology with itself, with `SCHEMA` before and after these replacements.
+#[track_caller]
+fn check_schema(codec: &str, replacements: &[(&str, &str)], code: i32, expected: Expect) {
+    let mut new = SCHEMA.to_owned();
+    for (from, to) in replacements {
+        assert!(new.contains(from), "{from}");
+        new = new.replace(from, to);
+    }
+    let yaml = ROVER.replace("A -> B", "rover.A -> rover.B");
+    let yaml = format!("schemas: [rover.proto]\n{codec}{yaml}");
+    let system = System::of_files(&[
+        ("old/rover.yaml", &yaml),
+        ("old/rover.proto", SCHEMA),
+        ("new/rover.yaml", &yaml),
+        ("new/rover.proto", &new),
+    ]);
+    let output = system.scl(&["diff", "old/rover.yaml", "new/rover.yaml"]).output().unwrap();
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+    expected.assert_eq(&String::from_utf8(output.stdout).unwrap());
+    assert_eq!(output.status.code(), Some(code));
+}
+
+#[test]
+fn messages_that_differ_are_rebuilt_together() {
+    let swapped = [("speed = 1", "speed = 2"), ("angle = 2", "angle = 1"), ("ON = 1", "ON = 2")];
+    check_schema(
+        "",
+        &swapped,
+        1,
+        expect![[r#"
+        ~ message `rover.Measurement`: field from `1 speed (double)` to `1 angle (double)`, field from `2 angle (double)` to `2 speed (double)`
+        ~ enum `rover.Mode`: number from `ON = 1` to `ON = 2`
+
+        to rebuild together:
+          sensor: enum `rover.Mode` differs, message `rover.Measurement` differs
+          controller: enum `rover.Mode` differs, message `rover.Measurement` differs
+    "#]],
+    );
+    check_schema(
+        "",
+        &[("message A { int32 x = 1", "message A { repeated string x = 1")],
+        1,
+        expect![[r#"
+        ~ message `rover.A`: field from `1 x (int32)` to `1 x (repeated string)`
+
+        to rebuild together:
+          controller: message `rover.A` differs
+          panel: message `rover.A` differs
+    "#]],
+    );
+    check_schema(
+        "codec: json\n",
+        &[("speed = 1", "velocity = 1")],
+        1,
+        expect![[r#"
+        ~ message `rover.Measurement`: field from `1 speed (double)` to `1 velocity (double)`
+
+        to rebuild together:
+          sensor: message `rover.Measurement` differs
+          controller: message `rover.Measurement` differs
+    "#]],
+    );
+}
+
+#[test]
+fn compatible_messages_are_the_same() {
+    let compatible = [
+        ("Mode mode = 3;", "Mode mode = 3; string added = 4;"),
+        ("ON = 1;", "ON = 1; MORE = 2;"),
+        ("{ int32 x = 1; }", "{}"),
+    ];
+    check_schema("", &compatible, 0, expect![[""]]);
+    check_schema("codec: json\n", &[("speed = 1", "speed = 2"), ("angle = 2", "angle = 1")], 0, expect![[""]]);
+}

@@ -3,6 +3,7 @@
 use crate::system::System;
 use expect_test::{Expect, expect};
 use scl_plan::{Plan, SystemPlan};
+use std::collections::BTreeSet;
 use std::process::{Output, Stdio};
 
 const ROVER: &str = "\
@@ -156,4 +157,25 @@ fn a_topology_with_errors_has_no_plan() {
         assert!(error.contains(text), "{error}");
         assert_eq!((output.status.code(), output.stdout.is_empty()), (Some(code), true));
     }
+}
+
+/// `docs/plan.md` explains every field, and no other.
+#[test]
+fn the_format_is_documented() {
+    let page = include_str!("../../docs/plan.md");
+    let rows = page.lines().filter(|line| line.starts_with("| `"));
+    let names = rows.filter_map(|line| line.split('|').nth(1)).flat_map(|cell| cell.split(','));
+    let documented: BTreeSet<&str> = names.map(|name| name.trim().trim_matches('`')).collect();
+    let yaml = ROVER.replace(
+        "gates:\n      - measurements",
+        "gates:\n      - ask: {req: A -> B, unconnected: ok}\n      - measurements",
+    );
+    let text = String::from_utf8(scl_plan(&[("topology.yaml", &yaml)], &[]).stdout).unwrap();
+    let keys = text.lines().filter_map(|line| line.trim().strip_prefix('"')?.split_once("\":"));
+    let printed: BTreeSet<&str> = keys.map(|(key, _)| key).collect();
+    assert_eq!(documented, printed);
+    // The example is a shortened one of the same format.
+    let example = page.split("```").nth(1).unwrap().trim_start_matches("json");
+    let example = example.replace("CkwKC3Jv...", "");
+    assert_eq!(SystemPlan::from_json(&example).unwrap().components[0].gates[0].connections.len(), 1);
 }

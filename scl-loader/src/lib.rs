@@ -22,7 +22,7 @@ mod unreadable;
 pub use request::{LookedIn, Request};
 #[cfg(feature = "protobuf")]
 pub use schemas::Descriptors;
-pub use schemas::Schemas;
+pub use schemas::{Outline, Schemas};
 
 use scl_topology::check::{Facts, check};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics};
@@ -49,6 +49,8 @@ pub struct Loaded {
     pub files_read: Vec<PathBuf>,
     /// The compiled schemas; `None` if the file names none, or if one of them is wrong.
     pub schemas: Option<Schemas>,
+    /// What schemas that did not compile seem to declare.
+    pub outlines: Vec<Outline>,
 }
 
 /// Reads, parses and checks one topology file.
@@ -93,5 +95,6 @@ fn check_text(request: &Request, text: String, loaded: &mut Loaded, problems: &m
         Facts { default_system: request.default_system(), messages: compiled.messages, sockets: plan::socket_paths() };
     loaded.files_read.extend(compiled.files_read);
     loaded.schemas = compiled.schemas;
+    loaded.outlines = compiled.outlines;
     loaded.topology = check(&loaded.model, &facts, &loaded.sources, problems);
 }

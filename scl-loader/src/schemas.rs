@@ -8,6 +8,7 @@ mod compile;
 mod descriptors;
 #[cfg(feature = "protobuf")]
 mod disk;
+mod outline;
 #[cfg(not(feature = "protobuf"))]
 mod switched_off;
 
@@ -15,6 +16,7 @@ mod switched_off;
 pub(crate) use compile::compile;
 #[cfg(feature = "protobuf")]
 pub use descriptors::Descriptors;
+pub use outline::Outline;
 #[cfg(not(feature = "protobuf"))]
 pub(crate) use switched_off::compile;
 
@@ -43,6 +45,8 @@ pub(crate) struct Compiled {
     pub(crate) messages: Option<Vec<SchemaMessages>>,
     /// The compiled files; `None` likewise, and if there are none.
     pub(crate) schemas: Option<Schemas>,
+    /// What broken schemas seem to declare; empty if every file compiled.
+    pub(crate) outlines: Vec<Outline>,
     /// The schema files that were read, wrong ones included.
     pub(crate) files_read: Vec<PathBuf>,
 }

@@ -47,6 +47,7 @@ pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -
     let types = types::expand_lookups(&context);
     let messages = schemas::expand_modules(&context);
     let json = schemas::expand_json(&context);
+    let unknown = schemas::expand_unknown(&context);
     let tracking = tracking::expand_tracking(&loaded.files_read, surroundings);
-    quote! { #problems #components #types #messages #json #tracking }
+    quote! { #problems #components #types #messages #json #unknown #tracking }
 }

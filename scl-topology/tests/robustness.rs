@@ -52,13 +52,18 @@ fn valid_files_have_no_problem() {
     }
 }
 
+/// What is put in the place of a token, or after it. One in so many is tried at each token, as a text with a syntax error
+/// is read many times.
+const STEP: usize = 4;
+
 #[test]
 fn any_token_deleted_doubled_or_replaced() {
+    const OTHERS: [&str; 16] =
+        ["", "\t", "\0", "\u{a0}", "@", "\"", "[", "}", ": ", "- ", "\n", "*", "&a ", "é", "<<", "? "];
     for text in VALID {
-        for (at, token) in tokens(text) {
+        for (number, (at, token)) in tokens(text).into_iter().enumerate() {
             let (before, after) = (&text[..at], &text[at + token.len()..]);
-            for other in ["", "\t", "\0", "\u{a0}", "@", "\"", "[", "}", ": ", "- ", "\n", "*", "&a ", "é", "<<", "? "]
-            {
+            for other in OTHERS.into_iter().skip(number % STEP).step_by(STEP) {
                 run(&format!("{before}{other}{after}"));
                 run(&format!("{before}{token}{other}{after}"));
             }

@@ -57,10 +57,15 @@ pub(crate) fn start(level: Level) {
     let _already_set = log.with_target(false).without_time().try_init();
 }
 
-/// Colour only on terminals, and never if `NO_COLOR` is set (<https://no-color.org>).
+/// Colour only on terminals, never if `NO_COLOR` is set (<https://no-color.org>), and as `CLICOLOR` and `CLICOLOR_FORCE`
+/// say (<https://bixense.com/clicolors>).
 #[cfg(any(feature = "logging", test))]
 fn use_colour(terminal: bool, variables: Variables<'_>) -> bool {
-    terminal && variables("NO_COLOR").is_none_or(|value| value.is_empty())
+    let is_set = |name| variables(name).is_some_and(|value| !value.is_empty());
+    let is_zero = |name| variables(name).is_some_and(|value| value == "0");
+    let forced = is_set("CLICOLOR_FORCE") && !is_zero("CLICOLOR_FORCE");
+    let wanted = terminal && !is_zero("CLICOLOR") && variables("TERM").is_none_or(|value| value != "dumb");
+    !is_set("NO_COLOR") && (forced || wanted)
 }
 
 #[cfg(test)]
@@ -88,11 +93,22 @@ mod tests {
     }
 
     #[test]
-    fn colour_is_for_terminals_without_no_color() {
-        let cases = [(true, None, true), (true, Some(""), true), (true, Some("1"), false), (false, None, false)];
-        for (terminal, no_color, expected) in cases {
-            let variables = |name: &str| no_color.filter(|_| name == "NO_COLOR").map(Into::into);
-            assert_eq!(use_colour(terminal, &variables), expected, "{terminal} {no_color:?}");
+    fn colour_is_for_terminals_unless_the_environment_says_otherwise() {
+        let cases: [(bool, &[(&str, &str)], bool); 10] = [
+            (true, &[], true),
+            (false, &[], false),
+            (true, &[("NO_COLOR", "")], true),
+            (true, &[("NO_COLOR", "1")], false),
+            (true, &[("CLICOLOR", "0")], false),
+            (true, &[("CLICOLOR", "1")], true),
+            (false, &[("CLICOLOR", "1")], false),
+            (true, &[("TERM", "dumb")], false),
+            (false, &[("CLICOLOR_FORCE", "1"), ("TERM", "dumb")], true),
+            (false, &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")], false),
+        ];
+        for (terminal, set, expected) in cases {
+            let variables = |name: &str| set.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).into());
+            assert_eq!(use_colour(terminal, &variables), expected, "{terminal} {set:?}");
         }
     }
 }

@@ -1,12 +1,13 @@
 //! What generated code names. It carries no promise of stability.
 
+pub mod codecs;
+
 pub use crate::__component_methods as component_methods;
 pub use crate::__component_test_methods as component_test_methods;
 #[cfg(all(feature = "json", feature = "protobuf"))]
 pub use crate::__message_json as message_json;
 #[cfg(not(all(feature = "json", feature = "protobuf")))]
 pub use crate::__no_message_json as message_json;
-pub use crate::__stand_in_codec as stand_in_codec;
 #[cfg(all(feature = "json", feature = "protobuf"))]
 pub use crate::codec::message_json::{MessagePool, MessageType};
 pub use crate::codec::{self, Codec};

@@ -57,8 +57,6 @@ mod owned_path;
 mod peer_check;
 mod restored;
 mod schema;
-#[cfg(feature = "protobuf")]
-mod shape;
 mod small_file;
 mod temp_entry;
 

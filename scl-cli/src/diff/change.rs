@@ -7,7 +7,7 @@ use super::together::meetings;
 /// One part that differs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Change {
-    /// Which sort of part: `component`, `gate`, `connection`, `system`.
+    /// Which sort of part: `component`, `gate`, `connection`, `system`, `message`, `enum`.
     pub(super) part: &'static str,
     /// Its name.
     pub(super) name: String,

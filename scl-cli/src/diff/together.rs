@@ -8,14 +8,15 @@ use std::collections::{BTreeSet, HashMap};
 /// Components to rebuild; those of a group with several are of no use to each other until all are rebuilt.
 pub(super) type Group = Vec<Rebuild>;
 
-/// Groups of several first, each in the order of the new file.
-pub(super) fn group(old: &Side, new: &Side, rebuilds: Vec<Rebuild>) -> Vec<Group> {
+/// Groups of several first, each in the order of the new file. `pairs` cannot talk to each other although their
+/// connections are as they were.
+pub(super) fn group(old: &Side, new: &Side, rebuilds: Vec<Rebuild>, pairs: &[(String, String)]) -> Vec<Group> {
     let mut leaders = Leaders::default();
     if old.system != new.system {
         // Systems have folders of their own.
         rebuilds.windows(2).for_each(|pair| leaders.join(&pair[0].component, &pair[1].component));
     }
-    for (one, other) in parted(&old.plan, &new.plan) {
+    for (one, other) in parted(&old.plan, &new.plan).into_iter().chain(pairs.iter().cloned()) {
         // What a component that is gone was connected to has nothing else in common.
         if [&one, &other].iter().all(|name| new.plan.component(name).is_ok()) {
             leaders.join(&one, &other);
@@ -35,8 +36,8 @@ pub(super) fn group(old: &Side, new: &Side, rebuilds: Vec<Rebuild>) -> Vec<Group
 
 /// A connection, seen from its sending gate.
 pub(super) struct Meeting<'p> {
-    component: &'p str,
-    gate: &'p GatePlan,
+    pub(super) component: &'p str,
+    pub(super) gate: &'p GatePlan,
     pub(super) connection: &'p ConnectionPlan,
 }
 
@@ -46,7 +47,7 @@ impl Meeting<'_> {
         connection_name(self.component, self.gate, self.connection)
     }
 
-    fn components(&self) -> (String, String) {
+    pub(super) fn components(&self) -> (String, String) {
         (self.component.to_owned(), self.connection.peer_component.clone())
     }
 }

@@ -64,7 +64,11 @@ fn both_ends_of_a_connection_agree() {
                     let back = |it: &&ConnectionPlan| it.peer_component == plan.component && it.peer_gate == gate.name;
                     let back = peer.connections.iter().find(back).unwrap();
                     assert_eq!((&connection.endpoint, &connection.contract), (&back.endpoint, &back.contract));
-                    assert_eq!((connection.queue, connection.when_full), (back.queue, back.when_full));
+                    let receives = matches!(gate.kind, GateKind::Sub | GateKind::Pull | GateKind::Rep);
+                    let receiver = if receives { gate } else { peer };
+                    for end in [connection, back] {
+                        assert_eq!((end.queue, end.when_full), (receiver.queue, receiver.when_full));
+                    }
                     assert_eq!(peer.kind, gate.kind.opposite());
                     if gate.kind.shares_endpoint() {
                         assert_eq!(gate.endpoint.as_ref(), Some(&connection.endpoint));

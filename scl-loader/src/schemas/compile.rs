@@ -2,6 +2,7 @@
 
 use super::broken;
 use super::disk::{Disk, FilesRead, SchemaFile};
+use super::outline::outline;
 use super::{Compiled, Schemas};
 use crate::read::{Unreadable, read_text};
 use crate::request::Request;
@@ -34,12 +35,14 @@ pub(crate) fn compile(request: &Request, model: &Model, sources: &mut Sources, p
         all_well &= problem.is_none();
         problems.extend(problem);
     }
-    let files_read = snapshot(&files).into_iter().map(|file| file.path).collect();
+    let files = snapshot(&files);
+    let outlines = if all_well { Vec::new() } else { files.iter().map(|file| outline(&file.text)).collect() };
+    let files_read = files.into_iter().map(|file| file.path).collect();
     if !all_well {
-        return Compiled { files_read, ..Compiled::default() };
+        return Compiled { files_read, outlines, ..Compiled::default() };
     }
     let schemas = Some(Schemas { descriptors: compiler.file_descriptor_set() });
-    Compiled { messages: Some(messages_by_entry(&compiler, model)), schemas, files_read }
+    Compiled { messages: Some(messages_by_entry(&compiler, model)), schemas, files_read, outlines }
 }
 
 /// Imports are looked for beside the topology file, then beside the schemas that it names.

@@ -12,7 +12,7 @@ use super::types::expand_stand_in_codecs;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use scl_topology::topology::{Codec, Gate, GateId, GateKind, Payload, Topology, TypeName};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use syn::Ident;
 
 /// The trait of one pair of payload and codec.
@@ -76,10 +76,15 @@ impl<'a> CodecTraits<'a> {
     /// The traits as tokens.
     pub(super) fn expand(&self, context: &Context<'_>, topology: &Topology) -> TokenStream {
         let traits = self.all.iter().map(|it| it.expand(context, topology));
-        let used = self.all.iter().filter(|it| !matches!(it.codec, Codec::Path(_)));
-        let used = used.map(|it| (it.payload, codec_path(context, it.codec)));
-        let stand_ins = expand_stand_in_codecs(context, used);
-        quote!(#(#traits)* #stand_ins)
+        let stand_ins = expand_stand_in_codecs(context, self.all.iter().map(|it| (it.payload, it.codec)));
+        let built_in: BTreeSet<&str> =
+            self.all.iter().filter(|it| !matches!(it.codec, Codec::Path(_))).map(|it| it.codec.word()).collect();
+        let private = &context.private;
+        let checks = built_in.into_iter().map(|word| {
+            let check = format_ident!("{word}_is_on");
+            quote_spanned!(context.span => const _: () = #private::codecs::#check();)
+        });
+        quote!(#(#traits)* #stand_ins #(#checks)*)
     }
 }
 
@@ -187,11 +192,11 @@ fn remedy(codec: &Codec) -> String {
 }
 
 /// The codec's Rust type.
-fn codec_path(context: &Context<'_>, codec: &Codec) -> TokenStream {
+pub(super) fn codec_path(context: &Context<'_>, codec: &Codec) -> TokenStream {
     let private = &context.private;
     let Some(row) = codec.row() else { return user_codec(codec.word(), context.span) };
     let name = format_ident!("{}", row.rust);
-    quote!(#private::codec::#name)
+    quote!(#private::codecs::#name)
 }
 
 fn user_codec(path: &str, span: Span) -> TokenStream {

@@ -7,6 +7,7 @@ use proc_macro2::{Span, TokenStream};
 use quote::quote;
 use scl_loader::Loaded;
 use scl_topology::source;
+use std::collections::BTreeSet;
 use syn::Ident;
 
 /// One invocation of `topology!` and the file it loaded.
@@ -23,25 +24,33 @@ pub(super) struct Context<'a> {
     pub(super) for_tests: TokenStream,
     /// The loaded topology file, with its schemas and diagnostics.
     pub(super) loaded: &'a Loaded,
+    /// The crates that the program can name, if they are known.
+    extern_crates: Option<&'a BTreeSet<String>>,
     /// The Rust paths of the message types.
     pub(super) types: MessageTypes,
 }
 
 impl<'a> Context<'a> {
-    pub(super) fn new(arguments: &'a Arguments, loaded: &'a Loaded, surroundings: &Surroundings) -> Self {
+    pub(super) fn new(arguments: &'a Arguments, loaded: &'a Loaded, surroundings: &'a Surroundings) -> Self {
         let krate = &arguments.krate;
         let private = quote!(#krate::private);
         let path = arguments.path.value();
         let only = arguments.only.as_deref();
-        let lookups = |types| Lookups::new(&as_identifier(&path), &private, surroundings.extern_crates.as_ref(), types);
+        let extern_crates = surroundings.extern_crates.as_ref();
+        let lookups = |types| Lookups::new(&as_identifier(&path), &private, extern_crates, types);
         let types = MessageTypes::of(loaded, |component| includes(only, component), lookups);
         let for_tests = if arguments.testable == Some(true) { quote!() } else { quote!(#[cfg(test)]) };
-        Self { private, for_tests, span: arguments.path.span(), path, only, loaded, types }
+        Self { private, for_tests, span: arguments.path.span(), path, only, loaded, extern_crates, types }
     }
 
     /// Returns true if a component is to be generated.
     pub(super) fn includes(&self, component: &str) -> bool {
         includes(self.only, component)
+    }
+
+    /// Returns true if the program depends on a crate of this name.
+    pub(super) fn is_extern_crate(&self, name: &str) -> bool {
+        self.extern_crates.is_some_and(|crates| crates.contains(name))
     }
 
     /// The location of a declaration: `topology.yaml:14:9`. The path is the one that the user wrote, so that no program

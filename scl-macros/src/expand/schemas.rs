@@ -7,6 +7,7 @@ mod json;
 mod modules;
 #[cfg(not(feature = "protobuf"))]
 mod switched_off;
+mod unknown;
 
 pub(super) use embedded::EmbeddedSchemas;
 #[cfg(feature = "protobuf")]
@@ -15,3 +16,4 @@ pub(super) use json::expand_json;
 pub(super) use modules::expand_modules;
 #[cfg(not(feature = "protobuf"))]
 pub(super) use switched_off::{expand_json, expand_modules};
+pub(super) use unknown::expand_unknown;

@@ -70,11 +70,17 @@ impl Reader<'_> {
         self.recover_pair(item);
     }
 
-    /// The problem of a text that is `-[a.b, c.d]`: a list item whose dash is glued to it.
+    /// The problem of a text that is `-[a.b, c.d]`, or `-- [a.b, c.d]`: a list item with an odd dash.
     fn glued_dash(&self, value: &Node) -> Option<Diagnostic> {
         let NodeKind::Scalar { text, .. } = &value.kind else { return None };
-        let is_glued = is_plain(value) && text.starts_with('-') && !text.starts_with("--");
-        is_glued.then(|| self.dash_without_space(value.span))
+        if !is_plain(value) || !text.starts_with('-') {
+            return None;
+        }
+        if text.starts_with("--") {
+            let (start, place) = (value.span.start as usize, pitfall::Place::new(self.source, self.file));
+            return Some(pitfall::dash::doubled(&(start..start + 2), self.source.text(), &place));
+        }
+        Some(self.dash_without_space(value.span))
     }
 
     /// A dash at the start of a value, with no space after it.

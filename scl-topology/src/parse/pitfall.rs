@@ -163,6 +163,7 @@ fn syntax_error(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> O
         return None;
     }
     let explained = match error.kind {
+        SyntaxErrorKind::Glued => missing_space::at_bracket(error, &text.text, place),
         SyntaxErrorKind::Quote => quote::find(error, &text.text, place),
         SyntaxErrorKind::Character(character) => Some(reserved_character::diagnose(error.at, character, place)),
         SyntaxErrorKind::Property => reserved_character::find(error.at, place),

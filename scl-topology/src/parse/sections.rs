@@ -19,13 +19,31 @@ impl Reader<'_> {
                 "codec" => self.model.codec = self.name_in(*field, "codec"),
                 "schemas" => self.read_schemas(*field),
                 "scl" => self.read_version(*field),
-                "components" => fields.all("components").for_each(|section| self.read_components(section)),
-                "connections" => fields.all("connections").for_each(|section| self.read_connections(section)),
+                "components" | "connections" => self.read_lists(&fields, field.key),
                 key if key.starts_with(grammar::OWN_PREFIX) => {}
                 _ => self.report_unknown_section(*field),
             }
         }
         self.check_missing_sections(&fields);
+    }
+
+    /// A section that is a list, and its repetitions. Of two lists with entries in them, only the first is read: if the
+    /// second is a copy, everything in it would be a repetition too.
+    fn read_lists(&mut self, fields: &Fields<'_>, key: &str) {
+        let has_items = |section: &Field<'_>| match &section.value.kind {
+            NodeKind::Sequence { items } => !items.is_empty(),
+            _ => !section.value.is_null(),
+        };
+        let is_any = fields.all(key).any(|section| has_items(&section));
+        let read = fields.all(key).filter(|section| !is_any || has_items(section));
+        for (number, section) in read.enumerate() {
+            match key {
+                "components" if number > 0 => self.model.components_unread = true,
+                "connections" if number > 0 => self.remember_broken_ends(section.value),
+                "components" => self.read_components(section),
+                _ => self.read_connections(section),
+            }
+        }
     }
 
     fn read_version(&mut self, field: Field<'_>) {

@@ -20,6 +20,8 @@ pub(crate) enum SyntaxErrorKind {
     Bracket,
     /// A quoted text does not end, or goes on after its end.
     Quote,
+    /// A `[` or `{` right after a colon.
+    Glued,
     /// `key: value` or `- item` where none can be.
     Structure,
     /// A character that starts no value.
@@ -55,6 +57,7 @@ fn kind_of(kind: &ErrorKind) -> SyntaxErrorKind {
         | E::MismatchedFlowCollectionEnd { .. }
         | E::UnclosedFlowCollection { .. }
         | E::BlockEntryInFlowCollection => SyntaxErrorKind::Bracket,
+        E::FlowMappingValueAdjacentCollection => SyntaxErrorKind::Glued,
         E::UnclosedQuotedScalar
         | E::DocumentIndicatorInQuotedScalar
         | E::InvalidQuotedScalarIndent

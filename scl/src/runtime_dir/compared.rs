@@ -1,7 +1,7 @@
 //! Remembering comparisons of messages: an end whose peer is incompatible tries again every few milliseconds.
 
-use super::shape::Difference;
 use crate::sync::lock;
+use scl_shape::Difference;
 use std::collections::HashMap;
 use std::sync::Mutex;
 
@@ -11,8 +11,8 @@ const LIMIT: usize = 64;
 #[derive(Debug, Default)]
 pub(super) struct Compared(Mutex<HashMap<Key, Result<(), Difference>>>);
 
-/// The payload, the hash of this program's messages, and that of the peer's.
-pub(super) type Key = (&'static str, &'static str, String);
+/// The payload, the codec, the hash of this program's messages, and that of the peer's.
+pub(super) type Key = (&'static str, &'static str, &'static str, String);
 
 impl Compared {
     pub(super) fn get(&self, key: &Key) -> Option<Result<(), Difference>> {
@@ -36,7 +36,7 @@ mod tests {
     fn a_limited_number_of_comparisons_is_remembered() {
         let compared = Compared::default();
         for number in 0..10 * LIMIT {
-            let key = ("nav.Position", "1111", number.to_string());
+            let key = ("nav.Position", "protobuf", "1111", number.to_string());
             compared.insert(key.clone(), Ok(()));
             assert_eq!(compared.get(&key), Some(Ok(())));
             assert!(lock(&compared.0).len() <= LIMIT);

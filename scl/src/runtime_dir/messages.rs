@@ -1,11 +1,9 @@
 //! Comparing the protobuf messages of this program with those of a peer, by their schema files.
 
 use super::SystemDir;
-use super::shape::{self, Difference};
 use super::small_file::read_file;
 use crate::spec::{ComponentSpec, GateSpec};
-use prost::Message;
-use prost_types::FileDescriptorSet;
+use scl_shape::{Difference, Encoding};
 
 /// Maximum size of a schema file in bytes.
 const LIMIT: u64 = 16 << 20;
@@ -22,15 +20,13 @@ pub(super) fn compare_messages(
     peer: &str,
 ) -> Result<(), String> {
     let (Some(ours), Some(theirs)) = (own.schema, theirs) else { return Ok(()) };
-    // Other codecs identify fields differently, and may carry types of the same names that are not protobuf messages.
-    if ours.hash == theirs || gate.codec != "protobuf" {
-        return Ok(());
-    }
-    let key = (gate.payload, ours.hash, theirs.to_owned());
+    // Other codecs do not carry messages of schemas.
+    let Some(encoding) = Encoding::of_codec(gate.codec).filter(|_| ours.hash != theirs) else { return Ok(()) };
+    let key = (gate.payload, gate.codec, ours.hash, theirs.to_owned());
     let result = match dir.compared().get(&key) {
         Some(known) => known,
         None => {
-            let result = compare_files(dir, gate.payload, ours.descriptors, theirs).map_err(|reason| {
+            let result = compare_files(dir, gate.payload, encoding, ours.descriptors, theirs).map_err(|reason| {
                 format!("cannot compare the messages of {peer} with those of this program: {reason}")
             })?;
             dir.compared().insert(key, result.clone());
@@ -41,11 +37,17 @@ pub(super) fn compare_messages(
 }
 
 /// The outer error says why the messages cannot be compared.
-fn compare_files(dir: &SystemDir, payload: &str, ours: &[u8], theirs: &str) -> Result<Result<(), Difference>, String> {
+fn compare_files(
+    dir: &SystemDir,
+    payload: &str,
+    encoding: Encoding,
+    ours: &[u8],
+    theirs: &str,
+) -> Result<Result<(), Difference>, String> {
     let path = dir.schema_file(theirs).map_err(|_bad_name| "it announces a schema with an invalid name")?;
     let cannot_read = |error: &dyn std::fmt::Display| format!("cannot read `{}`: {error}", path.display());
     let theirs = read_file(&path, LIMIT).map_err(|error| cannot_read(&error))?;
-    let theirs = FileDescriptorSet::decode(&*theirs).map_err(|error| cannot_read(&error))?;
-    let ours = FileDescriptorSet::decode(ours).map_err(|error| format!("cannot read its own schema: {error}"))?;
-    Ok(shape::compare(payload, &ours, &theirs))
+    let theirs = scl_shape::decode(&theirs).map_err(|error| cannot_read(&error))?;
+    let ours = scl_shape::decode(ours).map_err(|error| format!("cannot read its own schema: {error}"))?;
+    Ok(scl_shape::compare(payload, encoding, &ours, &theirs))
 }

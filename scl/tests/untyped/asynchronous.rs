@@ -7,6 +7,7 @@ use scl::untyped::Component;
 use scl::{OpenOptions, TrySendError};
 use std::future::poll_fn;
 use std::pin::Pin;
+use std::time::Duration;
 
 async fn open(options: OpenOptions) -> (Component, Component) {
     let sensor = Component::open_with(&plan("sensor"), options.clone()).await.unwrap();
@@ -145,6 +146,20 @@ fn a_taken_gate_keeps_its_component_open() {
         drop(pushes);
         // The last gate is gone, so another may open it.
         Component::open_with(&plan("sensor"), options).await.unwrap().close(LONG).await.unwrap();
+    });
+}
+
+#[test]
+fn closing_names_who_did_not_take_everything() {
+    on_each_medium_async(|options| async {
+        let (mut sensor, controller) = open(options).await;
+        let mut sends = sensor.publisher("measurements").unwrap();
+        sensor.ready(LONG).await.unwrap();
+        while sends.try_send(&bytes("[]")).is_ok() {}
+        let error = sensor.close(Duration::from_millis(1)).await.unwrap_err();
+        assert_eq!((error.peers.len(), error.is_failure()), (1, true), "{error}");
+        assert!(error.to_string().contains("from `sensor.measurements` to `controller.sensor`"), "{error}");
+        drop(controller);
     });
 }
 

@@ -26,6 +26,7 @@ fn assert_same<C: Generated>(file: &str) {
 fn specifications_are_equal() {
     assert_same::<super::Sensor>("untyped.yaml");
     assert_same::<super::Controller>("untyped.yaml");
+    assert_same::<super::Logger>("untyped.yaml");
     assert_same::<rover::Sensor>("doc/rover.yaml");
     assert_same::<rover::Controller>("doc/rover.yaml");
     assert_same::<rover::Recorder>("doc/rover.yaml");

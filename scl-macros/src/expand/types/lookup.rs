@@ -19,6 +19,7 @@
 //! precedes it. The methods that open a component require that none of its types is the stand-in, see
 //! [`expand_requirements`].
 
+use super::super::codec_traits::codec_path;
 use super::super::context::Context;
 use super::super::problems::unknown_type_name;
 use super::super::rustc_notes::{escape_braces, note_with_excerpt};
@@ -26,7 +27,7 @@ use super::{path, segment};
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use scl_topology::external::TYPE_NOT_FOUND;
-use scl_topology::topology::{Component, Payload, Topology, TypeName};
+use scl_topology::topology::{Codec, Component, Payload, Topology, TypeName};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use syn::Ident;
 
@@ -255,16 +256,21 @@ impl Requirements {
 /// The stand-in as a message of every codec that it may be used with, so that components that are not opened compile.
 pub(in crate::expand) fn expand_stand_in_codecs<'t>(
     context: &Context<'_>,
-    used: impl Iterator<Item = (&'t Payload, TokenStream)>,
+    used: impl Iterator<Item = (&'t Payload, &'t Codec)>,
 ) -> TokenStream {
     let lookups = context.types.lookups();
     let private = &context.private;
     let may_miss = |payload: &Payload| payload.types().into_iter().any(|name| lookups.stand_in(name).is_some());
-    let codecs: BTreeMap<String, TokenStream> =
-        used.filter(|(payload, _)| may_miss(payload)).map(|(_, codec)| (codec.to_string(), codec)).collect();
+    let codecs: BTreeMap<&str, TokenStream> = used
+        .filter(|(payload, codec)| may_miss(payload) && !matches!(codec, Codec::Path(_)))
+        .map(|(_, codec)| (codec.word(), codec_path(context, codec)))
+        .collect();
     let not_found = &lookups.not_found;
-    let codecs = codecs.values();
-    quote_spanned! { context.span => #(#private::stand_in_codec!(#codecs, #not_found);)* }
+    let codecs = codecs.into_iter().map(|(word, codec)| {
+        let stand_in = format_ident!("{word}_stand_in");
+        quote_spanned!(context.span => #private::codecs::#stand_in!(#codec, #not_found);)
+    });
+    quote!(#(#codecs)*)
 }
 
 fn trait_name(index: usize) -> Ident {

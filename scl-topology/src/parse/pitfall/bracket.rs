@@ -28,10 +28,7 @@ connections: []
 /// A bracket problem that the parser noticed as such.
 pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
     match text.as_bytes().get(error.at) {
-        Some(b'[' | b'{') => match wrong_close(error.at, text, place) {
-            Some(close) => Some(mismatched(error.at, close, text, place)),
-            None => (!is_closed(error.at, text, place)).then(|| never_closed(error.at, text, place)),
-        },
+        Some(b'[' | b'{') => unbalanced(error.at, text, place),
         Some(b']' | b'}') if scan::scan(&text[..error.at]).open_brackets.is_empty() => {
             Some(never_opened(error.at, text, place))
         }
@@ -39,38 +36,34 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
     }
 }
 
-/// The bracket of the other kind that stands where the closing one belongs, in the same line.
-fn wrong_close(open: usize, text: &str, place: &Place<'_>) -> Option<usize> {
-    let inside = &text[open + 1..place.line_range(open).end];
-    let at = inside.find(['[', ']', '{', '}'])?;
-    let right = closing(&text[open..open + 1]);
-    let found = inside[at..].chars().next()?;
-    (matches!(found, ']' | '}') && found != right).then_some(open + 1 + at)
-}
-
 /// A bracket that is open where the parser stops.
 pub(super) fn find_open(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
     let open = scan::scan(text.get(..error.at)?).open_brackets.pop()?;
     match text.as_bytes().get(error.at) {
         Some(b']' | b'}') => Some(mismatched(open, error.at, text, place)),
-        _ => (!is_closed(open, text, place)).then(|| never_closed(open, text, place)),
+        _ => unbalanced(open, text, place),
     }
 }
 
-/// Whether a bracket is closed in its line, so that it is not what is wrong.
-fn is_closed(open: usize, text: &str, place: &Place<'_>) -> bool {
-    let mut depth = 0_usize;
-    for letter in text[open..place.line_range(open).end].bytes() {
+/// What is wrong with a bracket in its line: closed by one of the other kind, or not at all; nothing if it is closed.
+fn unbalanced(open: usize, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let mut still_open = Vec::new();
+    for (at, letter) in text[open..place.line_range(open).end].bytes().enumerate() {
         match letter {
-            b'[' | b'{' => depth += 1,
-            b']' | b'}' => depth -= 1,
+            b'[' | b'{' => still_open.push(open + at),
+            b']' | b'}' => {
+                let last = still_open.pop()?;
+                if closing(&text[last..last + 1]) != char::from(letter) {
+                    return Some(mismatched(last, open + at, text, place));
+                }
+            }
             _ => {}
         }
-        if depth == 0 {
-            return true;
+        if still_open.is_empty() {
+            return None;
         }
     }
-    false
+    Some(never_closed(open, text, place))
 }
 
 pub(super) fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {

@@ -46,7 +46,7 @@ pub(in crate::parse) fn without_space(dash: &Range<usize>, text: &str, place: &P
 }
 
 /// Two dashes.
-pub(super) fn doubled(dashes: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn doubled(dashes: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let rest = text[dashes.end..place.line_range(dashes.start).end].trim();
     let message = "a list item starts with one `-`, not with two";
     RULE.at(message, place.span(dashes.clone()), "starts no list item").help(write_item(rest))
@@ -57,7 +57,7 @@ pub(super) fn other_mark(at: usize, place: &Place<'_>) -> Diagnostic {
     let text = place.source.text();
     let (mark, rest) = (&text[at..at + 1], text[at + 1..place.line_range(at).end].trim());
     let message = format!("a list item starts with `-`, not with `{mark}`");
-    RULE.at(message, place.span(at..at + 1), "expected `-`").help(write_item(rest)).fix(place.span(at..at + 1), "-")
+    RULE.at(message, place.span(at..at + 1), "expected `-`").help(write_item(rest))
 }
 
 /// A dash where no item can start.

@@ -56,6 +56,15 @@ pub(super) fn in_brackets(glued: &Range<usize>, text: &str, place: &Place<'_>) -
     diagnose(key, value, place.span(glued.start..glued.start))
 }
 
+/// The colon at or shortly before an error, where a bracket follows at once.
+pub(super) fn at_bracket(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+    let end = text.get(error.at..)?.find(['[', '{'])?;
+    let bracket = error.at + end;
+    let before = text[..bracket].strip_suffix(':')?;
+    let start = before.rfind([' ', ',', '[', '{', '\n']).map_or(0, |at| at + 1);
+    Some(in_brackets(&(start..bracket + 1), text, place))
+}
+
 /// A word such as `name:sensor` in the lines before a syntax error.
 pub(super) fn before(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
     let text = place.source.text();

@@ -53,6 +53,8 @@ enum Kind {
     CommentSpace(usize),
     /// A list item without its dash, from its first character to the end of its line.
     Dash(Range<usize>),
+    /// Another mark in the place of a dash.
+    OtherMark(usize),
     /// A dash without a space after it.
     DashSpace(Range<usize>),
     /// A list item in the line of another.

@@ -34,7 +34,7 @@ pub(super) fn diagnose(at: usize, character: char, place: &Place<'_>) -> Diagnos
     let line = place.line_range(at);
     let is_first = text.get(line.start..at).is_some_and(|before| before.trim().is_empty());
     if is_first && text.get(at + 1..line.end).is_some_and(|rest| rest.starts_with(' ')) {
-        return dash::other_mark(at, place);
+        return dash::other_mark(at, place).fix(place.span(at..at + 1), "-");
     }
     let rest = text.get(at..place.line_range(at).end).unwrap_or("");
     let word = rest.split([' ', ',', ']', '}']).next().unwrap_or(rest);

@@ -31,6 +31,7 @@ pub(super) fn of_line(line: &Range<usize>, text: &str, place: &Place<'_>) -> Vec
     surplus(&tokens, line, text, &mut edits);
     quotes(line, text, &mut edits);
     first_of_line(&tokens, line, text, &mut edits);
+    other_mark(&tokens, text, &mut edits);
     dash(&tokens, line, text, &mut edits);
     columns(&tokens, line, text, place, &mut edits);
     edits
@@ -267,7 +268,15 @@ fn first_of_line(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut 
     }
 }
 
-/// The dash of a list item.
+/// `+` or `*` as the mark of a list item.
+fn other_mark(tokens: &[Token], text: &str, edits: &mut Vec<Edit>) {
+    let Some([mark, item, ..]) = tokens.get(..2) else { return };
+    if matches!(&text[mark.range.clone()], "+" | "*") && item.range.start > mark.range.end {
+        edits.push(edit(Kind::OtherMark(mark.range.start), mark.range.clone(), "-", 1));
+    }
+}
+
+/// The dash of a list item, in place of the two spaces before it, before it, or in the column of the item above.
 fn dash(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
     let Some(first) = tokens.first().filter(|first| first.begins_value()) else { return };
     let start = first.range.start;
@@ -275,7 +284,12 @@ fn dash(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Edit>
     if text[line.start..start].ends_with("  ") {
         edits.push(edit(kind.clone(), start - 2..start, "- ", 3));
     }
-    edits.push(edit(kind, start..start, "- ", 3));
+    edits.push(edit(kind.clone(), start..start, "- ", 3));
+    let mut above = text[..line.start].lines().rev().take(MOST_ABOVE);
+    if let Some(item) = above.find(|line| line.trim_start().starts_with("- ")) {
+        let column = item.len() - item.trim_start().len();
+        edits.push(edit(kind, line.start..start, format!("{}- ", " ".repeat(column)), 3));
+    }
 }
 
 /// The line, with all that is indented deeper below it, in each of the columns that the lines above use.

@@ -22,6 +22,7 @@ pub(super) fn tell(edit: &Edit, text: &str, place: &Place<'_>) -> Diagnostic {
         Kind::CommentSpace(hash) => unexpected::glued_comment(*hash, text, place),
         Kind::Break(dash) => unexpected::item_in_line(*dash, text, place),
         Kind::Dash(item) => dash::missing(item, text, place),
+        Kind::OtherMark(at) => dash::other_mark(*at, place),
         Kind::DashSpace(mark) => dash::without_space(mark, text, place),
         Kind::Quote(at) => super::super::quote::alone(*at, text, place),
         Kind::Unquoted(at) => super::super::quote::missing(*at, text, place),

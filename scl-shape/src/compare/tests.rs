@@ -96,7 +96,8 @@ fn oneof(message: &mut DescriptorProto, name: &str) -> i32 {
 }
 
 fn check(here: &str, there: &str, expected: &str) {
-    let found = compare("nav.A", &schema(here), &schema(there)).map_err(|difference| difference.text("`gps`"));
+    let found = compare("nav.A", Encoding::Numbers, &schema(here), &schema(there))
+        .map_err(|difference| difference.text("`gps`"));
     assert_eq!(found.err().unwrap_or_default(), expected, "\nhere:\n{here}\nthere:\n{there}");
 }
 
@@ -219,10 +220,10 @@ fn messages_inside_of_messages_are_compared_and_cycles_end() {
 #[test]
 fn both_messages_of_a_call_are_compared() {
     let (here, there) = (schema("Q: 1 x double\nR: 1 y double"), schema("Q: 1 x double\nR: 1 y float"));
-    assert!(compare("nav.Q -> nav.R", &here, &there).is_err());
-    assert!(compare("nav.R -> nav.Q", &here, &there).is_err());
-    assert!(compare("nav.Q -> nav.Q", &here, &there).is_ok());
-    assert!(compare("bytes", &here, &there).is_ok());
+    assert!(compare("nav.Q -> nav.R", Encoding::Numbers, &here, &there).is_err());
+    assert!(compare("nav.R -> nav.Q", Encoding::Numbers, &here, &there).is_err());
+    assert!(compare("nav.Q -> nav.Q", Encoding::Numbers, &here, &there).is_ok());
+    assert!(compare("bytes", Encoding::Numbers, &here, &there).is_ok());
 }
 
 #[test]
@@ -250,7 +251,10 @@ fn damaged_descriptors_are_compared_without_a_panic() {
         bytes[place] ^= 1 << bit;
         if let Ok(there) = FileDescriptorSet::decode(&*bytes) {
             compared += 1;
-            let _any = (compare("nav.A", &here, &there), compare("nav.A", &there, &here));
+            let _any = (
+                compare("nav.A", Encoding::Numbers, &here, &there),
+                compare("nav.A", Encoding::Numbers, &there, &here),
+            );
         }
     }
     assert!(compared > sound.len(), "{compared} of {}", sound.len() * 8);
@@ -261,8 +265,38 @@ fn foreign_names_are_shortened_and_escaped() {
     let here = schema("A: 1 lat double");
     let cases = [("a\u{1b}[31mb".to_owned(), r"a\u{1b}[31mb".to_owned()), ("n".repeat(201), "n".repeat(200) + "…")];
     for (name, shown) in cases {
-        let text = compare("nav.A", &here, &schema(&format!("A: 1 {name} double"))).unwrap_err().text("`gps`");
+        let text = compare("nav.A", Encoding::Numbers, &here, &schema(&format!("A: 1 {name} double")))
+            .unwrap_err()
+            .text("`gps`");
         let expected = format!("message `nav.A`: field 1 is `lat` (double) here, but `{shown}` (double) in `gps`");
         assert_eq!(text, expected);
     }
+}
+
+/// In JSON numbers do not matter, and a name that only one program knows is a field that the other does not have.
+#[test]
+fn json_is_compared_by_names() {
+    let found = |here: &str, there: &str| -> Vec<String> {
+        let found = differences("nav.A", Encoding::Names, &schema(here), &schema(there));
+        found.iter().map(|difference| difference.text("`gps`")).collect()
+    };
+    assert_eq!(found("A: 1 lat double; 2 lon double", "A: 1 lon double; 2 lat double"), [""; 0]);
+    assert_eq!(found("A: 1 lat double", "A: 7 lat double; 8 lon double"), [""; 0]);
+    let renamed = found("A: 1 lat double", "A: 1 latitude double");
+    assert_eq!(renamed, ["message `nav.A`: field 1 is `lat` (double) here, but `latitude` (double) in `gps`"]);
+    let another_type = found("A: 1 lat double", "A: 7 lat string");
+    assert_eq!(another_type, ["message `nav.A`: field 1 is `lat` (double) here, but `lat` (string) in `gps`"]);
+    let enums = |values: &str| format!("A: 1 m enum.nav.M\nenum M: {values}");
+    assert_eq!(found(&enums("0 OFF; 1 ON"), &enums("0 ON; 1 OFF")), [""; 0]);
+    assert_eq!(found(&enums("0 OFF"), &enums("0 NONE")), ["enum `nav.M`: value 0 is `OFF` here, but `NONE` in `gps`"]);
+}
+
+#[test]
+fn every_difference_is_found_but_not_too_many() {
+    let all = |here: &str, there: &str| differences("nav.A", Encoding::Numbers, &schema(here), &schema(there));
+    let found = all("A: 1 a double; 2 b double; 3 c double", "A: 1 b double; 2 a double; 4 c double");
+    let whats: Vec<What> = found.into_iter().map(|difference| difference.what).collect();
+    assert_eq!(whats, [What::Field(1), What::Field(2), What::NumberOfField("c".to_owned())]);
+    let many = |kind: &str| format!("A: {}", (1..500).map(|at| format!("{at} f{at} {kind};")).collect::<String>());
+    assert_eq!(all(&many("double"), &many("float")).len(), MOST);
 }

@@ -4,26 +4,75 @@
 //! same name and type in both, and a name that both use must have the same number: a renumbered field would arrive as
 //! its default value, without an error.
 
-use super::foreign_text::shown;
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, EnumDescriptorProto, FieldDescriptorProto, FileDescriptorSet};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::fmt;
 
-/// What differs between the messages of this program and those of a peer.
+/// More differences than this are not looked for.
+const MOST: usize = 100;
+
+/// How fields are told apart in the bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encoding {
+    /// By their numbers: protobuf.
+    Numbers,
+    /// By their names: canonical JSON.
+    Names,
+}
+
+impl Encoding {
+    /// The encoding of a codec by its word in the topology file; `None` if it does not carry messages of schemas.
+    pub fn of_codec(codec: &str) -> Option<Self> {
+        match codec {
+            "protobuf" => Some(Self::Numbers),
+            "json" => Some(Self::Names),
+            _ => None,
+        }
+    }
+}
+
+/// What differs between the messages of two programs.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Difference {
-    /// ``message `nav.Position`: field 1 is``
-    subject: String,
-    /// `` `lat` (double)``
-    here: String,
-    there: String,
+pub struct Difference {
+    /// The full name of the message or enum.
+    pub name: String,
+    /// What in it differs.
+    pub what: What,
+    /// In the first program: `` `lat` (double)``, or a number.
+    pub here: String,
+    /// In the second program.
+    pub there: String,
+}
+
+/// A part of a message or enum.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum What {
+    /// The field with this number.
+    Field(i32),
+    /// The number of the field with this name.
+    NumberOfField(String),
+    /// The names of the enum value with this number.
+    Value(i32),
+    /// The number of the enum value with this name.
+    NumberOfValue(String),
 }
 
 impl Difference {
     /// The whole text; `peer` is the peer's name.
-    pub(super) fn text(&self, peer: &str) -> String {
-        format!("{} {} here, but {} in {peer}", self.subject, self.here, self.there)
+    pub fn text(&self, peer: &str) -> String {
+        format!("{} {} here, but {} in {peer}", self.subject(), self.here, self.there)
+    }
+
+    /// ``message `nav.Position`: field 1 is``
+    fn subject(&self) -> String {
+        let name = &self.name;
+        match &self.what {
+            What::Field(number) => format!("message `{name}`: field {number} is"),
+            What::NumberOfField(field) => format!("message `{name}`: field `{field}` has number"),
+            What::Value(number) => format!("enum `{name}`: value {number} is"),
+            What::NumberOfValue(value) => format!("enum `{name}`: value `{value}` has number"),
+        }
     }
 }
 
@@ -32,23 +81,45 @@ impl Difference {
 ///
 /// # Errors
 /// The first difference.
-pub(super) fn compare(payload: &str, here: &FileDescriptorSet, there: &FileDescriptorSet) -> Result<(), Difference> {
+pub fn compare(
+    payload: &str,
+    encoding: Encoding,
+    here: &FileDescriptorSet,
+    there: &FileDescriptorSet,
+) -> Result<(), Difference> {
+    match differences(payload, encoding, here, there).into_iter().next() {
+        Some(difference) => Err(difference),
+        None => Ok(()),
+    }
+}
+
+/// As [`compare`], but all differences, at most a hundred.
+pub fn differences(
+    payload: &str,
+    encoding: Encoding,
+    here: &FileDescriptorSet,
+    there: &FileDescriptorSet,
+) -> Vec<Difference> {
     let (here, there) = (Index::of(here), Index::of(there));
+    let mut found = Vec::new();
     let mut names: Vec<&str> = payload.split("->").map(str::trim).collect();
     let mut seen: HashSet<&str> = names.iter().copied().collect();
-    while let Some(name) = names.pop() {
+    while let Some(name) = names.pop().filter(|_| found.len() < MOST) {
         match (here.find(name), there.find(name)) {
             (Some(Item::Message(ours)), Some(Item::Message(theirs))) => {
                 let (ours, theirs) = (fields(ours, &here), fields(theirs, &there));
-                compare_fields(name, &ours, &theirs)?;
+                compare_fields(name, encoding, &ours, &theirs, &mut found);
                 let shared = ours.into_iter().filter(|(number, _)| theirs.contains_key(number));
                 names.extend(shared.filter_map(|(_, field)| field.named).filter(|name| seen.insert(name)));
             }
-            (Some(Item::Enum(ours)), Some(Item::Enum(theirs))) => compare_values(name, ours, theirs)?,
+            (Some(Item::Enum(ours)), Some(Item::Enum(theirs))) => {
+                compare_values(name, encoding, ours, theirs, &mut found)
+            }
             _ => {}
         }
     }
-    Ok(())
+    found.truncate(MOST);
+    found
 }
 
 /// What must be the same in both programs.
@@ -106,45 +177,75 @@ fn oneof<'d>(field: &FieldDescriptorProto, message: &'d DescriptorProto) -> Opti
 
 fn compare_fields(
     message: &str,
+    encoding: Encoding,
     here: &BTreeMap<i32, Field<'_>>,
     there: &BTreeMap<i32, Field<'_>>,
-) -> Result<(), Difference> {
+    found: &mut Vec<Difference>,
+) {
+    let by_name: HashMap<&str, (i32, &Field<'_>)> =
+        there.iter().map(|(&at, field)| (field.name, (at, field))).collect();
     for (number, ours) in here {
-        if let Some(theirs) = there.get(number).filter(|theirs| *theirs != ours) {
-            let subject = format!("message `{message}`: field {number} is");
-            return Err(Difference { subject, here: ours.to_string(), there: theirs.to_string() });
+        // In JSON a field is the one with the same name, if there is one.
+        let named = by_name.get(ours.name).filter(|_| encoding == Encoding::Names).map(|(_, field)| *field);
+        if let Some(theirs) = named.or_else(|| there.get(number)).filter(|theirs| *theirs != ours) {
+            let what = What::Field(*number);
+            found.push(Difference {
+                name: message.to_owned(),
+                what,
+                here: ours.to_string(),
+                there: theirs.to_string(),
+            });
         }
     }
-    let numbers: HashMap<&str, i32> = there.iter().map(|(number, field)| (field.name, *number)).collect();
+    if encoding == Encoding::Names {
+        return;
+    }
     for (number, Field { name, .. }) in here {
-        if let Some(other) = numbers.get(name).filter(|other| *other != number) {
-            let subject = format!("message `{message}`: field `{name}` has number");
-            return Err(Difference { subject, here: number.to_string(), there: other.to_string() });
+        // A number with another field was told above.
+        if let Some((other, _)) = by_name.get(name).filter(|(other, _)| other != number)
+            && !there.contains_key(number)
+        {
+            let what = What::NumberOfField((*name).to_owned());
+            found.push(Difference {
+                name: message.to_owned(),
+                what,
+                here: number.to_string(),
+                there: other.to_string(),
+            });
         }
     }
-    Ok(())
 }
 
 /// With `allow_alias`, one number may have several names; one that both programs know is enough.
-fn compare_values(name: &str, here: &EnumDescriptorProto, there: &EnumDescriptorProto) -> Result<(), Difference> {
+fn compare_values(
+    name: &str,
+    encoding: Encoding,
+    here: &EnumDescriptorProto,
+    there: &EnumDescriptorProto,
+    found: &mut Vec<Difference>,
+) {
     let (ours, theirs) = (names(here), names(there));
+    let mut push = |what, here, there| found.push(Difference { name: name.to_owned(), what, here, there });
     for (number, our_names) in &ours {
         let Some(their_names) = theirs.get(number) else { continue };
-        if our_names.is_disjoint(their_names) {
-            let subject = format!("enum `{name}`: value {number} is");
+        let known = || there.value.iter().any(|value| our_names.contains(value.name()));
+        if our_names.is_disjoint(their_names) && !(encoding == Encoding::Names && known()) {
             let text =
                 |names: &BTreeSet<&str>| format!("`{}`", names.first().map(|name| shown(name)).unwrap_or_default());
-            return Err(Difference { subject, here: text(our_names), there: text(their_names) });
+            push(What::Value(*number), text(our_names), text(their_names));
         }
+    }
+    if encoding == Encoding::Names {
+        return;
     }
     let numbers: HashMap<&str, i32> = there.value.iter().map(|value| (value.name(), value.number())).collect();
     for value in &here.value {
-        if let Some(other) = numbers.get(value.name()).filter(|other| **other != value.number()) {
-            let subject = format!("enum `{name}`: value `{}` has number", value.name());
-            return Err(Difference { subject, here: value.number().to_string(), there: other.to_string() });
+        if let Some(other) = numbers.get(value.name()).filter(|other| **other != value.number())
+            && !theirs.contains_key(&value.number())
+        {
+            push(What::NumberOfValue(value.name().to_owned()), value.number().to_string(), other.to_string());
         }
     }
-    Ok(())
 }
 
 fn names(values: &EnumDescriptorProto) -> BTreeMap<i32, BTreeSet<&str>> {
@@ -181,6 +282,16 @@ impl fmt::Display for Plain<'_> {
             scalar => f.write_str(&scalar.as_str_name().trim_start_matches("TYPE_").to_ascii_lowercase()),
         }
     }
+}
+
+/// Shortens a name and escapes its control characters: the descriptors may come from a stranger's program.
+fn shown(name: &str) -> String {
+    const LONGEST: usize = 200;
+    let mut shown: String = name.chars().take(LONGEST).flat_map(char::escape_debug).collect();
+    if name.chars().nth(LONGEST).is_some() {
+        shown.push('…');
+    }
+    shown
 }
 
 fn without_dot(name: &str) -> &str {

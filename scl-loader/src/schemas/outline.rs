@@ -1,0 +1,133 @@
+//! The names that a schema file declares, as far as they can be seen without compiling it.
+//!
+//! While a schema is broken, programs that use its messages must not be told that these do not exist.
+
+/// The package of a schema file and the messages and enums in it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Outline {
+    /// For example `rover.v1`; empty if there is none.
+    pub package: String,
+    /// The names of messages and enums, those inside of messages after the names of these: `["Pose", "Axis"]`.
+    pub types: Vec<Vec<String>>,
+}
+
+/// Types nested deeper than this are left out: no schema has them, and each level needs a module.
+const DEEPEST: usize = 8;
+
+/// More types than this are left out.
+const MOST: usize = 10_000;
+
+/// Reads the outline of any text.
+pub(super) fn outline(text: &str) -> Outline {
+    let mut outline = Outline::default();
+    // The message of each open brace, or `None` for a brace of something else.
+    let mut open: Vec<Option<String>> = Vec::new();
+    let mut words: Vec<&str> = Vec::new();
+    for token in Tokens(text) {
+        match token {
+            ";" => {
+                if let (["package", name @ ..], true) = (words.as_slice(), open.is_empty()) {
+                    outline.package = name.concat();
+                }
+                words.clear();
+            }
+            "{" => {
+                let declared = match words.as_slice() {
+                    [.., "message", name] => Some((*name, true)),
+                    [.., "enum", name] => Some((*name, false)),
+                    _ => None,
+                };
+                if let Some((name, _)) = declared {
+                    outline.declare(&open, name);
+                }
+                open.push(declared.filter(|(_, is_message)| *is_message).map(|(name, _)| name.to_owned()));
+                words.clear();
+            }
+            "}" => {
+                open.pop();
+                words.clear();
+            }
+            word => {
+                // A statement has few words; a text that is no schema may have many.
+                if words.len() < 100 {
+                    words.push(word);
+                }
+            }
+        }
+    }
+    outline
+}
+
+impl Outline {
+    fn declare(&mut self, open: &[Option<String>], name: &str) {
+        if open.len() >= DEEPEST || self.types.len() >= MOST {
+            return;
+        }
+        let outer: Option<Vec<String>> = open.iter().cloned().collect();
+        if let Some(mut path) = outer {
+            path.push(name.to_owned());
+            self.types.push(path);
+        }
+    }
+}
+
+/// Words and punctuation, without comments and strings.
+struct Tokens<'t>(&'t str);
+
+impl<'t> Iterator for Tokens<'t> {
+    type Item = &'t str;
+
+    fn next(&mut self) -> Option<&'t str> {
+        loop {
+            self.0 = self.0.trim_start();
+            let first = self.0.chars().next()?;
+            let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
+            let length = match first {
+                '/' if self.0.starts_with("//") => self.0.find('\n').unwrap_or(self.0.len()),
+                '/' if self.0.starts_with("/*") => self.0.find("*/").map_or(self.0.len(), |end| end + 2),
+                '"' | '\'' => self.0[1..].find([first, '\n']).map_or(self.0.len(), |end| end + 2),
+                _ if is_word(first) => {
+                    let length = self.0.find(|letter| !is_word(letter)).unwrap_or(self.0.len());
+                    return Some(self.take(length));
+                }
+                _ => return Some(self.take(first.len_utf8())),
+            };
+            self.take(length);
+        }
+    }
+}
+
+impl<'t> Tokens<'t> {
+    fn take(&mut self, length: usize) -> &'t str {
+        let (token, rest) = self.0.split_at(length);
+        self.0 = rest;
+        token
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_seen_in_broken_files() {
+        let text = "syntax = \"proto3\"; // package no;\npackage rover . v1;\n/* message No {} */\nmessage Pose {\n  \
+                    message Axis { enum Kind { A = 0; } double x 1; }\n  oneof o { string message = 2; }\n}\n\
+                    enum Level { LOW = 0; }\nservice S { rpc Do(message) returns (enum) {} }\nmessage Late {";
+        let found = outline(text);
+        assert_eq!(found.package, "rover.v1");
+        let names: Vec<String> = found.types.iter().map(|path| path.join(".")).collect();
+        assert_eq!(names, ["Pose", "Pose.Axis", "Pose.Axis.Kind", "Level", "Late"]);
+    }
+
+    #[test]
+    fn any_text_has_an_outline() {
+        let nested = "message A {".repeat(100_000);
+        for text in
+            ["", "\"", "'\n", "/*", "//", "}", "message", "message {", "package", "ä{", "message \u{1F600} {", &nested]
+        {
+            outline(text);
+        }
+        assert_eq!(outline(&nested).types.len(), DEEPEST);
+    }
+}

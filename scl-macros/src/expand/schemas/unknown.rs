@@ -1,0 +1,86 @@
+//! Modules for the messages of schemas that did not compile, so that rustc does not say that they do not exist.
+//!
+//! Each type is erroneous in a way that rustc has already reported, so using it causes no further errors.
+
+use super::super::context::Context;
+use super::super::names::identifier;
+use super::super::problems::unknown_type_name;
+use heck::{ToSnakeCase, ToUpperCamelCase};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A module with its types.
+#[derive(Default)]
+struct Module {
+    types: BTreeSet<String>,
+    inner: BTreeMap<String, Module>,
+}
+
+/// The modules, if the file names schemas and they did not compile.
+pub(in crate::expand) fn expand_unknown(context: &Context<'_>) -> TokenStream {
+    let loaded = context.loaded;
+    if loaded.schemas.is_some() || loaded.model.schemas.is_empty() {
+        return TokenStream::new();
+    }
+    let mut root = Module::default();
+    for outline in &loaded.outlines {
+        let package: Vec<&str> = outline.package.split('.').filter(|part| !part.is_empty()).collect();
+        for path in &outline.types {
+            root.declare(package.iter().copied().chain(path.iter().map(String::as_str)));
+        }
+    }
+    for dotted in gate_types(context).filter(|dotted| dotted.contains('.') && !starts_with_crate(context, dotted)) {
+        root.declare(dotted.split('.'));
+    }
+    // An import of everything gives way to a module or a type of the user's with the same name.
+    let hidden = format_ident!("__scl_unknown_messages_{}", context.path_as_identifier());
+    let unknown = unknown_type_name(context);
+    let modules = expand_module(&root, 1, &quote!(#unknown));
+    quote! {
+        #[doc(hidden)]
+        #[allow(warnings, missing_docs, clippy::all, clippy::pedantic)]
+        mod #hidden { #modules }
+        #[allow(unused_imports)]
+        pub use #hidden::*;
+    }
+}
+
+/// The types that gates name, which may be those of a schema that could not even be read.
+fn gate_types<'a>(context: &'a Context<'_>) -> impl Iterator<Item = &'a str> {
+    let gates = context.loaded.model.components.iter().flat_map(|component| &component.gates);
+    let payloads = gates.filter_map(|gate| gate.payload.as_ref());
+    payloads.flat_map(|payload| payload.value.split("->")).map(str::trim)
+}
+
+fn starts_with_crate(context: &Context<'_>, dotted: &str) -> bool {
+    let first = dotted.split('.').next().unwrap_or_default();
+    matches!(first, "crate" | "self" | "super" | "std" | "core") || context.is_extern_crate(first)
+}
+
+impl Module {
+    /// Adds a type; the names before its own become modules, as prost makes them of packages and outer messages.
+    fn declare<'a>(&mut self, path: impl IntoIterator<Item = &'a str>) {
+        let path: Vec<&str> = path.into_iter().collect();
+        if let Some((last, before)) = path.split_last() {
+            let module = before.iter().fold(self, |it, name| it.inner.entry(name.to_snake_case()).or_default());
+            module.types.insert(last.to_upper_camel_case());
+        }
+    }
+}
+
+fn expand_module(module: &Module, depth: usize, unknown: &TokenStream) -> TokenStream {
+    let supers = std::iter::repeat_n(quote!(super::), depth);
+    let supers = quote!(#(#supers)*);
+    let types = module.types.iter().filter_map(|name| {
+        let name = identifier(name, proc_macro2::Span::call_site())?;
+        // A type that does not implement the trait because it is erroneous: rustc accepts even struct literals of it.
+        Some(quote!(pub type #name = <#supers #unknown as ::core::ops::Deref>::Target;))
+    });
+    let inner = module.inner.iter().filter_map(|(name, inner)| {
+        let name = identifier(name, proc_macro2::Span::call_site())?;
+        let inner = expand_module(inner, depth + 1, unknown);
+        Some(quote!(pub mod #name { #inner }))
+    });
+    quote!(#(#types)* #(#inner)*)
+}

@@ -1,0 +1,21 @@
+//! Compares the shapes of protobuf messages: whether two SCL programs mean the same by the same bytes.
+//!
+//! The runtime compares before it connects, and `scl diff` before anything is built, with the same words.
+#![deny(missing_docs)]
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+mod compare;
+
+pub use compare::{Difference, Encoding, What, compare, differences};
+pub use prost::DecodeError;
+pub use prost_types::FileDescriptorSet;
+
+use prost::Message;
+
+/// Decodes what a program embeds: a serialized `google.protobuf.FileDescriptorSet`.
+///
+/// # Errors
+/// The bytes are something else.
+pub fn decode(descriptors: &[u8]) -> Result<FileDescriptorSet, DecodeError> {
+    FileDescriptorSet::decode(descriptors)
+}

@@ -1,0 +1,63 @@
+//! The codecs by the names that generated code gives them, also those whose cargo feature is off.
+
+/// A codec, or a stand-in for it and the error that names the feature.
+macro_rules! codec {
+    ($feature:literal $codec:ident $check:ident $stand_in:ident $inner:ident) => {
+        #[cfg(feature = $feature)]
+        pub use crate::__stand_in_codec as $stand_in;
+        #[cfg(feature = $feature)]
+        pub use crate::codec::$codec;
+        // The codec's own stand-in supports every type.
+        #[cfg(not(feature = $feature))]
+        pub use crate::__no_stand_in_codec as $stand_in;
+
+        /// Evaluated while the program compiles.
+        #[allow(clippy::manual_assert, reason = "one of the two is always missing")]
+        pub const fn $check() {
+            #[cfg(not(feature = $feature))]
+            panic!(
+                "{}",
+                concat!(
+                    "the codec `",
+                    $feature,
+                    "` is off; switch it on in Cargo.toml: ",
+                    r#"scl = { version = "..", features = [""#,
+                    $feature,
+                    r#""] }"#
+                )
+            );
+        }
+
+        #[cfg(not(feature = $feature))]
+        pub use $inner::$codec;
+        #[cfg(not(feature = $feature))]
+        mod $inner {
+            use crate::codec::{Codec, DecodeError, EncodeError};
+            use bytes::{Bytes, BytesMut};
+
+            /// Stands in for the codec, so that the missing feature is the only error. It is never used: a program with
+            /// it does not compile.
+            #[derive(Debug)]
+            pub struct $codec;
+
+            impl<T> Codec<T> for $codec {
+                const NAME: &'static str = $feature;
+
+                fn encode(_: &T, _: &mut BytesMut) -> Result<(), EncodeError> {
+                    Err(EncodeError::new($feature, "its feature is off"))
+                }
+
+                fn decode(_: Bytes) -> Result<T, DecodeError> {
+                    Err(DecodeError::new($feature, "its feature is off"))
+                }
+            }
+        }
+    };
+}
+
+codec!("protobuf" Protobuf protobuf_is_on protobuf_stand_in protobuf_off);
+codec!("json" Json json_is_on json_stand_in json_off);
+codec!("cbor" Cbor cbor_is_on cbor_stand_in cbor_off);
+codec!("msgpack" Msgpack msgpack_is_on msgpack_stand_in msgpack_off);
+codec!("postcard" Postcard postcard_is_on postcard_stand_in postcard_off);
+codec!("raw" Raw raw_is_on raw_stand_in raw_off);
