@@ -67,7 +67,7 @@ fn both_ends_of_a_connection_agree() {
                     let receives = matches!(gate.kind, GateKind::Sub | GateKind::Pull | GateKind::Rep);
                     let receiver = if receives { gate } else { peer };
                     for end in [connection, back] {
-                        assert_eq!((end.queue, end.when_full), (receiver.queue, receiver.when_full));
+                        assert_eq!((end.queue, end.when_full), (receiver.options.queue, receiver.options.when_full));
                     }
                     assert_eq!(peer.kind, gate.kind.opposite());
                     if gate.kind.shares_endpoint() {
