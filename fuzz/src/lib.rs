@@ -37,6 +37,14 @@ pub fn model_to_topology(data: &[u8]) {
     }
 }
 
+/// Reads a plan. What comes out makes sense, and comes back from its text.
+pub fn plan_text(text: &str) {
+    if let Ok(system) = SystemPlan::from_json(text) {
+        assert!(system.components.iter().all(|plan| plan.validate().is_ok()));
+        assert_eq!(SystemPlan::from_json(&system.to_json()).expect("the plan is read as it was written"), system);
+    }
+}
+
 fn judge(model: &Model, sources: &Sources, mut problems: Diagnostics) {
     let sockets = SocketPaths { longest_root: LONGEST_ROOT.to_owned(), limit: LONGEST_PATH };
     let facts = Facts { default_system: "fuzz".to_owned(), messages: None, sockets };

@@ -8,6 +8,11 @@ mod compile;
 mod descriptors;
 #[cfg(feature = "protobuf")]
 mod disk;
+#[cfg(feature = "protobuf")]
+mod entry;
+#[cfg(feature = "protobuf")]
+mod limits;
+#[cfg_attr(not(feature = "protobuf"), allow(dead_code))]
 mod outline;
 #[cfg(not(feature = "protobuf"))]
 mod switched_off;

@@ -358,4 +358,145 @@ mod schemas {
         assert_eq!(schemas.descriptors_of(&BTreeSet::new()), None);
         assert_eq!(schemas.descriptors_of(&["rover.Unknown"].into()), None);
     }
+
+    #[test]
+    fn a_schema_named_twice_is_told() {
+        let yaml = typed("[rover.proto, ./rover.proto, rover.proto]", "rover.Measurement");
+        says(
+            &[("t.yaml", &yaml), ("rover.proto", PROTO)],
+            "t.yaml",
+            expect![[r#"
+            error: [SCL0416] the schemas `rover.proto` and `./rover.proto` are the same file
+             --> t.yaml:1:24
+              |
+            1 | schemas: [rover.proto, ./rover.proto, rover.proto]
+              |           -----------  ^^^^^^^^^^^^^ second time
+              |           |
+              |           first time
+              |
+              = help: remove one of them
+            error: [SCL0416] the schema `rover.proto` is named twice
+             --> t.yaml:1:39
+              |
+            1 | schemas: [rover.proto, ./rover.proto, rover.proto]
+              |           ----------- first time      ^^^^^^^^^^^ second time
+              |
+              = help: remove one of them
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_schema_outside_of_the_folder_is_told() {
+        let yaml = typed("[../rover.proto]", "rover.Measurement");
+        says(
+            &[("below/t.yaml", &yaml), ("rover.proto", PROTO)],
+            "below/t.yaml",
+            expect![[r#"
+            warning: [SCL0415] the schema path leaves the folder of the topology file; it will not be found if only that folder is copied
+             --> below/t.yaml:1:11
+              |
+            1 | schemas: [../rover.proto]
+              |           ^^^^^^^^^^^^^^
+              |
+              = help: keep the schema beside the topology file, or in a folder below it
+        "#]],
+        );
+        let folder = folder(&[("rover.proto", PROTO)]);
+        let absolute = folder.path().join("rover.proto").display().to_string();
+        let file = super::folder(&[("t.yaml", &typed(&format!("[{absolute}]"), "rover.Measurement"))]);
+        let loaded = load_from(&file, "t.yaml");
+        assert!(rendered(&loaded).contains("warning: [SCL0415] the schema path is absolute"), "{}", rendered(&loaded));
+        assert!(loaded.topology.is_some());
+    }
+
+    #[test]
+    fn a_schema_that_is_imported_under_another_name_is_told() {
+        let base = "syntax = \"proto3\";\npackage rover;\nmessage Base {}\n";
+        let rover = format!("{PROTO}import \"base.proto\";\n");
+        let yaml = typed("[proto/base.proto, proto/rover.proto]", "rover.Measurement");
+        says(
+            &[("t.yaml", &yaml), ("proto/base.proto", base), ("proto/rover.proto", &rover)],
+            "t.yaml",
+            expect![[r#"
+            error: [SCL0406] the schema file `proto/rover.proto` does not compile: `base.proto` and `proto/base.proto` are the same file; use one of the two names everywhere
+             --> t.yaml:1:29
+              |
+            1 | schemas: [proto/base.proto, proto/rover.proto]
+              |                             ^^^^^^^^^^^^^^^^^ named here
+        "#]],
+        );
+    }
+
+    /// What is said about one broken schema, without its excerpt.
+    fn headline(files: &[(&str, &[u8])]) -> String {
+        let folder = folder(&[("t.yaml", &typed("[rover.proto]", "rover.Measurement"))]);
+        for (name, bytes) in files {
+            fs::write(folder.path().join(name), bytes).unwrap();
+        }
+        let loaded = load_from(&folder, "t.yaml");
+        assert_eq!(loaded.topology.is_none(), !errors(&loaded).is_empty());
+        let found = loaded.diagnostics.iter().filter(|problem| problem.severity == Severity::Error);
+        let told: Vec<String> = found.map(|problem| format!("{} {}", problem.code(), problem.message)).collect();
+        told.join("; ").replace(&folder.path().display().to_string(), "<folder>")
+    }
+
+    #[test]
+    fn bad_schemas_are_errors_and_never_more() {
+        let head = "syntax = \"proto3\";\npackage rover;\n";
+        let huge = vec![b'\n'; 2 << 20];
+        let nested = |inner: &str, depth: usize, close: &str| {
+            format!("{head}{}{}", inner.repeat(depth), close.repeat(depth)).into_bytes()
+        };
+        let cycle = format!("{head}import \"rover.proto\";\n");
+        let round = format!("{head}import \"other.proto\";\nmessage Measurement {{}}\n");
+        let long_name = format!("{head}message {} {{}}\n", "A".repeat(900_000));
+        let many_fields: String = (1..40_000).map(|at| format!("int32 a{at}={at};")).collect();
+        let one_number: String = (1..1_500).map(|at| format!("int32 a{at}=1;")).collect();
+        let cases: [(&str, Vec<u8>); 16] = [
+            ("empty", Vec::new()),
+            ("a package without messages", head.as_bytes().to_vec()),
+            ("huge", huge),
+            ("not UTF-8", b"syntax = \"proto3\";\xff".to_vec()),
+            ("zero bytes", vec![0; 10_000]),
+            ("deep messages", nested("message A {", 80_000, "}")),
+            ("deep messages that are never closed", nested("message A {", 90_000, "")),
+            ("deep options", [format!("{head}option a = {{").into_bytes(), nested("a {", 50_000, "}")].concat()),
+            ("deep groups", nested("message A { oneof b {", 40_000, "}}")),
+            ("itself", cycle.into_bytes()),
+            ("round", round.into_bytes()),
+            ("long name", long_name.into_bytes()),
+            ("one number many times", format!("{head}message Measurement {{ {one_number} }}").into_bytes()),
+            ("many fields", format!("{head}message Measurement {{ {many_fields} }}").into_bytes()),
+            ("a comment without end", format!("{head}/* {}", "*".repeat(900_000)).into_bytes()),
+            ("a string without end", format!("{head}import \"{}", "a".repeat(900_000)).into_bytes()),
+        ];
+        let told: String = cases
+            .iter()
+            .map(|(case, bytes)| {
+                let back = format!("{head}import \"rover.proto\";\n");
+                let told = headline(&[("rover.proto", bytes), ("other.proto", back.as_bytes())]);
+                let shown: String = told.chars().take(150).collect();
+                format!("{case}: {shown}\n")
+            })
+            .collect();
+        expect![[r#"
+            empty: 
+            a package without messages: SCL0405 unknown message type `rover.Measurement`
+            huge: SCL0406 the schema file `rover.proto` has 2097152 bytes, more than the limit
+            not UTF-8: SCL0406 the schema file `rover.proto` is not valid UTF-8 (line 1, column 19)
+            zero bytes: SCL0406 the schema file `rover.proto` does not compile: invalid token
+            deep messages: SCL0406 the schema file `rover.proto` does not compile: it has more than 20000 declarations
+            deep messages that are never closed: SCL0406 the schema file `rover.proto` does not compile: it has more than 20000 declarations
+            deep options: SCL0406 the schema file `rover.proto` does not compile: it has more than 20000 declarations
+            deep groups: SCL0406 the schema file `rover.proto` does not compile: it has more than 20000 declarations
+            itself: SCL0406 the schema file `rover.proto` does not compile: import cycle detected: rover.proto -> rover.proto
+            round: SCL0406 the schema file `rover.proto` does not compile: import cycle detected: rover.proto -> other.proto -> rover.proto
+            long name: SCL0405 unknown message type `rover.Measurement`
+            one number many times: SCL0406 the schema file `rover.proto` does not compile: field number `1` is already used
+            many fields: SCL0406 the schema file `rover.proto` does not compile: one message or enum of it has more than 2500 declarations
+            a comment without end: SCL0406 the schema file `rover.proto` does not compile: expected comment terminator, but reached end of file
+            a string without end: SCL0406 the schema file `rover.proto` does not compile: expected string terminator, but reached end of file
+        "#]].assert_eq(&told);
+    }
 }

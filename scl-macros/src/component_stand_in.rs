@@ -48,7 +48,7 @@ pub(crate) fn expand_stand_in(component: &Type) -> TokenStream {
         struct __SclReturned;
         #[allow(dead_code)]
         impl __SclReturned {
-            fn into_result<Any>(&self, _: Any) {}
+            fn convert<Any>(&self, _: Any) {}
         }
         impl<Any> __SclMain for Any {}
     }

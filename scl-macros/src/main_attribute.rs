@@ -30,7 +30,7 @@ fn expand_function(function: &ItemFn, component: &Type) -> TokenStream {
     let opened = Ident::new("component", component.span());
     let await_it = sig.asyncness.map(|_| quote!(.await));
     let call = quote_spanned!(component.span() => let returned = #name(#opened)#await_it;);
-    let convert = quote_spanned!(returned_span(function) => .into_result(returned));
+    let convert = quote_spanned!(returned_span(function) => .convert(returned));
     let body = quote_spanned!(component.span() => #call <#component>::__scl_returned(&returned)#convert);
     let run = match sig.asyncness {
         Some(_) => quote_spanned!(component.span() => __scl_main_async(|#opened| async move { #body })),
@@ -145,7 +145,7 @@ mod tests {
             (
                 "async fn main(mut c: Controller) -> scl::Result<()> { Ok(()) }",
                 "< Controller > :: __scl_main_async (| component | async move { let returned = main (component) . await ; \
-                 < Controller > :: __scl_returned (& returned) . into_result (returned) })",
+                 < Controller > :: __scl_returned (& returned) . convert (returned) })",
             ),
             (
                 "fn main(c: crate::a::Controller) {}",

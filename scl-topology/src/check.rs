@@ -42,6 +42,7 @@ mod repeated;
 mod reserved_name;
 mod rust_keyword;
 mod rust_name_collision;
+mod rust_path;
 mod schema_codec;
 mod schema_type;
 mod self_connection;
@@ -153,6 +154,8 @@ pub struct Facts {
 pub struct SchemaMessages {
     /// Full names, for example `rover.Measurement`. A type whose first part is that of such a name must be one of them.
     pub names: Vec<String>,
+    /// The packages of the file and of the files that only it imports, also those without messages.
+    pub packages: Vec<String>,
 }
 
 /// Checks everything and never stops at the first problem.
@@ -171,6 +174,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     gate_kind::check(&mut draft, problems);
     payload_type::check(&mut draft, problems);
     schema_type::check(&mut draft, facts, problems);
+    rust_path::check(&mut draft, facts, problems);
     option_value::check(&mut draft, problems);
     let codec = codec_name::check(&mut draft, problems);
 

@@ -4,7 +4,7 @@
 use crate::rule::{Examples, Rule, Severity};
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 15] = [
+pub(crate) const RULES: [&Rule; 17] = [
     &FILE_NOT_FOUND,
     &UNREADABLE_FILE,
     &NOT_UTF8,
@@ -13,6 +13,8 @@ pub(crate) const RULES: [&Rule; 15] = [
     &PATH_OF_ONE_MACHINE,
     &GENERATED_TWICE,
     &SCHEMA,
+    &SCHEMA_ELSEWHERE,
+    &SCHEMA_TWICE,
     &DIFFERENT_RUST_TYPES,
     &NOT_A_MESSAGE,
     &TYPE_NOT_FOUND,
@@ -127,6 +129,27 @@ components:
       - measurements: {pub: uav.Measurement}
 ",
     },
+};
+
+/// SCL0415.
+pub const SCHEMA_ELSEWHERE: Rule = Rule {
+    code: "SCL0415",
+    severity: Severity::Warning,
+    title: "schema path works on this machine only",
+    explanation: "An absolute path of a schema, or one that leaves the folder of the topology file, exists on this \
+                  machine only: the file will not be found elsewhere, and `cargo package` does not carry it. Keep the \
+                  schemas beside the topology file or below it.",
+    examples: Examples::None,
+};
+
+/// SCL0416.
+pub const SCHEMA_TWICE: Rule = Rule {
+    code: "SCL0416",
+    severity: Severity::Error,
+    title: "schema named twice",
+    explanation: "Two entries of `schemas` lead to the same file, perhaps in two spellings such as `rover.proto` and \
+                  `./rover.proto`. Each message would be declared twice. Remove one of them.",
+    examples: Examples::None,
 };
 
 /// SCL0605.

@@ -6,6 +6,7 @@
 mod component;
 mod connection;
 mod control;
+mod extension;
 mod fields;
 mod gate;
 mod name;

@@ -42,7 +42,7 @@ fn problems(text: &str) -> (bool, Vec<(Diagnostic, Vec<u32>)>) {
     let file = sources.add("topology.yaml", text);
     let mut problems = Diagnostics::new();
     let model = parse(&sources, file, &mut problems);
-    let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec() };
+    let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec(), ..SchemaMessages::default() };
     // Types of schemas that are not read here are not looked up.
     let messages = model.schemas.iter().any(|schema| schema.value.contains("rover")).then(|| vec![messages]);
     let facts = Facts { default_system: "t".to_owned(), messages, ..Facts::default() };

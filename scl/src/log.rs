@@ -94,7 +94,8 @@ mod tests {
 
     #[test]
     fn colour_is_for_terminals_unless_the_environment_says_otherwise() {
-        let cases: [(bool, &[(&str, &str)], bool); 10] = [
+        type Case<'a> = (bool, &'a [(&'a str, &'a str)], bool);
+        let cases: [Case<'_>; 10] = [
             (true, &[], true),
             (false, &[], false),
             (true, &[("NO_COLOR", "")], true),

@@ -2,6 +2,7 @@
 
 use super::broken;
 use super::disk::{Disk, FilesRead, SchemaFile};
+use super::entry::{Named, elsewhere};
 use super::outline::outline;
 use super::{Compiled, Schemas};
 use crate::read::{Unreadable, read_text};
@@ -27,7 +28,14 @@ pub(crate) fn compile(request: &Request, model: &Model, sources: &mut Sources, p
     let mut compiler = Compiler::with_file_resolver(disk);
     compiler.include_imports(true).include_source_info(true);
     let mut all_well = true;
+    let mut named = Named::default();
     for schema in &model.schemas {
+        if let Some(problem) = named.twice(schema, &folder) {
+            problems.push(problem);
+            all_well = false;
+            continue;
+        }
+        problems.extend(elsewhere(schema));
         let problem = refuse(schema, &folder, request.max_size).or_else(|| {
             let error = compiler.open_file(&schema.value).err()?;
             Some(broken::diagnose(&error, schema, &snapshot(&files), request, sources))
@@ -85,6 +93,12 @@ fn messages_by_entry(compiler: &Compiler, model: &Model) -> Vec<SchemaMessages> 
         let entry = model.schemas.iter().position(|schema| schema.value == file.name()).unwrap_or(0);
         if let Some(entry) = by_entry.get_mut(entry) {
             entry.names.push(message.full_name().to_owned());
+        }
+    }
+    for file in pool.files().filter(|file| file.package_name() != "google.protobuf") {
+        let entry = model.schemas.iter().position(|schema| schema.value == file.name()).unwrap_or(0);
+        if let Some(entry) = by_entry.get_mut(entry) {
+            entry.packages.push(file.package_name().to_owned());
         }
     }
     by_entry

@@ -1,5 +1,6 @@
 //! The schema files on disk, as the schema compiler asks for them, with the limits of every file that SCL reads.
 
+use super::limits;
 use crate::read::{Unreadable, read_text};
 use protox::Error;
 use protox::file::{File, FileResolver, GoogleFileResolver};
@@ -49,11 +50,29 @@ impl Disk {
     fn open_text(&self, name: &str, path: PathBuf, text: String) -> Result<File, Error> {
         // The positions that the compiler reports count no byte order mark, as those of `Sources` do.
         let text = text.trim_start_matches('\u{feff}').to_owned();
+        if let Some(why) = limits::exceeded(&text) {
+            return Err(Error::new(why));
+        }
+        if let Some(other) = self.other_name(name, &path) {
+            return Err(Error::new(format!(
+                "`{name}` and `{other}` are the same file; use one of the two names everywhere"
+            )));
+        }
         let parsed = File::from_source(name, &text);
         let file = SchemaFile { name: name.to_owned(), path, text };
         // A panic elsewhere leaves the list whole, so a poisoned lock may be used.
         self.files.lock().unwrap_or_else(PoisonError::into_inner).push(file);
         parsed
+    }
+}
+
+impl Disk {
+    /// The other name under which the compiler already knows a file: its messages would be declared twice.
+    fn other_name(&self, name: &str, path: &Path) -> Option<String> {
+        let path = path.canonicalize().ok()?;
+        let files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = |file: &&SchemaFile| file.name != name && file.path.canonicalize().is_ok_and(|other| other == path);
+        files.iter().find(same).map(|file| file.name.clone())
     }
 }
 

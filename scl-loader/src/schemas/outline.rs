@@ -72,7 +72,7 @@ impl Outline {
 }
 
 /// Words and punctuation, without comments and strings.
-struct Tokens<'t>(&'t str);
+pub(super) struct Tokens<'t>(pub(super) &'t str);
 
 impl<'t> Iterator for Tokens<'t> {
     type Item = &'t str;

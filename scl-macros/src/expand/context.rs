@@ -37,7 +37,8 @@ impl<'a> Context<'a> {
         let path = arguments.path.value();
         let only = arguments.only.as_deref();
         let extern_crates = surroundings.extern_crates.as_ref();
-        let lookups = |types| Lookups::new(&as_identifier(&path), &private, extern_crates, types);
+        let name = as_identifier(&path_and_only(&path, only));
+        let lookups = |types| Lookups::new(&name, &private, extern_crates, types);
         let types = MessageTypes::of(loaded, |component| includes(only, component), lookups);
         let for_tests = if arguments.testable == Some(true) { quote!() } else { quote!(#[cfg(test)]) };
         Self { private, for_tests, span: arguments.path.span(), path, only, loaded, extern_crates, types }
@@ -68,6 +69,11 @@ impl<'a> Context<'a> {
 
 fn includes(only: Option<&[Ident]>, component: &str) -> bool {
     only.is_none_or(|only| only.iter().any(|wanted| names_component(wanted, component)))
+}
+
+/// Two invocations may generate different components of one file in one module.
+fn path_and_only(path: &str, only: Option<&[Ident]>) -> String {
+    only.unwrap_or_default().iter().fold(path.to_owned(), |name, component| format!("{name}_{component}"))
 }
 
 fn as_identifier(path: &str) -> String {

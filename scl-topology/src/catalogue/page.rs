@@ -85,7 +85,7 @@ fn told(code: &str, text: &str) -> String {
     let file = sources.add("topology.yaml", text);
     let mut problems = Diagnostics::new();
     let model = parse(&sources, file, &mut problems);
-    let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec() };
+    let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec(), ..SchemaMessages::default() };
     let messages = (!model.schemas.is_empty()).then(|| vec![messages]);
     let facts = Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example() };
     check(&model, &facts, &sources, &mut problems);

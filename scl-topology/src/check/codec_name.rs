@@ -4,6 +4,7 @@ use super::draft::Draft;
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule::{Examples, Rule};
+use crate::rust_name::{is_keyword, is_unescapable};
 use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::topology::Codec;
@@ -58,12 +59,24 @@ fn is_rust_path(text: &str) -> bool {
     let is_word = |word: &str| {
         word.starts_with(super::named::may_start) && word.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
     };
-    text.contains("::") && path.split("::").all(is_word)
+    text.contains("::") && path.split("::").all(is_word) && keyword_in(text).is_none()
+}
+
+/// A keyword in a path at a place where Rust does not allow it.
+fn keyword_in(text: &str) -> Option<&str> {
+    let mut may_start = true;
+    text.split("::").find(|&word| {
+        let starts = may_start && (matches!(word, "self" | "super") || word == "crate" && text.starts_with("crate"));
+        may_start = starts;
+        !starts && (is_keyword(word) || is_unescapable(word))
+    })
 }
 
 fn report(written: &Spanned<String>) -> Diagnostic {
     let headline = format!("unknown codec `{}`", written.value);
-    let found = RULE.at(headline, written.span, "");
+    let keyword = keyword_in(&written.value).filter(|_| written.value.contains("::"));
+    let label = keyword.map_or_else(String::new, |word| format!("`{word}` is a keyword of Rust"));
+    let found = RULE.at(headline, written.span, label);
     let lower = written.value.to_lowercase();
     let mut rows = Codec::BUILT_IN.iter().filter_map(Codec::row);
     let synonym = rows.find(|row| row.synonyms.contains(&lower.as_str())).map(|row| vec![row.word]);
@@ -73,6 +86,10 @@ fn report(written: &Spanned<String>) -> Diagnostic {
         found.help(format!("a codec of your own is named by its Rust path: `{}`", written.value.replace('.', "::")))
     } else {
         found
+    };
+    let found = match keyword {
+        Some(_) => found.help("name a type of your crate by its path, such as `my_crate::Flat`"),
+        None => found,
     };
     found.note(codecs())
 }
@@ -111,7 +128,8 @@ mod tests {
 
     #[test]
     fn codecs_have_other_names() {
-        let codecs = ["pb", "JSON", "messagepack", "my_crate.Flat", "xml", "my_crate::Flat"];
+        let codecs =
+            ["pb", "JSON", "messagepack", "my_crate.Flat", "xml", "my_crate::Flat", "crate::Flat", "fn::A", "a::self"];
         let advice = |codec: &str| {
             advice(&format!(
                 "components:\n  - name: a\n    gates:\n      - x: {{pub: T, codec: '{codec}', unconnected: ok}}\n"
@@ -125,6 +143,9 @@ mod tests {
             my_crate.Flat: SCL0407 unknown codec `my_crate.Flat` [a codec of your own is named by its Rust path: `my_crate::Flat`]
             xml: SCL0407 unknown codec `xml` []
             my_crate::Flat: 
+            crate::Flat: 
+            fn::A: SCL0407 unknown codec `fn::A` [name a type of your crate by its path, such as `my_crate::Flat`]
+            a::self: SCL0407 unknown codec `a::self` [name a type of your crate by its path, such as `my_crate::Flat`]
         "#]].assert_eq(&told);
     }
 }

@@ -73,7 +73,9 @@ struct Known<'s> {
 impl<'s> Known<'s> {
     fn of(schemas: &'s [SchemaMessages]) -> Self {
         let all: BTreeSet<&str> = schemas.iter().flat_map(|schema| schema.names.iter()).map(String::as_str).collect();
-        let roots = all.iter().map(|name| root(name)).chain(["google"]).collect();
+        let packages = schemas.iter().flat_map(|schema| schema.packages.iter()).map(String::as_str);
+        let packages = packages.filter(|package| !package.is_empty());
+        let roots = all.iter().copied().chain(packages).map(root).chain(["google"]).collect();
         let mut by_last: HashMap<&str, Vec<&str>> = HashMap::new();
         for name in &all {
             by_last.entry(name.rsplit('.').next().unwrap_or_default()).or_default().push(name);

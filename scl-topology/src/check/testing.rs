@@ -88,7 +88,10 @@ fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnost
     let file = sources.add("topology.yaml", yaml);
     let mut problems = Diagnostics::new();
     let model = parse(&sources, file, &mut problems);
-    let declared = |names: &[&str]| SchemaMessages { names: names.iter().map(|&name| name.to_owned()).collect() };
+    let declared = |names: &[&str]| SchemaMessages {
+        names: names.iter().map(|&name| name.to_owned()).collect(),
+        ..SchemaMessages::default()
+    };
     let messages = messages.map(|names| vec![declared(names)]);
     let facts = Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example() };
     let topology = check(&model, &facts, &sources, &mut problems);

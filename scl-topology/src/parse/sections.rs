@@ -20,7 +20,7 @@ impl Reader<'_> {
                 "schemas" => self.read_schemas(*field),
                 "scl" => self.read_version(*field),
                 "components" | "connections" => self.read_lists(&fields, field.key),
-                key if key.starts_with(grammar::OWN_PREFIX) => {}
+                key if key.starts_with(grammar::OWN_PREFIX) => self.check_extension(*field),
                 _ => self.report_unknown_section(*field),
             }
         }

@@ -45,21 +45,21 @@ impl<R> Returned<R> {
 
 impl<R: Outcome> Returned<R> {
     /// Converts it.
-    pub fn into_result(&self, returned: R) -> Result<(), Error> {
+    pub fn convert(&self, returned: R) -> Result<(), Error> {
         returned.into_result()
     }
 }
 
 impl<E: Into<Box<dyn StdError + Send + Sync>>> Boxable<Result<(), E>> {
     /// Converts it.
-    pub fn into_result(&self, returned: Result<(), E>) -> Result<(), Error> {
+    pub fn convert(&self, returned: Result<(), E>) -> Result<(), Error> {
         returned.map_err(|error| Error::from_box(error.into()))
     }
 }
 
 impl<R> AnyOther<R> {
     /// Converts it.
-    pub fn into_result(&self, returned: R) -> Result<(), Error>
+    pub fn convert(&self, returned: R) -> Result<(), Error>
     where
         R: MainResult,
     {
@@ -121,7 +121,7 @@ mod tests {
     macro_rules! told {
         ($returned:expr) => {{
             let returned = $returned;
-            let result = Returned::of(&returned).into_result(returned);
+            let result = Returned::of(&returned).convert(returned);
             result.map_err(|error| (format!("{error:?}"), error.is_stop()))
         }};
     }

@@ -38,3 +38,20 @@ fn the_specification_of_every_component_is_there() {
     assert_eq!(payloads, expected);
     assert_eq!(Logger::SPEC.gates[0].payload, "navigation.Fix");
 }
+
+mod twice {
+    use super::nav;
+
+    wires::topology!("twice.yaml", only = [gps]);
+    wires::topology!("twice.yaml", only = [logger]);
+
+    #[test]
+    fn components_of_one_file_are_generated_by_two_calls() {
+        use wires::Component;
+        fn gate(gps: &mut Gps) -> &mut wires::Pub<nav::Fix> {
+            &mut gps.fix
+        }
+        let _ = gate;
+        assert_eq!((Gps::SPEC.name, Logger::SPEC.name), ("gps", "logger"));
+    }
+}
