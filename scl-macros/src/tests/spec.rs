@@ -26,24 +26,25 @@ connections:
         # [doc = "Reads the unit.\n\n| gate | kind | type | peers |\n|---|---|---|---|\n| `measurements` | `pub` | `rover.Measurement` | `controller.sensor` |\n\nThe component `sensor` of `t`, declared at `t.yaml:2:11`."] # [allow (dead_code , non_camel_case_types , non_snake_case , private_interfaces)]
         pub struct Sensor {
         # [doc = "`pub`: publishes `rover.Measurement` to `controller.sensor`.\n\nOne reading per period.\n\nDeclared at `t.yaml:5:9`."]
-        pub measurements : scl :: private :: Pub < < __scl_types_t_yaml as scl :: private :: NamedType < 0usize >> :: Type > , __scl : scl :: private :: ComponentHandle }
+        pub measurements : scl :: private :: Pub < < __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type > , __scl : scl :: private :: ComponentHandle }
         # [cfg (test)] # [doc = "The other ends of all gates of `sensor`, for its unit tests."] # [allow (dead_code , non_camel_case_types , non_snake_case , private_interfaces)]
         pub struct SensorPeer {
         # [doc = "The other end of `sensor.measurements`."]
-        pub measurements : scl :: private :: Sub < < __scl_types_t_yaml as scl :: private :: NamedType < 0usize >> :: Type > , __scl : scl :: private :: ComponentHandle }
+        pub measurements : scl :: private :: Sub < < __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type > , __scl : scl :: private :: ComponentHandle }
         # [allow (dead_code , non_camel_case_types , non_snake_case , private_bounds , private_interfaces , clippy :: all , clippy :: pedantic)]
         const _ : () = {
         # [diagnostic :: on_unimplemented (message = "[SCL0606] `{Self}` is used as a message, but the codec `protobuf` does not support it" , label = "gate `sensor.measurements` sends `rover::Measurement`" , note = "derive `prost::Message` for it, or name a `.proto` file in `schemas:`" , note = "the gate is declared here\n --> t.yaml:5:9\n  |\n5 |       - measurements: {{pub: rover.Measurement, doc: One reading per period.}}\n  |         ^^^^^^^^^^^^")] trait RoverMeasurementSupportedByProtobuf_0 < > : :: core :: marker :: Sized {
         fn publisher (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Pub < Self > , scl :: private :: OpenError > ;
         fn subscriber (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Sub < Self > , scl :: private :: OpenError > ;
         }
-        # [diagnostic :: do_not_recommend] impl < Message : 'static , > RoverMeasurementSupportedByProtobuf_0 < > for Message where scl :: private :: codec :: Protobuf : scl :: private :: Codec < Message > , {
+        # [diagnostic :: do_not_recommend] impl < Message : 'static , > RoverMeasurementSupportedByProtobuf_0 < > for Message where scl :: private :: codecs :: Protobuf : scl :: private :: Codec < Message > , {
         fn publisher (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Pub < Self > , scl :: private :: OpenError > {
-        __opener . publisher :: < Message , scl :: private :: codec :: Protobuf > (__index) }
+        __opener . publisher :: < Message , scl :: private :: codecs :: Protobuf > (__index) }
         fn subscriber (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Sub < Self > , scl :: private :: OpenError > {
-        __opener . subscriber :: < Message , scl :: private :: codec :: Protobuf > (__index) }
+        __opener . subscriber :: < Message , scl :: private :: codecs :: Protobuf > (__index) }
         }
-        scl :: private :: stand_in_codec ! (scl :: private :: codec :: Protobuf , __scl_type_not_found_t_yaml) ;
+        scl :: private :: codecs :: protobuf_stand_in ! (scl :: private :: codecs :: Protobuf , __scl_type_not_found_t_yaml_sensor) ;
+        const _ : () = scl :: private :: codecs :: protobuf_is_on () ;
         # [diagnostic :: on_unimplemented (message = "[SCL0609] cannot find the Rust type `rover::Measurement`" , label = "used by the gate `sensor.measurements`" , note = "add the crate `rover` to the dependencies, or bring a module `rover` into scope with `use`" , note = "the type is named here\n --> t.yaml:5:29\n  |\n5 |       - measurements: {{pub: rover.Measurement, doc: One reading per period.}}\n  |                             ^^^^^^^^^^^^^^^^^")] trait TypeIsFound_0 {
         }
         # [diagnostic :: do_not_recommend] impl < Type : :: core :: marker :: Unpin + ? :: core :: marker :: Sized > TypeIsFound_0 for Type {
@@ -64,7 +65,7 @@ connections:
         fn handle (& self) -> & scl :: private :: ComponentHandle {
         & self . __scl }
         }
-        scl :: private :: component_methods ! (Sensor where for < '__any > < __scl_types_t_yaml as scl :: private :: NamedType < 0usize >> :: Type : TypeIsFound_0) ;
+        scl :: private :: component_methods ! (Sensor where for < '__any > < __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type : TypeIsFound_0) ;
         # [cfg (test)] impl scl :: private :: Component for SensorPeer {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
         system : "t" , name : "sensor's peers" , declared_at : "" , gates : & [scl :: private :: GateSpec {
@@ -81,17 +82,17 @@ connections:
         fn handle (& self) -> & scl :: private :: ComponentHandle {
         & self . __scl }
         }
-        # [cfg (test)] scl :: private :: component_test_methods ! (Sensor , SensorPeer where for < '__any > < __scl_types_t_yaml as scl :: private :: NamedType < 0usize >> :: Type : TypeIsFound_0) ;
+        # [cfg (test)] scl :: private :: component_test_methods ! (Sensor , SensorPeer where for < '__any > < __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type : TypeIsFound_0) ;
         }
         ;
         # [doc (hidden)] # [allow (dead_code , non_camel_case_types)]
-        pub struct __scl_type_not_found_t_yaml (scl :: private :: PhantomPinned) ;
-        # [doc (hidden)] # [allow (dead_code , non_camel_case_types)] struct __scl_types_t_yaml ;
+        pub struct __scl_type_not_found_t_yaml_sensor (scl :: private :: PhantomPinned) ;
+        # [doc (hidden)] # [allow (dead_code , non_camel_case_types)] struct __scl_types_t_yaml_sensor ;
         # [allow (dead_code , unused_imports , non_camel_case_types , non_snake_case , clippy :: all , clippy :: pedantic)]
         const _ : () = {
         const _ : () = {
         pub mod rover {
-        pub type Measurement = super :: __scl_type_not_found_t_yaml ;
+        pub type Measurement = super :: __scl_type_not_found_t_yaml_sensor ;
         }
         const _ : () = {
         use self :: * ;
@@ -99,7 +100,7 @@ connections:
         () => {
         rover :: Measurement }
         }
-        impl scl :: private :: NamedType < 0usize > for __scl_types_t_yaml {
+        impl scl :: private :: NamedType < 0usize > for __scl_types_t_yaml_sensor {
         type Type = type_of_gate_sensor_measurements ! () ;
         }
         }
