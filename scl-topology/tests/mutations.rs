@@ -227,7 +227,7 @@ fn with_fixes(text: &str, problem: &Diagnostic) -> String {
     text
 }
 
-/// Rules about what is no YAML.
+/// Whether a rule is about text that is not valid YAML.
 fn is_syntax_error(code: &str) -> bool {
     matches!(code, "SCL0102" | "SCL0103" | "SCL0104" | "SCL0105" | "SCL0106") || ("SCL0121".."SCL0126").contains(&code)
 }

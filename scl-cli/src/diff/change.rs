@@ -3,6 +3,7 @@
 use super::Side;
 use super::facts::{Fact, component_facts, connection_facts, gate_facts};
 use super::together::meetings;
+use std::collections::HashMap;
 
 /// One part that differs.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -57,20 +58,21 @@ fn connections(side: &Side) -> Vec<Part> {
 
 fn compare(part: &'static str, old: &[Part], new: &[Part]) -> Vec<Change> {
     let change = |name: &String, how| Change { part, name: name.clone(), how };
-    let removed = old.iter().filter(|(name, _)| find(new, name).is_none());
+    let (before, after) = (by_name(old), by_name(new));
+    let removed = old.iter().filter(|(name, _)| !after.contains_key(name.as_str()));
     let mut changes: Vec<Change> = removed.map(|(name, facts)| change(name, How::Removed(facts.clone()))).collect();
     for (name, facts) in new {
-        match find(old, name) {
+        match before.get(name.as_str()) {
             None => changes.push(change(name, How::Added(facts.clone()))),
-            Some(before) if before != facts => changes.push(change(name, How::Changed(differing(before, facts)))),
+            Some(&before) if before != facts => changes.push(change(name, How::Changed(differing(before, facts)))),
             Some(_) => {}
         }
     }
     changes
 }
 
-fn find<'p>(parts: &'p [Part], name: &str) -> Option<&'p Vec<Fact>> {
-    parts.iter().find(|(other, _)| other == name).map(|(_, facts)| facts)
+fn by_name(parts: &[Part]) -> HashMap<&str, &Vec<Fact>> {
+    parts.iter().map(|(name, facts)| (name.as_str(), facts)).collect()
 }
 
 fn differing(old: &[Fact], new: &[Fact]) -> Vec<(&'static str, String, String)> {

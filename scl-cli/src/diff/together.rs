@@ -3,7 +3,7 @@
 use super::Side;
 use super::rebuild::Rebuild;
 use scl_plan::{ConnectionPlan, GateKind, GatePlan, SystemPlan};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Components to rebuild; those of a group with several are of no use to each other until all are rebuilt.
 pub(super) type Group = Vec<Rebuild>;
@@ -16,22 +16,24 @@ pub(super) fn group(old: &Side, new: &Side, rebuilds: Vec<Rebuild>, pairs: &[(St
         // Systems have folders of their own.
         rebuilds.windows(2).for_each(|pair| leaders.join(&pair[0].component, &pair[1].component));
     }
+    let present: HashSet<&str> = new.plan.components.iter().map(|plan| plan.component.as_str()).collect();
     for (one, other) in parted(&old.plan, &new.plan).into_iter().chain(pairs.iter().cloned()) {
         // What a component that is gone was connected to has nothing else in common.
-        if [&one, &other].iter().all(|name| new.plan.component(name).is_ok()) {
+        if present.contains(one.as_str()) && present.contains(other.as_str()) {
             leaders.join(&one, &other);
         }
     }
-    let mut groups: Vec<(String, Group)> = Vec::new();
+    let mut groups: Vec<Group> = Vec::new();
+    let mut by_leader: HashMap<String, usize> = HashMap::new();
     for rebuild in rebuilds {
-        let leader = leaders.of(&rebuild.component);
-        match groups.iter_mut().find(|(other, _)| *other == leader) {
-            Some((_, group)) => group.push(rebuild),
-            None => groups.push((leader, vec![rebuild])),
+        let next = groups.len();
+        match *by_leader.entry(leaders.of(&rebuild.component)).or_insert(next) {
+            known if known < next => groups[known].push(rebuild),
+            _ => groups.push(vec![rebuild]),
         }
     }
-    groups.sort_by_key(|(_, group)| group.len() == 1);
-    groups.into_iter().map(|(_, group)| group).collect()
+    groups.sort_by_key(|group| group.len() == 1);
+    groups
 }
 
 /// A connection, seen from its sending gate.

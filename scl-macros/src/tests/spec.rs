@@ -47,7 +47,7 @@ connections:
         const _ : () = scl :: private :: codecs :: protobuf_is_on () ;
         # [diagnostic :: on_unimplemented (message = "[SCL0609] cannot find the Rust type `rover::Measurement`" , label = "used by the gate `sensor.measurements`" , note = "add the crate `rover` to the dependencies, or bring a module `rover` into scope with `use`" , note = "the type is named here\n --> t.yaml:5:29\n  |\n5 |       - measurements: {{pub: rover.Measurement, doc: One reading per period.}}\n  |                             ^^^^^^^^^^^^^^^^^")] trait TypeIsFound_0 {
         }
-        # [diagnostic :: do_not_recommend] impl < Type : :: core :: marker :: Unpin + ? :: core :: marker :: Sized > TypeIsFound_0 for Type {
+        # [diagnostic :: do_not_recommend] impl < Type : :: core :: marker :: Unpin > TypeIsFound_0 for (Type ,) {
         }
         impl scl :: private :: Component for Sensor {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
@@ -65,7 +65,7 @@ connections:
         fn handle (& self) -> & scl :: private :: ComponentHandle {
         & self . __scl }
         }
-        scl :: private :: component_methods ! (Sensor where for < '__any > < __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type : TypeIsFound_0) ;
+        scl :: private :: component_methods ! (Sensor where for < '__any > (< __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type ,) : TypeIsFound_0) ;
         # [cfg (test)] impl scl :: private :: Component for SensorPeer {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
         system : "t" , name : "sensor's peers" , declared_at : "" , gates : & [scl :: private :: GateSpec {
@@ -82,7 +82,7 @@ connections:
         fn handle (& self) -> & scl :: private :: ComponentHandle {
         & self . __scl }
         }
-        # [cfg (test)] scl :: private :: component_test_methods ! (Sensor , SensorPeer where for < '__any > < __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type : TypeIsFound_0) ;
+        # [cfg (test)] scl :: private :: component_test_methods ! (Sensor , SensorPeer where for < '__any > (< __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type ,) : TypeIsFound_0) ;
         }
         ;
         # [doc (hidden)] # [allow (dead_code , non_camel_case_types)]

@@ -81,6 +81,7 @@ fn report(written: &Spanned<String>) -> Diagnostic {
     let mut rows = Codec::BUILT_IN.iter().filter_map(Codec::row);
     let synonym = rows.find(|row| row.synonyms.contains(&lower.as_str())).map(|row| vec![row.word]);
     let meant = synonym.unwrap_or_else(|| similar(&written.value, Codec::words()));
+    let found = found.fix_word(&written.value, &meant);
     let found = if meant.is_empty() { found } else { found.help(format!("did you mean {}?", either(&meant))) };
     let found = if written.value.contains('.') {
         found.help(format!("a codec of your own is named by its Rust path: `{}`", written.value.replace('.', "::")))

@@ -222,8 +222,9 @@ impl Requirements {
             quote_spanned! { context.span =>
                 #report
                 trait #name {}
+                // Not for the type itself: rustc would suggest a reference to it, which has the trait as well.
                 #[diagnostic::do_not_recommend]
-                impl<Type: ::core::marker::Unpin + ?::core::marker::Sized> #name for Type {}
+                impl<Type: ::core::marker::Unpin> #name for (Type,) {}
             }
         });
         quote!(#(#traits)*)
@@ -247,7 +248,7 @@ impl Requirements {
         let bounds = used.into_iter().map(|index| {
             let Lookups { private, holder, .. } = lookups;
             let required = trait_name(index);
-            quote!(for<'__any> <#holder as #private::NamedType<#index>>::Type: #required)
+            quote!(for<'__any> (<#holder as #private::NamedType<#index>>::Type,): #required)
         });
         quote_spanned!(context.span => where #(#bounds),*)
     }

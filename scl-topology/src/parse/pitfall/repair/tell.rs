@@ -1,4 +1,4 @@
-//! What a change says to whoever has to make it.
+//! The problem that a change stands for.
 
 use super::super::{
     Place, bracket, dash, indentation, look_alike, missing_colon, missing_comma, missing_space, unexpected,
