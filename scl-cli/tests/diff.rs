@@ -119,7 +119,7 @@ fn a_component_comes_and_another_goes() {
             - component `panel`
             + component `logger`
             - gate `panel.commands`: req A -> B
-            ~ gate `controller.commands`: unconnected from `false` to `true`
+            ~ gate `controller.commands`: unconnected from `none` to `ok`
             + gate `logger.input`: sub rover.Measurement
             - connection `panel.commands -> controller.commands`
             + connection `sensor.measurements -> logger.input`
@@ -184,8 +184,8 @@ fn only_components_that_part_are_rebuilt_together() {
             - component `controller`
             - gate `controller.sensor`: sub rover.Measurement
             - gate `controller.commands`: rep A -> B
-            ~ gate `sensor.measurements`: unconnected from `false` to `true`
-            ~ gate `panel.commands`: unconnected from `false` to `true`
+            ~ gate `sensor.measurements`: unconnected from `none` to `ok`
+            ~ gate `panel.commands`: unconnected from `none` to `ok`
             - connection `sensor.measurements -> controller.sensor`
             - connection `panel.commands -> controller.commands`
 
@@ -220,7 +220,7 @@ fn a_kind_and_the_system_change() {
         1,
         expect![[r#"
             ~ system: name from `rover` to `tank`
-            ~ gate `sensor.measurements`: kind from `pub` to `push`
+            ~ gate `sensor.measurements`: kind from `pub` to `push`, share from nothing to `false`
             ~ gate `controller.sensor`: kind from `sub` to `pull`
             ~ connection `sensor.measurements -> controller.sensor`: contract from `hl75aqsl` to `yj2a5wbk`, socket from `sensor.measurements--controller.sensor.hl75aqsl` to `controller.sensor.yj2a5wbk`
 

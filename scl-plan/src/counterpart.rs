@@ -1,11 +1,8 @@
 //! The counterpart of a component: one opposite gate for each of its gates, for unit tests on the in-process transport.
 
-use crate::kind::{GateKind, WhenFull};
+use crate::kind::GateKind;
+use crate::options::GateOptions;
 use crate::plan::{ConnectionPlan, GatePlan, Plan};
-use std::time::Duration;
-
-/// How long the counterpart's calls may take. Tests fail after that, so it is long.
-const TIMEOUT: Duration = Duration::from_secs(10);
 
 impl Plan {
     /// The plan of this component's counterpart.
@@ -41,11 +38,7 @@ fn opposite(owner: &str, gate: &GatePlan) -> GatePlan {
             .shares_endpoint()
             .then(|| endpoint.clone().unwrap_or_else(|| format!("{owner}.{}.unconnected", gate.name))),
         tap: kind.listens().then(|| format!("{owner}.{}.peer", gate.name)),
-        max_size: u64::MAX,
-        queue: u32::MAX,
-        when_full: WhenFull::Wait,
-        backpressure: true,
-        timeout: TIMEOUT,
+        options: GateOptions::COUNTERPART,
         connections: endpoint.into_iter().map(|endpoint| connection(owner, gate, endpoint, contract.clone())).collect(),
         contract,
     }
@@ -59,8 +52,8 @@ fn connection(owner: &str, gate: &GatePlan, endpoint: String, contract: String) 
         endpoint,
         contract,
         required: true,
-        queue: gate.queue,
-        when_full: gate.when_full,
-        max_size: if receives { u64::MAX } else { gate.max_size },
+        queue: gate.options.queue,
+        when_full: gate.options.when_full,
+        max_size: if receives { u64::MAX } else { gate.options.max_size },
     }
 }

@@ -18,7 +18,7 @@ pub enum GateKind {
 }
 
 impl GateKind {
-    /// All kinds.
+    /// All kinds, in the order in which messages list them.
     pub const ALL: [GateKind; 6] =
         [GateKind::Pub, GateKind::Sub, GateKind::Req, GateKind::Rep, GateKind::Push, GateKind::Pull];
 
@@ -32,6 +32,16 @@ impl GateKind {
             GateKind::Push => "push",
             GateKind::Pull => "pull",
         }
+    }
+
+    /// The kind with this word.
+    pub fn of(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.word() == word)
+    }
+
+    /// Returns true if messages start here: `pub`, `push` and `req`.
+    pub const fn is_source(self) -> bool {
+        matches!(self, GateKind::Pub | GateKind::Push | GateKind::Req)
     }
 
     /// The kind at the other end of a connection.
@@ -63,9 +73,10 @@ impl GateKind {
 }
 
 /// What a full queue does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum WhenFull {
     /// The oldest waiting message is dropped.
+    #[default]
     DropOldest,
     /// The new message is dropped.
     DropNewest,
@@ -74,7 +85,7 @@ pub enum WhenFull {
 }
 
 impl WhenFull {
-    /// All of them.
+    /// All of them, in the order in which messages list them.
     pub const ALL: [WhenFull; 3] = [WhenFull::DropOldest, WhenFull::DropNewest, WhenFull::Wait];
 
     /// The word in topology files and plans.
@@ -84,5 +95,10 @@ impl WhenFull {
             WhenFull::DropNewest => "drop_newest",
             WhenFull::Wait => "wait",
         }
+    }
+
+    /// The policy with this word.
+    pub fn of(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|policy| policy.word() == word)
     }
 }

@@ -40,6 +40,7 @@ mod error;
 mod json;
 mod kind;
 mod nearest;
+mod options;
 mod plan;
 mod system;
 #[cfg(all(test, feature = "json"))]
@@ -51,5 +52,6 @@ pub use error::{PlanError, UnknownComponent};
 pub use json::VERSION;
 pub use kind::{GateKind, WhenFull};
 pub use nearest::nearest;
+pub use options::{GateOptions, OptionField, Place};
 pub use plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
 pub use system::SystemPlan;

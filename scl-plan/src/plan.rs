@@ -1,9 +1,9 @@
 //! The values of a plan.
 
 use crate::kind::{GateKind, WhenFull};
+use crate::options::GateOptions;
 use std::fmt;
 use std::sync::Arc;
-use std::time::Duration;
 
 /// Everything a program needs to run one component.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -46,16 +46,8 @@ pub struct GatePlan {
     pub tap: Option<String>,
     /// A short hash of pattern, types and codec.
     pub contract: String,
-    /// The longest message that the gate accepts, in bytes.
-    pub max_size: u64,
-    /// The gate's own queue, in messages. It has an effect for `sub` and `pull`.
-    pub queue: u32,
-    /// What the gate's own queue does when it is full.
-    pub when_full: WhenFull,
-    /// Whether a peer with `when_full: wait` may make this gate wait. It has an effect for `pub` and `push`.
-    pub backpressure: bool,
-    /// How long a call may take: more than zero, at most a day. It has an effect for `req`.
-    pub timeout: Duration,
+    /// The options, defaults filled in.
+    pub options: GateOptions,
     /// The gate's connections, in the order of the topology file. A `req` gate has at most one.
     pub connections: Vec<ConnectionPlan>,
 }

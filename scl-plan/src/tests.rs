@@ -1,6 +1,6 @@
 //! Plans as text: both directions, damaged texts, and what errors say.
 
-use crate::{ConnectionPlan, GateKind, GatePlan, Payload, Plan, PlanError, Schema, SystemPlan, WhenFull};
+use crate::{ConnectionPlan, GateKind, GateOptions, GatePlan, Payload, Plan, PlanError, Schema, SystemPlan, WhenFull};
 use expect_test::expect;
 use proptest::prelude::*;
 use std::time::Duration;
@@ -31,11 +31,7 @@ fn gate(kind: GateKind, connections: Vec<ConnectionPlan>) -> GatePlan {
         endpoint: kind.shares_endpoint().then(|| format!("controller.{name}.hl75aqsl")),
         tap: kind.listens().then(|| format!("controller.{name}.tap")),
         contract: "hl75aqsl".to_owned(),
-        max_size: 1024,
-        queue: 100,
-        when_full: WhenFull::DropOldest,
-        backpressure: false,
-        timeout: Duration::from_millis(1500),
+        options: GateOptions { max_size: 1024, timeout: Duration::from_millis(1500), ..GateOptions::DEFAULT },
         connections,
         name,
     }

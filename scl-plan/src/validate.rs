@@ -46,9 +46,13 @@ fn validate_gate(part: &str, gate: &GatePlan) -> Result<(), PlanError> {
         },
     )?;
     ensure(gate.tap.is_none() || kind.listens(), part, "has a tap, which only `pub`, `rep` and `pull` gates have")?;
-    ensure(gate.queue > 0, part, "has a queue of 0 messages")?;
-    ensure(gate.max_size > 0, part, "accepts messages of 0 bytes only")?;
-    ensure(!gate.timeout.is_zero() && gate.timeout <= LONGEST_TIMEOUT, part, "has a timeout of nothing or over a day")?;
+    ensure(gate.options.queue > 0, part, "has a queue of 0 messages")?;
+    ensure(gate.options.max_size > 0, part, "accepts messages of 0 bytes only")?;
+    ensure(
+        !gate.options.timeout.is_zero() && gate.options.timeout <= LONGEST_TIMEOUT,
+        part,
+        "has a timeout of nothing or over a day",
+    )?;
     let one_replier = kind != crate::GateKind::Req || gate.connections.len() <= 1;
     ensure(one_replier, part, "is a `req` gate with several repliers")?;
     let mut peers = HashSet::new();

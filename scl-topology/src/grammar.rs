@@ -13,11 +13,11 @@ mod section;
 mod shape;
 
 pub use codec::{Codec, CodecRow};
-pub use kind::{GateKind, KindRow, PATTERNS, Pattern};
+pub use kind::{KindRow, PATTERNS, Pattern};
 pub use option::{GateOption, GateOptions, OPTIONS, option};
 pub use page::{Entry, entries, explain, page, without_references};
 
-pub use queue_policy::WhenFull;
+pub use scl_plan::{GateKind, WhenFull};
 pub use section::{COMPONENT_KEYS, FORMAT, Key, OWN_PREFIX, SECTIONS, component_key, section, words};
 pub(crate) use shape::is_whole_number;
 pub use shape::{Item, OutOfRange, Shape, Word};

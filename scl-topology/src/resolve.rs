@@ -11,7 +11,7 @@ pub(crate) use socket_name::shortened;
 
 use crate::fingerprint;
 use crate::source::Span;
-use crate::topology::{ComponentId, ConnectionId, GateId, GateKind, GateOptions, Payload, Topology, WhenFull};
+use crate::topology::{ComponentId, ConnectionId, GateId, GateKind, Payload, Topology};
 use contract::{contract, gate_contract};
 use scl_plan::{ConnectionPlan, GatePlan, Plan};
 use socket_name::{endpoint, gate_endpoint, tap_endpoint};
@@ -38,21 +38,16 @@ pub fn resolve(topology: &Topology, component: ComponentId, location: &dyn Fn(Sp
 
 fn resolve_gate(topology: &Topology, id: GateId, location: &dyn Fn(Span) -> String) -> GatePlan {
     let gate = topology.gate(id);
-    let GateOptions { queue, when_full, backpressure, max_size, timeout, .. } = *gate.options();
     GatePlan {
         name: gate.name().to_owned(),
-        kind: kind(gate.kind()),
+        kind: gate.kind(),
         payload: payload(gate.payload()),
         codec: gate.codec().word().to_owned(),
         declared_at: location(gate.span()),
         endpoint: gate_endpoint(topology, id),
         tap: tap_endpoint(topology, id),
         contract: gate_contract(topology, id),
-        max_size,
-        queue,
-        when_full: policy(when_full),
-        backpressure,
-        timeout,
+        options: gate.options().program.clone(),
         connections: gate
             .connections()
             .iter()
@@ -73,7 +68,7 @@ fn resolve_connection(topology: &Topology, gate: GateId, id: ConnectionId) -> Co
         contract: contract(topology, id),
         required: !owner.optional(),
         queue: receiver.queue,
-        when_full: policy(receiver.when_full),
+        when_full: receiver.when_full,
         max_size: max_size(topology, gate, id),
     }
 }
@@ -94,25 +89,6 @@ fn payload(payload: &Payload) -> scl_plan::Payload {
         Payload::Exchange { request, reply } => {
             scl_plan::Payload::Exchange { request: request.dotted().to_owned(), reply: reply.dotted().to_owned() }
         }
-    }
-}
-
-fn kind(kind: GateKind) -> scl_plan::GateKind {
-    match kind {
-        GateKind::Pub => scl_plan::GateKind::Pub,
-        GateKind::Sub => scl_plan::GateKind::Sub,
-        GateKind::Req => scl_plan::GateKind::Req,
-        GateKind::Rep => scl_plan::GateKind::Rep,
-        GateKind::Push => scl_plan::GateKind::Push,
-        GateKind::Pull => scl_plan::GateKind::Pull,
-    }
-}
-
-fn policy(when_full: WhenFull) -> scl_plan::WhenFull {
-    match when_full {
-        WhenFull::DropOldest => scl_plan::WhenFull::DropOldest,
-        WhenFull::DropNewest => scl_plan::WhenFull::DropNewest,
-        WhenFull::Wait => scl_plan::WhenFull::Wait,
     }
 }
 
@@ -218,15 +194,5 @@ connections:
         assert!(names[0].starts_with("sensor.fix--") && names[0].contains('~'), "{names:?}");
         assert_ne!(names[0], names[3]);
         assert_eq!(names[0].rsplit('.').next(), endpoints(FILE)[0].rsplit('.').next());
-    }
-
-    #[test]
-    fn words_are_those_of_the_plan() {
-        for one in GateKind::ALL {
-            assert_eq!((kind(one).word(), kind(one).opposite()), (one.word(), kind(one.opposite())));
-        }
-        for one in WhenFull::ALL {
-            assert_eq!(policy(one).word(), one.word());
-        }
     }
 }

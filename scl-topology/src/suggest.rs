@@ -1,6 +1,6 @@
 //! The names that a misspelt word may have meant.
 
-use crate::grammar::GateKind;
+use crate::grammar::{GateKind, KindRow};
 use crate::work;
 use strsim::damerau_levenshtein;
 
@@ -53,7 +53,7 @@ pub(crate) fn one_edit_away<'a>(word: &str, candidates: impl IntoIterator<Item =
 /// letter.
 pub(crate) fn kind(word: &str) -> Vec<&'static str> {
     let lower = word.to_lowercase();
-    let is_called = |kind: &GateKind| kind.word() == lower || kind.row().synonyms.contains(&lower.as_str());
+    let is_called = |kind: &GateKind| kind.word() == lower || KindRow::of(*kind).synonyms.contains(&lower.as_str());
     match GateKind::ALL.into_iter().find(is_called) {
         Some(kind) => vec![kind.word()],
         None => similar(word, GateKind::ALL.map(GateKind::word)),

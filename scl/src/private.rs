@@ -18,7 +18,7 @@ pub use crate::component::{
 pub use crate::error::OpenError;
 pub use crate::gate::{AnyGate, Pub, Pull, Push, Rep, Req, Sub};
 pub use crate::named_type::NamedType;
-pub use crate::spec::{ComponentSpec, GateKind, GateSpec, LinkSpec, Schema, WhenFull};
+pub use crate::spec::{ComponentSpec, GateKind, GateOptions, GateSpec, LinkSpec, Schema, WhenFull};
 #[cfg(feature = "memory")]
 pub use crate::transport::memory::Memory;
 pub use bytes::Bytes;

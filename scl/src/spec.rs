@@ -1,7 +1,6 @@
 //! The plan of a component as constants, which is how `topology!` puts it into a program.
 
-pub use scl_plan::{GateKind, WhenFull};
-use std::time::Duration;
+pub use scl_plan::{GateKind, GateOptions, WhenFull};
 
 /// A component: its name and its gates.
 #[derive(Debug)]
@@ -46,16 +45,8 @@ pub struct GateSpec {
     pub tap: &'static str,
     /// A short hash of pattern, type and codec.
     pub contract: &'static str,
-    /// The longest message that the gate accepts, in bytes.
-    pub max_size: u64,
-    /// The gate's own queue, in messages (`sub` and `pull`).
-    pub queue: u32,
-    /// What the gate's own queue does when it is full (`sub` and `pull`).
-    pub when_full: WhenFull,
-    /// Whether a peer with `when_full: wait` may make this gate wait (`pub` and `push`).
-    pub backpressure: bool,
-    /// How long a call may take (`req`).
-    pub timeout: Duration,
+    /// The options, defaults filled in.
+    pub options: GateOptions,
     /// The gate's connections, in file order.
     pub links: &'static [LinkSpec],
 }

@@ -1,7 +1,7 @@
 //! The facts about the parts of a topology, as pairs of key and value.
 
-use scl_plan::{ConnectionPlan, GateKind, GatePlan};
-use scl_topology::size;
+use scl_plan::{ConnectionPlan, GatePlan};
+use scl_topology::grammar::OPTIONS;
 use scl_topology::topology::{Component, Gate};
 
 /// A key of the topology file, or a word for what follows from it, and its value.
@@ -17,22 +17,9 @@ pub(super) fn gate_facts(gate: &Gate, plan: &GatePlan) -> Vec<Fact> {
     let mut facts =
         vec![("kind", plan.kind.word().to_owned()), ("type", plan.payload.to_string()), ("codec", plan.codec.clone())];
     // Options that the kind does not have would differ only because the kind does.
-    match plan.kind {
-        GateKind::Sub | GateKind::Pull => {
-            facts.extend([("queue", plan.queue.to_string()), ("when_full", plan.when_full.word().to_owned())]);
-        }
-        GateKind::Pub | GateKind::Push => facts.push(("backpressure", plan.backpressure.to_string())),
-        GateKind::Req => facts.push(("timeout", format!("{:?}", plan.timeout))),
-        GateKind::Rep => {}
-    }
-    if !matches!(plan.kind, GateKind::Pub | GateKind::Push) {
-        facts.push(("max_size", size::text(plan.max_size)));
-    }
-    facts.extend([
-        ("share", gate.options().share.to_string()),
-        ("unconnected", gate.options().unconnected_ok.to_string()),
-        ("doc", doc(gate.doc())),
-    ]);
+    let options = OPTIONS.iter().filter(|option| option.fits(gate.kind()) && !option.is_text());
+    facts.extend(options.map(|option| (option.key, option.get(gate.options()).unwrap_or_else(|| "none".to_owned()))));
+    facts.push(("doc", doc(gate.doc())));
     facts
 }
 

@@ -2,7 +2,7 @@
 
 use super::names::{NAME, Names};
 use super::shape::shape_schema;
-use scl_topology::grammar::{GateKind, GateOption, OPTIONS, without_references};
+use scl_topology::grammar::{GateKind, GateOption, KindRow, OPTIONS, without_references};
 use serde_json::{Map, Value, json};
 
 /// A gate: `name: kind`, or `name: {kind: type, option: value}`.
@@ -11,7 +11,7 @@ pub(super) fn gate_schema(names: &Names) -> Value {
     let short = json!({
         "type": "string",
         "enum": GateKind::ALL.map(GateKind::word),
-        "enumDescriptions": GateKind::ALL.map(|kind| kind.row().summary),
+        "enumDescriptions": GateKind::ALL.map(|kind| KindRow::of(kind).summary),
         "description": "The kind of the gate. Its type is taken from the other end, or it carries bytes.",
     });
     json!({
@@ -26,8 +26,8 @@ pub(super) fn gate_schema(names: &Names) -> Value {
 
 /// `{sub: rover.Measurement, queue: 1}`.
 fn long_schema(kind: GateKind, names: &Names) -> Value {
-    let summary = kind.row().summary;
-    let payload = match kind.is_exchange() {
+    let summary = KindRow::of(kind).summary;
+    let payload = match kind.exchanges() {
         true => names.exchange_schema(&format!(
             "{summary} Value: request and reply, for example `rover.Command -> rover.Status`, or nothing."
         )),

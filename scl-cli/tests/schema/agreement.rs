@@ -99,7 +99,7 @@ fn variants() -> Vec<String> {
         for option in &OPTIONS {
             let other = GateKind::ALL.into_iter().find(|&kind| !option.fits(kind));
             for kind in option.kinds.iter().take(1).copied().chain(other) {
-                let payload = if kind.is_exchange() { "A -> B" } else { "T" };
+                let payload = if kind.exchanges() { "A -> B" } else { "T" };
                 let options = if option.key == "unconnected" { "" } else { ", unconnected: ok" };
                 let gate = format!("x: {{{}: {payload}, {}: {value}{options}}}", kind.word(), option.key);
                 texts.push(format!("components:\n  - name: a\n    gates:\n      - {gate}\n"));

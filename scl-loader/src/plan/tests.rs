@@ -67,7 +67,7 @@ fn both_ends_of_a_connection_agree() {
                     let receives = matches!(gate.kind, GateKind::Sub | GateKind::Pull | GateKind::Rep);
                     let receiver = if receives { gate } else { peer };
                     for end in [connection, back] {
-                        assert_eq!((end.queue, end.when_full), (receiver.queue, receiver.when_full));
+                        assert_eq!((end.queue, end.when_full), (receiver.options.queue, receiver.options.when_full));
                     }
                     assert_eq!(peer.kind, gate.kind.opposite());
                     if gate.kind.shares_endpoint() {
@@ -117,9 +117,9 @@ proptest! {
             4 => gate.codec = text,
             5 => gate.endpoint = other,
             6 => gate.tap = other,
-            7 => (gate.queue, gate.max_size) = (queue, max_size),
-            8 => (gate.when_full, gate.backpressure) = (when_full, queue % 2 == 0),
-            9 => gate.timeout = Duration::from_nanos(nanoseconds),
+            7 => (gate.options.queue, gate.options.max_size) = (queue, max_size),
+            8 => (gate.options.when_full, gate.options.backpressure) = (when_full, queue % 2 == 0),
+            9 => gate.options.timeout = Duration::from_nanos(nanoseconds),
             10 => component.declared_at = text,
             _ => {
                 prop_assume!(!gate.connections.is_empty());

@@ -3,8 +3,8 @@
 use super::context::Context;
 use super::schemas::EmbeddedSchemas;
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
-use scl_plan::{ConnectionPlan, GatePlan, Plan};
+use quote::{ToTokens, format_ident, quote};
+use scl_plan::{ConnectionPlan, GateOptions, GatePlan, Place, Plan};
 use std::fmt::Debug;
 use std::time::Duration;
 use syn::Ident;
@@ -23,18 +23,41 @@ pub(super) fn expand_spec(context: &Context<'_>, plan: &Plan, schemas: &Embedded
 }
 
 fn expand_gate(private: &TokenStream, gate: &GatePlan) -> TokenStream {
-    let GatePlan { name, codec, declared_at, contract, max_size, queue, backpressure, .. } = gate;
-    let (kind, when_full) = (variant(gate.kind), variant(gate.when_full));
+    let GatePlan { name, codec, declared_at, contract, .. } = gate;
+    let kind = variant(gate.kind);
     let payload = gate.payload.to_string();
     let [endpoint, tap] = [&gate.endpoint, &gate.tap].map(|name| name.as_deref().unwrap_or_default());
-    let timeout = expand_duration(private, gate.timeout);
+    let options = expand_options(private, &gate.options);
     let links = gate.connections.iter().map(|connection| expand_link(private, connection));
     quote! {
         #private::GateSpec {
             name: #name, kind: #private::GateKind::#kind, payload: #payload, codec: #codec, declared_at: #declared_at,
-            endpoint: #endpoint, tap: #tap, contract: #contract, max_size: #max_size,
-            queue: #queue, when_full: #private::WhenFull::#when_full, backpressure: #backpressure, timeout: #timeout,
+            endpoint: #endpoint, tap: #tap, contract: #contract, options: #options,
             links: &[#(#links),*],
+        }
+    }
+}
+
+/// The options that differ from their defaults.
+fn expand_options(private: &TokenStream, options: &GateOptions) -> TokenStream {
+    let fields = GateOptions::ALL.into_iter().filter_map(|option| {
+        let [ours, default] =
+            [options, &GateOptions::DEFAULT].map(|it| expand_option(private, it.clone(), option.place));
+        let name = format_ident!("{}", option.key);
+        (ours.to_string() != default.to_string()).then(|| quote!(#name: #ours,))
+    });
+    quote!(#private::GateOptions { #(#fields)* ..#private::GateOptions::DEFAULT })
+}
+
+fn expand_option(private: &TokenStream, mut options: GateOptions, place: Place) -> TokenStream {
+    match place {
+        Place::Number(number) => number(&mut options).to_token_stream(),
+        Place::Size(size) => size(&mut options).to_token_stream(),
+        Place::Duration(duration) => expand_duration(private, *duration(&mut options)),
+        Place::Flag(flag) => flag(&mut options).to_token_stream(),
+        Place::Policy(policy) => {
+            let policy = variant(policy(&mut options));
+            quote!(#private::WhenFull::#policy)
         }
     }
 }

@@ -52,7 +52,9 @@ connections:
         impl scl :: private :: Component for Sensor {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
         system : "t" , name : "sensor" , declared_at : "t.yaml:2:11" , gates : & [scl :: private :: GateSpec {
-        name : "measurements" , kind : scl :: private :: GateKind :: Pub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "sensor.measurements.tap" , contract : "hl75aqsl" , max_size : 67108864u64 , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , backpressure : false , timeout : scl :: private :: Duration :: new (1u64 , 0u32) , links : & [scl :: private :: LinkSpec {
+        name : "measurements" , kind : scl :: private :: GateKind :: Pub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "sensor.measurements.tap" , contract : "hl75aqsl" , options : scl :: private :: GateOptions {
+        .. scl :: private :: GateOptions :: DEFAULT }
+        , links : & [scl :: private :: LinkSpec {
         peer_component : "controller" , peer_gate : "sensor" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 1u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : 67108864u64 , }] , }] , schema : :: core :: option :: Option :: None , }
         ;
         fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
@@ -67,7 +69,9 @@ connections:
         # [cfg (test)] impl scl :: private :: Component for SensorPeer {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
         system : "t" , name : "sensor's peers" , declared_at : "" , gates : & [scl :: private :: GateSpec {
-        name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "" , contract : "hl75aqsl" , max_size : 18446744073709551615u64 , queue : 4294967295u32 , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: new (10u64 , 0u32) , links : & [scl :: private :: LinkSpec {
+        name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "" , contract : "hl75aqsl" , options : scl :: private :: GateOptions {
+        max_size : 18446744073709551615u64 , queue : 4294967295u32 , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: new (10u64 , 0u32) , .. scl :: private :: GateOptions :: DEFAULT }
+        , links : & [scl :: private :: LinkSpec {
         peer_component : "sensor" , peer_gate : "measurements" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : 18446744073709551615u64 , }] , }] , schema : :: core :: option :: Option :: None , }
         ;
         fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
@@ -130,8 +134,8 @@ connections:
     let text = expand(yaml).to_string();
     let specs: String = text.split("private :: GateSpec {").skip(1).map(described).collect();
     expect![[r#"
-        "out" scl::private::GateKind::Pub endpoints "" "a.out--b.in.qud4qwa4" tap "a.out.tap" max_sizes 67108864u64 2u64
-        "work" scl::private::GateKind::Push endpoints "" "b.jobs.7zodneik" tap "" max_sizes 67108864u64 3u64
+        "out" scl::private::GateKind::Pub endpoints "" "a.out--b.in.qud4qwa4" tap "a.out.tap" max_sizes 2u64
+        "work" scl::private::GateKind::Push endpoints "" "b.jobs.7zodneik" tap "" max_sizes 3u64
         "ask" "a'speers" scl::private::GateKind::Req endpoints "" "b.answer.yrvcf33f" tap "" max_sizes 1u64 4u64
         "out" scl::private::GateKind::Sub endpoints "" "a.out--b.in.qud4qwa4" tap "" max_sizes 18446744073709551615u64 18446744073709551615u64
         "work" scl::private::GateKind::Pull endpoints "b.jobs.7zodneik" "b.jobs.7zodneik" tap "a.work.peer" max_sizes 18446744073709551615u64 18446744073709551615u64

@@ -35,7 +35,7 @@ impl<'v> At<'v> {
     }
 
     /// The value as an object that has no fields but these.
-    pub(super) fn object(&self, known: &'static [&'static str]) -> Result<Object<'v>, PlanError> {
+    pub(super) fn object(&self, known: &[&'static str]) -> Result<Object<'v>, PlanError> {
         let object = Object { fields: self.fields()?, path: self.path.clone() };
         match object.fields.keys().find(|key| !known.contains(&key.as_str())) {
             Some(field) => Err(PlanError::UnknownField {

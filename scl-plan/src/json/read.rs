@@ -5,6 +5,7 @@ use super::object::At;
 use crate::base64;
 use crate::error::PlanError;
 use crate::kind::{GateKind, WhenFull};
+use crate::options::{GateOptions, Place};
 use crate::plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
 use crate::system::SystemPlan;
 use serde_json::Value;
@@ -95,22 +96,13 @@ fn component(at: &At<'_>, system: &str, schemas: &[Schema]) -> Result<Plan, Plan
 }
 
 fn gate(at: &At<'_>) -> Result<GatePlan, PlanError> {
-    let fields = at.object(&[
-        "name",
-        "kind",
-        "payload",
-        "codec",
-        "declared_at",
-        "endpoint",
-        "tap",
-        "contract",
-        "max_size",
-        "queue",
-        "when_full",
-        "backpressure",
-        "timeout_ns",
-        "connections",
-    ])?;
+    let own = ["name", "kind", "payload", "codec", "declared_at", "endpoint", "tap", "contract", "connections"];
+    let known: Vec<&str> = own.into_iter().chain(GateOptions::ALL.map(|option| option.json)).collect();
+    let fields = at.object(&known)?;
+    let mut options = GateOptions::DEFAULT;
+    for option in GateOptions::ALL {
+        read_option(&fields.field(option.json)?, option.place, &mut options)?;
+    }
     Ok(GatePlan {
         name: fields.text("name")?,
         kind: fields.field("kind")?.word(&GateKind::ALL, GateKind::word)?,
@@ -120,13 +112,20 @@ fn gate(at: &At<'_>) -> Result<GatePlan, PlanError> {
         endpoint: fields.optional_text("endpoint")?,
         tap: fields.optional_text("tap")?,
         contract: fields.text("contract")?,
-        max_size: fields.field("max_size")?.number(u64::MAX)?,
-        queue: fields.field("queue")?.number(u32::MAX)?,
-        when_full: fields.field("when_full")?.word(&WhenFull::ALL, WhenFull::word)?,
-        backpressure: fields.field("backpressure")?.flag()?,
-        timeout: Duration::from_nanos(fields.field("timeout_ns")?.number(u64::MAX)?),
+        options,
         connections: fields.field("connections")?.list(|it| connection(&it))?,
     })
+}
+
+fn read_option(at: &At<'_>, place: Place, options: &mut GateOptions) -> Result<(), PlanError> {
+    match place {
+        Place::Number(number) => *number(options) = at.number(u32::MAX)?,
+        Place::Size(size) => *size(options) = at.number(u64::MAX)?,
+        Place::Duration(duration) => *duration(options) = Duration::from_nanos(at.number(u64::MAX)?),
+        Place::Flag(flag) => *flag(options) = at.flag()?,
+        Place::Policy(policy) => *policy(options) = at.word(&WhenFull::ALL, WhenFull::word)?,
+    }
+    Ok(())
 }
 
 fn payload(at: &At<'_>) -> Result<Payload, PlanError> {

@@ -11,7 +11,7 @@ pub(super) enum Json {
 }
 
 impl Json {
-    pub(super) fn object<const N: usize>(fields: [(&str, Json); N]) -> Self {
+    pub(super) fn object<'k>(fields: impl IntoIterator<Item = (&'k str, Json)>) -> Self {
         Self::Object(fields.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
     }
 

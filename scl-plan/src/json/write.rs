@@ -3,6 +3,7 @@
 use super::VERSION;
 use super::text::Json;
 use crate::base64;
+use crate::options::{GateOptions, Place};
 use crate::plan::{ConnectionPlan, GatePlan, Payload, Plan};
 use crate::system::SystemPlan;
 use std::collections::BTreeMap;
@@ -50,9 +51,7 @@ fn component(plan: &Plan) -> Json {
 }
 
 fn gate(gate: &GatePlan) -> Json {
-    // A timeout of over 584 years is none that `validate` accepts.
-    let timeout = u64::try_from(gate.timeout.as_nanos()).unwrap_or(u64::MAX);
-    Json::object([
+    let own = [
         ("name", Json::text(&gate.name)),
         ("kind", Json::text(gate.kind.word())),
         ("payload", payload(&gate.payload)),
@@ -61,13 +60,21 @@ fn gate(gate: &GatePlan) -> Json {
         ("endpoint", Json::or_null(gate.endpoint.as_deref())),
         ("tap", Json::or_null(gate.tap.as_deref())),
         ("contract", Json::text(&gate.contract)),
-        ("max_size", Json::Number(gate.max_size)),
-        ("queue", Json::Number(gate.queue.into())),
-        ("when_full", Json::text(gate.when_full.word())),
-        ("backpressure", Json::Bool(gate.backpressure)),
-        ("timeout_ns", Json::Number(timeout)),
-        ("connections", Json::List(gate.connections.iter().map(connection).collect())),
-    ])
+    ];
+    let options = GateOptions::ALL.map(|field| (field.json, option(gate.options.clone(), field.place)));
+    let connections = ("connections", Json::List(gate.connections.iter().map(connection).collect()));
+    Json::object(own.into_iter().chain(options).chain([connections]))
+}
+
+fn option(mut options: GateOptions, place: Place) -> Json {
+    match place {
+        Place::Number(number) => Json::Number((*number(&mut options)).into()),
+        Place::Size(size) => Json::Number(*size(&mut options)),
+        // A duration of over 584 years is none that `validate` accepts.
+        Place::Duration(duration) => Json::Number(u64::try_from(duration(&mut options).as_nanos()).unwrap_or(u64::MAX)),
+        Place::Flag(flag) => Json::Bool(*flag(&mut options)),
+        Place::Policy(policy) => Json::text(policy(&mut options).word()),
+    }
 }
 
 fn payload(payload: &Payload) -> Json {

@@ -1,42 +1,37 @@
 //! The options of a gate: one row each. The checks, the schema, the reference page and the generated documentation read
 //! the row; what the option does at run time reads the field of [`GateOptions`] that the row names.
 
-use super::kind::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
-use super::queue_policy::WhenFull;
+use super::queue_policy::POLICIES;
 use super::shape::{self, OutOfRange, Shape, Word};
 use crate::{duration, size};
+use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
+use scl_plan::WhenFull;
+use std::ops::{Deref, DerefMut};
 use std::time::Duration;
 
-/// The options of a gate, defaults filled in.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// The options of a gate, defaults filled in: those of its program, which read as if they were here, and those of the
+/// checker alone.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct GateOptions {
-    /// `queue`: how many messages may wait for this gate.
-    pub queue: u32,
-    /// `when_full`.
-    pub when_full: WhenFull,
-    /// `backpressure`.
-    pub backpressure: bool,
-    /// `max_size`: the longest message that this gate accepts, in bytes.
-    pub max_size: u64,
-    /// `timeout` of a call.
-    pub timeout: Duration,
+    /// Those that the program needs.
+    pub program: scl_plan::GateOptions,
     /// `share`.
     pub share: bool,
     /// `unconnected: ok`.
     pub unconnected_ok: bool,
 }
 
-impl Default for GateOptions {
-    fn default() -> Self {
-        Self {
-            queue: 100,
-            when_full: WhenFull::default(),
-            backpressure: false,
-            max_size: 64 << 20,
-            timeout: Duration::from_secs(1),
-            share: false,
-            unconnected_ok: false,
-        }
+impl Deref for GateOptions {
+    type Target = scl_plan::GateOptions;
+
+    fn deref(&self) -> &Self::Target {
+        &self.program
+    }
+}
+
+impl DerefMut for GateOptions {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.program
     }
 }
 
@@ -94,7 +89,7 @@ pub static OPTIONS: [GateOption; 9] = [
     },
     GateOption {
         key: "when_full",
-        shape: Shape::Word(&WhenFull::ROWS),
+        shape: Shape::Word(&POLICIES),
         kinds: &[Sub, Pull],
         field: Field::Word {
             read: |options| Some(options.when_full.word()),
@@ -266,6 +261,11 @@ impl GateOption {
         }
     }
 
+    /// Whether the gate has the value itself, not its [`GateOptions`]: `doc` and `codec`.
+    pub fn is_text(&self) -> bool {
+        matches!(self.field, Field::Elsewhere)
+    }
+
     /// The default as in the file, where it has one.
     pub fn default(&self) -> Option<String> {
         self.get(&GateOptions::default())
@@ -299,6 +299,14 @@ mod tests {
                     assert!(another.is_none_or(|it| it.key == "queue"), "{key} sets {another:?}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn every_option_of_a_program_can_be_written() {
+        for field in scl_plan::GateOptions::ALL {
+            let row = option(field.key).unwrap_or_else(|| panic!("no row `{}`", field.key));
+            assert!(row.default().is_some(), "{}", field.key);
         }
     }
 

@@ -1,6 +1,7 @@
 //! The grammar as text for people: one entry for the terminal, all of it as the page `docs/topology.md`.
 
-use super::{COMPONENT_KEYS, Codec, CodecRow, GateKind, GateOption, Key, OPTIONS, SECTIONS, WhenFull, Word};
+use super::queue_policy::POLICIES;
+use super::{COMPONENT_KEYS, Codec, CodecRow, GateKind, GateOption, Key, KindRow, OPTIONS, SECTIONS, WhenFull, Word};
 use crate::wording::all_of;
 use crate::{duration, size};
 
@@ -23,7 +24,7 @@ pub fn entries() -> Vec<Entry> {
     let mut all: Vec<Entry> = keys(&SECTIONS, "section").chain(keys(&COMPONENT_KEYS, "key of a component")).collect();
     all.extend(GateKind::ALL.map(of_kind));
     all.extend(OPTIONS.iter().map(of_option));
-    all.extend(policies().iter().map(of_policy));
+    all.extend(POLICIES.iter().map(of_policy));
     all.extend(Codec::BUILT_IN.iter().filter_map(Codec::row).map(of_codec));
     all
 }
@@ -72,19 +73,19 @@ fn of_key(key: &'static Key, what: &'static str) -> Entry {
 }
 
 fn of_kind(kind: GateKind) -> Entry {
-    let row = kind.row();
+    let row = KindRow::of(kind);
     let keys: Vec<&str> = OPTIONS.iter().filter(|option| option.fits(kind)).map(|option| option.key).collect();
-    let other = row.opposite.word();
+    let other = kind.opposite().word();
     let text = format!(
         "{}\n\nIt connects to: {} Its options: {}. The other end is `{other}`.\n\n```yaml\n- example: {}\n- typed: {{{}: {}}}\n```\n",
         row.summary,
         row.peers,
         all_of(&keys),
-        row.word,
-        row.word,
+        kind.word(),
+        kind.word(),
         example_type(kind),
     );
-    Entry { word: row.word, what: "kind of gate", summary: row.summary, text }
+    Entry { word: kind.word(), what: "kind of gate", summary: row.summary, text }
 }
 
 fn of_option(option: &'static GateOption) -> Entry {
@@ -131,8 +132,8 @@ fn key_table(keys: &[Key]) -> String {
 fn kind_table() -> String {
     let mut table = "| kind | other end | what it does | connects to |\n|---|---|---|---|\n".to_owned();
     for kind in GateKind::ALL {
-        let facts = kind.row();
-        let [word, other] = [facts.word, facts.opposite.word()].map(|word| format!("`{word}`"));
+        let facts = KindRow::of(kind);
+        let [word, other] = [kind.word(), kind.opposite().word()].map(|word| format!("`{word}`"));
         table.push_str(&row(&[&word, &other, facts.summary, facts.peers]));
     }
     table.trim_end().to_owned()
@@ -162,7 +163,7 @@ fn option_table() -> String {
 
 fn policy_table() -> String {
     let mut table = "| `when_full` | a full queue | when to choose it |\n|---|---|---|\n".to_owned();
-    for policy in policies() {
+    for policy in &POLICIES {
         let is_default = if policy.word == WhenFull::default().word() { " (default)" } else { "" };
         table.push_str(&row(&[&format!("`{}`{is_default}", policy.word), policy.summary, policy.text]));
     }
@@ -184,11 +185,7 @@ fn row(cells: &[&str]) -> String {
 }
 
 fn example_type(kind: GateKind) -> &'static str {
-    if kind.is_exchange() { "Request -> Reply" } else { "Message" }
-}
-
-fn policies() -> &'static [Word] {
-    &WhenFull::ROWS
+    if kind.exchanges() { "Request -> Reply" } else { "Message" }
 }
 
 /// Markdown without the sentences that refer to other parts of the page, `See [codecs](#codecs).`

@@ -156,6 +156,6 @@ fn transport(spec: &ComponentSpec, _dir: &SystemDir, _medium: Medium) -> Result<
 }
 
 fn endpoint(name: &'static str, spec: &GateSpec) -> Endpoint {
-    let max_size = usize::try_from(spec.max_size).unwrap_or(usize::MAX);
+    let max_size = usize::try_from(spec.options.max_size).unwrap_or(usize::MAX);
     Endpoint { max_size, newest_only: spec.newest_only(), ..Endpoint::new(name) }
 }

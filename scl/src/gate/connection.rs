@@ -299,7 +299,7 @@ impl Connection {
 
 /// The receiving gate's queue. It makes the sender wait only if the sending gate allows that.
 fn policy(spec: &GateSpec, link: &LinkSpec) -> QueuePolicy {
-    let may_wait = spec.backpressure || link.when_full != WhenFull::Wait;
+    let may_wait = spec.options.backpressure || link.when_full != WhenFull::Wait;
     let when_full = if may_wait { link.when_full } else { WhenFull::DropOldest };
     QueuePolicy { capacity: link.queue as usize, when_full }
 }

@@ -98,7 +98,7 @@ impl SharedInbox {
 
 impl Inbox {
     fn new(spec: &GateSpec, links: Vec<Box<dyn Receiver>>, tap: GateTap, changes: Changes, waker: Waker) -> Self {
-        let policy = QueuePolicy { capacity: spec.queue as usize, when_full: spec.when_full };
+        let policy = QueuePolicy { capacity: spec.options.queue as usize, when_full: spec.options.when_full };
         Self {
             connected: vec![0; links.len()],
             links,
@@ -278,6 +278,6 @@ impl Inbox {
 impl GateSpec {
     /// Whether a receiving gate wants nothing but the newest message.
     pub(crate) fn newest_only(&self) -> bool {
-        self.queue == 1 && self.when_full == WhenFull::DropOldest
+        self.options.queue == 1 && self.options.when_full == WhenFull::DropOldest
     }
 }

@@ -41,7 +41,7 @@ impl<T> Outgoing<T> {
         connections: Vec<Arc<Mutex<Connection>>>,
         tap: GateTap,
     ) -> Self {
-        let may_wait = spec.backpressure && spec.links.iter().any(|link| link.when_full == WhenFull::Wait);
+        let may_wait = spec.options.backpressure && spec.links.iter().any(|link| link.when_full == WhenFull::Wait);
         let shares = spec.kind == GateKind::Push && connections.len() > 1;
         let name = GateName::new(state.spec().name, spec.name);
         let strictest = spec.links.iter().min_by_key(|link| link.max_size);

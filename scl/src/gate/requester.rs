@@ -85,7 +85,7 @@ impl<A, B> Req<A, B> {
         let body = self.encode(request)?;
         let started = Instant::now();
         self.last_id += 1;
-        let deadline = started + self.spec.timeout;
+        let deadline = started + self.spec.options.timeout;
         let exchanged = match &self.exchange {
             Some(exchange) => exchange.call(self.last_id, body, &mut self.watchdog, deadline, &self.state).await,
             None => Exchange::unconnected(&mut self.watchdog, deadline).await,
@@ -115,7 +115,7 @@ impl<A, B> Req<A, B> {
 
     /// The gate's `timeout`.
     pub fn timeout(&self) -> Duration {
-        self.spec.timeout
+        self.spec.options.timeout
     }
 
     /// Returns true if the replier is connected.

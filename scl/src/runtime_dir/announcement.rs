@@ -191,7 +191,7 @@ fn text(json: &Value, key: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spec::{GateKind, LinkSpec, Schema, WhenFull};
+    use crate::spec::{GateKind, GateOptions, LinkSpec, Schema, WhenFull};
 
     const fn link(peer_component: &'static str, endpoint: &'static str) -> LinkSpec {
         LinkSpec {
@@ -216,11 +216,7 @@ mod tests {
             endpoint,
             tap,
             contract: "aaaa",
-            max_size: 1,
-            queue: 1,
-            when_full: WhenFull::Wait,
-            backpressure: false,
-            timeout: Duration::ZERO,
+            options: GateOptions::DEFAULT,
             links,
         }
     }

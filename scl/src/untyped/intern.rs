@@ -76,11 +76,7 @@ fn gate_spec(gate: &GatePlan) -> GateSpec {
         endpoint: keep(gate.endpoint.as_deref().unwrap_or_default()),
         tap: keep(gate.tap.as_deref().unwrap_or_default()),
         contract: keep(&gate.contract),
-        max_size: gate.max_size,
-        queue: gate.queue,
-        when_full: gate.when_full,
-        backpressure: gate.backpressure,
-        timeout: gate.timeout,
+        options: gate.options.clone(),
         links: gate.connections.iter().map(link_spec).collect::<Vec<_>>().leak(),
     }
 }

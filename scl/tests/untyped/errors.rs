@@ -81,7 +81,7 @@ fn a_gate_is_taken_once() {
 fn a_plan_that_contradicts_itself_is_refused() {
     type Break = fn(&mut Plan);
     let cases: [(Break, &str); 4] = [
-        (|plan| plan.gates[0].queue = 0, "gate `sensor.measurements` has a queue of 0 messages"),
+        (|plan| plan.gates[0].options.queue = 0, "gate `sensor.measurements` has a queue of 0 messages"),
         (|plan| plan.gates[2].endpoint = None, "gate `sensor.calibrate` has no endpoint"),
         (|plan| plan.gates[1].name = "raw".to_owned(), "gate `sensor.raw` is declared twice"),
         (|plan| plan.system = String::new(), "component `sensor` belongs to a system without a name"),

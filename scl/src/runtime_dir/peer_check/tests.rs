@@ -2,8 +2,7 @@
 
 use super::*;
 use crate::runtime_dir::{OwnedPath, RuntimeDir};
-use crate::spec::{GateKind, WhenFull};
-use std::time::Duration;
+use crate::spec::{GateKind, GateOptions, WhenFull};
 use tempfile::TempDir;
 
 fn nav() -> (TempDir, SystemDir) {
@@ -56,11 +55,7 @@ impl Build {
             endpoint: if kind == GateKind::Rep { "gps.position.aaaa" } else { "" },
             tap: if kind == GateKind::Pub { "gps.position.tap" } else { "" },
             contract: self.contract,
-            max_size: 1 << 20,
-            queue: 1,
-            when_full: WhenFull::DropOldest,
-            backpressure: false,
-            timeout: Duration::ZERO,
+            options: GateOptions::DEFAULT,
             links: Vec::leak(vec![link]),
         };
         let (gates, schema) = (Vec::leak(vec![gate]), self.schema);

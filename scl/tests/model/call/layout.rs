@@ -3,7 +3,8 @@
 use bytes::Bytes;
 use scl::codec::Opaque;
 use scl::private::{
-    AnyGate, Component, ComponentHandle, ComponentSpec, GateKind, GateSpec, LinkSpec, OpenError, Opener, WhenFull, open,
+    AnyGate, Component, ComponentHandle, ComponentSpec, GateKind, GateOptions, GateSpec, LinkSpec, OpenError, Opener,
+    WhenFull, open,
 };
 use scl::{OpenOptions, Rep, Req};
 use std::time::Duration;
@@ -103,12 +104,8 @@ const fn gate(name: &'static str, kind: GateKind, timeout: Duration, links: &'st
         declared_at: "topology.yaml:5:5",
         tap: "",
         contract: CONTRACT,
-        max_size: MAX_SIZE,
         endpoint: if let GateKind::Rep = kind { ENDPOINT } else { "" },
-        queue: 1,
-        when_full: WhenFull::DropOldest,
-        backpressure: false,
-        timeout,
+        options: GateOptions { max_size: MAX_SIZE, queue: 1, timeout, ..GateOptions::DEFAULT },
         links,
     }
 }

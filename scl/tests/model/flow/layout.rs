@@ -4,8 +4,8 @@ use super::gates::{Receiver, Sender};
 use scl::OpenOptions;
 use scl::codec::Opaque;
 use scl::private::{
-    AnyGate, Component, ComponentHandle, ComponentSpec, GateKind, GateSpec, LinkSpec, OpenError, Opener, WhenFull,
-    close, open,
+    AnyGate, Component, ComponentHandle, ComponentSpec, GateKind, GateOptions, GateSpec, LinkSpec, OpenError, Opener,
+    WhenFull, close, open,
 };
 use std::pin::Pin;
 use std::time::Duration;
@@ -118,7 +118,7 @@ impl<const LAYOUT: usize> SourceOf<LAYOUT> {
     const LINKS: &'static [LinkSpec; 3] =
         &[to_reader(layout(LAYOUT), 0), to_reader(layout(LAYOUT), 1), to_reader(layout(LAYOUT), 2)];
     const GATE: GateSpec = GateSpec {
-        backpressure: layout(LAYOUT).backpressure,
+        options: GateOptions { backpressure: layout(LAYOUT).backpressure, ..OPTIONS },
         links: Self::LINKS.split_at(layout(LAYOUT).count).0,
         ..gate("out", layout(LAYOUT).kind)
     };
@@ -152,8 +152,7 @@ impl<const LAYOUT: usize, const INDEX: usize> Reader<LAYOUT, INDEX> {
     const LINK: LinkSpec = LinkSpec { peer_component: SOURCE, peer_gate: "out", ..to_reader(layout(LAYOUT), INDEX) };
     const GATE: GateSpec = GateSpec {
         endpoint: if let GateKind::Push = layout(LAYOUT).kind { ENDPOINTS[INDEX] } else { "" },
-        queue: Self::DECLARED.queue,
-        when_full: Self::DECLARED.when_full,
+        options: GateOptions { queue: Self::DECLARED.queue, when_full: Self::DECLARED.when_full, ..OPTIONS },
         links: &[Self::LINK],
         ..gate("in", if let GateKind::Push = layout(LAYOUT).kind { GateKind::Pull } else { GateKind::Sub })
     };
@@ -186,6 +185,9 @@ const fn component(name: &'static str, gates: &'static [GateSpec]) -> ComponentS
     ComponentSpec { system: "model", name, declared_at: "topology.yaml:3:3", gates, schema: None }
 }
 
+const OPTIONS: GateOptions =
+    GateOptions { max_size: MAX_SIZE, queue: 1, timeout: Duration::from_secs(60), ..GateOptions::DEFAULT };
+
 const fn gate(name: &'static str, kind: GateKind) -> GateSpec {
     GateSpec {
         name,
@@ -196,11 +198,7 @@ const fn gate(name: &'static str, kind: GateKind) -> GateSpec {
         endpoint: "",
         tap: "",
         contract: CONTRACT,
-        max_size: MAX_SIZE,
-        queue: 1,
-        when_full: WhenFull::DropOldest,
-        backpressure: false,
-        timeout: Duration::from_secs(60),
+        options: OPTIONS,
         links: &[],
     }
 }

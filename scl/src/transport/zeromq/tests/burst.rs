@@ -3,13 +3,12 @@
 use super::stage::{ENDPOINT, Stage, next, number, numbered, once};
 use crate::error::GateName;
 use crate::gate::Connection;
-use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
+use crate::spec::{GateKind, GateOptions, GateSpec, LinkSpec, WhenFull};
 use crate::state::{Changes, SendingEnd};
 use crate::transport::Transport;
 use crate::transport::zeromq::Medium;
 use std::future::poll_fn;
 use std::task::Poll;
-use std::time::Duration;
 
 const LINK: LinkSpec = LinkSpec {
     peer_component: "controller",
@@ -31,11 +30,7 @@ static GATE: GateSpec = GateSpec {
     endpoint: "",
     tap: "",
     contract: "1a2b3c4d",
-    max_size: 1 << 20,
-    queue: 0,
-    when_full: WhenFull::DropOldest,
-    backpressure: false,
-    timeout: Duration::ZERO,
+    options: GateOptions::DEFAULT,
     links: &[LINK],
 };
 

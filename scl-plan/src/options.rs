@@ -1,0 +1,99 @@
+//! The options of a gate that its program needs: their values, defaults and names, told once for the topology file, the
+//! JSON text, generated code and the runtime.
+
+use crate::kind::WhenFull;
+use std::time::Duration;
+
+/// The options of a gate that its program needs, defaults filled in.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct GateOptions {
+    /// The longest message that the gate accepts, in bytes.
+    pub max_size: u64,
+    /// The gate's own queue, in messages. It has an effect for `sub` and `pull`.
+    pub queue: u32,
+    /// What the gate's own queue does when it is full.
+    pub when_full: WhenFull,
+    /// Whether a peer with `when_full: wait` may make this gate wait. It has an effect for `pub` and `push`.
+    pub backpressure: bool,
+    /// How long a call may take: more than zero, at most a day. It has an effect for `req`.
+    pub timeout: Duration,
+}
+
+impl GateOptions {
+    /// A gate for which the topology file declares nothing: 64 MiB, 100 messages, 1 s.
+    pub const DEFAULT: Self = Self {
+        max_size: 64 << 20,
+        queue: 100,
+        when_full: WhenFull::DropOldest,
+        backpressure: false,
+        timeout: Duration::from_secs(1),
+    };
+
+    /// A gate of a component's counterpart in unit tests: it drops and refuses nothing. A call that takes longer fails the
+    /// test, so its timeout is long.
+    pub(crate) const COUNTERPART: Self = Self {
+        max_size: u64::MAX,
+        queue: u32::MAX,
+        when_full: WhenFull::Wait,
+        backpressure: true,
+        timeout: Duration::from_secs(10),
+    };
+
+    /// All of them, in the order of the JSON text.
+    pub const ALL: [OptionField; 5] = [
+        OptionField { key: "max_size", json: "max_size", place: Place::Size(|options| &mut options.max_size) },
+        OptionField { key: "queue", json: "queue", place: Place::Number(|options| &mut options.queue) },
+        OptionField { key: "when_full", json: "when_full", place: Place::Policy(|options| &mut options.when_full) },
+        OptionField {
+            key: "backpressure",
+            json: "backpressure",
+            place: Place::Flag(|options| &mut options.backpressure),
+        },
+        OptionField { key: "timeout", json: "timeout_ns", place: Place::Duration(|options| &mut options.timeout) },
+    ];
+}
+
+impl Default for GateOptions {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// One of the [`GateOptions`].
+#[derive(Debug, Clone, Copy)]
+pub struct OptionField {
+    /// Its name in the topology file and in Rust.
+    pub key: &'static str,
+    /// Its name in JSON.
+    pub json: &'static str,
+    /// Where its value is.
+    pub place: Place,
+}
+
+/// Where the value of an option is, by its type.
+#[derive(Debug, Clone, Copy)]
+pub enum Place {
+    /// A whole number.
+    Number(fn(&mut GateOptions) -> &mut u32),
+    /// A number of bytes.
+    Size(fn(&mut GateOptions) -> &mut u64),
+    /// A duration; nanoseconds in JSON.
+    Duration(fn(&mut GateOptions) -> &mut Duration),
+    /// A switch.
+    Flag(fn(&mut GateOptions) -> &mut bool),
+    /// A queue policy.
+    Policy(fn(&mut GateOptions) -> &mut WhenFull),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::GateOptions;
+
+    #[test]
+    fn every_field_is_in_the_list() {
+        let debug = format!("{:?}", GateOptions::DEFAULT);
+        let fields: Vec<&str> =
+            debug.split([',', '{']).filter_map(|part| part.split_once(": ")).map(|it| it.0.trim()).collect();
+        assert_eq!(fields, GateOptions::ALL.map(|option| option.key));
+    }
+}
