@@ -14,6 +14,7 @@ mod editor;
 mod explain;
 mod graph;
 mod lsp;
+mod plan;
 #[cfg(feature = "run")]
 mod quickstart;
 #[cfg(feature = "run")]

@@ -1,13 +1,10 @@
 //! What `scl plan` prints, and that it comes back as the same plan.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod system;
-
+use crate::system::System;
 use expect_test::{Expect, expect};
 use scl_plan::{Plan, SystemPlan};
 use std::collections::BTreeSet;
 use std::process::{Output, Stdio};
-use system::System;
 
 const ROVER: &str = "\
 system: rover
