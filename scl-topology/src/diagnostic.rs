@@ -133,12 +133,12 @@ fn clipped(text: impl Into<String>) -> String {
     text
 }
 
-/// The collector. Stages push into it and go on; whoever made it must read it.
+/// The collector. Stages push into it and go on; its maker must read it.
 ///
 /// # Panics
 ///
-/// In debug builds, dropping one with problems in it panics, unless the thread does so already: whoever makes a
-/// collector has to end with [`Diagnostics::into_sorted`], or hand its problems over with [`Diagnostics::append`].
+/// In debug builds, dropping one with problems in it panics, unless the thread does so already: the maker of a
+/// collector ends with [`Diagnostics::into_sorted`], or hands its problems over with [`Diagnostics::append`].
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     items: Vec<Diagnostic>,

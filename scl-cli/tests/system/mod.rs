@@ -41,7 +41,7 @@ impl System {
         std::fs::write(path, text).unwrap();
     }
 
-    /// Adds a named pipe: whoever reads it gets its end when every program that has opened it for writing has ended.
+    /// Adds a named pipe. A reader gets to its end when every program that has opened it for writing has ended.
     pub(crate) fn make_pipe(&self, name: &str) -> PathBuf {
         let path = self.path(name);
         assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());

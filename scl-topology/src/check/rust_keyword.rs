@@ -13,8 +13,8 @@ pub(crate) const KEYWORD: Rule = Rule {
     code: "SCL0306",
     severity: Severity::Warning,
     title: "gate name is a Rust keyword",
-    explanation: "The name is a keyword of Rust, so programs have to write `r#` before it. That works, but hurts \
-                  whoever reads it. Choose a name that says more.",
+    explanation: "The name is a keyword of Rust, so programs have to write `r#` before it. That works, but is \
+                  hard to read. Choose a name that says more.",
     examples: Examples::Topology {
         bad: "components:
   - name: sensor

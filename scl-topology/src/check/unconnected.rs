@@ -37,7 +37,7 @@ pub(crate) const NO_SENDER: Rule = Rule {
     code: "SCL0702",
     severity: Severity::Warning,
     title: "subscriber without a publisher",
-    explanation: "A receiving gate is in no connection, so a program that waits at it waits for ever. Connect it; the \
+    explanation: "A receiving gate is in no connection, so a program that waits at it never gets anything. Connect it; the \
                   message offers senders that fit. If that is meant, write `unconnected: ok`.",
     examples: Examples::Topology {
         bad: "components:

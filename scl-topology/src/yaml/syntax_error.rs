@@ -2,7 +2,7 @@
 
 use granit_parser::{ErrorKind, ScanError};
 
-/// Where and why a text stops to be YAML.
+/// Where and why a text is not valid YAML any more.
 #[derive(Debug, Clone)]
 pub(crate) struct SyntaxError {
     /// The byte at which the parser noticed it, often after the place of the mistake.

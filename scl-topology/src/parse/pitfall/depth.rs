@@ -12,7 +12,7 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Error,
     title: "nested too deeply",
     explanation: "Brackets or indentation go deeper than any topology needs, which is 6 levels. The limit of 16 keeps \
-                  whoever reads the file, the compiler above all, from running out of stack.",
+                  the programs that read the file, the compiler above all, from running out of stack.",
     examples: Examples::Topology {
         bad: "components: [[[[[[[[[[[[[[[[[x]]]]]]]]]]]]]]]]]
 ",
