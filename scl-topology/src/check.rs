@@ -163,7 +163,7 @@ pub struct SchemaMessages {
 /// Gives `None` if `problems` holds an error in the end, be it from here or from the parser. A part that is wrong is
 /// left out of the later checks, so that each mistake is told once. Of a text that is no YAML nothing is checked.
 pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Diagnostics) -> Option<Topology> {
-    // What is left of a text that stops to be YAML proves nothing.
+    // What is left of a text that is not valid YAML proves nothing.
     if model.cut_off {
         return None;
     }

@@ -69,7 +69,7 @@ pub(crate) struct Anchor {
 pub(crate) struct Tree {
     /// The first document's value; none in a file without any.
     pub(crate) root: Option<Node>,
-    /// Where the text stops to be YAML.
+    /// Where the text stops being valid YAML.
     pub(crate) error: Option<SyntaxError>,
     /// Anchors in the order of their definition.
     pub(crate) anchors: Vec<Anchor>,
