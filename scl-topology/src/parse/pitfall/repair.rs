@@ -17,6 +17,7 @@ use crate::parse::{Reader, shape};
 use crate::source::Sources;
 use crate::yaml::{self, SyntaxError};
 use std::ops::Range;
+use window::Window;
 
 /// A change of the text, and what it means.
 #[derive(Debug, Clone)]
@@ -105,7 +106,16 @@ const MOST_RIVALS: usize = 16;
 pub(super) fn find(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> Option<Repair> {
     let text = &text.text;
     let window = window::around(error, text, place)?;
-    let lines = window::suspects(error, text, place, &window);
+    find_in(&window, true, error, text, place).or_else(|| {
+        // A second mistake below keeps all of it from being read.
+        let above = window.without_lines_below(error, text, place)?;
+        find_in(&above, false, error, text, place).filter(|repair| repair.is_sure)
+    })
+}
+
+/// The same for a part of the text. Fixes are sure only if that is all of what belongs together.
+fn find_in(window: &Window, is_complete: bool, error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Repair> {
+    let lines = window::suspects(error, text, place, window);
     let mut edits: Vec<(usize, Edit)> = Vec::new();
     for edit in lines.iter().flat_map(|line| candidates::of_line(line, text, place)) {
         if edit.changes.iter().all(|(range, _)| range.start >= window.range.start && range.end <= window.range.end) {
@@ -130,7 +140,7 @@ pub(super) fn find(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -
     let rivals = edits[at + 1..].iter().map(|(_, rival)| rival).take_while(|rival| rival.cost == edit.cost);
     let mended = window.with(edit, text);
     let mut rivals = rivals.take(MOST_RIVALS).map(|rival| window.with(rival, text)).filter(|other| *other != mended);
-    let is_meant = left == 0 && edit.is_meant() && !rivals.any(|other| problems_left(&other) == Some(0));
+    let is_meant = is_complete && left == 0 && edit.is_meant() && !rivals.any(|other| problems_left(&other) == Some(0));
     let problem = edit.changes.iter().fold(tell::tell(edit, text, place), |problem, (range, with)| match is_meant {
         true => problem.fix(place.span(range.clone()), with),
         false => problem.maybe_fix(place.span(range.clone()), with),

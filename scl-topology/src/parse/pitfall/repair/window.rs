@@ -47,6 +47,20 @@ impl Window {
     }
 }
 
+impl Window {
+    /// The part up to the line in which the parser stopped, or to the end of what is in brackets there; `None` if that is
+    /// all of it.
+    pub(super) fn without_lines_below(&self, error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Self> {
+        let with_break = |end: usize| text[end..].find('\n').map_or(text.len(), |found| end + found + 1);
+        let mut end = with_break(place.line_range(error.at.min(text.len())).end);
+        while end < self.range.end && !scan::scan(&text[self.range.start..end]).open_brackets.is_empty() {
+            end = with_break(end);
+        }
+        (self.range.start < end && end < self.range.end)
+            .then(|| Self { head: self.head.clone(), range: self.range.start..end })
+    }
+}
+
 pub(super) fn around(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Window> {
     let whole = || Window { head: 0..0, range: 0..text.len() };
     if text.len() <= WHOLE {
