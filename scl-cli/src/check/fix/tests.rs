@@ -67,6 +67,27 @@ connections:
 }
 
 #[test]
+fn odd_separators_become_commas() {
+    for separator in [" ", " -> ", " ; ", ": "] {
+        let text = |separator| {
+            "\
+components:
+  - name: a
+    gates:
+      - x: pub
+  - name: b
+    gates:
+      - x: sub
+connections:
+  - [a.x, b.x]
+"
+            .replace(", ", separator)
+        };
+        assert_eq!(fixed(&text(separator)), (text(", "), 1, 0), "{separator}");
+    }
+}
+
+#[test]
 fn what_may_mean_several_things_is_left() {
     let text = "components:\n  - name: a\n    gates:\n      - x1: pub\n      - x2: pub\n  - name: b\n    gates:\n      - x: sub\n\
                 connections:\n  - [a.x3, b.x]\n";

@@ -75,7 +75,8 @@ fn separated_oddly(span: Span, text: &str, first: &str, second: &str) -> Diagnos
         }
         None => ("a comma is missing between the ends of this connection".to_owned(), "one text, not two ends"),
     };
-    RULE.at(message, span, label).help(format!("write `[{first}, {second}]`"))
+    let pair = format!("[{first}, {second}]");
+    RULE.at(message, span, label).help(format!("write `{pair}`")).fix(span, pair)
 }
 
 /// `- sensor.measurements`, `- a.b -> c.d`, `- (a.b, c.d)`.
