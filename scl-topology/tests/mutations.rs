@@ -30,7 +30,7 @@ const OTHER_FILES: [(&str, &str); 9] = [
 /// What the schema of the rover declares.
 const MESSAGES: [&str; 5] = ["rover.Measurement", "rover.Setpoint", "rover.Event", "rover.Command", "rover.Status"];
 
-/// One of so many mutants of the other files is tried; all of them take minutes without optimization.
+/// Of the mutants of the other files, one in this number is tried; all of them take minutes without optimization.
 const STEP: usize = 4;
 
 /// No mistake makes more errors.

@@ -52,7 +52,7 @@ fn valid_files_have_no_problem() {
     }
 }
 
-/// What is put in the place of a token, or after it. One in so many is tried at each token, as a text with a syntax error
+/// What is put in the place of a token, or after it. One in [`STEP`] is tried at each token, as a text with a syntax error
 /// is read many times.
 const STEP: usize = 4;
 

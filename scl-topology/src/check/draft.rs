@@ -99,7 +99,7 @@ impl<'m> Draft<'m> {
 
     /// Whether the names that an unknown one resembles should be looked for, and the known ones be listed. That takes a
     /// look at all names, so in a file with very many mistakes the later ones go without: time stays linear, and nobody
-    /// reads so many.
+    /// reads that many.
     pub(super) fn may_search(&mut self) -> bool {
         let may_search = self.searches_left > 0;
         self.searches_left = self.searches_left.saturating_sub(1);

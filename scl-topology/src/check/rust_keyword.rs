@@ -78,7 +78,7 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     }
 }
 
-/// Whether the name, or the Rust name that is made of it, is no name even with `r#`. Names that start with `__` are
+/// Whether the name, or the Rust name that is made of it, cannot be a name even with `r#`. Names that start with `__` are
 /// reserved, which is another rule.
 fn is_unusable(noun: Noun, name: &str) -> bool {
     !name.starts_with("__") && (is_unescapable(name) || is_well_formed(name) && is_unescapable(&rust_name(noun, name)))

@@ -35,7 +35,7 @@ pub(super) fn find(components: usize, waits: &[Wait], is_wanted: impl Fn(&Step) 
     found
 }
 
-/// The knot of each component, over all steps of waits that can last for ever; a component that cannot be stuck is a knot
+/// The knot of each component, over all steps of waits that can last without limit; a component that cannot be stuck is a knot
 /// of its own.
 pub(super) fn knots(components: usize, waits: &[Wait]) -> Vec<usize> {
     let waits: Vec<&Wait> = waits.iter().collect();
