@@ -79,6 +79,7 @@ pub(crate) async fn wait_for_peers(
         if missing().is_empty() {
             return Ok(());
         }
+        let ended = state.check().is_err();
         let changed = async {
             match deadline {
                 Some(deadline) => tokio::time::timeout_at(deadline, changed).await.is_ok(),
@@ -89,7 +90,7 @@ pub(crate) async fn wait_for_peers(
                 }
             }
         };
-        if !changed.await {
+        if ended || !changed.await {
             let missing = missing().into_iter().map(|(gate, missing)| {
                 MissingPeer::new(gate.name, PeerName::of(missing.link), state.explain(gate, &missing))
             });

@@ -110,6 +110,11 @@ pub(crate) fn gates_stopped() -> bool {
     STOP.gates_stopped()
 }
 
+/// Waits until a stop is requested, without handling it.
+pub(crate) fn requested() -> impl Future<Output = ()> + Send + 'static {
+    STOP.requested()
+}
+
 /// Returns true if a stop was requested, without handling it.
 pub(crate) fn was_requested() -> bool {
     STOP.is_requested()
