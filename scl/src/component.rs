@@ -92,7 +92,8 @@ pub(crate) async fn wait_for_peers(
         };
         if ended || !changed.await {
             let missing = missing().into_iter().map(|(gate, missing)| {
-                MissingPeer::new(gate.name, PeerName::of(missing.link), state.explain(gate, &missing))
+                let reason = state.explain(gate, &missing);
+                MissingPeer::new(gate.name, PeerName::of(missing.link), reason, missing.refusal.is_some())
             });
             let missing: Vec<MissingPeer> = missing.collect();
             return match missing.is_empty() {

@@ -85,6 +85,7 @@ pub mod conformance;
 mod environment;
 mod error;
 mod gate;
+pub mod host;
 mod log;
 mod medium;
 mod named_type;
