@@ -228,9 +228,10 @@ scl_status scl_ready(scl_component *component,
 /**
  * Waits until every peer that is running has taken all messages, then closes the component and all its gates, whose
  * handles become invalid. A timeout of 0 hands over what is possible at once, a negative one waits without limit.
+ * After a stop request it waits for connected peers only, and at most 500 ms.
  *
  * The component is always closed and freed, whatever the result, except for SCL_HANDLE, SCL_ARGUMENT and SCL_FORKED.
- * Calls that wait in other threads end with SCL_CLOSED.
+ * Calls that wait in other threads end with SCL_CLOSED. Messages that were received stay valid.
  *
  * Errors: SCL_NOT_FLUSHED (the text says how many messages which peers have not taken).
  */
@@ -247,9 +248,27 @@ scl_gate *scl_gate_by_name(scl_component *component,
 
 /**
  * Returns true if all required peers are connected or, for `rep` and `pull` gates, at least one peer. False for an
- * invalid handle and for a gate that another thread is using.
+ * invalid handle and for a gate that another thread is using; `scl_error` then says so.
  */
 bool scl_is_connected(const scl_gate *gate);
+
+/**
+ * Gives memory of `len` bytes, in which to make a message for `scl_send` or `scl_call` of this gate. It belongs to the
+ * gate and is valid until the next call to that gate; its content is arbitrary. Using it is optional, it spares
+ * allocating.
+ *
+ * Errors: SCL_TOO_LONG (no peer accepts a message of this length), SCL_BUSY, SCL_HANDLE, SCL_ARGUMENT.
+ */
+scl_status scl_buffer(scl_gate *gate,
+                      size_t len,
+                      void **buffer);
+
+/**
+ * Reports that a received message is not what the gate's type says, for code that decodes messages: makes a text for
+ * `scl_error` and returns SCL_DECODE.
+ */
+scl_status scl_undecodable(const scl_gate *gate,
+                           const char *type_name);
 
 /**
  * Sends a message of `len` bytes over a `pub` or `push` gate. The bytes are copied.
@@ -279,6 +298,20 @@ scl_status scl_recv(scl_gate *gate,
                     scl_message **message);
 
 /**
+ * Receives the next message of a `sub` or `pull` gate into a buffer of `capacity` bytes, and stores its length in
+ * `*len`. The variant of scl_recv without anything to free.
+ *
+ * Errors: SCL_BUFFER if the buffer is too small: `*len` is the size needed, and the next call returns the same
+ * message, unless scl_latest finds a newer one. `buffer` may be NULL if `capacity` is 0. Otherwise those of scl_recv,
+ * and `*len` is 0.
+ */
+scl_status scl_recv_into(scl_gate *gate,
+                         void *buffer,
+                         size_t capacity,
+                         size_t *len,
+                         int64_t timeout_ns);
+
+/**
  * Returns the newest message that has arrived at a `sub` or `pull` gate and discards the older ones. It does not wait.
  *
  * On success, `*message` is the message, to be freed with scl_message_free; otherwise it is NULL.
@@ -304,8 +337,8 @@ const void *scl_message_data(const scl_message *message,
 void scl_message_free(scl_message *message);
 
 /**
- * Sends a request of `len` bytes over a `req` gate and waits for the reply. A negative timeout is the gate's own, from
- * the topology file.
+ * Sends a request of `len` bytes, which are copied, over a `req` gate and waits for the reply. A negative timeout
+ * means the gate's own, from the topology file. A replier that is not connected yet is waited for within that time.
  *
  * On success, `*reply` is the reply, to be freed with scl_message_free; otherwise it is NULL.
  *
@@ -351,9 +384,80 @@ scl_status scl_reply(scl_request *request,
                      size_t len);
 
 /**
+ * Gives memory of `len` bytes, in which to make a reply for `scl_reply`. It belongs to the request and is valid as
+ * long; its content is arbitrary. Using it is optional, it spares freeing.
+ *
+ * Errors: SCL_HANDLE, SCL_ARGUMENT, SCL_SYSTEM (no memory).
+ */
+scl_status scl_reply_buffer(scl_request *request,
+                            size_t len,
+                            void **buffer);
+
+/**
  * Frees a request that is not to be answered; its sender waits until its timeout. NULL is allowed.
  */
 void scl_request_free(scl_request *request);
+
+/**
+ * Waits until at least one of `count` gates of a component has a message or a request, and sets the bits of those that
+ * have in `*ready`: bit 0 for `gates[0]`. It takes nothing; scl_recv or scl_take_request of these gates then do not
+ * wait. A timeout of 0 only looks, a negative one waits without limit.
+ *
+ * At most 64 gates, of the kinds `sub`, `pull` and `rep`. No other thread may use any of them during the call.
+ *
+ * Errors: SCL_NOTHING (timeout 0), SCL_TIMEOUT, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY (also if a gate is given
+ * twice), SCL_HANDLE. `*ready` is 0 then.
+ */
+scl_status scl_wait(scl_component *component,
+                    scl_gate *const *gates,
+                    size_t count,
+                    int64_t timeout_ns,
+                    uint64_t *ready);
+
+/**
+ * Returns a file descriptor for `poll`, `epoll` and event loops, or -1; `scl_error` then says why.
+ *
+ * It is readable while any gate of the component has a message or a request, until all were taken with a timeout of 0,
+ * and from a stop request on. It is level-triggered. It belongs to the component: do not read from it, write to it or
+ * close it. Further calls return the same descriptor. From the first call on, a thread of the library does the
+ * component's input and output, so that nothing is missed while no call is under way.
+ */
+int scl_fd(scl_component *component);
+
+/**
+ * Writes a gate's counts since its component was opened into a buffer of `capacity` bytes, as a JSON object that ends
+ * with NUL, and stores its length without the NUL in `*len`:
+ *
+ *     {"sent": 2, "received": 0, "dropped_oldest": 0, "dropped_newest": 0, "dropped_for_observers": 0, "lost": 0,
+ *      "rejected": 0, "bytes": 12, "waiting": 0, "peers": 1, "idle_ns": 1500000, "connections": [{"peer":
+ *      "controller.sensor", "connected": true, "published": 2, "taken": 2, "dropped_oldest": 0, "dropped_newest": 0,
+ *      "lost": 0, "waiting": 0}]}
+ *
+ * `idle_ns` is the time since a message last moved, or null. `connections` is empty for gates other than `pub` and
+ * `push`.
+ *
+ * Errors: SCL_BUFFER if the buffer is too small: it must be larger than `*len`, and the counts may have grown until
+ * the next call. SCL_BUSY, SCL_HANDLE, SCL_ARGUMENT.
+ */
+scl_status scl_stats(scl_gate *gate,
+                     char *buffer,
+                     size_t capacity,
+                     size_t *len);
+
+/**
+ * Returns true if the program was asked to stop, by SIGTERM or SIGINT.
+ *
+ * A stop request ends all calls that wait, and makes later ones fail, with SCL_STOPPED, so that a program that returns
+ * from `main` after any error stops by itself. If it still runs after the time given by SCL_STOP_WITHIN (default 3s),
+ * or when a second signal arrives, it is ended with exit code 128 + the number of the signal.
+ */
+bool scl_stop_requested(void);
+
+/**
+ * From now on the program handles stop requests itself: its gates keep working after the request, also those that
+ * wait, and `scl_stop_requested` tells. It still has to end within SCL_STOP_WITHIN.
+ */
+void scl_handle_stop(void);
 
 #ifdef __cplusplus
 }  // extern "C"

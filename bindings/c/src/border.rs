@@ -107,6 +107,44 @@ pub(crate) unsafe fn result<'a, T>(result: *mut T, name: &str) -> Result<&'a mut
     unsafe { result.as_mut() }.ok_or_else(|| null(name))
 }
 
+/// Refuses a buffer of the program that cannot be one.
+pub(crate) fn check_buffer(buffer: *const c_void, capacity: usize) -> Result<(), Failure> {
+    check_length(capacity, "buffer")?;
+    if buffer.is_null() && capacity > 0 {
+        return Err(Failure::argument(format!("`buffer` is NULL, but `capacity` is {capacity}")));
+    }
+    Ok(())
+}
+
+/// Copies bytes into a buffer of the program, if it is large enough.
+///
+/// # Safety
+/// `buffer` points to `capacity` bytes that nothing else uses, or `capacity` is 0.
+pub(crate) unsafe fn store(bytes: &[u8], buffer: *mut c_void, capacity: usize) -> Result<(), Failure> {
+    let needed = bytes.len();
+    if needed > capacity {
+        let text = format!("the buffer of {capacity} bytes is too small: {needed} are needed; nothing is lost");
+        return Err(Failure::new(SCL_BUFFER, text));
+    }
+    if needed > 0 {
+        // SAFETY: the capacity suffices and is not 0, so the caller promises the memory; it cannot overlap with bytes
+        // of this library.
+        unsafe { std::ptr::copy_nonoverlapping(bytes.as_ptr(), buffer.cast(), needed) };
+    }
+    Ok(())
+}
+
+/// Memory of `len` bytes for the program to write to.
+pub(crate) fn room(buffer: &mut Vec<u8>, len: usize) -> Result<*mut c_void, Failure> {
+    check_length(len, "buffer")?;
+    let missing = len.saturating_sub(buffer.len());
+    let no_memory = |_| Failure::new(SCL_SYSTEM, format!("there is no memory for {len} bytes"));
+    buffer.try_reserve_exact(missing).map_err(no_memory)?;
+    // Zeroed, so that a program that writes less never sends what was in the memory before.
+    buffer.resize(len, 0);
+    Ok(buffer.as_mut_ptr().cast())
+}
+
 pub(crate) fn null(name: &str) -> Failure {
     Failure::argument(format!("`{name}` is NULL"))
 }

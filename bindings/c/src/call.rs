@@ -1,16 +1,15 @@
 //! Calls: `req` gates.
 
-use crate::border;
+use crate::border::{self, Wait};
 use crate::gate::{self, scl_gate};
 use crate::message::scl_message;
 use crate::receive::give;
 use crate::status::*;
-use scl::bytes::Bytes;
 use scl::untyped::Gate;
 use std::ffi::c_void;
 
-/// Sends a request of `len` bytes over a `req` gate and waits for the reply. A negative timeout is the gate's own, from
-/// the topology file.
+/// Sends a request of `len` bytes, which are copied, over a `req` gate and waits for the reply. A negative timeout
+/// means the gate's own, from the topology file. A replier that is not connected yet is waited for within that time.
 ///
 /// On success, `*reply` is the reply, to be freed with scl_message_free; otherwise it is NULL.
 ///
@@ -24,14 +23,14 @@ pub unsafe extern "C" fn scl_call(
     timeout_ns: i64,
     reply: *mut *mut scl_message,
 ) -> scl_status {
-    let _ = timeout_ns;
     let call = || {
         let mut open = gate::lock(gate)?;
-        // SAFETY: the caller's duty; NULL and impossible lengths are refused.
-        let request = Bytes::copy_from_slice(unsafe { border::bytes(data, len, "data") }?);
-        match &mut open.gate {
-            Gate::Req(gate) => Ok(gate.call_blocking(&request)?),
-            other => Err(gate::wrong_kind(other, "scl_call")),
+        // SAFETY: the caller's duty.
+        let request = unsafe { open.outgoing(data, len) }?;
+        match (&mut open.gate, Wait::of(timeout_ns)) {
+            (Gate::Req(gate), Wait::Forever) => Ok(gate.call_blocking(&request)?),
+            (Gate::Req(gate), wait) => Ok(gate.call_timeout(&request, wait.limit())?),
+            _ => Err(open.wrong_kind("scl_call")),
         }
     };
     // SAFETY: the caller's duty; NULL is refused.

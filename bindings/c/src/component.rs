@@ -6,10 +6,11 @@ use crate::gate::{self, scl_gate};
 use crate::options::Options;
 use crate::registry::Registry;
 use crate::status::*;
+use scl::host;
 use scl::plan::{SystemPlan, nearest};
-use scl::untyped::{Component, GateError};
+use scl::untyped::{Closer, Component, GateError, Readiness};
 use std::ffi::{c_char, c_void};
-use std::sync::{Arc, PoisonError, RwLock};
+use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 /// A component, opened by this process.
 #[allow(non_camel_case_types)]
@@ -18,12 +19,16 @@ pub struct scl_component {
 }
 
 /// An open component.
-struct Opened {
+pub(crate) struct Opened {
     name: String,
     /// `None` once closed. Calls that wait hold a read lock.
     component: RwLock<Option<Component>>,
+    /// Ends the calls of the component and its gates.
+    closer: Closer,
     /// Names and handles of its gates.
     gates: Vec<(String, usize)>,
+    /// Opened by the first `scl_fd`.
+    readiness: OnceLock<Readiness>,
 }
 
 static COMPONENTS: Registry<Arc<Opened>> = Registry::new(3, "component");
@@ -76,17 +81,16 @@ pub unsafe extern "C" fn scl_open(
 pub unsafe extern "C" fn scl_ready(component: *mut scl_component, timeout_ns: i64) -> scl_status {
     border::status(|| {
         let opened = find(component)?;
-        let component = opened.component.read().unwrap_or_else(PoisonError::into_inner);
-        let component = component.as_ref().ok_or_else(closed)?;
-        Ok(component.ready_blocking(Wait::of(timeout_ns).limit())?)
+        opened.with(|component| Ok(component.ready_blocking(Wait::of(timeout_ns).limit())?))
     })
 }
 
 /// Waits until every peer that is running has taken all messages, then closes the component and all its gates, whose
 /// handles become invalid. A timeout of 0 hands over what is possible at once, a negative one waits without limit.
+/// After a stop request it waits for connected peers only, and at most 500 ms.
 ///
 /// The component is always closed and freed, whatever the result, except for SCL_HANDLE, SCL_ARGUMENT and SCL_FORKED.
-/// Calls that wait in other threads end with SCL_CLOSED.
+/// Calls that wait in other threads end with SCL_CLOSED. Messages that were received stay valid.
 ///
 /// Errors: SCL_NOT_FLUSHED (the text says how many messages which peers have not taken).
 #[unsafe(no_mangle)]
@@ -112,24 +116,35 @@ pub unsafe extern "C" fn scl_gate_by_name(component: *mut scl_component, name: *
 }
 
 fn open(plan: &[u8], name: &str, options: &Options) -> Result<usize, Failure> {
-    let text =
-        std::str::from_utf8(plan).map_err(|error| Failure::new(SCL_PLAN, format!("the plan is not UTF-8: {error}")))?;
+    let utf8 = |error| Failure::new(SCL_PLAN, format!("the plan is not UTF-8: {error}"));
+    let text = std::str::from_utf8(plan).map_err(utf8)?;
     let system = SystemPlan::from_json(text).map_err(|error| Failure::of(SCL_PLAN, &error))?;
     let plan = system.component(name).map_err(|error| Failure::of(SCL_NAME, &error))?;
-    let mut component = Component::open_blocking_with(plan, options.for_opening())?;
-    let mut gates = Vec::new();
-    for gate in &plan.gates {
-        let handle = gate::insert(component.gate(&gate.name)?)?;
-        gates.push((gate.name.clone(), handle));
+    host::start_log()?;
+    if options.signals() {
+        host::watch_signals()?;
     }
-    COMPONENTS.insert(Arc::new(Opened { name: name.to_owned(), component: RwLock::new(Some(component)), gates }))
+    let mut component = Component::open_blocking_with(plan, options.for_opening())?;
+    let mut opened = Opened::new(name, component.closer());
+    for gate in &plan.gates {
+        let inserted = component.gate(&gate.name).map_err(Failure::from).and_then(|gate| gate::insert(name, gate));
+        match inserted {
+            Ok(handle) => opened.gates.push((gate.name.clone(), handle)),
+            Err(failure) => {
+                opened.remove_gates();
+                return Err(failure);
+            }
+        }
+    }
+    opened.component = RwLock::new(Some(component));
+    COMPONENTS.insert(Arc::new(opened))
 }
 
 fn close(handle: usize, wait: Wait) -> Result<(), Failure> {
-    let opened = COMPONENTS.remove(handle, || ())?;
-    for (_, gate) in &opened.gates {
-        gate::remove(*gate)?;
-    }
+    let opened = COMPONENTS.remove(handle)?;
+    opened.closer.end_calls();
+    // Dropped before the flush, which waits for what they have sent.
+    opened.remove_gates();
     let component = opened.component.write().unwrap_or_else(PoisonError::into_inner).take();
     match component {
         Some(component) => Ok(component.close_blocking(wait.limit())?),
@@ -137,8 +152,9 @@ fn close(handle: usize, wait: Wait) -> Result<(), Failure> {
     }
 }
 
-fn find(component: *mut scl_component) -> Result<Arc<Opened>, Failure> {
-    Ok(Arc::clone(&*COMPONENTS.lock(component as usize)?))
+/// The component of a handle.
+pub(crate) fn find(component: *mut scl_component) -> Result<Arc<Opened>, Failure> {
+    COMPONENTS.get(component as usize)
 }
 
 fn closed() -> Failure {
@@ -146,6 +162,31 @@ fn closed() -> Failure {
 }
 
 impl Opened {
+    fn new(name: &str, closer: Closer) -> Self {
+        let (component, readiness) = (RwLock::new(None), OnceLock::new());
+        Self { name: name.to_owned(), component, closer, gates: Vec::new(), readiness }
+    }
+
+    fn remove_gates(&self) {
+        // Only this component's own gates, each once.
+        self.gates.iter().for_each(|(_, gate)| drop(gate::remove(*gate)));
+    }
+
+    /// Makes a call to the component, which is not closed before it ends.
+    pub(crate) fn with<T>(&self, call: impl FnOnce(&Component) -> Result<T, Failure>) -> Result<T, Failure> {
+        let component = self.component.read().unwrap_or_else(PoisonError::into_inner);
+        call(component.as_ref().ok_or_else(closed)?)
+    }
+
+    /// The descriptor for event loops.
+    pub(crate) fn readiness(&self) -> Result<&Readiness, Failure> {
+        if let Some(readiness) = self.readiness.get() {
+            return Ok(readiness);
+        }
+        let opened = self.with(|component| component.readiness().map_err(|error| Failure::of(SCL_SYSTEM, &error)))?;
+        Ok(self.readiness.get_or_init(|| opened))
+    }
+
     fn unknown_gate(&self, name: &str) -> Failure {
         let names = || self.gates.iter().map(|(name, _)| name);
         let nearest = nearest(name, names().map(String::as_str)).map(str::to_owned);

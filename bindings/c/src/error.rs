@@ -1,9 +1,12 @@
 //! Failures: a status and a text, which the thread keeps until its next failure.
 
 use crate::status::*;
-use scl::untyped::GateError;
-use scl::{BlockingError, CallError, NotReady, OpenError, RecvError, RecvTimeoutError, ReplyError, SendError};
-use scl::{TrySendError, runtime_dir::RuntimeDirError};
+use scl::runtime_dir::RuntimeDirError;
+use scl::untyped::{GateError, WaitError};
+use scl::{
+    BlockingError, CallError, NotFlushed, NotReady, OpenError, RecvError, RecvTimeoutError, ReplyError, SendError,
+    SendTimeoutError, TrySendError,
+};
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::error::Error;
@@ -70,6 +73,7 @@ fn blocking(error: &BlockingError) -> scl_status {
     match error {
         BlockingError::Stopped => SCL_STOPPED,
         BlockingError::Forked => SCL_FORKED,
+        BlockingError::Closed => SCL_CLOSED,
         _ => SCL_FAILED,
     }
 }
@@ -119,6 +123,15 @@ impl From<TrySendError> for Failure {
     }
 }
 
+impl From<SendTimeoutError> for Failure {
+    fn from(error: SendTimeoutError) -> Self {
+        match error {
+            SendTimeoutError::Send(error) => error.into(),
+            timeout => Self::of(SCL_TIMEOUT, &timeout),
+        }
+    }
+}
+
 impl From<RecvError> for Failure {
     fn from(error: RecvError) -> Self {
         let status = match &error {
@@ -136,6 +149,19 @@ impl From<RecvTimeoutError> for Failure {
             RecvTimeoutError::Recv(error) => error.into(),
             timeout => Self::of(SCL_TIMEOUT, &timeout),
         }
+    }
+}
+
+impl From<WaitError> for Failure {
+    fn from(error: WaitError) -> Self {
+        let status = match &error {
+            WaitError::Recv(RecvError::Blocking { source, .. }) | WaitError::Blocking { source, .. } => {
+                blocking(source)
+            }
+            WaitError::Timeout { .. } => SCL_TIMEOUT,
+            _ => SCL_FAILED,
+        };
+        Self::of(status, &error)
     }
 }
 
@@ -173,7 +199,7 @@ impl From<scl::Error> for Failure {
             blocking(source)
         } else if error.is::<NotReady>() {
             SCL_TIMEOUT
-        } else if error.is::<scl::NotFlushed>() {
+        } else if error.is::<NotFlushed>() {
             SCL_NOT_FLUSHED
         } else {
             SCL_FAILED

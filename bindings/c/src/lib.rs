@@ -26,6 +26,12 @@ mod call;
 
 mod request;
 
+mod wait;
+
+mod stats;
+
+mod stop;
+
 // What the calls are made of.
 mod border;
 mod fork;

@@ -96,17 +96,26 @@ impl<T> Registry<T> {
         Ok(Locked(value))
     }
 
-    /// Makes a handle invalid, waits for the call that uses it, if any, and returns its value. `interrupt` is called
-    /// in between, to end that call.
-    pub(crate) fn remove(&self, handle: usize, interrupt: impl FnOnce()) -> Result<T, Failure> {
+    /// Makes a handle invalid, waits for the end of the call that uses it, if any, and returns its value.
+    pub(crate) fn remove(&self, handle: usize) -> Result<T, Failure> {
         let (slot, generation) = self.slot(handle)?;
         let next = (generation + 1) % GENERATIONS;
         let claimed = slot.generation.compare_exchange(generation, next, Ordering::AcqRel, Ordering::Relaxed);
         claimed.map_err(|_| self.unknown(handle))?;
-        interrupt();
         let value = lock(&slot.value).take().ok_or_else(|| self.unknown(handle))?;
         lock(&self.free).used.push(handle >> TAG_BITS & ((1 << INDEX_BITS) - 1));
         Ok(value)
+    }
+
+    /// A copy of the value of a handle, whatever other threads do with it.
+    pub(crate) fn get(&self, handle: usize) -> Result<T, Failure>
+    where
+        T: Clone,
+    {
+        let (slot, generation) = self.slot(handle)?;
+        let value = lock(&slot.value).clone();
+        // The slot may have got another value since it was looked up.
+        value.filter(|_| slot.generation.load(Ordering::Acquire) == generation).ok_or_else(|| self.unknown(handle))
     }
 
     fn slot(&self, handle: usize) -> Result<(&Slot<T>, usize), Failure> {

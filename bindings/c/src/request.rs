@@ -2,7 +2,7 @@
 
 use crate::border::{self, Wait};
 use crate::error::Failure;
-use crate::gate::{self, scl_gate};
+use crate::gate::{self, OpenGate, scl_gate};
 use crate::receive::NOTHING;
 use crate::status::*;
 use scl::Request;
@@ -15,6 +15,8 @@ use std::ffi::c_void;
 pub struct scl_request {
     mark: u64,
     request: Request<Bytes, Bytes>,
+    /// The memory of `scl_reply_buffer`.
+    buffer: Vec<u8>,
 }
 
 /// Found at the beginning of every live request, and of no message.
@@ -36,8 +38,8 @@ pub unsafe extern "C" fn scl_take_request(
         // SAFETY: the caller's duty; NULL is refused.
         let result = unsafe { border::result(request, "request") }?;
         *result = std::ptr::null_mut();
-        let request = take(&mut gate::lock(gate)?.gate, Wait::of(timeout_ns))?;
-        *result = Box::into_raw(Box::new(scl_request { mark: MARK, request }));
+        let request = take(&mut *gate::lock(gate)?, Wait::of(timeout_ns))?;
+        *result = Box::into_raw(Box::new(scl_request { mark: MARK, request, buffer: Vec::new() }));
         Ok(())
     })
 }
@@ -66,13 +68,36 @@ pub unsafe extern "C" fn scl_request_data(request: *const scl_request, len: *mut
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_reply(request: *mut scl_request, data: *const c_void, len: usize) -> scl_status {
     border::status(|| {
-        // SAFETY: the caller promises a live request or NULL; the bytes are the caller's duty.
-        let reply = unsafe {
-            live(request)?;
-            Bytes::copy_from_slice(border::bytes(data, len, "data")?)
-        };
+        // SAFETY: the caller promises a live request or NULL.
+        unsafe { live(request) }?;
+        // SAFETY: the bytes are the caller's duty.
+        let data = unsafe { border::bytes(data, len, "data") }?;
+        // Before the request is freed, which the bytes may belong to.
+        let reply = Bytes::copy_from_slice(data);
         // SAFETY: just found to be live.
         Ok(unsafe { take_back(request) }.reply(&reply)?)
+    })
+}
+
+/// Gives memory of `len` bytes, in which to make a reply for `scl_reply`. It belongs to the request and is valid as
+/// long; its content is arbitrary. Using it is optional, it spares freeing.
+///
+/// Errors: SCL_HANDLE, SCL_ARGUMENT, SCL_SYSTEM (no memory).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_reply_buffer(
+    request: *mut scl_request,
+    len: usize,
+    buffer: *mut *mut c_void,
+) -> scl_status {
+    border::status(|| {
+        // SAFETY: the caller's duty; NULL is refused.
+        let result = unsafe { border::result(buffer, "buffer") }?;
+        *result = std::ptr::null_mut();
+        // SAFETY: the caller promises a live request or NULL.
+        unsafe { live(request) }?;
+        // SAFETY: just found to be live; nothing else refers to this field.
+        *result = border::room(unsafe { &mut (*request).buffer }, len)?;
+        Ok(())
     })
 }
 
@@ -91,11 +116,12 @@ pub unsafe extern "C" fn scl_request_free(request: *mut scl_request) {
     });
 }
 
-fn take(gate: &mut Gate, wait: Wait) -> Result<Request<Bytes, Bytes>, Failure> {
-    match (gate, wait) {
+fn take(open: &mut OpenGate, wait: Wait) -> Result<Request<Bytes, Bytes>, Failure> {
+    match (&mut open.gate, wait) {
         (Gate::Rep(gate), Wait::No) => gate.try_recv()?.ok_or(NOTHING),
-        (Gate::Rep(gate), _) => Ok(gate.recv_blocking()?),
-        (other, _) => Err(gate::wrong_kind(other, "scl_take_request")),
+        (Gate::Rep(gate), Wait::For(time)) => Ok(gate.recv_timeout(time)?),
+        (Gate::Rep(gate), Wait::Forever) => Ok(gate.recv_blocking()?),
+        _ => Err(open.wrong_kind("scl_take_request")),
     }
 }
 

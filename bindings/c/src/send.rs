@@ -1,7 +1,8 @@
 //! Sending: `pub` and `push` gates.
 
 use crate::border::{self, Wait};
-use crate::gate::{self, scl_gate};
+use crate::error::Failure;
+use crate::gate::{self, OpenGate, scl_gate};
 use crate::status::*;
 use scl::bytes::Bytes;
 use scl::untyped::Gate;
@@ -18,14 +19,20 @@ use std::ffi::c_void;
 pub unsafe extern "C" fn scl_send(gate: *mut scl_gate, data: *const c_void, len: usize, timeout_ns: i64) -> scl_status {
     border::status(|| {
         let mut open = gate::lock(gate)?;
-        // SAFETY: the caller's duty; NULL and impossible lengths are refused.
-        let message = Bytes::copy_from_slice(unsafe { border::bytes(data, len, "data") }?);
-        match (&mut open.gate, Wait::of(timeout_ns)) {
-            (Gate::Pub(gate), Wait::No) => Ok(gate.try_send(&message)?),
-            (Gate::Push(gate), Wait::No) => Ok(gate.try_send(&message)?),
-            (Gate::Pub(gate), _) => Ok(gate.send_blocking(&message)?),
-            (Gate::Push(gate), _) => Ok(gate.send_blocking(&message)?),
-            (other, _) => Err(gate::wrong_kind(other, "scl_send")),
-        }
+        // SAFETY: the caller's duty.
+        let message = unsafe { open.outgoing(data, len) }?;
+        send(&mut open, &message, Wait::of(timeout_ns))
     })
+}
+
+fn send(open: &mut OpenGate, message: &Bytes, wait: Wait) -> Result<(), Failure> {
+    match (&mut open.gate, wait) {
+        (Gate::Pub(gate), Wait::No) => Ok(gate.try_send(message)?),
+        (Gate::Pub(gate), Wait::For(time)) => Ok(gate.send_timeout(message, time)?),
+        (Gate::Pub(gate), Wait::Forever) => Ok(gate.send_blocking(message)?),
+        (Gate::Push(gate), Wait::No) => Ok(gate.try_send(message)?),
+        (Gate::Push(gate), Wait::For(time)) => Ok(gate.send_timeout(message, time)?),
+        (Gate::Push(gate), Wait::Forever) => Ok(gate.send_blocking(message)?),
+        _ => Err(open.wrong_kind("scl_send")),
+    }
 }
