@@ -326,7 +326,8 @@ scl_status scl_latest(scl_gate *gate,
  * were received, without a copy; they are valid until scl_message_free. An empty message gives a pointer that is not
  * NULL.
  *
- * NULL for a NULL message; then `*len` is 0. A message that was freed must not be used, which cannot be detected.
+ * A NULL message gives NULL and the length 0, and is no error. A message that was freed must not be used, which cannot
+ * be detected.
  */
 const void *scl_message_data(const scl_message *message,
                              size_t *len);
@@ -367,8 +368,8 @@ scl_status scl_take_request(scl_gate *gate,
  * Returns the bytes of a request, and stores their number in `*len` unless `len` is NULL. They are valid until
  * scl_reply or scl_request_free.
  *
- * NULL for a NULL request; then `*len` is 0. A request that was answered or freed must not be used, which cannot be
- * detected.
+ * A NULL request gives NULL and the length 0, and is no error. A request that was answered or freed must not be used,
+ * which cannot be detected.
  */
 const void *scl_request_data(const scl_request *request,
                              size_t *len);
