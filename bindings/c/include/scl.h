@@ -355,6 +355,19 @@ scl_status scl_reply(scl_request *request,
  */
 void scl_request_free(scl_request *request);
 
+/**
+ * Keeps `text` as this thread's last error and returns `status`. For generated code.
+ */
+scl_status scl_fail(scl_status status,
+                    const char *text);
+
+/**
+ * Counts a message, request or reply of this gate as undecodable, keeps the error with the names of the gate and its
+ * peers, and returns SCL_DECODE. `type` is what it should have been: `rover.Measurement`. For generated code.
+ */
+scl_status scl_undecodable(scl_gate *gate,
+                           const char *type);
+
 #ifdef __cplusplus
 }  // extern "C"
 #endif  // __cplusplus

@@ -26,6 +26,8 @@ mod call;
 
 mod request;
 
+mod generated;
+
 // What the calls are made of.
 mod border;
 mod fork;

@@ -1,7 +1,7 @@
 //! A gate of any kind, with bytes as its messages.
 
-use crate::component::Opener;
 use crate::codec::DecodeError;
+use crate::component::Opener;
 use crate::error::{Error, OpenError};
 use crate::gate::{AnyGate, GateStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Sub};
 use crate::spec::{GateKind, GateSpec};
