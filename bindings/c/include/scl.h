@@ -264,13 +264,6 @@ scl_status scl_buffer(scl_gate *gate,
                       void **buffer);
 
 /**
- * Reports that a received message is not what the gate's type says, for code that decodes messages: makes a text for
- * `scl_error` and returns SCL_DECODE.
- */
-scl_status scl_undecodable(const scl_gate *gate,
-                           const char *type_name);
-
-/**
  * Sends a message of `len` bytes over a `pub` or `push` gate. The bytes are copied.
  *
  * Only a gate with `backpressure: true` waits, for a peer with `when_full: wait` whose queue is full. A timeout of 0
@@ -444,6 +437,19 @@ scl_status scl_stats(scl_gate *gate,
                      char *buffer,
                      size_t capacity,
                      size_t *len);
+
+/**
+ * Keeps `text` as this thread's last error and returns `status`. For generated code.
+ */
+scl_status scl_fail(scl_status status,
+                    const char *text);
+
+/**
+ * Counts a message, request or reply of this gate as undecodable, keeps the error with the names of the gate and its
+ * peers, and returns SCL_DECODE. `type` is what it should have been: `rover.Measurement`. For generated code.
+ */
+scl_status scl_undecodable(scl_gate *gate,
+                           const char *type);
 
 /**
  * Returns true if the program was asked to stop, by SIGTERM or SIGINT.
