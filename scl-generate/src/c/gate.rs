@@ -185,7 +185,7 @@ impl Sent {
         match content {
             Content::Struct { name: message, prefix } => Self {
                 parameters: vec![format!("const {message} *{name}")],
-                arguments: format!("{name} == NULL ? NULL : &{name}->base, &{prefix}__descriptor"),
+                arguments: format!("(const ProtobufCMessage *){name}, &{prefix}__descriptor"),
             },
             Content::Bytes => Self {
                 parameters: vec!["const void *data".to_owned(), "size_t size".to_owned()],

@@ -305,14 +305,14 @@ scl_status every_kind_left_close(every_kind_left *self, int64_t timeout_ns)
 
 scl_status every_kind_left_values_send(every_kind_left *self, const Kinds__Value *message, int64_t timeout_ns)
 {
-    return send_message(self == NULL ? NULL : self->gates.values, message == NULL ? NULL : &message->base, &kinds__value__descriptor, timeout_ns);
+    return send_message(self == NULL ? NULL : self->gates.values, (const ProtobufCMessage *)message, &kinds__value__descriptor, timeout_ns);
 }
 
 scl_status every_kind_left_class_send(every_kind_left *self,
                                       const Kinds__GPSFix__InnerPart *message,
                                       int64_t timeout_ns)
 {
-    return send_message(self == NULL ? NULL : self->gates.class_, message == NULL ? NULL : &message->base, &kinds__gpsfix__inner_part__descriptor, timeout_ns);
+    return send_message(self == NULL ? NULL : self->gates.class_, (const ProtobufCMessage *)message, &kinds__gpsfix__inner_part__descriptor, timeout_ns);
 }
 
 scl_status every_kind_left_int_call(every_kind_left *self,
@@ -323,7 +323,7 @@ scl_status every_kind_left_int_call(every_kind_left *self,
     scl_gate *gate = self == NULL ? NULL : self->gates.int_;
     scl_message *bytes = NULL;
     scl_message **result = reply == NULL ? NULL : &bytes;
-    scl_status status = call_with_message(gate, request == NULL ? NULL : &request->base, &kinds__value__descriptor, timeout_ns, result);
+    scl_status status = call_with_message(gate, (const ProtobufCMessage *)request, &kinds__value__descriptor, timeout_ns, result);
     return unpack(gate, &part__part__descriptor, status, bytes, reply);
 }
 
@@ -450,7 +450,7 @@ scl_status every_kind_right_side_answer_reply(every_kind_right_side_answer_reque
     if (request == NULL) {
         return scl_fail(SCL_ARGUMENT, "`request` is NULL");
     }
-    scl_status status = reply_with_message(request->handle, reply == NULL ? NULL : &reply->base, &part__part__descriptor);
+    scl_status status = reply_with_message(request->handle, (const ProtobufCMessage *)reply, &part__part__descriptor);
     if (status != SCL_ARGUMENT) {
         protobuf_c_message_free_unpacked((ProtobufCMessage *)request->message, NULL);
         memset(request, 0, sizeof *request);
