@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     let mut found = Vec::new();
     let mut declare = |name: String, origin: Origin| {
-        found.push(Declaration { scope: "the names of C".to_owned(), name, origin });
+        found.push(Declaration { scope: "C".to_owned(), name, origin });
     };
     for message in messages(system) {
         protobuf_c::declared(&message.dotted).into_iter().for_each(|name| declare(name, Origin::message(&message)));
@@ -35,6 +35,8 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         }
         for gate in &component.gates {
             gate::declared(&prefix, gate).into_iter().for_each(|name| declare(name, Origin::gate(component, gate)));
+        }
+        for gate in wait::gates(component) {
             declare(wait::constant(&prefix, gate), Origin::gate(component, gate));
         }
     }
