@@ -72,12 +72,14 @@ template <class T, class Format> class ReceivingGate : public Gate {
 
     scl_status receive(std::optional<T>& message, TimeLimit limit) const {
         scl_message* received = nullptr;
-        return take(message, scl_recv(handle(), limit.nanoseconds(), &received), received);
+        scl_status status = scl_recv(handle(), limit.nanoseconds(), &received);
+        return take(message, status, received);
     }
 
     scl_status receive_latest(std::optional<T>& message) const {
         scl_message* received = nullptr;
-        return take(message, scl_latest(handle(), &received), received);
+        scl_status status = scl_latest(handle(), &received);
+        return take(message, status, received);
     }
 
     scl_status take(std::optional<T>& message, scl_status status, scl_message* received) const {
