@@ -79,6 +79,7 @@ pub(crate) async fn wait_for_peers(
         if missing().is_empty() {
             return Ok(());
         }
+        let ended = state.check().is_err();
         let changed = async {
             match deadline {
                 Some(deadline) => tokio::time::timeout_at(deadline, changed).await.is_ok(),
@@ -89,9 +90,10 @@ pub(crate) async fn wait_for_peers(
                 }
             }
         };
-        if !changed.await {
+        if ended || !changed.await {
             let missing = missing().into_iter().map(|(gate, missing)| {
-                MissingPeer::new(gate.name, PeerName::of(missing.link), state.explain(gate, &missing))
+                let reason = state.explain(gate, &missing);
+                MissingPeer::new(gate.name, PeerName::of(missing.link), reason, missing.refusal.is_some())
             });
             let missing: Vec<MissingPeer> = missing.collect();
             return match missing.is_empty() {

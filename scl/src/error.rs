@@ -115,6 +115,9 @@ pub enum BlockingError {
     /// The calling process is a forked child of the one that opened the component.
     #[error("the component was opened before a `fork` and belongs to the parent process; open it in one process only")]
     Forked,
+    /// The component's calls were ended, see [`Closer`](crate::untyped::Closer).
+    #[error("the component was closed")]
+    Closed,
     /// The async runtime on which the component was opened has ended.
     #[error("the async runtime on which the component was opened has ended; keep it running while the gates are used")]
     RuntimeEnded,
@@ -167,6 +170,25 @@ pub enum TrySendError {
         gate: GateName,
         /// The peer whose queue is full.
         peer: PeerName,
+    },
+    /// An error of `send`.
+    #[error(transparent)]
+    Send(#[from] SendError),
+}
+
+/// A message was not sent in time.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SendTimeoutError {
+    /// A peer with `when_full: wait` made this gate wait for too long. The message was sent to no peer.
+    #[error("gate `{gate}` did not send the message within {}: the queue of {peer} is full", Rounded(*waited))]
+    Timeout {
+        /// The gate.
+        gate: GateName,
+        /// The peer whose queue is full.
+        peer: PeerName,
+        /// How long it waited.
+        waited: Duration,
     },
     /// An error of `send`.
     #[error(transparent)]

@@ -12,6 +12,7 @@ mod publisher;
 mod puller;
 mod pusher;
 mod queue;
+mod ready_set;
 mod receiving_gate;
 mod replier;
 mod reply_end;
@@ -28,6 +29,7 @@ pub(crate) use outgoing::Outgoing;
 pub use publisher::Pub;
 pub use puller::Pull;
 pub use pusher::Push;
+pub(crate) use ready_set::ReadySet;
 pub use replier::{Rep, Request};
 pub use requester::Req;
 pub use stats::{GateStats, PeerStats};
@@ -35,8 +37,9 @@ pub use subscriber::Sub;
 pub(crate) use tap::GateTap;
 pub(crate) use watch::Watch;
 
-use crate::error::Missing;
+use crate::error::{Missing, RecvError};
 use crate::spec::GateSpec;
+use std::task::{Context, Poll};
 
 /// What the gates of all kinds have in common. Only SCL's gates implement it.
 pub trait AnyGate: sealed::Sealed {
@@ -50,6 +53,29 @@ pub trait AnyGate: sealed::Sealed {
     /// The same, for as long as the gate exists.
     #[doc(hidden)]
     fn watch(&self) -> Watch;
+}
+
+/// A gate that receives: `sub`, `pull` or `rep`. Only SCL's gates implement it.
+pub trait ReceivingGate: AnyGate {
+    /// Ready when the gate has a message or a request, which `try_recv` then returns. It takes none, so it may be called
+    /// as often as one likes, also by the wait for several gates.
+    ///
+    /// ```no_run
+    /// use scl::ReceivingGate;
+    /// # scl::topology!("doc/rover.yaml");
+    /// # async fn wait(mut controller: Controller) -> scl::Result<()> {
+    /// std::future::poll_fn(|cx| controller.sensor.poll_ready(cx)).await?;
+    /// let measurement = controller.sensor.try_recv()?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`RecvError::Blocking`] if the gate cannot be used any more, also after a stop request.
+    ///
+    /// # Cancel safety
+    /// It may be called once and never again. Each call replaces the waker of the one before.
+    fn poll_ready(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), RecvError>>;
 }
 
 mod sealed {

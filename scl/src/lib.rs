@@ -51,10 +51,10 @@
 //!
 //! | gate | async | from a plain thread | without waiting |
 //! |---|---|---|---|
-//! | [`Pub`], [`Push`] | `send` | `send_blocking` | `try_send` |
+//! | [`Pub`], [`Push`] | `send` | `send_blocking`, `send_timeout` | `try_send` |
 //! | [`Sub`], [`Pull`] | `recv` | `recv_blocking`, `recv_timeout` | `try_recv`, `latest` |
-//! | [`Req`] | `call` | `call_blocking` | |
-//! | [`Rep`] | `recv`, then [`Request::reply`] | `recv_blocking` | `try_recv` |
+//! | [`Req`] | `call`, `call_within` | `call_blocking`, `call_timeout` | |
+//! | [`Rep`] | `recv`, then [`Request::reply`] | `recv_blocking`, `recv_timeout` | `try_recv` |
 //!
 //! Programs may start in any order, restart, and be killed: messages wait in the sending program, up to the receiving
 //! gate's `queue`, and connections come back by themselves.
@@ -85,6 +85,7 @@ pub mod conformance;
 mod environment;
 mod error;
 mod gate;
+pub mod host;
 mod log;
 mod medium;
 mod named_type;
@@ -106,9 +107,9 @@ pub use bytes;
 pub use component::Component;
 pub use error::{
     BlockingError, CallError, Error, GateName, MissingPeer, NotFlushed, NotReady, OpenError, PeerName, Peers,
-    RecvError, RecvTimeoutError, ReplyError, Result, SendError, TrySendError, Unflushed,
+    RecvError, RecvTimeoutError, ReplyError, Result, SendError, SendTimeoutError, TrySendError, Unflushed,
 };
-pub use gate::{AnyGate, GateStats, PeerStats, Pub, Pull, Push, Rep, Req, Request, Sub};
+pub use gate::{AnyGate, GateStats, PeerStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
 pub use medium::Medium;
 pub use options::OpenOptions;
 pub use scl_macros::main;

@@ -7,7 +7,7 @@ mod runtime;
 mod tests;
 
 pub(crate) use flush::{Flush, LINGER, SendingEnd};
-pub(crate) use runtime::OwnedRuntime;
+pub(crate) use runtime::{Driven, OwnedRuntime};
 
 use crate::error::{BlockingError, Missing, NotFlushed, PeerName, Unflushed};
 use crate::process_mark::ProcessMark;
@@ -17,7 +17,7 @@ use crate::spec::{ComponentSpec, GateSpec};
 use crate::sync::{AbortOnDrop, lock};
 use std::future::poll_fn;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker};
 use std::time::{Duration, Instant};
 use tokio::runtime::Handle;
@@ -38,6 +38,10 @@ pub(crate) struct ComponentState {
     handle: Handle,
     /// Whether that runtime has ended. Its timers and sockets must not be polled any more then.
     runtime_ended: Arc<AtomicBool>,
+    /// Whether all calls of the gates have been ended for good.
+    calls_ended: AtomicBool,
+    /// What wakes the waiting calls of gates without a sending end.
+    waiting_calls: Mutex<Vec<Weak<dyn WakeCall>>>,
     /// Keeps the registration if the runtime folder is removed.
     _keeper: AbortOnDrop,
     /// Dropped last: once the lock is released, another process may run this component.
@@ -56,6 +60,12 @@ struct Registered {
 /// What generated code holds of a component besides its gates.
 #[derive(Clone)]
 pub struct ComponentHandle(pub(crate) Arc<ComponentState>);
+
+/// Wakes the call that waits at one end of a gate.
+pub(crate) trait WakeCall: Send + Sync {
+    /// Wakes it, if there is one.
+    fn wake_call(&self);
+}
 
 struct SetOnDrop(Arc<AtomicBool>);
 
@@ -106,6 +116,8 @@ impl ComponentState {
             runtime,
             handle,
             runtime_ended,
+            calls_ended: AtomicBool::new(false),
+            waiting_calls: Mutex::default(),
             _keeper: keeper,
             registration,
         }
@@ -192,7 +204,26 @@ impl ComponentState {
         if self.is_inherited() {
             return Err(BlockingError::Forked);
         }
+        if self.calls_ended.load(Ordering::Acquire) {
+            return Err(BlockingError::Closed);
+        }
         if self.runtime_ended.load(Ordering::Acquire) { Err(BlockingError::RuntimeEnded) } else { Ok(()) }
+    }
+
+    /// Lets [`end_calls`](Self::end_calls) wake the calls that wait at an end.
+    pub(crate) fn register_calls(&self, calls: Weak<dyn WakeCall>) {
+        lock(&self.waiting_calls).push(calls);
+    }
+
+    /// Ends all waiting calls of the gates with [`BlockingError::Closed`], and refuses later ones.
+    ///
+    /// A call that is about to wait sees the flag: it registers its waker first, under a lock that is taken here after the
+    /// flag was set, and checks after that.
+    pub(crate) fn end_calls(&self) {
+        self.calls_ended.store(true, Ordering::SeqCst);
+        lock(&self.waiting_calls).iter().filter_map(Weak::upgrade).for_each(|calls| calls.wake_call());
+        self.ends().iter().for_each(|end| lock(end).wake_call());
+        self.changes.report();
     }
 
     /// Returns true if the program was told to stop and leaves that to SCL: its calls then stay pending or fail.
@@ -204,6 +235,14 @@ impl ComponentState {
     pub(crate) fn may_proceed(&self) -> Result<(), BlockingError> {
         self.check()?;
         if self.is_stopped() { Err(BlockingError::Stopped) } else { Ok(()) }
+    }
+
+    /// Fails if the component cannot be closed here and now by a call that blocks the thread. Also after a stop request.
+    pub(crate) fn may_close(&self) -> Result<(), BlockingError> {
+        if self.is_inherited() {
+            return Err(BlockingError::Forked);
+        }
+        runtime::refuse_inside_async()
     }
 
     /// Fails if a call that may block the thread must not be made here and now.
@@ -242,9 +281,20 @@ impl ComponentState {
     ///
     /// Messages that were held back to be written together are written first: the peer may have to answer them.
     pub(crate) fn direct_wait(&self) -> Option<Duration> {
-        self.runtime.as_ref()?;
+        // The component's thread may drive the runtime, and would have to wait for the end that this call waits at.
+        self.runtime.as_ref().filter(|runtime| !runtime.is_driven())?;
         let unwritten = lock(&self.ends).iter().filter(|one| !lock(&one.end).write_out()).count();
         (unwritten == 0).then_some(DIRECT_WAIT)
+    }
+
+    /// Keeps the component's own runtime driven while no call does it, if there is one.
+    pub(crate) fn drive_always(&self) -> Option<Driven> {
+        self.runtime.as_ref().map(|runtime| runtime.drive_always())
+    }
+
+    /// Runs a task on the runtime of the ends, until it is done or dropped.
+    pub(crate) fn spawn(&self, task: impl Future<Output = ()> + Send + 'static) -> AbortOnDrop {
+        AbortOnDrop(self.handle.spawn(task).abort_handle())
     }
 
     /// Gives the component's own runtime a turn if one is due, after a call that did not wait.

@@ -11,6 +11,7 @@ use crate::environment::{self, Variables};
 use crate::error::{BlockingError, OpenError};
 use crate::sync::lock;
 pub(crate) use signals::LAST_FLUSH;
+pub use signals::StopSignal;
 use state::StopState;
 use std::future::poll_fn;
 use std::io;
@@ -104,10 +105,30 @@ pub fn is_stop_requested() -> bool {
     STOP.is_requested()
 }
 
+/// Requests the stop, as a signal does.
+pub(crate) fn request(signal: StopSignal) {
+    STOP.request(signal.exit_code());
+}
+
+/// Makes the program handle stop requests itself, without watching for signals.
+pub(crate) fn handle() {
+    STOP.handle();
+}
+
+/// Stops the gates even of a program that handles stop requests itself.
+pub(crate) fn end_grace_period() {
+    STOP.end_grace_period();
+}
+
 /// Returns true if no gate may be used any more: a stop was requested and the program does not handle it itself, or its
 /// grace period is over. Every call to a gate asks this.
 pub(crate) fn gates_stopped() -> bool {
     STOP.gates_stopped()
+}
+
+/// Waits until a stop is requested, without handling it.
+pub(crate) fn requested() -> impl Future<Output = ()> + Send + 'static {
+    STOP.requested()
 }
 
 /// Returns true if a stop was requested, without handling it.

@@ -36,12 +36,17 @@
 //! # }
 //! ```
 
+mod closer;
 mod error;
 mod gate;
 mod intern;
+mod readiness;
+mod wait;
 
-pub use error::GateError;
+pub use closer::Closer;
+pub use error::{GateError, WaitError};
 pub use gate::Gate;
+pub use readiness::Readiness;
 
 use crate::component::{Opener, only_failures, wait_for_peers};
 use crate::error::{GateName, NotFlushed, NotReady, OpenError};
@@ -52,7 +57,9 @@ use crate::plan::GatePlan;
 use crate::plan::Plan;
 use crate::spec::{ComponentSpec, GateKind};
 use crate::state::{ComponentHandle, Flush, OwnedRuntime};
+use crate::stop;
 use bytes::Bytes;
+use std::io;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::runtime::Handle;
@@ -233,15 +240,20 @@ impl Component {
     /// [`ready`](Self::ready) from a plain thread.
     ///
     /// # Errors
-    /// Those of `ready`; inside async code or after a stop request, [`BlockingError`](crate::BlockingError).
+    /// Those of `ready`; inside async code, after a stop request or after [`Closer::end_calls`],
+    /// [`BlockingError`](crate::BlockingError).
     pub fn ready_blocking(&self, timeout: Duration) -> crate::Result<()> {
-        Ok(self.handle.0.block_on(self.ready(timeout))??)
+        let ready = self.handle.0.block_on(self.ready(timeout))?;
+        // A wait that was ended early is no news about the peers.
+        self.handle.0.check()?;
+        Ok(ready?)
     }
 
     /// Waits until every peer that is running has taken all messages, then closes. Peers that are running but not
     /// connected yet are waited for; one that is not running is named in a log line.
     ///
-    /// Messages of gates that were taken are waited for, too. As long as such a gate exists, the component stays open.
+    /// Messages of gates that were taken are waited for, too. As long as such a gate exists, the component stays open and
+    /// the gate works; [`closer`](Self::closer) ends its calls.
     ///
     /// Dropping the component hands over what is left, too, but waits no longer than a second, and only until it is
     /// written.
@@ -259,13 +271,51 @@ impl Component {
 
     /// [`close`](Self::close) from a plain thread.
     ///
+    /// After a stop request it waits for connected peers only, because all programs are stopping, and no longer than
+    /// 500 ms, and what they have not taken is no error.
+    ///
     /// # Errors
-    /// Those of `close`; inside async code, [`BlockingError`](crate::BlockingError), and the component is dropped.
+    /// Those of `close`; inside async code and in a forked child, [`BlockingError`](crate::BlockingError), and the
+    /// component is dropped.
     pub fn close_blocking(self, timeout: Duration) -> crate::Result<()> {
         let handle = self.handle.clone();
-        handle.0.may_block()?;
+        handle.0.may_close()?;
         drop(self);
-        Ok(only_failures(handle.flush_blocking(Flush::Running, timeout))?)
+        if !stop::was_requested() {
+            return Ok(only_failures(handle.flush_blocking(Flush::Running, timeout))?);
+        }
+        if let Err(left) = handle.flush_blocking(Flush::Connected, timeout.min(stop::LAST_FLUSH)) {
+            tracing::warn!("{left}");
+        }
+        Ok(())
+    }
+
+    /// A handle that ends the calls of the component and its gates, from any thread.
+    pub fn closer(&self) -> Closer {
+        Closer::of(&self.handle)
+    }
+
+    /// A file descriptor for event loops, which is readable while any gate that receives has something. See
+    /// [`Readiness`].
+    ///
+    /// # Errors
+    /// The operating system provides no file descriptor.
+    pub fn readiness(&self) -> io::Result<Readiness> {
+        Readiness::open(self, |_gate| true)
+    }
+
+    /// [`readiness`](Self::readiness) of some gates only, also of such that were taken. Without any, the descriptor reports
+    /// wake-ups and stop requests: for event loops that await futures, and do not want to hear of messages that nobody
+    /// awaits.
+    ///
+    /// # Errors
+    /// [`GateError::Unknown`] if the component has no gate with one of the names; the operating system provides no file
+    /// descriptor.
+    pub fn readiness_of(&self, gates: &[&str]) -> crate::Result<Readiness> {
+        for gate in gates {
+            self.index(gate)?;
+        }
+        Ok(Readiness::open(self, |gate| gates.contains(&gate))?)
     }
 
     fn take<G>(

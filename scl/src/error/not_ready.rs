@@ -29,11 +29,13 @@ pub struct MissingPeer {
     pub peer: PeerName,
     /// Why it is missing, as a sentence: `` `sensor.measurements` is not running ``.
     pub reason: String,
+    /// Whether it runs, but this component refuses to connect to it, because their contracts or messages differ.
+    pub refused: bool,
 }
 
 impl MissingPeer {
-    pub(crate) fn new(gate: &'static str, peer: PeerName, reason: String) -> Self {
-        Self { gate, peer, reason }
+    pub(crate) fn new(gate: &'static str, peer: PeerName, reason: String, refused: bool) -> Self {
+        Self { gate, peer, reason, refused }
     }
 }
 

@@ -346,6 +346,10 @@ impl SendingEnd for Connection {
         Self::drive(self, cx);
     }
 
+    fn wake_call(&mut self) {
+        self.waiting_sender.take().into_iter().for_each(Waker::wake);
+    }
+
     fn write_out(&mut self) -> bool {
         if !self.is_written() {
             let task = self.task.clone();

@@ -2,14 +2,15 @@
 
 use super::io_waker::IoWaker;
 use super::watch::Watch;
-use crate::error::Missing;
+use crate::error::{BlockingError, Missing};
 use crate::spec::GateSpec;
-use crate::state::{Changes, ComponentState};
+use crate::state::{Changes, ComponentState, WakeCall};
 use crate::sync::{AbortOnDrop, lock};
 use crate::time::Watchdog;
 use crate::transport::{Answer, Requester};
 use bytes::Bytes;
 use std::future::poll_fn;
+use std::pin::pin;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
@@ -39,12 +40,15 @@ pub(super) enum ExchangeError {
         sent: bool,
     },
     Lost,
+    /// The gate cannot be used any more.
+    Refused(BlockingError),
 }
 
 impl Exchange {
     /// Starts to connect. Needs a tokio runtime.
-    pub(super) fn new(link: Box<dyn Requester>, changes: Changes) -> Self {
-        let io = Arc::new(IoWaker::default());
+    pub(super) fn new(link: Box<dyn Requester>, state: &ComponentState) -> Self {
+        let (io, changes) = (Arc::new(IoWaker::default()), state.changes());
+        state.register_calls(Arc::downgrade(&io) as _);
         let waker = Waker::from(Arc::clone(&io));
         let end =
             Arc::new(Mutex::new(End { link, waker, in_call: false, refused: false, was_connected: false, changes }));
@@ -81,6 +85,10 @@ impl Exchange {
             if polled.is_ready() {
                 return polled;
             }
+            // After the waker was registered, so that no end of the calls is missed.
+            if let Err(refused) = state.check() {
+                return Poll::Ready(Err(ExchangeError::Refused(refused)));
+            }
             // Without its timer the call could wait forever, so a timer that fails ends it too.
             watchdog.poll_past(cx, deadline).map(|_past| Err(ExchangeError::TimedOut { sent: unsent.is_none() }))
         })
@@ -88,9 +96,25 @@ impl Exchange {
     }
 
     /// The call of a gate that is connected to nothing.
-    pub(super) async fn unconnected(watchdog: &mut Watchdog, deadline: Instant) -> Result<Bytes, ExchangeError> {
-        let _past = poll_fn(|cx| watchdog.poll_past(cx, deadline)).await;
-        Err(ExchangeError::TimedOut { sent: false })
+    pub(super) async fn unconnected(
+        watchdog: &mut Watchdog,
+        deadline: Instant,
+        state: &ComponentState,
+    ) -> Result<Bytes, ExchangeError> {
+        let changes = state.changes();
+        loop {
+            let mut changed = pin!(changes.next());
+            // Before the check, so that no end of the calls is missed.
+            changed.as_mut().enable();
+            state.check().map_err(ExchangeError::Refused)?;
+            let past = poll_fn(|cx| match watchdog.poll_past(cx, deadline) {
+                Poll::Ready(_past) => Poll::Ready(true),
+                Poll::Pending => changed.as_mut().poll(cx).map(|()| false),
+            });
+            if past.await {
+                return Err(ExchangeError::TimedOut { sent: false });
+            }
+        }
     }
 
     fn poll(

@@ -2,11 +2,12 @@
 
 use super::io_waker::IoWaker;
 use super::queue::{Queue, QueuePolicy};
+use super::ready_set::{ReadySet, ReadySignals};
 use super::stats::Activity;
 use super::tap::{GateTap, Observed};
 use crate::error::Missing;
 use crate::spec::{GateSpec, WhenFull};
-use crate::state::Changes;
+use crate::state::{Changes, ComponentState, WakeCall};
 use crate::sync::{AbortOnDrop, lock};
 use crate::transport::Receiver;
 use bytes::Bytes;
@@ -38,6 +39,7 @@ pub(super) struct Inbox {
     waker: Waker,
     connected: Vec<usize>,
     changes: Changes,
+    ready: ReadySignals,
 }
 
 /// A message and the link that it came from.
@@ -55,10 +57,11 @@ pub(super) struct SharedInbox {
 
 impl SharedInbox {
     /// Starts to receive. Needs a tokio runtime.
-    pub(super) fn new(spec: &GateSpec, links: Vec<Box<dyn Receiver>>, tap: GateTap, changes: Changes) -> Self {
+    pub(super) fn new(spec: &GateSpec, links: Vec<Box<dyn Receiver>>, tap: GateTap, state: &ComponentState) -> Self {
         let io = Arc::new(IoWaker::default());
+        state.register_calls(Arc::downgrade(&io) as _);
         let waker = Waker::from(Arc::clone(&io));
-        let inbox = Arc::new(Mutex::new(Inbox::new(spec, links, tap, changes, waker)));
+        let inbox = Arc::new(Mutex::new(Inbox::new(spec, links, tap, state.changes(), waker)));
         // Weak, so that the ends are gone with the gate, and not only when the runtime drops the task.
         let (driven, task_io) = (Arc::downgrade(&inbox), Arc::clone(&io));
         let task = tokio::spawn(poll_fn(move |cx| {
@@ -76,10 +79,23 @@ impl SharedInbox {
     pub(super) fn poll_next(&self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Arrived> {
         let mut inbox = lock(&self.inbox);
         let polled = inbox.poll_next();
+        inbox.report_ready();
         if polled.is_pending() {
             self.io.wait(cx.waker(), may_vanish);
         }
         polled
+    }
+
+    /// Ready when a message waits; otherwise registers the call, which may vanish.
+    pub(super) fn poll_ready(&self, cx: &mut Context<'_>) -> Poll<()> {
+        let mut inbox = lock(&self.inbox);
+        inbox.take_in();
+        inbox.report_ready();
+        if inbox.queue.is_empty() {
+            self.io.wait(cx.waker(), true);
+            return Poll::Pending;
+        }
+        Poll::Ready(())
     }
 
     pub(super) fn lock(&self) -> std::sync::MutexGuard<'_, Inbox> {
@@ -112,6 +128,7 @@ impl Inbox {
             tap,
             waker,
             changes,
+            ready: ReadySignals::default(),
         }
     }
 
@@ -119,6 +136,7 @@ impl Inbox {
     fn drive(&mut self) -> bool {
         self.take_in();
         self.report_changes();
+        self.report_ready();
         !self.queue.is_empty() || self.catching_up
     }
 
@@ -145,6 +163,12 @@ impl Inbox {
     /// Waits for the next message on the calling thread, without a runtime, for a short time. Only a gate with one peer
     /// can: it waits for one socket.
     pub(super) fn wait(&mut self, within: Duration) -> Option<Arrived> {
+        let arrived = self.wait_on_link(within);
+        self.report_ready();
+        arrived
+    }
+
+    fn wait_on_link(&mut self, within: Duration) -> Option<Arrived> {
         let started = Instant::now();
         loop {
             if let Poll::Ready(arrived) = self.poll_next() {
@@ -164,7 +188,9 @@ impl Inbox {
             self.catch_up();
             self.take_in();
         }
-        self.queue.pop()
+        let next = self.queue.pop();
+        self.report_ready();
+        next
     }
 
     /// Returns the newest message that has arrived and discards the others.
@@ -180,7 +206,26 @@ impl Inbox {
                 newest = Some(newer);
             }
         }
+        self.report_ready();
         newest
+    }
+
+    /// From now on reports to a set whether something can be received.
+    pub(super) fn report_to(&mut self, set: Weak<ReadySet>) {
+        self.ready.add(set);
+        self.report_ready();
+    }
+
+    /// Called whenever messages were added or removed. Only what is in the queue counts, so it is filled first: then the
+    /// links have nothing, and wake the task as soon as they do.
+    fn report_ready(&mut self) {
+        if self.ready.is_empty() {
+            return;
+        }
+        if self.queue.is_empty() {
+            self.take_in();
+        }
+        self.ready.report(!self.queue.is_empty());
     }
 
     /// Drains the links into the queue, as far as it makes its senders wait.

@@ -13,7 +13,7 @@ use crate::transport::Receiver;
 use bytes::Bytes;
 use std::sync::Arc;
 use std::task::{Context, Poll};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 pub(crate) struct Incoming<T> {
     pub(crate) spec: &'static GateSpec,
@@ -33,7 +33,7 @@ impl<T> Incoming<T> {
         tap: GateTap,
     ) -> Self {
         let name = GateName::new(state.spec().name, spec.name);
-        let inbox = SharedInbox::new(spec, links, tap, state.changes());
+        let inbox = SharedInbox::new(spec, links, tap, &state);
         Self { spec, name, inbox, decode: C::decode, undecodable: 0, state }
     }
 
@@ -57,13 +57,23 @@ impl<T> Incoming<T> {
 
     pub(crate) fn recv_timeout(&mut self, timeout: Duration) -> Result<T, RecvTimeoutError> {
         let (state, gate) = (Arc::clone(&self.state), self.name);
-        match state.block_on_for(timeout, self.recv()) {
-            Ok(Some(received)) => received.map_err(RecvTimeoutError::Recv),
-            Ok(None) => {
+        let blocking = |source| RecvTimeoutError::Recv(RecvError::Blocking { gate, source });
+        state.may_block().map_err(blocking)?;
+        let started = Instant::now();
+        if let Some(within) = state.direct_wait() {
+            let arrived = self.inbox.lock().wait(within.min(timeout));
+            if let Some(arrived) = arrived {
+                state.take_turn();
+                return Ok(self.decode(arrived)?);
+            }
+        }
+        let left = timeout.saturating_sub(started.elapsed());
+        match state.block_on_for(left, self.recv()).map_err(blocking)? {
+            Some(received) => Ok(received?),
+            None => {
                 let (peers, reason) = (Peers::of(self.spec), self.state.why_missing(self.spec, &self.missing()));
                 Err(RecvTimeoutError::Timeout { gate, peers, waited: timeout, reason })
             }
-            Err(source) => Err(RecvTimeoutError::Recv(RecvError::Blocking { gate, source })),
         }
     }
 
@@ -80,7 +90,26 @@ impl<T> Incoming<T> {
         if self.state.is_stopped() {
             return Poll::Pending;
         }
-        self.inbox.poll_next(cx, may_vanish).map(|arrived| self.decode(arrived))
+        match self.inbox.poll_next(cx, may_vanish) {
+            Poll::Ready(arrived) => Poll::Ready(self.decode(arrived)),
+            Poll::Pending => self.poll_ended().map(Err),
+        }
+    }
+
+    /// Ready if the calls were ended before a call could register its waker.
+    fn poll_ended(&self) -> Poll<RecvError> {
+        self.state.check().map_or_else(|source| Poll::Ready(self.refused(source)), |()| Poll::Pending)
+    }
+
+    /// Ready when a message can be taken, or a call would fail. It takes none.
+    pub(crate) fn poll_ready(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), RecvError>> {
+        if let Err(source) = self.state.may_proceed() {
+            return Poll::Ready(Err(self.refused(source)));
+        }
+        match self.inbox.poll_ready(cx) {
+            Poll::Ready(()) => Poll::Ready(Ok(())),
+            Poll::Pending => self.poll_ended().map(Err),
+        }
     }
 
     pub(crate) fn try_recv(&mut self) -> Result<Option<T>, RecvError> {
@@ -130,11 +159,13 @@ impl<T> Incoming<T> {
     }
 
     pub(crate) fn watch(&self) -> Watch {
-        let (spec, inbox) = (self.spec, self.inbox.downgrade());
-        Watch::new(spec, move || match inbox.upgrade().filter(|_| spec.endpoint.is_empty()) {
+        let (spec, inbox, reporting) = (self.spec, self.inbox.downgrade(), self.inbox.downgrade());
+        let watch = Watch::new(spec, move || match inbox.upgrade().filter(|_| spec.endpoint.is_empty()) {
             Some(inbox) => lock(&inbox).missing(spec),
             None => Vec::new(),
-        })
+        });
+        watch
+            .reporting(move |set| reporting.upgrade().into_iter().for_each(|inbox| lock(&inbox).report_to(set.clone())))
     }
 
     pub(crate) fn stats(&self) -> GateStats {

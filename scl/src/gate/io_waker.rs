@@ -4,6 +4,7 @@
 //! and takes messages in while the program is busy elsewhere. An event wakes the call that waits, so that a message
 //! reaches it without a detour, or else the task.
 
+use crate::state::WakeCall;
 use crate::sync::lock;
 use std::sync::{Arc, Mutex};
 use std::task::{Wake, Waker};
@@ -54,9 +55,10 @@ impl IoWaker {
             _ => wakers.task = Some(task.clone()),
         }
     }
+}
 
-    /// Wakes the call that waits, if any, because the task has found something for it.
-    pub(crate) fn wake_call(&self) {
+impl WakeCall for IoWaker {
+    fn wake_call(&self) {
         let call = lock(&self.wakers).call.take();
         if let Some(call) = call {
             call.wake();

@@ -6,7 +6,7 @@ use super::stats::{GateStats, PeerStats};
 use super::tap::{GateTap, Observed};
 use super::watch::Watch;
 use crate::codec::Codec;
-use crate::error::{GateName, Missing, PeerName, SendError, TrySendError};
+use crate::error::{GateName, Missing, PeerName, SendError, SendTimeoutError, TrySendError};
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
 use crate::state::{ComponentState, SendingEnd};
 use crate::sync::lock;
@@ -14,6 +14,7 @@ use bytes::Bytes;
 use std::future::poll_fn;
 use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker};
+use std::time::Duration;
 
 pub(crate) struct Outgoing<T> {
     pub(crate) spec: &'static GateSpec,
@@ -52,7 +53,7 @@ impl<T> Outgoing<T> {
     pub(crate) async fn send(&mut self, message: &T) -> Result<(), SendError> {
         let message = self.encode(message)?;
         if self.may_wait || self.state.is_stopped() {
-            poll_fn(|cx| self.poll_room(cx).map(drop)).await;
+            poll_fn(|cx| self.poll_room(cx)).await?;
         }
         // A program that only sends lets the connections' tasks run now and then.
         tokio::task::coop::consume_budget().await;
@@ -73,7 +74,25 @@ impl<T> Outgoing<T> {
         state.may_block().map_err(blocking)?;
         let message = self.encode(message)?;
         if self.may_wait {
-            state.block_on(poll_fn(|cx| self.poll_room(cx).map(drop))).map_err(blocking)?;
+            state.block_on(poll_fn(|cx| self.poll_room(cx))).map_err(blocking)??;
+        }
+        self.hand_out(&message);
+        state.take_turn();
+        Ok(())
+    }
+
+    pub(crate) fn send_timeout(&mut self, message: &T, timeout: Duration) -> Result<(), SendTimeoutError> {
+        let (state, gate) = (Arc::clone(&self.state), self.name);
+        let blocking = |source| SendError::Blocking { gate, source };
+        state.may_block().map_err(blocking)?;
+        let message = self.encode(message)?;
+        if self.may_wait {
+            let waited = state.block_on_for(timeout, poll_fn(|cx| self.poll_room(cx))).map_err(blocking)?;
+            waited.unwrap_or(Ok(()))?;
+            // Room found after the wait is as good as room found in time.
+            if let Some(peer) = self.full(&mut Context::from_waker(Waker::noop())) {
+                return Err(SendTimeoutError::Timeout { gate, peer, waited: timeout });
+            }
         }
         self.hand_out(&message);
         state.take_turn();
@@ -100,7 +119,13 @@ impl<T> Outgoing<T> {
     /// Ready when no connection would make the message wait, so that it goes to all of them at once or to none.
     pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), SendError>> {
         // A stopped program's calls stay pending: what waits for them is dropped.
-        if self.state.is_stopped() || self.full(cx).is_some() { Poll::Pending } else { Poll::Ready(Ok(())) }
+        let pending = self.state.is_stopped() || self.full(cx).is_some();
+        // After the waker was registered, so that no end of the calls is missed.
+        match self.state.check() {
+            Err(source) => Poll::Ready(Err(SendError::Blocking { gate: self.name, source })),
+            Ok(()) if pending => Poll::Pending,
+            Ok(()) => Poll::Ready(Ok(())),
+        }
     }
 
     pub(crate) fn poll_flushed(&mut self, cx: &mut Context<'_>) -> Poll<()> {

@@ -3,7 +3,8 @@
 use super::outgoing::Outgoing;
 use super::sending_gate::sending_gate;
 use super::{GateStats, PeerStats};
-use crate::error::{SendError, TrySendError};
+use crate::error::{SendError, SendTimeoutError, TrySendError};
+use std::time::Duration;
 
 /// Sends messages to the `pull` gate that this gate is connected to.
 ///
@@ -53,6 +54,16 @@ impl<T> Push<T> {
     /// Those of `send`, and [`SendError::Blocking`] inside async code or after a stop request.
     pub fn send_blocking(&mut self, message: &T) -> Result<(), SendError> {
         self.outgoing.send_blocking(message)
+    }
+
+    /// [`send_blocking`](Self::send_blocking) with a time limit, which is exact to a millisecond. With
+    /// [`Duration::ZERO`] it looks once whether there is room.
+    ///
+    /// # Errors
+    /// [`SendTimeoutError::Timeout`] if a queue was still full after `timeout`; the message was sent to no peer then, and
+    /// will not be. Otherwise those of `send_blocking`.
+    pub fn send_timeout(&mut self, message: &T, timeout: Duration) -> Result<(), SendTimeoutError> {
+        self.outgoing.send_timeout(message, timeout)
     }
 
     /// Sends without waiting.

@@ -5,7 +5,7 @@
 macro_rules! receiving_gate {
     ($gate:ident) => {
         use crate::error::Missing;
-        use crate::gate::{AnyGate, Watch, sealed};
+        use crate::gate::{AnyGate, ReceivingGate, Watch, sealed};
         use crate::spec::GateSpec;
         use futures_core::Stream;
         use std::pin::Pin;
@@ -24,6 +24,12 @@ macro_rules! receiving_gate {
 
             fn watch(&self) -> Watch {
                 self.incoming.watch()
+            }
+        }
+
+        impl<T> ReceivingGate for $gate<T> {
+            fn poll_ready(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), RecvError>> {
+                self.incoming.poll_ready(cx)
             }
         }
 

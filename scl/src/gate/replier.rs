@@ -1,13 +1,13 @@
 //! The `rep` gate.
 
-use super::AnyGate;
 use super::encoding::Encoding;
 use super::reply_end::ReplyEnd;
 use super::stats::{Activity, GateStats};
 use super::tap::{GateTap, Observed};
 use super::watch::Watch;
+use super::{AnyGate, ReceivingGate};
 use crate::codec::{Codec, DecodeError};
-use crate::error::{BlockingError, GateName, Missing, PeerName, Peers, RecvError, ReplyError};
+use crate::error::{BlockingError, GateName, Missing, PeerName, Peers, RecvError, RecvTimeoutError, ReplyError};
 use crate::spec::{GateSpec, LinkSpec};
 use crate::state::ComponentState;
 use crate::sync::lock;
@@ -18,6 +18,7 @@ use std::ops::Deref;
 use std::pin::Pin;
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll};
+use std::time::Duration;
 
 /// Answers the requests of any number of `req` gates.
 ///
@@ -93,6 +94,20 @@ impl<A, B> Rep<A, B> {
         replies.state.block_on(self.recv()).map_err(|source| RecvError::Blocking { gate, source })?
     }
 
+    /// [`recv_blocking`](Self::recv_blocking) with a time limit, which is exact to a millisecond.
+    ///
+    /// # Errors
+    /// Those of `recv_blocking`, and [`RecvTimeoutError::Timeout`] if no request arrived in time.
+    pub fn recv_timeout(&mut self, timeout: Duration) -> Result<Request<A, B>, RecvTimeoutError> {
+        let (replies, gate) = (Arc::clone(&self.replies), self.replies.gate);
+        let received = replies.state.block_on_for(timeout, self.recv());
+        match received.map_err(|source| RecvError::Blocking { gate, source })? {
+            Some(received) => Ok(received?),
+            // Any number of requesters may be connected, so none is missing.
+            None => Err(RecvTimeoutError::Timeout { gate, peers: Peers::of(self.spec), waited: timeout, reason: None }),
+        }
+    }
+
     /// Returns the next request if one has arrived.
     ///
     /// # Errors
@@ -129,7 +144,15 @@ impl<A, B> Rep<A, B> {
         if self.replies.state.is_stopped() {
             return Poll::Pending;
         }
-        self.end.poll_next(cx, may_vanish).map(|request| self.decode(request))
+        match self.end.poll_next(cx, may_vanish) {
+            Poll::Ready(request) => Poll::Ready(self.decode(request)),
+            Poll::Pending => self.poll_ended().map(Err),
+        }
+    }
+
+    /// Ready if the calls were ended before a call could register its waker.
+    fn poll_ended(&self) -> Poll<RecvError> {
+        self.replies.state.check().map_or_else(|source| Poll::Ready(self.refused(source)), |()| Poll::Pending)
     }
 
     fn refused(&self, source: BlockingError) -> RecvError {
@@ -250,7 +273,19 @@ impl<A, B> AnyGate for Rep<A, B> {
     }
 
     fn watch(&self) -> Watch {
-        Watch::new(self.spec, Vec::new)
+        Watch::new(self.spec, Vec::new).reporting(self.end.reporter())
+    }
+}
+
+impl<A, B> ReceivingGate for Rep<A, B> {
+    fn poll_ready(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), RecvError>> {
+        if let Err(source) = self.replies.state.may_proceed() {
+            return Poll::Ready(Err(self.refused(source)));
+        }
+        match self.end.poll_ready(cx) {
+            Poll::Ready(()) => Poll::Ready(Ok(())),
+            Poll::Pending => self.poll_ended().map(Err),
+        }
     }
 }
 

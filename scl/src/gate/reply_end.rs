@@ -1,12 +1,13 @@
 //! The end of a `rep` gate, shared by its calls, its requests and its background task.
 
 use super::io_waker::IoWaker;
+use super::ready_set::{ReadySet, ReadySignals};
 use crate::error::Unflushed;
-use crate::state::{ComponentState, SendingEnd};
+use crate::state::{ComponentState, SendingEnd, WakeCall};
 use crate::sync::{AbortOnDrop, lock};
 use crate::transport::{IncomingRequest, Replier};
 use std::future::poll_fn;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker};
 
 pub(super) struct ReplyEnd {
@@ -20,6 +21,9 @@ struct Link {
     waker: Waker,
     written: bool,
     peers: usize,
+    /// A request that was read to know that there is one.
+    next: Option<IncomingRequest>,
+    ready: ReadySignals,
     /// A dropped gate and the component's flush may both wait.
     waiting_flushes: Vec<Waker>,
 }
@@ -28,8 +32,17 @@ impl ReplyEnd {
     /// Starts to listen. Needs a tokio runtime.
     pub(super) fn open(replier: Box<dyn Replier>, state: &Arc<ComponentState>) -> Arc<Self> {
         let io = Arc::new(IoWaker::default());
+        state.register_calls(Arc::downgrade(&io) as _);
         let waker = Waker::from(Arc::clone(&io));
-        let link = Arc::new(Mutex::new(Link { replier, waker, written: true, peers: 0, waiting_flushes: Vec::new() }));
+        let link = Arc::new(Mutex::new(Link {
+            replier,
+            waker,
+            written: true,
+            peers: 0,
+            next: None,
+            ready: ReadySignals::default(),
+            waiting_flushes: Vec::new(),
+        }));
         state.register(Arc::clone(&link) as _);
         // Weak, so that the end is gone with the gate, and not only when the runtime drops the task.
         let (driven, task_io, changes) = (Arc::downgrade(&link), Arc::clone(&io), state.changes());
@@ -49,16 +62,44 @@ impl ReplyEnd {
     pub(super) fn poll_next(&self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<IncomingRequest> {
         let mut link = lock(&self.link);
         let polled = link.poll_next();
+        link.report_ready();
         if polled.is_pending() {
             self.io.wait(cx.waker(), may_vanish);
         }
         polled
     }
 
+    /// Ready when a request waits; otherwise registers the call, which may vanish.
+    pub(super) fn poll_ready(&self, cx: &mut Context<'_>) -> Poll<()> {
+        let mut link = lock(&self.link);
+        let found = link.look_ahead();
+        link.report_ready();
+        if found {
+            return Poll::Ready(());
+        }
+        self.io.wait(cx.waker(), true);
+        Poll::Pending
+    }
+
     pub(super) fn try_next(&self) -> Option<IncomingRequest> {
-        match lock(&self.link).poll_next() {
+        let mut link = lock(&self.link);
+        let polled = link.poll_next();
+        link.report_ready();
+        match polled {
             Poll::Ready(request) => Some(request),
             Poll::Pending => None,
+        }
+    }
+
+    /// Makes the end report to sets whether there is a request, without keeping it open.
+    pub(super) fn reporter(&self) -> impl Fn(Weak<ReadySet>) + Send + Sync + 'static {
+        let link = Arc::downgrade(&self.link);
+        move |set| {
+            if let Some(link) = link.upgrade() {
+                let mut link = lock(&link);
+                link.ready.add(set);
+                link.report_ready();
+            }
         }
     }
 
@@ -83,13 +124,35 @@ impl ReplyEnd {
 
 impl Link {
     fn poll_next(&mut self) -> Poll<IncomingRequest> {
-        self.replier.poll_request(&mut Context::from_waker(&self.waker))
+        match self.next.take() {
+            Some(request) => Poll::Ready(request),
+            None => self.replier.poll_request(&mut Context::from_waker(&self.waker)),
+        }
+    }
+
+    /// Returns true if there is a request.
+    fn look_ahead(&mut self) -> bool {
+        if self.next.is_none()
+            && let Poll::Ready(request) = self.replier.poll_request(&mut Context::from_waker(&self.waker))
+        {
+            self.next = Some(request);
+        }
+        self.next.is_some()
+    }
+
+    /// Called whenever a request may have arrived or was taken.
+    fn report_ready(&mut self) {
+        if !self.ready.is_empty() {
+            let found = self.look_ahead();
+            self.ready.report(found);
+        }
     }
 
     /// Returns true if requesters came or left.
     fn drive_by_task(&mut self) -> bool {
         let waker = self.waker.clone();
         self.drive(&mut Context::from_waker(&waker));
+        self.report_ready();
         let peers = self.replier.peers();
         std::mem::replace(&mut self.peers, peers) != peers
     }

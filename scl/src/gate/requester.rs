@@ -16,6 +16,9 @@ use std::sync::Arc;
 use std::time::Duration;
 use tokio::time::Instant;
 
+/// A timeout that never ends: 30 years.
+const LONGEST: Duration = Duration::from_secs(30 * 365 * 86_400);
+
 /// Sends requests to the `rep` gate that this gate is connected to, one at a time.
 ///
 /// ```no_run
@@ -53,7 +56,7 @@ impl<A, B> Req<A, B> {
         watchdog: Watchdog,
     ) -> Self {
         let name = GateName::new(state.spec().name, spec.name);
-        let exchange = link.map(|link| Exchange::new(link, state.changes()));
+        let exchange = link.map(|link| Exchange::new(link, &state));
         Self {
             spec,
             name,
@@ -82,19 +85,31 @@ impl<A, B> Req<A, B> {
     /// # Cancel safety
     /// Cancel safe. A call that is dropped may still be answered; its reply is discarded.
     pub async fn call(&mut self, request: &A) -> Result<B, CallError> {
+        self.call_within(request, self.timeout()).await
+    }
+
+    /// [`call`](Self::call) with a timeout of its own instead of the gate's.
+    ///
+    /// # Errors
+    /// Those of `call`. After a timeout, too, the next call never receives the reply to this one.
+    ///
+    /// # Cancel safety
+    /// As `call`.
+    pub async fn call_within(&mut self, request: &A, timeout: Duration) -> Result<B, CallError> {
         let body = self.encode(request)?;
         let started = Instant::now();
         self.last_id += 1;
-        let deadline = started + self.spec.options.timeout;
+        let deadline = started.checked_add(timeout).unwrap_or_else(|| started + LONGEST);
         let exchanged = match &self.exchange {
             Some(exchange) => exchange.call(self.last_id, body, &mut self.watchdog, deadline, &self.state).await,
-            None => Exchange::unconnected(&mut self.watchdog, deadline).await,
+            None => Exchange::unconnected(&mut self.watchdog, deadline, &self.state).await,
         };
         let (gate, peers) = (self.name, Peers::of(self.spec));
         // A connection that broke before the request was sent is no reason to count it.
         self.sent += u64::from(!matches!(exchanged, Err(ExchangeError::TimedOut { sent: false })));
         match exchanged {
             Ok(body) => self.decode(body),
+            Err(ExchangeError::Refused(source)) => Err(CallError::Blocking { gate, source }),
             Err(ExchangeError::Lost) => Err(CallError::PeerLost { gate, peers }),
             Err(ExchangeError::TimedOut { .. }) => {
                 let (connected, waited) = (self.is_connected(), started.elapsed());
@@ -109,8 +124,16 @@ impl<A, B> Req<A, B> {
     /// # Errors
     /// Those of `call`, and [`CallError::Blocking`] inside async code or after a stop request.
     pub fn call_blocking(&mut self, request: &A) -> Result<B, CallError> {
+        self.call_timeout(request, self.timeout())
+    }
+
+    /// [`call_within`](Self::call_within) from a plain thread.
+    ///
+    /// # Errors
+    /// Those of `call_blocking`.
+    pub fn call_timeout(&mut self, request: &A, timeout: Duration) -> Result<B, CallError> {
         let (state, gate) = (Arc::clone(&self.state), self.name);
-        state.block_on(self.call(request)).map_err(|source| CallError::Blocking { gate, source })?
+        state.block_on(self.call_within(request, timeout)).map_err(|source| CallError::Blocking { gate, source })?
     }
 
     /// The gate's `timeout`.

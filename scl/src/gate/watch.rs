@@ -1,17 +1,31 @@
-//! Watching for missing peers without borrowing the gate, which may have been moved elsewhere.
+//! Watching a gate without borrowing it, because it may have been moved elsewhere.
 
+use super::ready_set::ReadySet;
 use crate::error::Missing;
 use crate::spec::GateSpec;
+use std::sync::Weak;
 
-/// Tells which required peers of a gate are not connected. A gate that was dropped misses none.
+/// Tells which required peers of a gate are not connected, and makes it report when it has something. A gate that was
+/// dropped misses none and has nothing.
 pub struct Watch {
     pub(crate) spec: &'static GateSpec,
     look: Box<dyn Fn() -> Vec<Missing> + Send + Sync>,
+    report_to: Option<Box<dyn Fn(Weak<ReadySet>) + Send + Sync>>,
 }
 
 impl Watch {
     pub(crate) fn new(spec: &'static GateSpec, look: impl Fn() -> Vec<Missing> + Send + Sync + 'static) -> Self {
-        Self { spec, look: Box::new(look) }
+        Self { spec, look: Box::new(look), report_to: None }
+    }
+
+    /// The watch of a gate that receives.
+    pub(crate) fn reporting(self, report_to: impl Fn(Weak<ReadySet>) + Send + Sync + 'static) -> Self {
+        Self { report_to: Some(Box::new(report_to)), ..self }
+    }
+
+    /// Makes the gate report to a set from now on. Returns false for a gate that never receives.
+    pub(crate) fn report_to(&self, set: Weak<ReadySet>) -> bool {
+        self.report_to.as_ref().map(|report_to| report_to(set)).is_some()
     }
 
     pub(crate) fn missing(&self) -> Vec<Missing> {

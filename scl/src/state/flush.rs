@@ -45,6 +45,9 @@ pub(crate) trait SendingEnd: Send {
 
     /// Prepares for `drive` without a runtime.
     fn detach(&mut self);
+
+    /// Wakes the call that waits to send, if there is one.
+    fn wake_call(&mut self) {}
 }
 
 type Ends = [Arc<Mutex<dyn SendingEnd>>];

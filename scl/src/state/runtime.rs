@@ -47,6 +47,8 @@ struct Shared {
     rest: Mutex<()>,
     awaits_end: AtomicBool,
     called: Condvar,
+    /// Number of [`Driven`]s.
+    driven: AtomicUsize,
 }
 
 /// A runtime that may be dropped anywhere.
@@ -93,6 +95,7 @@ impl OwnedRuntime {
             rest: Mutex::default(),
             awaits_end: AtomicBool::new(false),
             called: Condvar::new(),
+            driven: AtomicUsize::new(0),
         });
         let idle = Arc::clone(&shared);
         thread::Builder::new().name("scl-idle".to_owned()).spawn(move || idle.drive_while_idle()).map_err(failed)?;
@@ -111,12 +114,34 @@ impl OwnedRuntime {
         Ok(self.shared.call(|runtime| runtime.block_on(future)))
     }
 
+    /// From now on the component's thread drives the runtime whenever no call does, without a delay.
+    pub(super) fn drive_always(&self) -> Driven {
+        self.shared.driven.fetch_add(1, Ordering::SeqCst);
+        self.shared.wake_idle_thread();
+        Driven(Arc::clone(&self.shared))
+    }
+
+    /// Returns true if the component's thread drives the runtime whenever no call does.
+    pub(super) fn is_driven(&self) -> bool {
+        self.shared.is_driven()
+    }
+
     /// Gives the runtime a turn if one is due. Inside async code, where it cannot be driven, the idle thread does that a
     /// little later.
     pub(super) fn take_turn(&self) {
-        if self.shared.is_turn_due() && refuse_inside_async().is_ok() {
+        if !self.is_driven() && self.shared.is_turn_due() && refuse_inside_async().is_ok() {
             self.shared.call(|runtime| runtime.block_on(self.shared.with_a_turn(async {})));
         }
+    }
+}
+
+/// For an event loop that waits for the component's gates with no call that would drive the runtime.
+#[derive(Debug)]
+pub(crate) struct Driven(Arc<Shared>);
+
+impl Drop for Driven {
+    fn drop(&mut self) {
+        self.0.driven.fetch_sub(1, Ordering::SeqCst);
     }
 }
 
@@ -138,6 +163,10 @@ impl Shared {
             self.wanted.notify_one();
         }
         call(self.runtime.get())
+    }
+
+    fn is_driven(&self) -> bool {
+        self.driven.load(Ordering::SeqCst) > 0
     }
 
     fn is_turn_due(&self) -> bool {
@@ -186,12 +215,13 @@ impl Shared {
         while !self.ended.load(Ordering::SeqCst) {
             let last_call = self.last_call.get();
             let busy = self.callers.load(Ordering::SeqCst) > 0;
-            if !busy && self.opened.elapsed().saturating_sub(last_call) >= IDLE {
+            let driven = self.is_driven();
+            if !busy && (driven || self.opened.elapsed().saturating_sub(last_call) >= IDLE) {
                 return;
             }
             let calls_follow = std::mem::replace(&mut seen, last_call) != last_call;
             pause = if calls_follow { LONGEST_REST.min(pause * 2) } else { IDLE };
-            rest = if busy && !calls_follow {
+            rest = if busy && (driven || !calls_follow) {
                 self.wait_for_end_of_call(rest)
             } else {
                 self.called.wait_timeout(rest, pause).unwrap_or_else(PoisonError::into_inner).0

@@ -19,8 +19,11 @@ const LOG_WRITE: Duration = Duration::from_millis(100);
 
 /// A signal that requests the stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum StopSignal {
+#[non_exhaustive]
+pub enum StopSignal {
+    /// SIGINT: Ctrl-C.
     Interrupt,
+    /// SIGTERM.
     Terminate,
 }
 

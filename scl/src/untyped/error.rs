@@ -1,7 +1,10 @@
-//! Why a gate cannot be taken out of a component.
+//! Why a gate cannot be taken out of a component, and why waiting for several ended.
 
-use crate::error::GateName;
+use crate::error::{BlockingError, GateName, RecvError};
 use crate::spec::{ComponentSpec, GateKind};
+use crate::time::Rounded;
+use std::fmt;
+use std::time::Duration;
 use thiserror::Error;
 
 /// A gate was not taken.
@@ -36,6 +39,48 @@ pub enum GateError {
         /// The gate.
         gate: GateName,
     },
+}
+
+/// Waiting for several gates ended without a message.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WaitError {
+    /// None of the gates received anything.
+    #[error("component `{component}` received nothing at {} within {}", Listed(gates), Rounded(*waited))]
+    Timeout {
+        /// The component.
+        component: &'static str,
+        /// The gates.
+        gates: Vec<GateName>,
+        /// How long it waited.
+        waited: Duration,
+    },
+    /// The call could not be made, or had to stop waiting.
+    #[error("component `{component}` stopped waiting for its gates")]
+    Blocking {
+        /// The component.
+        component: &'static str,
+        /// Why.
+        source: BlockingError,
+    },
+    /// One of the gates cannot be used any more.
+    #[error(transparent)]
+    Recv(#[from] RecvError),
+}
+
+/// Names of gates, for messages.
+struct Listed<'a>(&'a [GateName]);
+
+impl fmt::Display for Listed<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_empty() {
+            return f.write_str("no gate");
+        }
+        for (index, gate) in self.0.iter().enumerate() {
+            write!(f, "{}`{gate}`", if index == 0 { "" } else { " or " })?;
+        }
+        Ok(())
+    }
 }
 
 impl GateError {

@@ -2,7 +2,7 @@
 
 use crate::component::Opener;
 use crate::error::OpenError;
-use crate::gate::{AnyGate, GateStats, Pub, Pull, Push, Rep, Req, Sub};
+use crate::gate::{AnyGate, GateStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Sub};
 use crate::spec::{GateKind, GateSpec};
 use bytes::Bytes;
 
@@ -46,6 +46,16 @@ impl Gate {
             Gate::Rep(gate) => gate,
             Gate::Push(gate) => gate,
             Gate::Pull(gate) => gate,
+        }
+    }
+
+    /// The gate as one that receives, or `None` for `pub`, `push` and `req`.
+    pub fn receiving(&mut self) -> Option<&mut dyn ReceivingGate> {
+        match self {
+            Gate::Sub(gate) => Some(gate),
+            Gate::Rep(gate) => Some(gate),
+            Gate::Pull(gate) => Some(gate),
+            Gate::Pub(_) | Gate::Req(_) | Gate::Push(_) => None,
         }
     }
 

@@ -1,0 +1,76 @@
+//! For bindings to other languages: what [`main`](macro@crate::main) does around a Rust program, piece by piece.
+//!
+//! A program whose main function is not Rust's needs signals and a log as any other component does, but its language may
+//! handle signals in a way of its own. A binding either lets SCL watch for them, with [`watch_signals`], or reports what it
+//! has seen, with [`request_stop`]. Either way a stop request ends the waiting calls of all gates with
+//! [`BlockingError::Stopped`](crate::BlockingError::Stopped).
+//!
+//! ```no_run
+//! # fn open() -> scl::Result<()> {
+//! scl::host::start_log()?;
+//! scl::host::watch_signals()?;
+//! # Ok(())
+//! # }
+//! ```
+
+use crate::environment;
+use crate::error::{OpenError, Result};
+use crate::{log, stop};
+use std::time::Duration;
+
+pub use crate::stop::StopSignal;
+
+/// Writes the log to standard error, as detailed as `SCL_LOG` says, unless the process has a log already.
+///
+/// # Errors
+/// [`OpenError::Environment`] if `SCL_LOG` is not a level.
+pub fn start_log() -> Result<(), OpenError> {
+    log::start(log::Level::read(&environment::of_process)?);
+    Ok(())
+}
+
+/// From now on SIGTERM and SIGINT request a stop instead of ending the process. It is ended if it still runs after the
+/// [`grace_period`], or when a second signal arrives. Further calls do nothing.
+///
+/// # Errors
+/// `SCL_STOP_WITHIN` is not a duration, or the operating system provides no thread or no file descriptor.
+pub fn watch_signals() -> Result<()> {
+    Ok(stop::watch_signals(grace_period()?)?)
+}
+
+/// How long a program may take to end after a stop request: `SCL_STOP_WITHIN`, or 3 s.
+///
+/// # Errors
+/// [`OpenError::Environment`] if the value is not a duration of 1 us to a day.
+pub fn grace_period() -> Result<Duration, OpenError> {
+    stop::grace_period(&environment::of_process)
+}
+
+/// Requests the stop, for a binding that watches for signals itself. Ending the process after the grace period is left to
+/// the binding, too.
+pub fn request_stop(signal: StopSignal) {
+    stop::request(signal);
+}
+
+/// From now on the program handles stop requests itself, as after [`stop_requested`](crate::stop_requested): its gates
+/// keep working after the request.
+pub fn handle_stop() {
+    stop::handle();
+}
+
+/// Ends the grace period: the gates stop working even if the program handles the stop request itself.
+pub fn end_grace_period() {
+    stop::end_grace_period();
+}
+
+/// Returns true if a stop was requested. Unlike [`is_stop_requested`](crate::is_stop_requested), asking does not mean that
+/// the program handles the request itself.
+pub fn is_stop_requested() -> bool {
+    stop::was_requested()
+}
+
+/// Returns true if no gate can be used any more: a stop was requested and the program does not handle it itself, or its
+/// grace period is over.
+pub fn gates_stopped() -> bool {
+    stop::gates_stopped()
+}

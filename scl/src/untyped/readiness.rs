@@ -1,0 +1,129 @@
+//! A file descriptor for event loops.
+
+use super::Component;
+use crate::gate::ReadySet;
+use crate::state::{ComponentState, Driven};
+use crate::stop;
+use crate::sync::AbortOnDrop;
+use std::io;
+use std::os::fd::{AsFd, AsRawFd, BorrowedFd, RawFd};
+use std::sync::{Arc, Weak};
+use std::task::Waker;
+
+/// A file descriptor that is readable while there is something to do, for `poll`, `epoll` and event loops of other
+/// languages.
+///
+/// It is readable
+/// - while one of its gates has a message or a request (level-triggered: until all were taken with `try_recv`);
+/// - while a stop is requested, until [`acknowledge_stop`](Self::acknowledge_stop);
+/// - after one of its [`waker`](Self::waker)s was woken, until [`acknowledge`](Self::acknowledge).
+///
+/// The descriptor belongs to this value: wait for it to become readable, but do not read from it or close it. While a
+/// `Readiness` exists, a thread of the component does the component's I/O, so that no call has to be under way.
+///
+/// With a waker, any future of a gate can be awaited from an event loop: acknowledge, poll the future with the waker,
+/// and, as long as it is pending, poll it again each time the descriptor becomes readable. In this order no wake-up is
+/// lost: one that arrives after the acknowledgement makes the descriptor readable again.
+///
+/// ```
+/// use rustix::event::{PollFd, PollFlags, poll};
+/// use scl::plan::SystemPlan;
+/// use scl::untyped::Component;
+/// # fn main() -> scl::Result<()> {
+/// # let transport = scl::transport::memory::Memory::new();
+/// # let options = || scl::OpenOptions::new().transport(transport.clone());
+///
+/// let system = SystemPlan::from_json(include_str!("../../doc/rover.json"))?;
+/// let mut recorder = Component::open_blocking_with(system.component("recorder")?, options())?;
+/// let mut log = recorder.puller("log")?;
+/// let readiness = recorder.readiness()?;
+///
+/// let mut sensor = Component::open_blocking_with(system.component("sensor")?, options())?;
+/// sensor.pusher("log")?.send_blocking(&"any bytes".into())?;
+///
+/// poll(&mut [PollFd::new(&readiness, PollFlags::IN)], None)?;
+/// assert_eq!(log.try_recv()?.as_deref(), Some(&b"any bytes"[..]));
+/// # Ok(())
+/// # }
+/// ```
+pub struct Readiness {
+    set: Arc<ReadySet>,
+    /// Watches for a stop request.
+    stop: Option<AbortOnDrop>,
+    state: Weak<ComponentState>,
+    _driven: Option<Driven>,
+}
+
+/// Wakes when the task that holds it is gone, with its runtime.
+struct WakeOnDrop(Weak<ReadySet>);
+
+impl Drop for WakeOnDrop {
+    fn drop(&mut self) {
+        self.0.upgrade().into_iter().for_each(|set| set.set_woken(true));
+    }
+}
+
+impl Readiness {
+    pub(super) fn open(component: &Component, includes: impl Fn(&str) -> bool) -> io::Result<Self> {
+        let state = &component.handle.0;
+        let set = ReadySet::new()?;
+        state.register_calls(Arc::downgrade(&set) as _);
+        let (stopping, ended) = (Arc::downgrade(&set), WakeOnDrop(Arc::downgrade(&set)));
+        let stop = state.spawn(async move {
+            stop::requested().await;
+            stopping.upgrade().into_iter().for_each(|set| set.request_stop());
+            let _ended = ended;
+            std::future::pending::<()>().await;
+        });
+        for watch in component.watches.iter().filter(|watch| includes(watch.spec.name)) {
+            watch.report_to(Arc::downgrade(&set));
+        }
+        Ok(Self { set, stop: Some(stop), state: Arc::downgrade(state), _driven: state.drive_always() })
+    }
+
+    /// A waker that makes the descriptor readable. All wakers of a `Readiness` are the same, so after one wake-up, all
+    /// futures that are polled with them may be ready.
+    pub fn waker(&self) -> Waker {
+        Waker::from(Arc::clone(&self.set))
+    }
+
+    /// Takes note of wake-ups: the descriptor is not readable any more, unless a gate has something or a stop is
+    /// requested. To be called before futures are polled again.
+    pub fn acknowledge(&self) {
+        self.set.set_woken(false);
+    }
+
+    /// Takes note of a stop request, for a program that goes on after it.
+    pub fn acknowledge_stop(&self) {
+        if stop::was_requested() {
+            self.set.acknowledge_stop();
+        }
+    }
+}
+
+impl Drop for Readiness {
+    fn drop(&mut self) {
+        if self.state.upgrade().is_some_and(|state| state.is_inherited()) {
+            // The task and its runtime are the parent's.
+            std::mem::forget(self.stop.take());
+        }
+    }
+}
+
+impl AsFd for Readiness {
+    fn as_fd(&self) -> BorrowedFd<'_> {
+        self.set.descriptor()
+    }
+}
+
+impl AsRawFd for Readiness {
+    fn as_raw_fd(&self) -> RawFd {
+        self.as_fd().as_raw_fd()
+    }
+}
+
+impl std::fmt::Debug for Readiness {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Readiness").field(&self.as_raw_fd()).finish()
+    }
+}
