@@ -76,7 +76,9 @@ def messages_of_descriptors(sets: Iterable[bytes]) -> MessageClasses:
         return _messages_of_descriptors(tuple(sorted(set(sets))))
 
 
-def lazy_messages(module: str, plan: str, messages: Mapping[str, str], enums: Mapping[str, str]) -> Callable[[str], object]:
+def lazy_messages(
+    module: str, plan: str, messages: Mapping[str, str], enums: Mapping[str, str]
+) -> Callable[[str], object]:
     """Returns the `__getattr__` of a generated module, which makes a message class when it is first used.
 
     `messages` and `enums` give the full name of each name in the module.
