@@ -40,10 +40,7 @@ class BytesView {
     /// The text up to its final zero, which is not part of the message.
     constexpr BytesView(const char* text) noexcept : BytesView(std::string_view(text)) {}
 
-    template <class Container,
-              std::enable_if_t<detail::is_byte_container<Container> && !std::is_same_v<Container, BytesView> &&
-                                   !std::is_convertible_v<const Container&, std::string_view>,
-                               int> = 0>
+    template <class Container, std::enable_if_t<detail::is_byte_container<Container>, int> = 0>
     constexpr BytesView(const Container& bytes) noexcept : data_(std::data(bytes)), size_(std::size(bytes)) {}
 
     constexpr const void* data() const noexcept { return data_; }
