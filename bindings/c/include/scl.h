@@ -264,13 +264,6 @@ scl_status scl_buffer(scl_gate *gate,
                       void **buffer);
 
 /**
- * Reports that a received message is not what the gate's type says, for code that decodes messages: makes a text for
- * `scl_error` and returns SCL_DECODE.
- */
-scl_status scl_undecodable(const scl_gate *gate,
-                           const char *type_name);
-
-/**
  * Sends a message of `len` bytes over a `pub` or `push` gate. The bytes are copied.
  *
  * Only a gate with `backpressure: true` waits, for a peer with `when_full: wait` whose queue is full. A timeout of 0
@@ -326,7 +319,8 @@ scl_status scl_latest(scl_gate *gate,
  * were received, without a copy; they are valid until scl_message_free. An empty message gives a pointer that is not
  * NULL.
  *
- * NULL for a NULL message; then `*len` is 0. A message that was freed must not be used, which cannot be detected.
+ * A NULL message gives NULL and the length 0, and is no error. A message that was freed must not be used, which cannot
+ * be detected.
  */
 const void *scl_message_data(const scl_message *message,
                              size_t *len);
@@ -367,8 +361,8 @@ scl_status scl_take_request(scl_gate *gate,
  * Returns the bytes of a request, and stores their number in `*len` unless `len` is NULL. They are valid until
  * scl_reply or scl_request_free.
  *
- * NULL for a NULL request; then `*len` is 0. A request that was answered or freed must not be used, which cannot be
- * detected.
+ * A NULL request gives NULL and the length 0, and is no error. A request that was answered or freed must not be used,
+ * which cannot be detected.
  */
 const void *scl_request_data(const scl_request *request,
                              size_t *len);
@@ -443,6 +437,19 @@ scl_status scl_stats(scl_gate *gate,
                      char *buffer,
                      size_t capacity,
                      size_t *len);
+
+/**
+ * Keeps `text` as this thread's last error and returns `status`. For generated code.
+ */
+scl_status scl_fail(scl_status status,
+                    const char *text);
+
+/**
+ * Counts a message, request or reply of this gate as undecodable, keeps the error with the names of the gate and its
+ * peers, and returns SCL_DECODE. `type` is what it should have been: `rover.Measurement`. For generated code.
+ */
+scl_status scl_undecodable(scl_gate *gate,
+                           const char *type);
 
 /**
  * Returns true if the program was asked to stop, by SIGTERM or SIGINT.

@@ -6,7 +6,7 @@ use crate::registry::{Locked, Registry};
 use crate::status::*;
 use scl::bytes::Bytes;
 use scl::untyped::Gate;
-use std::ffi::{c_char, c_void};
+use std::ffi::c_void;
 
 /// A gate. It belongs to its component and lives as long.
 #[allow(non_camel_case_types)]
@@ -57,19 +57,6 @@ pub unsafe extern "C" fn scl_buffer(gate: *mut scl_gate, len: usize, buffer: *mu
         }
         *result = border::room(&mut open.buffer, len)?;
         Ok(())
-    })
-}
-
-/// Reports that a received message is not what the gate's type says, for code that decodes messages: makes a text for
-/// `scl_error` and returns SCL_DECODE.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn scl_undecodable(gate: *const scl_gate, type_name: *const c_char) -> scl_status {
-    border::status(|| {
-        // SAFETY: the caller's duty; NULL is refused.
-        let type_name = unsafe { border::text(type_name, "type_name") }?;
-        let name = &lock(gate)?.name;
-        let text = format!("gate `{name}` received an undecodable message: it is not a `{type_name}`");
-        Err(Failure::new(SCL_DECODE, text))
     })
 }
 

@@ -30,6 +30,7 @@ mod wait;
 
 mod stats;
 
+mod generated;
 mod stop;
 
 // What the calls are made of.

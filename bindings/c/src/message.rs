@@ -20,17 +20,22 @@ const MARK: u64 = u64::from_be_bytes(*b"scl_mesg");
 /// were received, without a copy; they are valid until scl_message_free. An empty message gives a pointer that is not
 /// NULL.
 ///
-/// NULL for a NULL message; then `*len` is 0. A message that was freed must not be used, which cannot be detected.
+/// A NULL message gives NULL and the length 0, and is no error. A message that was freed must not be used, which cannot
+/// be detected.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_message_data(message: *const scl_message, len: *mut usize) -> *const c_void {
-    // SAFETY: the caller promises a live message or NULL.
-    let data = border::value(|| Ok(&unsafe { live(message) }?.data))
-        .map_or((std::ptr::null(), 0), |data| (data.as_ptr(), data.len()));
+    let data = match message.is_null() {
+        // Not an error: the call that returned no message has set the text.
+        true => None,
+        // SAFETY: not NULL, and the caller promises a live message.
+        false => border::value(|| Ok(&unsafe { live(message) }?.data)).ok(),
+    };
+    let (start, length) = data.map_or((std::ptr::null(), 0), |data| (data.as_ptr(), data.len()));
     // SAFETY: the caller promises a `size_t` or NULL.
     if let Some(len) = unsafe { len.as_mut() } {
-        *len = data.1;
+        *len = length;
     }
-    data.0.cast()
+    start.cast()
 }
 
 /// Frees a message. NULL is allowed.

@@ -47,18 +47,22 @@ pub unsafe extern "C" fn scl_take_request(
 /// Returns the bytes of a request, and stores their number in `*len` unless `len` is NULL. They are valid until
 /// scl_reply or scl_request_free.
 ///
-/// NULL for a NULL request; then `*len` is 0. A request that was answered or freed must not be used, which cannot be
-/// detected.
+/// A NULL request gives NULL and the length 0, and is no error. A request that was answered or freed must not be used,
+/// which cannot be detected.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_request_data(request: *const scl_request, len: *mut usize) -> *const c_void {
-    // SAFETY: the caller promises a live request or NULL.
-    let data = border::value(|| Ok(unsafe { live(request) }?.request.message()))
-        .map_or((std::ptr::null(), 0), |data| (data.as_ptr(), data.len()));
+    let data = match request.is_null() {
+        // Not an error: the call that returned no request has set the text.
+        true => None,
+        // SAFETY: not NULL, and the caller promises a live request.
+        false => border::value(|| Ok(unsafe { live(request) }?.request.message())).ok(),
+    };
+    let (start, length) = data.map_or((std::ptr::null(), 0), |data| (data.as_ptr(), data.len()));
     // SAFETY: the caller promises a `size_t` or NULL.
     if let Some(len) = unsafe { len.as_mut() } {
-        *len = data.1;
+        *len = length;
     }
-    data.0.cast()
+    start.cast()
 }
 
 /// Answers a request with `len` bytes, which are copied. It never waits. The request is freed, whatever the result,
