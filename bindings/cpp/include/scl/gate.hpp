@@ -37,13 +37,14 @@ class Gate : public detail::OtherKinds {
     /// Returns true if all required peers are connected; of `pull` and `rep` gates, if at least one peer is.
     bool is_connected() const noexcept { return scl_is_connected(handle_); }
 
-    /// The gate's counts as JSON text.
+    /// The gate's counts as JSON text, which `scl_stats` in `scl.h` describes.
     std::string stats() const {
         std::string json(1024, '\0');
-        std::size_t length = json.size();
+        std::size_t length = 0;
         scl_status status = SCL_OK;
-        while ((status = scl_stats(handle_, json.data(), &length)) == SCL_BUFFER) {
-            json.resize(length);
+        while ((status = scl_stats(handle_, json.data(), json.size(), &length)) == SCL_BUFFER) {
+            // With some room for counts that grow meanwhile.
+            json.resize(2 * length);
         }
         require(status);
         json.resize(length);
