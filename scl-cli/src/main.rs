@@ -9,6 +9,8 @@ mod diff;
 #[cfg(any(feature = "bench", feature = "run"))]
 mod duration;
 mod explain;
+#[cfg(feature = "generate")]
+mod generate;
 mod graph;
 mod load;
 mod plan;
@@ -40,6 +42,8 @@ enum Command {
     Completions(completions::CompletionsArguments),
     Diff(diff::DiffArguments),
     Explain(explain::ExplainArguments),
+    #[cfg(feature = "generate")]
+    Generate(generate::GenerateArguments),
     Graph(graph::GraphArguments),
     Plan(plan::PlanArguments),
     #[cfg(feature = "run")]
@@ -63,6 +67,8 @@ fn main() -> ExitCode {
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         Command::Diff(arguments) => diff::diff(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
+        #[cfg(feature = "generate")]
+        Command::Generate(arguments) => generate::generate(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
         #[cfg(feature = "run")]

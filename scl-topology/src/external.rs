@@ -1,10 +1,10 @@
-//! Rules that are checked elsewhere: by the loader that reads the files, by the macro, and by rustc. They are declared
+//! Rules that are checked elsewhere: by the loader that reads the files, by the macro, by `scl generate`, and by rustc. They are declared
 //! here, so that every code is explained in one place.
 
 use crate::rule::{Examples, Rule, Severity};
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 17] = [
+pub(crate) const RULES: [&Rule; 19] = [
     &FILE_NOT_FOUND,
     &UNREADABLE_FILE,
     &NOT_UTF8,
@@ -22,6 +22,8 @@ pub(crate) const RULES: [&Rule; 17] = [
     &WRONG_DIRECTION,
     &WRONG_TYPE_IN_CODE,
     &UNKNOWN_IN_CODE,
+    &MESSAGE_CLASH,
+    &NAME_CLASH,
 ];
 
 /// SCL0001.
@@ -234,4 +236,26 @@ pub const UNKNOWN_IN_CODE: Rule = Rule {
         bad: "sensor.measurement.send(&measurement).await?;",
         good: "sensor.measurements.send(&measurement).await?;",
     },
+};
+
+/// SCL1101.
+pub const MESSAGE_CLASH: Rule = Rule {
+    code: "SCL1101",
+    severity: Severity::Error,
+    title: "component and message become one name in another language",
+    explanation: "In generated code of some languages, components and messages share the namespace of the system: the \
+                  component `sensor` and the message `rover.Sensor` would both become `rover::Sensor` in C++. Only \
+                  `scl generate` for such a language reports it; Rust keeps the two apart. Rename one of them.",
+    examples: Examples::None,
+};
+
+/// SCL1102.
+pub const NAME_CLASH: Rule = Rule {
+    code: "SCL1102",
+    severity: Severity::Error,
+    title: "two names become one in another language",
+    explanation: "Different names of the topology become one name in generated code: C joins the names of system, \
+                  component and gate by `_`, so gate `b_c` of component `a` and gate `c` of component `a_b` become the \
+                  same functions. Only `scl generate` for such a language reports it. Rename one of them.",
+    examples: Examples::None,
 };

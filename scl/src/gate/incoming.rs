@@ -137,6 +137,12 @@ impl<T> Incoming<T> {
         })
     }
 
+    /// Counts a message that the program itself could not decode.
+    pub(crate) fn reject(&mut self, source: DecodeError) -> RecvError {
+        self.undecodable += 1;
+        RecvError::Decode { gate: self.name, peers: Peers::of(self.spec), source }
+    }
+
     /// The possible senders of a message: a listening gate has one link for all its peers.
     fn senders(&self, link: usize) -> Peers {
         let links = self.spec.links;

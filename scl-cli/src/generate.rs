@@ -1,0 +1,146 @@
+//! `scl generate`: code and configuration for other languages.
+
+use crate::load::{MaxSize, load_file, show_diagnostics};
+use crate::print::{print_err, print_out};
+use clap::{Args, ValueEnum};
+use scl_generate::{Component, File, Format, Outcome, System, Target, is_current, write};
+use scl_plan::SystemPlan;
+use scl_topology::diagnostic::Severity;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Exit code: a file could not be read or written.
+const COULD_NOT_RUN: u8 = 2;
+
+/// Generate code for C, C++ and Python from a topology, or its sockets for any program with a ZeroMQ library.
+///
+/// A file is written only if its content changes, and replaced as a whole: a build system rebuilds nothing without need, and
+/// any number of programs may generate into one folder at once.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl generate --for c                              rover_scl.h and rover_scl.c of ./topology.yaml
+  scl generate --for python rover.yaml -o src       src/rover_scl.py
+  scl generate --for zmq | jq '.components'         endpoints, socket types, message types
+  scl generate --for cpp -o gen --check             fails if gen/rover.scl.hpp is not up to date
+
+Exit code: 0 generated, 1 the topology has errors or (--check) a file is not up to date, 2 a file could not be read or
+written.")]
+pub(crate) struct GenerateArguments {
+    /// What to generate.
+    #[arg(long = "for", value_name = "WHAT")]
+    target: Language,
+    /// The topology file; `-` is standard input.
+    #[arg(default_value = "topology.yaml")]
+    file: PathBuf,
+    /// The folder for the files, created if need be [default: the current folder; for `zmq`, standard output].
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// How `zmq` is written.
+    #[arg(long, value_name = "FORMAT", default_value = "json")]
+    format: TextFormat,
+    /// Generate only this component; may be repeated.
+    #[arg(long = "component", value_name = "NAME")]
+    components: Vec<String>,
+    /// Write nothing; fail if a file is not up to date.
+    #[arg(long)]
+    check: bool,
+    #[command(flatten)]
+    max_size: MaxSize,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+enum Language {
+    /// The sockets of the system, for programs with only a ZeroMQ library.
+    Zmq,
+    /// A header and a source.
+    C,
+    /// A header.
+    Cpp,
+    /// A typed module.
+    Python,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum TextFormat {
+    Json,
+    Yaml,
+}
+
+/// The body of `scl generate`.
+pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
+    let loaded = load_file(&arguments.file, arguments.max_size);
+    show_diagnostics(&loaded, loaded.diagnostics.iter().filter(|it| it.severity != Severity::Lint));
+    let Some(mut system) = System::of(&loaded) else {
+        return ExitCode::from(if loaded.file.is_some() { 1 } else { COULD_NOT_RUN });
+    };
+    if let Err(text) = select(&mut system, &arguments.components) {
+        print_err(&text);
+        return ExitCode::FAILURE;
+    }
+    let files = match scl_generate::generate(&system, arguments.target()) {
+        Ok(files) => files,
+        Err(clashes) => {
+            show_diagnostics(&loaded, &clashes);
+            return ExitCode::FAILURE;
+        }
+    };
+    match (&arguments.output, arguments.target, arguments.check) {
+        (None, Language::Zmq, false) => {
+            files.iter().for_each(|file| print_out(&file.text));
+            ExitCode::SUCCESS
+        }
+        (folder, _, true) => check_files(folder.as_deref().unwrap_or(Path::new("")), &files),
+        (folder, _, false) => write_files(folder.as_deref().unwrap_or(Path::new("")), &files),
+    }
+}
+
+impl GenerateArguments {
+    fn target(&self) -> Target {
+        match (self.target, self.format) {
+            (Language::Zmq, TextFormat::Json) => Target::Zmq(Format::Json),
+            (Language::Zmq, TextFormat::Yaml) => Target::Zmq(Format::Yaml),
+            (Language::C, _) => Target::C,
+            (Language::Cpp, _) => Target::Cpp,
+            (Language::Python, _) => Target::Python,
+        }
+    }
+}
+
+/// Leaves the components with these names; all of them if there are no names.
+fn select(system: &mut System, names: &[String]) -> Result<(), String> {
+    let plans = system.components.iter().map(|component| component.plan.clone()).collect();
+    let plan = SystemPlan { system: system.name.clone(), components: plans };
+    let unknown = names.iter().filter_map(|name| plan.component(name).err());
+    let told: String = unknown.map(|error| format!("error: {error}\n")).collect();
+    if !told.is_empty() {
+        return Err(told);
+    }
+    let is_wanted = |component: &Component| names.is_empty() || names.contains(&component.name);
+    system.components.retain(is_wanted);
+    Ok(())
+}
+
+fn check_files(folder: &Path, files: &[File]) -> ExitCode {
+    let old: Vec<_> = files.iter().filter(|file| !is_current(folder, file)).collect();
+    for file in &old {
+        print_err(&format!("error: `{}` is not up to date\n", folder.join(&file.name).display()));
+    }
+    if old.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn write_files(folder: &Path, files: &[File]) -> ExitCode {
+    for file in files {
+        match write(folder, file) {
+            Ok(Outcome::Written) => print_out(&format!("wrote {}\n", folder.join(&file.name).display())),
+            Ok(Outcome::Unchanged) => print_out(&format!("{} is up to date\n", folder.join(&file.name).display())),
+            Err(error) => {
+                let cause = error.source().map(|cause| format!(": {cause}")).unwrap_or_default();
+                print_err(&format!("error: {error}{cause}\n"));
+                return ExitCode::from(COULD_NOT_RUN);
+            }
+        }
+    }
+    ExitCode::SUCCESS
+}

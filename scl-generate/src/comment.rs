@@ -1,0 +1,25 @@
+//! Texts of the topology file inside comments of other languages, which they must not end.
+
+/// The lines of a text for a block comment of C and C++.
+pub(crate) fn c_lines(text: &str) -> Vec<String> {
+    lines(text).map(|line| line.replace("*/", "* /").replace("/*", "/ *")).collect()
+}
+
+/// The lines of a text, without control characters and trailing spaces; empty ones at the end are left out.
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = String> {
+    let line = |line: &str| {
+        let shown: String = line.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect();
+        shown.trim_end().to_owned()
+    };
+    text.trim_end().lines().map(line)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::c_lines;
+
+    #[test]
+    fn no_text_ends_its_comment() {
+        assert_eq!(c_lines("one */ two\n\n/*/ \u{7} \n\n"), ["one * / two", "", "/ * /"]);
+    }
+}

@@ -1,0 +1,31 @@
+//! Names of the topology as identifiers of other languages: keywords get a trailing underscore, as `protoc` does it.
+
+use scl_topology::keywords::{CPP, PYTHON};
+
+/// Keywords of C that are not keywords of C++, and macros that gcc defines unless told to follow the standard.
+const C_ONLY: [&str; 6] = ["errno", "linux", "restrict", "typeof", "typeof_unqual", "unix"];
+
+/// An identifier of C and C++. Both languages escape the keywords of both, so that a C header works in C++.
+pub(crate) fn c_family(name: &str) -> String {
+    escaped(name, &[&CPP, &C_ONLY])
+}
+
+/// An identifier of Python.
+pub(crate) fn python(name: &str) -> String {
+    escaped(name, &[&PYTHON])
+}
+
+fn escaped(name: &str, keywords: &[&[&str]]) -> String {
+    if keywords.iter().any(|words| words.contains(&name)) { format!("{name}_") } else { name.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{c_family, python};
+
+    #[test]
+    fn keywords_get_an_underscore() {
+        assert_eq!(["class", "restrict", "int", "from"].map(c_family), ["class_", "restrict_", "int_", "from"]);
+        assert_eq!(["class", "int", "from"].map(python), ["class_", "int", "from_"]);
+    }
+}
