@@ -20,11 +20,15 @@ mod plan;
 #[cfg(feature = "run")]
 mod quickstart;
 #[cfg(feature = "run")]
+mod run_build;
+#[cfg(feature = "run")]
 mod run_mistakes;
 #[cfg(feature = "run")]
 mod run_output;
 #[cfg(feature = "run")]
 mod run_package;
+#[cfg(feature = "run")]
+mod run_profiles;
 #[cfg(feature = "run")]
 mod run_stop;
 mod rust_analyzer;

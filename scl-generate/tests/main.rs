@@ -5,5 +5,6 @@ mod all_topologies;
 mod c;
 mod clashes;
 mod fixture;
+mod python;
 mod writing;
 mod zmq;
