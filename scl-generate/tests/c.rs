@@ -119,12 +119,12 @@ fn the_wrong_component_does_not_compile() {
 }
 
 /// A folder with generated code and what `protoc-c` makes of the schemas.
-struct Project {
+pub(crate) struct Project {
     folder: tempfile::TempDir,
 }
 
 impl Project {
-    fn of(topology: &Path) -> Self {
+    pub(crate) fn of(topology: &Path) -> Self {
         let project = Self { folder: tempfile::tempdir().unwrap() };
         for file in generated(topology, Target::C) {
             write(project.path(), &file).unwrap();
@@ -142,7 +142,7 @@ impl Project {
         project
     }
 
-    fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         self.folder.path()
     }
 

@@ -3,6 +3,7 @@
 
 mod all_topologies;
 mod c;
+mod c_programs;
 mod clashes;
 mod fixture;
 mod python;
