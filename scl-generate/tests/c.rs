@@ -29,7 +29,7 @@ fn generated_code_compiles_without_a_warning() {
 #[test]
 fn one_component_alone_compiles() {
     let path = topology("every_kind.yaml");
-    for index in 0..3 {
+    for index in 0..system(&path).components.len() {
         let mut system = system(&path);
         system.components = vec![system.components.swap_remove(index)];
         let project = Project::of(&path);

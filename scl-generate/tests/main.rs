@@ -5,6 +5,7 @@ mod all_topologies;
 mod c;
 mod c_programs;
 mod clashes;
+mod cpp;
 mod fixture;
 mod python;
 mod writing;
