@@ -1,8 +1,8 @@
 """Components and gates, wired by one checked YAML file, over ZeroMQ.
 
-    import scl
-    controller = scl.open("topology.yaml", "controller")
-    controller.actuator.send(controller.actuator.type(throttle=0.5))
+import scl
+controller = scl.open("topology.yaml", "controller")
+controller.actuator.send(controller.actuator.type(throttle=0.5))
 """
 
 from scl._component import Component, DynamicComponent, Transport, open, open_plan
@@ -32,6 +32,7 @@ from scl._errors import (
     WrongDirection,
 )
 from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Request, Sub
+from scl._generated import GeneratedComponent
 from scl._native import __version__
 from scl._signals import stop_requested
 
@@ -47,6 +48,7 @@ __all__ = [
     "Forked",
     "Full",
     "Gate",
+    "GeneratedComponent",
     "InternalError",
     "NotFlushed",
     "NotReady",

@@ -136,7 +136,11 @@ def open_plan(
 
 def attribute_of(gate: str) -> str:
     """Returns the attribute for a gate: its name, with an underscore where Python or `Component` uses that name."""
-    return f"{gate}_" if keyword.iskeyword(gate) or hasattr(Component, gate) else gate
+    name = gate.replace("-", "_")
+    if keyword.iskeyword(name) or (hasattr(Component, name) and not name.startswith("_")):
+        return f"{name}_"
+    # Names that start with an underscore belong to the class.
+    return f"gate{name}" if name.startswith("_") else name
 
 
 def _codecs_of(plan: _native.Plan, component: str) -> dict[str, list[codec.Codec]]:

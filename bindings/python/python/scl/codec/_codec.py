@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
+
+from scl._errors import DecodeError
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,19 +23,27 @@ class Codec:
     Raises `TypeError` for a message of another class, and `EncodeError` for a value that the codec cannot represent.
     """
     decode: Callable[[bytes], Any]
-    """Returns the message of a frame. Raises `DecodeError` for every frame that is not a message."""
+    """Returns the message of a frame. Raises `DecodeError` for every frame that is not a message, and counts it."""
+    owner: Owner
+    """The gate."""
 
 
-class EncodeError(ValueError):
-    """A codec cannot represent a value."""
+@dataclass(slots=True)
+class Owner:
+    """The gate for which a codec works."""
 
+    gate: str
+    """As messages name it: `controller.sensor`."""
+    peers: Sequence[str] = ()
+    """The gates from which frames arrive."""
+    rejected: int = 0
+    """How many frames were not messages."""
 
-class DecodeError(ValueError):
-    """A frame is not a message of the expected type."""
-
-
-class UnsupportedCodecError(Exception):
-    """Python cannot read the messages of a gate, or lacks a package for it."""
+    def undecodable(self, reason: object) -> DecodeError:
+        """Counts a frame, and returns the error that names the gate and its peers."""
+        self.rejected += 1
+        senders = f" from {', '.join(f'`{peer}`' for peer in self.peers)}" if self.peers else ""
+        return DecodeError(f"gate `{self.gate}` received an undecodable message{senders}: {reason}")
 
 
 def kind_of(value: object) -> str:

@@ -11,7 +11,7 @@ import threading
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from scl.codec._codec import UnsupportedCodecError
+from scl._errors import UnsupportedCodecError
 
 if TYPE_CHECKING:
     from google.protobuf.descriptor_pb2 import FileDescriptorProto
@@ -76,7 +76,9 @@ def messages_of_descriptors(sets: Iterable[bytes]) -> MessageClasses:
         return _messages_of_descriptors(tuple(sorted(set(sets))))
 
 
-def lazy_messages(module: str, plan: str, messages: Mapping[str, str], enums: Mapping[str, str]) -> Callable[[str], object]:
+def lazy_messages(
+    module: str, plan: str, messages: Mapping[str, str], enums: Mapping[str, str]
+) -> Callable[[str], object]:
     """Returns the `__getattr__` of a generated module, which makes a message class when it is first used.
 
     `messages` and `enums` give the full name of each name in the module.
