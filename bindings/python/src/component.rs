@@ -5,6 +5,7 @@ use crate::gate::Gate;
 use crate::limit::Limit;
 use crate::plan::Plan;
 use crate::process::{drop_detached, stay_if_exiting};
+use crate::readiness::Readiness;
 use crate::shared::Shared;
 use crate::waiting::{LOOK, wait};
 use pyo3::exceptions::PyValueError;
@@ -49,7 +50,7 @@ impl Component {
             })
         });
         let (gates, opened) = opened?;
-        let shared = Arc::new(Shared::new(&plan.component, &plan.system));
+        let shared = Arc::new(Shared::new(&opened, &plan.component, &plan.system));
         let gates = plan.gates.iter().zip(gates);
         let gates = gates.map(|(plan, gate)| Py::new(py, Gate::new(plan.clone(), Arc::clone(&shared), gate)));
         let gates = gates.collect::<PyResult<Vec<_>>>()?;
@@ -106,7 +107,7 @@ impl Component {
         if self.shared.is_inherited() || self.shared.close() {
             return Ok(());
         }
-        py.detach(|| self.gates.iter().for_each(|gate| gate.get().close()));
+        py.detach(|| self.gates.iter().for_each(|gate| gate.get().claimed().close()));
         let Some(component) = py.detach(|| self.component.lock().unwrap_or_else(PoisonError::into_inner).take()) else {
             return Ok(());
         };
@@ -131,6 +132,18 @@ impl Component {
                 Err(RecvTimeoutError::Disconnected) => return Ok(()),
             }
         }
+    }
+
+    /// A file descriptor for event loops: of calls that were polled with it, or, with `all_gates`, of all gates.
+    fn readiness(&self, all_gates: bool) -> PyResult<Readiness> {
+        self.shared.check_open()?;
+        let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
+        let component = component.as_ref().ok_or_else(|| self.shared.closed())?;
+        let readiness = match all_gates {
+            true => component.readiness().map_err(|error| Failure::of_box(&error)),
+            false => component.readiness_of(&[]).map_err(|error| Failure::of_box(error.inner())),
+        };
+        Ok(Readiness::new(readiness?))
     }
 
     #[getter]
