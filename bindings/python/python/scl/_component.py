@@ -47,7 +47,7 @@ class Component:
             gate.name: _KINDS[gate.kind](gate, *codecs[gate.name]) for gate in self._native.gates
         }
         for gate_name, gate in self._gates.items():
-            setattr(self, attribute_of(gate_name), gate)
+            object.__setattr__(self, attribute_of(gate_name), gate)
 
     def ready(self, timeout: float | None = None) -> None:
         """Waits until all required peers are connected. Raises `NotReady` after `timeout` seconds."""

@@ -48,4 +48,4 @@ class GeneratedComponent(Component):
             signals=signals,
         )
         for attribute, gate in self._renamed.items():
-            setattr(self, attribute, self._gates[gate])
+            object.__setattr__(self, attribute, self._gates[gate])

@@ -3,41 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from scl._errors import DecodeError
 
 
-@dataclass(frozen=True, slots=True)
 class Codec:
     """Encodes the messages of one gate into frames and decodes them."""
 
-    name: str
-    """As in the topology file: `json`."""
-    type: type[Any]
-    """The class of the messages: a protobuf message class, `bytes`, or `object` for plain values."""
-    encode: Callable[[Any], bytes]
-    """Returns the frame of a message.
+    __slots__ = ("decode", "encode", "name", "owner", "type")
 
-    Raises `TypeError` for a message of another class, and `EncodeError` for a value that the codec cannot represent.
-    """
-    decode: Callable[[bytes], Any]
-    """Returns the message of a frame. Raises `DecodeError` for every frame that is not a message, and counts it."""
-    owner: Owner
-    """The gate."""
+    def __init__(
+        self,
+        name: str,
+        type: type[Any],
+        encode: Callable[[Any], bytes],
+        decode: Callable[[bytes], Any],
+        owner: Owner,
+    ) -> None:
+        self.name = name
+        """As in the topology file: `json`."""
+        self.type = type
+        """The class of the messages: a protobuf message class, `bytes`, or `object` for plain values."""
+        self.encode = encode
+        """Returns the frame of a message.
+
+        Raises `TypeError` for a message of another class, and `EncodeError` for a value that the codec cannot represent.
+        """
+        self.decode = decode
+        """Returns the message of a frame. Raises `DecodeError` for every frame that is not a message, and counts it."""
+        self.owner = owner
+        """The gate."""
 
 
-@dataclass(slots=True)
 class Owner:
     """The gate for which a codec works."""
 
-    gate: str
-    """As messages name it: `controller.sensor`."""
-    peers: Sequence[str] = ()
-    """The gates from which frames arrive."""
-    rejected: int = 0
-    """How many frames were not messages."""
+    __slots__ = ("gate", "peers", "rejected")
+
+    def __init__(self, gate: str, peers: Sequence[str] = ()) -> None:
+        self.gate = gate
+        """As messages name it: `controller.sensor`."""
+        self.peers = peers
+        """The gates from which frames arrive."""
+        self.rejected = 0
+        """How many frames were not messages."""
 
     def undecodable(self, reason: object) -> DecodeError:
         """Counts a frame, and returns the error that names the gate and its peers."""

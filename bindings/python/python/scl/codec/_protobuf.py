@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -43,6 +42,8 @@ def canonical_json(owner: Owner, message_class: type[Message]) -> Codec:
 
     Fields that the class does not know are skipped, as in `protobuf`: a newer program may send them.
     """
+    import json
+
     from google.protobuf import json_format
 
     name = message_class.DESCRIPTOR.full_name

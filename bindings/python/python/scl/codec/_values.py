@@ -6,10 +6,8 @@ What is sent may contain dataclasses, which become maps of their fields as serde
 
 from __future__ import annotations
 
-import dataclasses
 import importlib
 import io
-import json
 import struct
 from typing import Any, NoReturn
 
@@ -19,6 +17,7 @@ from scl.codec._codec import Codec, Owner, kind_of
 
 def json_values(owner: Owner, name: str) -> Codec:
     """Returns the codec `json` for plain values."""
+    import json
 
     def plain(value: object) -> object:
         # As serde does it: JSON has no bytes.
@@ -99,6 +98,8 @@ def msgpack(owner: Owner, name: str) -> Codec:
 
 def _fields(value: object) -> dict[str, object]:
     """Returns the fields of a dataclass; values inside of them are encoded in turn."""
+    import dataclasses
+
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
     raise TypeError(f"{kind_of(value)} is neither a plain value nor a dataclass")
