@@ -16,7 +16,6 @@ from queue import Empty, Queue
 from typing import Any
 
 import pytest
-
 import scl
 
 TOPOLOGIES = Path(__file__).parents[3] / "tests" / "topologies"
