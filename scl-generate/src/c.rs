@@ -1,16 +1,66 @@
 //! `--for c`: a header and a source with typed functions per component and gate, over `scl.h`.
+//!
+//! A gate whose codec is protobuf and whose message is in `schemas:` has functions for the message structs of
+//! protobuf-c; any other gate has functions for bytes.
 
-use crate::clash::Declaration;
+mod content;
+mod function;
+mod gate;
+mod header;
+mod helpers;
+mod protobuf_c;
+mod source;
+mod wait;
+
+use crate::clash::{Declaration, Origin};
 use crate::output::File;
-use crate::system::System;
+use crate::system::{Component, System};
+use content::Content;
+use std::collections::BTreeMap;
 
-/// The names that the header declares.
-pub(crate) fn declarations(_system: &System) -> Vec<Declaration> {
-    Vec::new()
+/// The names that the header declares, and those of the messages that it uses.
+pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
+    let mut found = Vec::new();
+    let mut declare = |name: String, origin: Origin| {
+        found.push(Declaration { scope: "C".to_owned(), name, origin });
+    };
+    for message in messages(system) {
+        protobuf_c::declared(&message.dotted).into_iter().for_each(|name| declare(name, Origin::message(&message)));
+    }
+    for component in &system.components {
+        let prefix = prefix(system, component);
+        declare(prefix.clone(), Origin::component(component));
+        for call in ["open", "ready", "close", "wait"] {
+            declare(format!("{prefix}_{call}"), Origin::component(component));
+        }
+        for gate in &component.gates {
+            gate::declared(&prefix, gate).into_iter().for_each(|name| declare(name, Origin::gate(component, gate)));
+        }
+        for gate in wait::gates(component) {
+            declare(wait::constant(&prefix, gate), Origin::gate(component, gate));
+        }
+    }
+    found
 }
 
 /// `<system>_scl.h` and `<system>_scl.c`.
 pub(crate) fn files(system: &System) -> Vec<File> {
-    let text = format!("/* {} */\n", system.header());
-    ["h", "c"].map(|ending| File { name: format!("{}_scl.{ending}", system.snake_name()), text: text.clone() }).into()
+    let name = system.snake_name();
+    vec![
+        File { name: format!("{name}_scl.h"), text: header::text(system) },
+        File { name: format!("{name}_scl.c"), text: source::text(system) },
+    ]
+}
+
+/// What the names of a component begin with: `rover_sensor`.
+fn prefix(system: &System, component: &Component) -> String {
+    format!("{}_{}", system.snake_name(), component.snake_name)
+}
+
+/// The messages with structs, each once.
+fn messages(system: &System) -> Vec<crate::MessageUse> {
+    let gates = system.components.iter().flat_map(|component| &component.gates);
+    let used = gates.flat_map(|gate| gate.types.iter().filter(|used| Content::of(gate, used).is_struct()));
+    let by_name: BTreeMap<&str, &crate::MessageUse> = used.map(|used| (used.dotted.as_str(), used)).collect();
+    by_name.into_values().cloned().collect()
 }

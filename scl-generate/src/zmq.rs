@@ -1,7 +1,12 @@
-//! `--for zmq`: the sockets of a system, for programs with only a ZeroMQ library.
+//! `--for zmq`: the sockets of a system, for programs with only a ZeroMQ library. docs/generate.md has the format.
 
 use crate::output::File;
-use crate::system::System;
+use crate::system::{Component, Gate, System};
+use scl_plan::{GateKind, Payload};
+use serde::{Serialize, Serializer};
+
+/// The version of the format. It grows when a field changes its meaning or goes; new fields may come.
+const VERSION: u64 = 1;
 
 /// How the configuration is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -15,9 +20,138 @@ pub enum Format {
 
 /// `<system>.zmq.json` or `<system>.zmq.yaml`.
 pub(crate) fn files(system: &System, format: Format) -> Vec<File> {
-    let ending = match format {
-        Format::Json => "json",
-        Format::Yaml => "yaml",
+    let document = Document::of(system);
+    let (ending, text) = match format {
+        Format::Json => ("json", serde_json::to_string_pretty(&document).map(|text| text + "\n").map_err(drop)),
+        Format::Yaml => {
+            let text = serde_yaml::to_string(&document).map(|text| format!("# {}\n{text}", system.header()));
+            ("yaml", text.map_err(drop))
+        }
     };
-    vec![File { name: format!("{}.zmq.{ending}", system.snake_name()), text: String::new() }]
+    // Only maps with keys that are not texts cannot be written.
+    let text = text.unwrap_or_default();
+    vec![File { name: format!("{}.zmq.{ending}", system.snake_name()), text }]
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    version: u64,
+    topology: &'a str,
+    system: &'a str,
+    schemas: Vec<&'a str>,
+    components: InOrder<ComponentEntry<'a>>,
+}
+
+#[derive(Serialize)]
+struct ComponentEntry<'a> {
+    doc: Option<&'a str>,
+    gates: InOrder<GateEntry<'a>>,
+}
+
+#[derive(Serialize)]
+struct GateEntry<'a> {
+    kind: &'static str,
+    doc: Option<&'a str>,
+    payload: Option<PayloadEntry<'a>>,
+    codec: &'a str,
+    contract: &'a str,
+    zmq_socket_type: &'static str,
+    zmq_method: &'static str,
+    zmq_endpoints: Vec<String>,
+    zmq_tap: Option<String>,
+    peers: Vec<String>,
+    queue: u32,
+    when_full: &'static str,
+    max_size: u64,
+    timeout_ns: u64,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum PayloadEntry<'a> {
+    Message { message: &'a str },
+    Exchange { request: &'a str, reply: &'a str },
+}
+
+impl<'a> Document<'a> {
+    fn of(system: &'a System) -> Self {
+        let files = system.descriptors.iter().flat_map(|set| &set.file).map(|file| file.name());
+        let component = |component: &'a Component| (component.name.clone(), ComponentEntry::of(component));
+        Self {
+            version: VERSION,
+            topology: &system.topology_file,
+            system: &system.name,
+            schemas: files.collect(),
+            components: InOrder(system.components.iter().map(component).collect()),
+        }
+    }
+}
+
+impl<'a> ComponentEntry<'a> {
+    fn of(component: &'a Component) -> Self {
+        let gates = component.gates.iter().map(|gate| (gate.name.clone(), GateEntry::of(gate)));
+        Self { doc: component.doc.as_deref(), gates: InOrder(gates.collect()) }
+    }
+}
+
+impl<'a> GateEntry<'a> {
+    fn of(gate: &'a Gate) -> Self {
+        let plan = &gate.plan;
+        // A gate that listens for all its peers has one endpoint, the others have one per connection.
+        let endpoints: Vec<&str> = match &plan.endpoint {
+            Some(endpoint) => vec![endpoint],
+            None => plan.connections.iter().map(|connection| connection.endpoint.as_str()).collect(),
+        };
+        let peers = plan.connections.iter().map(|it| format!("{}.{}", it.peer_component, it.peer_gate));
+        Self {
+            kind: plan.kind.word(),
+            doc: gate.doc.as_deref(),
+            payload: payload(&plan.payload),
+            codec: &plan.codec,
+            contract: &plan.contract,
+            zmq_socket_type: socket_type(plan.kind),
+            zmq_method: if plan.kind.listens() { "bind" } else { "connect" },
+            zmq_endpoints: endpoints.into_iter().map(address).collect(),
+            zmq_tap: plan.tap.as_deref().map(address),
+            peers: peers.collect(),
+            queue: plan.options.queue,
+            when_full: plan.options.when_full.word(),
+            max_size: plan.options.max_size,
+            timeout_ns: u64::try_from(plan.options.timeout.as_nanos()).unwrap_or(u64::MAX),
+        }
+    }
+}
+
+fn payload(payload: &Payload) -> Option<PayloadEntry<'_>> {
+    match payload {
+        Payload::Bytes => None,
+        Payload::Message(message) => Some(PayloadEntry::Message { message }),
+        Payload::Exchange { request, reply } => Some(PayloadEntry::Exchange { request, reply }),
+    }
+}
+
+/// The socket of a plain program in the place of a component.
+fn socket_type(kind: GateKind) -> &'static str {
+    match kind {
+        GateKind::Pub => "PUB",
+        GateKind::Sub => "SUB",
+        GateKind::Req => "REQ",
+        GateKind::Rep => "REP",
+        GateKind::Push => "PUSH",
+        GateKind::Pull => "PULL",
+    }
+}
+
+/// Where the folder of a system lies depends on the user and the environment of the program.
+fn address(endpoint: &str) -> String {
+    format!("ipc://{{folder}}/{endpoint}")
+}
+
+/// A map in the order of the topology file.
+struct InOrder<T>(Vec<(String, T)>);
+
+impl<T: Serialize> Serialize for InOrder<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
 }

@@ -1,6 +1,7 @@
 //! What the tests across processes share: programs that follow commands, a runtime folder for them, and raw ZMTP peers.
 
 mod commands;
+mod compile;
 pub mod fuzz;
 mod process;
 mod python;
@@ -12,6 +13,7 @@ mod usage;
 pub mod zmtp;
 
 pub use commands::{Commands, ranges, say, say_error, say_result, stop_self};
+pub use compile::{CLibrary, Compile, c_library};
 pub use process::{Exit, HANG_LIMIT, Process};
 pub use python::{python_with_packages, python_with_scl, start_python};
 pub use raw_peer::{Frame, RawListener, RawPeer};

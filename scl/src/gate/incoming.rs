@@ -137,6 +137,12 @@ impl<T> Incoming<T> {
         })
     }
 
+    /// Counts a message that the program itself could not decode.
+    pub(crate) fn reject(&mut self, source: DecodeError) -> RecvError {
+        self.undecodable += 1;
+        RecvError::Decode { gate: self.name, peers: Peers::of(self.spec), source }
+    }
+
     /// The possible senders of a message: a listening gate has one link for all its peers.
     fn senders(&self, link: usize) -> Peers {
         let links = self.spec.links;
@@ -188,8 +194,10 @@ impl<T> Incoming<T> {
 impl<T> Drop for Incoming<T> {
     fn drop(&mut self) {
         if self.state.is_inherited() {
-            self.inbox.leak();
+            return self.inbox.leak();
         }
+        // The task may hold the inbox a little longer.
+        self.inbox.lock().stop_reporting();
     }
 }
 

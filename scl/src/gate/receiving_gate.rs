@@ -11,6 +11,13 @@ macro_rules! receiving_gate {
         use std::pin::Pin;
         use std::task::{Context, Poll};
 
+        impl<T> $gate<T> {
+            /// Counts a message that the program itself could not decode.
+            pub(crate) fn reject(&mut self, source: crate::codec::DecodeError) -> RecvError {
+                self.incoming.reject(source)
+            }
+        }
+
         impl<T> sealed::Sealed for $gate<T> {}
 
         impl<T> AnyGate for $gate<T> {

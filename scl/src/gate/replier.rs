@@ -159,6 +159,12 @@ impl<A, B> Rep<A, B> {
         RecvError::Blocking { gate: self.replies.gate, source }
     }
 
+    /// Counts a request that the program itself could not decode.
+    pub(crate) fn reject(&mut self, source: DecodeError) -> RecvError {
+        self.undecodable += 1;
+        RecvError::Decode { gate: self.replies.gate, peers: Peers::of(self.spec), source }
+    }
+
     fn decode(
         &mut self,
         IncomingRequest { body, envelope, path }: IncomingRequest,
@@ -181,6 +187,7 @@ impl<A, B> Drop for Rep<A, B> {
             std::mem::forget(Arc::clone(&self.end));
             return std::mem::forget(Arc::clone(&self.replies));
         }
+        self.end.stop_reporting();
         self.replies.state.release(self.end.link());
     }
 }

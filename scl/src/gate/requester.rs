@@ -170,6 +170,12 @@ impl<A, B> Req<A, B> {
         }
     }
 
+    /// Counts a reply that the program itself could not decode.
+    pub(crate) fn reject(&mut self, source: DecodeError) -> CallError {
+        self.undecodable += 1;
+        CallError::Decode { gate: self.name, peers: Peers::of(self.spec), source }
+    }
+
     fn decode(&mut self, body: Bytes) -> Result<B, CallError> {
         self.received += 1;
         self.activity.add(body.len());

@@ -1,7 +1,8 @@
 //! A gate of any kind, with bytes as its messages.
 
+use crate::codec::DecodeError;
 use crate::component::Opener;
-use crate::error::OpenError;
+use crate::error::{Error, OpenError};
 use crate::gate::{AnyGate, GateStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Sub};
 use crate::spec::{GateKind, GateSpec};
 use bytes::Bytes;
@@ -59,6 +60,22 @@ impl Gate {
         }
     }
 
+    /// Counts a received message, request or reply that the program could not decode, as a gate with a codec does
+    /// ([`GateStats::rejected`]), and returns the error of such a gate, which names the possible senders.
+    ///
+    /// `reason` says why, after "cannot decode this message: "; by convention it starts in lower case and has no full
+    /// stop. `None` for `pub` and `push`, which receive nothing.
+    pub fn reject(&mut self, reason: impl Into<String>) -> Option<Error> {
+        let source = DecodeError::new(self.spec().codec, reason);
+        match self {
+            Gate::Sub(gate) => Some(gate.reject(source).into()),
+            Gate::Pull(gate) => Some(gate.reject(source).into()),
+            Gate::Rep(gate) => Some(gate.reject(source).into()),
+            Gate::Req(gate) => Some(gate.reject(source).into()),
+            Gate::Pub(_) | Gate::Push(_) => None,
+        }
+    }
+
     /// What the plan says about the gate.
     pub fn spec(&self) -> &GateSpec {
         self.any().spec()
@@ -86,5 +103,26 @@ impl Gate {
             Gate::Push(gate) => gate.stats(),
             Gate::Pull(gate) => gate.stats(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::OpenOptions;
+    use crate::transport::memory::Memory;
+    use crate::untyped::Component;
+    use scl_plan::SystemPlan;
+
+    #[test]
+    fn what_the_program_cannot_decode_counts_as_rejected() {
+        let system = SystemPlan::from_json(include_str!("../../doc/rover.json")).unwrap();
+        let mut recorder = Component::open_blocking_with(
+            system.component("recorder").unwrap(),
+            OpenOptions::new().transport(Memory::default()),
+        );
+        let mut gate = recorder.as_mut().unwrap().gate("log").unwrap();
+        let error = gate.reject("it is not a `rover.Line`").unwrap();
+        assert_eq!(error.to_string(), "gate `recorder.log` received an undecodable message from `sensor.log`");
+        assert_eq!(gate.stats().rejected, 1);
     }
 }

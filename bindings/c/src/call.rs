@@ -1,0 +1,38 @@
+//! Calls: `req` gates.
+
+use crate::border::{self, Wait};
+use crate::gate::{self, scl_gate};
+use crate::message::scl_message;
+use crate::receive::give;
+use crate::status::*;
+use scl::untyped::Gate;
+use std::ffi::c_void;
+
+/// Sends a request of `len` bytes, which are copied, over a `req` gate and waits for the reply. A negative timeout
+/// means the gate's own, from the topology file. A replier that is not connected yet is waited for within that time.
+///
+/// On success, `*reply` is the reply, to be freed with scl_message_free; otherwise it is NULL.
+///
+/// Errors: SCL_TIMEOUT, SCL_PEER_LOST, SCL_TOO_LONG, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY, SCL_HANDLE. A reply
+/// that comes too late is discarded; the next call never receives it.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_call(
+    gate: *mut scl_gate,
+    data: *const c_void,
+    len: usize,
+    timeout_ns: i64,
+    reply: *mut *mut scl_message,
+) -> scl_status {
+    let call = || {
+        let mut open = gate::lock(gate)?;
+        // SAFETY: the caller's duty.
+        let request = unsafe { open.outgoing(data, len) }?;
+        match (&mut open.gate, Wait::of(timeout_ns)) {
+            (Gate::Req(gate), Wait::Forever) => Ok(gate.call_blocking(&request)?),
+            (Gate::Req(gate), wait) => Ok(gate.call_timeout(&request, wait.limit())?),
+            _ => Err(open.wrong_kind("scl_call")),
+        }
+    };
+    // SAFETY: the caller's duty; NULL is refused.
+    border::status(|| unsafe { give(reply, call) })
+}

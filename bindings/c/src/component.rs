@@ -1,0 +1,196 @@
+//! Components: opening, waiting for peers, closing.
+
+use crate::border::{self, Wait};
+use crate::error::Failure;
+use crate::gate::{self, scl_gate};
+use crate::options::Options;
+use crate::registry::Registry;
+use crate::status::*;
+use scl::host;
+use scl::plan::{SystemPlan, nearest};
+use scl::untyped::{Closer, Component, GateError, Readiness};
+use std::ffi::{c_char, c_void};
+use std::sync::{Arc, OnceLock, PoisonError, RwLock};
+
+/// A component, opened by this process.
+#[allow(non_camel_case_types)]
+pub struct scl_component {
+    _opaque: [u8; 0],
+}
+
+/// An open component.
+pub(crate) struct Opened {
+    name: String,
+    /// `None` once closed. Calls that wait hold a read lock.
+    component: RwLock<Option<Component>>,
+    /// Ends the calls of the component and its gates.
+    closer: Closer,
+    /// Names and handles of its gates.
+    gates: Vec<(String, usize)>,
+    /// Opened by the first `scl_fd`.
+    readiness: OnceLock<Readiness>,
+}
+
+static COMPONENTS: Registry<Arc<Opened>> = Registry::new(3, "component");
+
+/// Opens a component: registers it in the runtime folder and opens its gates. Peers connect by themselves, in whatever
+/// order the programs start.
+///
+/// `plan_json`, of `plan_len` bytes, is the plan of the system or of one component, as `scl plan` prints it; generated
+/// code contains it. `options_json` is NULL for the defaults, or an object with any of these keys:
+///
+///     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc" or "tcp", "signals": true}
+///
+/// The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. Unless `signals` is
+/// false, SIGTERM and SIGINT no longer end the process but request a stop: see scl_stop_requested.
+///
+/// On success, `*opened` is the new component, to be closed with scl_close; otherwise it is NULL.
+///
+/// Errors: SCL_PLAN, SCL_NAME (the plan has no such component), SCL_TAKEN, SCL_FOLDER, SCL_ENVIRONMENT, SCL_SYSTEM,
+/// SCL_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_open(
+    plan_json: *const c_char,
+    plan_len: usize,
+    component: *const c_char,
+    options_json: *const c_char,
+    opened: *mut *mut scl_component,
+) -> scl_status {
+    border::status(|| {
+        // SAFETY: the caller's duty; NULL is refused.
+        let opened = unsafe { border::result(opened, "opened") }?;
+        *opened = std::ptr::null_mut();
+        // SAFETY: as before.
+        let (plan, name) = unsafe {
+            (border::bytes(plan_json.cast::<c_void>(), plan_len, "plan_json")?, border::text(component, "component")?)
+        };
+        let options = match options_json.is_null() {
+            true => Options::default(),
+            // SAFETY: as before.
+            false => Options::read(unsafe { border::text(options_json, "options_json") }?)?,
+        };
+        *opened = open(plan, name, &options)? as *mut scl_component;
+        Ok(())
+    })
+}
+
+/// Waits until all required peers are connected. A timeout of 0 only looks, a negative one waits without limit.
+///
+/// Errors: SCL_TIMEOUT (the text names the missing peers and says why), SCL_STOPPED, SCL_CLOSED, SCL_HANDLE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_ready(component: *mut scl_component, timeout_ns: i64) -> scl_status {
+    border::status(|| {
+        let opened = find(component)?;
+        opened.with(|component| Ok(component.ready_blocking(Wait::of(timeout_ns).limit())?))
+    })
+}
+
+/// Waits until every peer that is running has taken all messages, then closes the component and all its gates, whose
+/// handles become invalid. A timeout of 0 hands over what is possible at once, a negative one waits without limit.
+/// After a stop request it waits for connected peers only, and at most 500 ms.
+///
+/// The component is always closed and freed, whatever the result, except for SCL_HANDLE, SCL_ARGUMENT and SCL_FORKED.
+/// Calls that wait in other threads end with SCL_CLOSED. Messages that were received stay valid.
+///
+/// Errors: SCL_NOT_FLUSHED (the text says how many messages which peers have not taken).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_close(component: *mut scl_component, timeout_ns: i64) -> scl_status {
+    border::status(|| close(component as usize, Wait::of(timeout_ns)))
+}
+
+/// Returns a gate of the component, or NULL if it has none with this name; scl_error then names the nearest one.
+///
+/// The gate belongs to the component and is valid until scl_close. The same name gives the same gate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_gate_by_name(component: *mut scl_component, name: *const c_char) -> *mut scl_gate {
+    let gate = border::value(|| {
+        let opened = find(component)?;
+        // SAFETY: the caller's duty; NULL is refused.
+        let name = unsafe { border::text(name, "name") }?;
+        match opened.gates.iter().find(|(known, _)| known == name) {
+            Some((_, gate)) => Ok(*gate as *mut scl_gate),
+            None => Err(opened.unknown_gate(name)),
+        }
+    });
+    gate.unwrap_or(std::ptr::null_mut())
+}
+
+fn open(plan: &[u8], name: &str, options: &Options) -> Result<usize, Failure> {
+    let utf8 = |error| Failure::new(SCL_PLAN, format!("the plan is not UTF-8: {error}"));
+    let text = std::str::from_utf8(plan).map_err(utf8)?;
+    let system = SystemPlan::from_json(text).map_err(|error| Failure::of(SCL_PLAN, &error))?;
+    let plan = system.component(name).map_err(|error| Failure::of(SCL_NAME, &error))?;
+    host::start_log()?;
+    if options.signals() {
+        host::watch_signals()?;
+    }
+    let mut component = Component::open_blocking_with(plan, options.for_opening())?;
+    let mut opened = Opened::new(name, component.closer());
+    for gate in &plan.gates {
+        let inserted = component.gate(&gate.name).map_err(Failure::from).and_then(|gate| gate::insert(name, gate));
+        match inserted {
+            Ok(handle) => opened.gates.push((gate.name.clone(), handle)),
+            Err(failure) => {
+                opened.remove_gates();
+                return Err(failure);
+            }
+        }
+    }
+    opened.component = RwLock::new(Some(component));
+    COMPONENTS.insert(Arc::new(opened))
+}
+
+fn close(handle: usize, wait: Wait) -> Result<(), Failure> {
+    let opened = COMPONENTS.remove(handle)?;
+    opened.closer.end_calls();
+    // Dropped before the flush, which waits for what they have sent.
+    opened.remove_gates();
+    let component = opened.component.write().unwrap_or_else(PoisonError::into_inner).take();
+    match component {
+        Some(component) => Ok(component.close_blocking(wait.limit())?),
+        None => Ok(()),
+    }
+}
+
+/// The component of a handle.
+pub(crate) fn find(component: *mut scl_component) -> Result<Arc<Opened>, Failure> {
+    COMPONENTS.get(component as usize)
+}
+
+fn closed() -> Failure {
+    Failure::usual(SCL_CLOSED, c"the component was closed by another thread")
+}
+
+impl Opened {
+    fn new(name: &str, closer: Closer) -> Self {
+        let (component, readiness) = (RwLock::new(None), OnceLock::new());
+        Self { name: name.to_owned(), component, closer, gates: Vec::new(), readiness }
+    }
+
+    fn remove_gates(&self) {
+        // Only this component's own gates, each once.
+        self.gates.iter().for_each(|(_, gate)| drop(gate::remove(*gate)));
+    }
+
+    /// Makes a call to the component, which is not closed before it ends.
+    pub(crate) fn with<T>(&self, call: impl FnOnce(&Component) -> Result<T, Failure>) -> Result<T, Failure> {
+        let component = self.component.read().unwrap_or_else(PoisonError::into_inner);
+        call(component.as_ref().ok_or_else(closed)?)
+    }
+
+    /// The descriptor for event loops.
+    pub(crate) fn readiness(&self) -> Result<&Readiness, Failure> {
+        if let Some(readiness) = self.readiness.get() {
+            return Ok(readiness);
+        }
+        let opened = self.with(|component| component.readiness().map_err(|error| Failure::of(SCL_SYSTEM, &error)))?;
+        Ok(self.readiness.get_or_init(|| opened))
+    }
+
+    fn unknown_gate(&self, name: &str) -> Failure {
+        let names = || self.gates.iter().map(|(name, _)| name);
+        let nearest = nearest(name, names().map(String::as_str)).map(str::to_owned);
+        let component = self.name.clone();
+        GateError::Unknown { component, gate: name.to_owned(), nearest, known: names().cloned().collect() }.into()
+    }
+}

@@ -1,0 +1,209 @@
+//! Failures: a status and a text, which the thread keeps until its next failure.
+
+use crate::status::*;
+use scl::runtime_dir::RuntimeDirError;
+use scl::untyped::{GateError, WaitError};
+use scl::{
+    BlockingError, CallError, NotFlushed, NotReady, OpenError, RecvError, RecvTimeoutError, ReplyError, SendError,
+    SendTimeoutError, TrySendError,
+};
+use std::borrow::Cow;
+use std::cell::RefCell;
+use std::error::Error;
+use std::ffi::{CStr, CString, c_char};
+
+/// Why a call did not do what it was asked to do.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    pub(crate) status: scl_status,
+    text: Cow<'static, CStr>,
+}
+
+thread_local! {
+    static LAST: RefCell<Cow<'static, CStr>> = const { RefCell::new(Cow::Borrowed(c"")) };
+}
+
+/// Returns the text of this thread's last error: what went wrong, where, and what to do.
+///
+/// The text is empty before the first error, and never NULL. It is valid until the next call of this thread that fails.
+/// Calls that succeed leave it alone.
+#[unsafe(no_mangle)]
+pub extern "C" fn scl_error() -> *const c_char {
+    LAST.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
+}
+
+impl Failure {
+    pub(crate) fn new(status: scl_status, text: impl Into<String>) -> Self {
+        let mut bytes = text.into().into_bytes();
+        // Only a name given by the program could contain one.
+        bytes.retain(|byte| *byte != 0);
+        Self { status, text: CString::new(bytes).map_or(Cow::Borrowed(c""), Cow::Owned) }
+    }
+
+    /// A failure that is a usual result, so it costs no memory.
+    pub(crate) const fn usual(status: scl_status, text: &'static CStr) -> Self {
+        Self { status, text: Cow::Borrowed(text) }
+    }
+
+    pub(crate) fn argument(text: impl Into<String>) -> Self {
+        Self::new(SCL_ARGUMENT, text)
+    }
+
+    /// An error with its causes.
+    pub(crate) fn of(status: scl_status, error: &(dyn Error + 'static)) -> Self {
+        let mut text = error.to_string();
+        let mut cause = error.source();
+        while let Some(error) = cause {
+            text.push_str(": ");
+            text.push_str(&error.to_string());
+            cause = error.source();
+        }
+        Self::new(status, text)
+    }
+
+    /// Keeps the text for `scl_error` and returns the status.
+    pub(crate) fn report(self) -> scl_status {
+        // Without a place for the text, when the thread is ending, the status alone has to do.
+        let _ = LAST.try_with(|last| *last.borrow_mut() = self.text);
+        self.status
+    }
+}
+
+fn blocking(error: &BlockingError) -> scl_status {
+    match error {
+        BlockingError::Stopped => SCL_STOPPED,
+        BlockingError::Forked => SCL_FORKED,
+        BlockingError::Closed => SCL_CLOSED,
+        _ => SCL_FAILED,
+    }
+}
+
+impl From<GateError> for Failure {
+    fn from(error: GateError) -> Self {
+        let status = match error {
+            GateError::Unknown { .. } => SCL_NAME,
+            GateError::Kind { .. } => SCL_KIND,
+            _ => SCL_FAILED,
+        };
+        Self::of(status, &error)
+    }
+}
+
+impl From<OpenError> for Failure {
+    fn from(error: OpenError) -> Self {
+        let status = match &error {
+            OpenError::RuntimeDir { source: RuntimeDirError::AlreadyRunning { .. }, .. } => SCL_TAKEN,
+            OpenError::RuntimeDir { .. } => SCL_FOLDER,
+            OpenError::Plan { .. } | OpenError::TooManyPlans { .. } => SCL_PLAN,
+            OpenError::Environment { .. } => SCL_ENVIRONMENT,
+            OpenError::Gate { .. } | OpenError::Timer { .. } | OpenError::Runtime { .. } => SCL_SYSTEM,
+            _ => SCL_FAILED,
+        };
+        Self::of(status, &error)
+    }
+}
+
+impl From<SendError> for Failure {
+    fn from(error: SendError) -> Self {
+        let status = match &error {
+            SendError::TooLong { .. } => SCL_TOO_LONG,
+            SendError::Blocking { source, .. } => blocking(source),
+            _ => SCL_FAILED,
+        };
+        Self::of(status, &error)
+    }
+}
+
+impl From<TrySendError> for Failure {
+    fn from(error: TrySendError) -> Self {
+        match error {
+            TrySendError::Send(error) => error.into(),
+            full => Self::of(SCL_FULL, &full),
+        }
+    }
+}
+
+impl From<SendTimeoutError> for Failure {
+    fn from(error: SendTimeoutError) -> Self {
+        match error {
+            SendTimeoutError::Send(error) => error.into(),
+            timeout => Self::of(SCL_TIMEOUT, &timeout),
+        }
+    }
+}
+
+impl From<RecvError> for Failure {
+    fn from(error: RecvError) -> Self {
+        let status = match &error {
+            RecvError::Decode { .. } => SCL_DECODE,
+            RecvError::Blocking { source, .. } => blocking(source),
+            _ => SCL_FAILED,
+        };
+        Self::of(status, &error)
+    }
+}
+
+impl From<RecvTimeoutError> for Failure {
+    fn from(error: RecvTimeoutError) -> Self {
+        match error {
+            RecvTimeoutError::Recv(error) => error.into(),
+            timeout => Self::of(SCL_TIMEOUT, &timeout),
+        }
+    }
+}
+
+impl From<WaitError> for Failure {
+    fn from(error: WaitError) -> Self {
+        let status = match &error {
+            WaitError::Recv(RecvError::Blocking { source, .. }) | WaitError::Blocking { source, .. } => {
+                blocking(source)
+            }
+            WaitError::Timeout { .. } => SCL_TIMEOUT,
+            _ => SCL_FAILED,
+        };
+        Self::of(status, &error)
+    }
+}
+
+impl From<CallError> for Failure {
+    fn from(error: CallError) -> Self {
+        let status = match &error {
+            CallError::TooLong { .. } => SCL_TOO_LONG,
+            CallError::Timeout { .. } => SCL_TIMEOUT,
+            CallError::PeerLost { .. } => SCL_PEER_LOST,
+            CallError::Decode { .. } => SCL_DECODE,
+            CallError::Blocking { source, .. } => blocking(source),
+            _ => SCL_FAILED,
+        };
+        Self::of(status, &error)
+    }
+}
+
+impl From<ReplyError> for Failure {
+    fn from(error: ReplyError) -> Self {
+        let status = match &error {
+            ReplyError::TooLong { .. } => SCL_TOO_LONG,
+            ReplyError::RequesterGone { .. } => SCL_REQUESTER_GONE,
+            ReplyError::Blocking { source, .. } => blocking(source),
+            _ => SCL_FAILED,
+        };
+        Self::of(status, &error)
+    }
+}
+
+/// Errors of calls that wait for the whole component.
+impl From<scl::Error> for Failure {
+    fn from(error: scl::Error) -> Self {
+        let error = error.inner();
+        let status = if let Some(source) = error.downcast_ref() {
+            blocking(source)
+        } else if error.is::<NotReady>() {
+            SCL_TIMEOUT
+        } else if error.is::<NotFlushed>() {
+            SCL_NOT_FLUSHED
+        } else {
+            SCL_FAILED
+        };
+        Self::of(status, error)
+    }
+}

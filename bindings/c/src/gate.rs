@@ -1,0 +1,105 @@
+//! Gates: their handles, and what all kinds have in common.
+
+use crate::border;
+use crate::error::Failure;
+use crate::registry::{Locked, Registry};
+use crate::status::*;
+use scl::bytes::Bytes;
+use scl::untyped::Gate;
+use std::ffi::c_void;
+
+/// A gate. It belongs to its component and lives as long.
+#[allow(non_camel_case_types)]
+pub struct scl_gate {
+    _opaque: [u8; 0],
+}
+
+/// What a gate handle stands for.
+pub(crate) struct OpenGate {
+    /// `component.gate`, for messages.
+    name: String,
+    pub(crate) gate: Gate,
+    /// A message that was too long for the buffer of `scl_recv_into`. It comes before those that the gate has.
+    pub(crate) kept: Option<Bytes>,
+    /// The memory of `scl_buffer`.
+    pub(crate) buffer: Vec<u8>,
+}
+
+static GATES: Registry<OpenGate> = Registry::new(5, "gate");
+
+/// The largest buffer that a gate keeps for the next message, in bytes.
+const KEPT_CAPACITY: usize = 64 * 1024;
+
+/// Returns true if all required peers are connected or, for `rep` and `pull` gates, at least one peer. False for an
+/// invalid handle and for a gate that another thread is using; `scl_error` then says so.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_is_connected(gate: *const scl_gate) -> bool {
+    border::value(|| Ok(lock(gate)?.gate.is_connected())).unwrap_or(false)
+}
+
+/// Gives memory of `len` bytes, in which to make a message for `scl_send` or `scl_call` of this gate. It belongs to the
+/// gate and is valid until the next call to that gate; its content is arbitrary. Using it is optional, it spares
+/// allocating.
+///
+/// Errors: SCL_TOO_LONG (no peer accepts a message of this length), SCL_BUSY, SCL_HANDLE, SCL_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_buffer(gate: *mut scl_gate, len: usize, buffer: *mut *mut c_void) -> scl_status {
+    border::status(|| {
+        // SAFETY: the caller's duty; NULL is refused.
+        let result = unsafe { border::result(buffer, "buffer") }?;
+        *result = std::ptr::null_mut();
+        let mut open = lock(gate)?;
+        let limit = open.gate.spec().links.iter().map(|link| link.max_size).min().unwrap_or(u64::MAX);
+        if len as u64 > limit {
+            let name = &open.name;
+            let text = format!("gate `{name}` cannot send {len} bytes: at most {limit} are accepted; raise `max_size`");
+            return Err(Failure::new(SCL_TOO_LONG, text));
+        }
+        *result = border::room(&mut open.buffer, len)?;
+        Ok(())
+    })
+}
+
+pub(crate) fn insert(component: &str, gate: Gate) -> Result<usize, Failure> {
+    let name = format!("{component}.{}", gate.spec().name);
+    GATES.insert(OpenGate { name, gate, kept: None, buffer: Vec::new() })
+}
+
+/// Invalidates a gate's handle, waits for the end of the call that uses it, and returns the gate.
+pub(crate) fn remove(handle: usize) -> Result<OpenGate, Failure> {
+    GATES.remove(handle)
+}
+
+/// Locks a gate for one call.
+pub(crate) fn lock(gate: *const scl_gate) -> Result<Locked<'static, OpenGate>, Failure> {
+    GATES.lock(gate as usize)
+}
+
+impl OpenGate {
+    /// A message of the program. Without a copy if it was made in the gate's own buffer and is long.
+    ///
+    /// # Safety
+    /// That of `border::bytes`.
+    pub(crate) unsafe fn outgoing(&mut self, data: *const c_void, len: usize) -> Result<Bytes, Failure> {
+        let own = data.cast::<u8>() == self.buffer.as_ptr() && len == self.buffer.len();
+        if own && len > KEPT_CAPACITY {
+            return Ok(Bytes::from(std::mem::take(&mut self.buffer)));
+        }
+        // SAFETY: the caller's duty; NULL and impossible lengths are refused.
+        Ok(Bytes::copy_from_slice(unsafe { border::bytes(data, len, "data") }?))
+    }
+
+    /// The failure of a call for which the gate has the wrong kind.
+    #[cold]
+    pub(crate) fn wrong_kind(&self, call: &str) -> Failure {
+        let (name, kind) = (&self.name, self.gate.spec().kind.word());
+        let advice = match self.gate {
+            Gate::Pub(_) | Gate::Push(_) => "scl_send",
+            Gate::Sub(_) | Gate::Pull(_) => "scl_recv",
+            Gate::Req(_) => "scl_call",
+            Gate::Rep(_) => "scl_take_request",
+            _ => "another call",
+        };
+        Failure::new(SCL_KIND, format!("`{call}` is not for `{kind}` gates such as `{name}`; use `{advice}`"))
+    }
+}

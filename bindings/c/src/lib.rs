@@ -1,0 +1,40 @@
+//! The C library. `include/scl.h` is written from the functions of this crate; their documentation is for C
+//! programmers.
+//!
+//! Every function of the interface is a thin front: it checks its pointers (`border`), finds the handle (`registry`)
+//! and calls the crate `scl`. Panics end at the border.
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+// In the order of the header.
+mod version;
+
+mod status;
+
+mod error;
+
+mod component;
+
+mod gate;
+
+mod send;
+
+mod receive;
+
+mod message;
+
+mod call;
+
+mod request;
+
+mod wait;
+
+mod stats;
+
+mod generated;
+mod stop;
+
+// What the calls are made of.
+mod border;
+mod fork;
+mod options;
+mod registry;

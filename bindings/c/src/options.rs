@@ -1,0 +1,76 @@
+//! The options of `scl_open`, as JSON.
+
+use crate::error::Failure;
+use scl::{Medium, OpenOptions};
+use serde::Deserialize;
+
+/// What `options_json` may contain. What is not given comes from the environment, as in Rust.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Options {
+    runtime_dir: Option<String>,
+    system: Option<String>,
+    transport: Option<Transport>,
+    signals: Option<bool>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Transport {
+    Ipc,
+    Tcp,
+}
+
+impl Options {
+    /// Reads the options; an empty text means none.
+    ///
+    /// # Errors
+    /// `SCL_ARGUMENT`: it is not JSON, an option is unknown, or has a wrong value.
+    pub(crate) fn read(json: &str) -> Result<Self, Failure> {
+        if json.trim().is_empty() {
+            return Ok(Self::default());
+        }
+        serde_json::from_str(json).map_err(|error| Failure::argument(format!("`options_json` is not valid: {error}")))
+    }
+
+    /// Whether SIGTERM and SIGINT are handled.
+    pub(crate) fn signals(&self) -> bool {
+        self.signals.unwrap_or(true)
+    }
+
+    pub(crate) fn for_opening(&self) -> OpenOptions {
+        let mut options = OpenOptions::new();
+        if let Some(folder) = &self.runtime_dir {
+            options = options.runtime_dir(folder);
+        }
+        if let Some(system) = &self.system {
+            options = options.system(system);
+        }
+        match self.transport {
+            Some(Transport::Ipc) => options.medium(Medium::Ipc),
+            Some(Transport::Tcp) => options.medium(Medium::Tcp),
+            None => options,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::status::SCL_ARGUMENT;
+
+    #[test]
+    fn options_are_read_or_refused() {
+        let shown = |json| Options::read(json).map(|options| format!("{:?}", options.for_opening()));
+        let read = shown(r#"{"runtime_dir": "/run/x", "system": "rover-2", "transport": "tcp", "signals": false}"#);
+        let expected = r#"runtime_dir: Some("/run/x"), system: Some("rover-2"), medium: Some(Tcp), transport: None"#;
+        assert_eq!(read.unwrap(), format!("OpenOptions {{ {expected} }}"));
+        for json in ["", " ", "{}"] {
+            assert!(Options::read(json).unwrap().signals());
+        }
+        for json in ["[1]", "{", r#"{"sistem": "x"}"#, r#"{"transport": "udp"}"#, r#"{"signals": 1}"#, "null", "{} {}"]
+        {
+            assert_eq!(shown(json).unwrap_err().status, SCL_ARGUMENT, "{json}");
+        }
+    }
+}

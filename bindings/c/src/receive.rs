@@ -1,0 +1,109 @@
+//! Receiving: `sub` and `pull` gates.
+
+use crate::border::{self, Wait};
+use crate::error::Failure;
+use crate::gate::{self, OpenGate, scl_gate};
+use crate::message::{self, scl_message};
+use crate::status::*;
+use scl::bytes::Bytes;
+use scl::untyped::Gate;
+use std::ffi::c_void;
+
+/// The usual result of a call that does not wait.
+pub(crate) const NOTHING: Failure = Failure::usual(SCL_NOTHING, c"no message has arrived yet");
+
+/// Receives the next message of a `sub` or `pull` gate. A timeout of 0 does not wait, a negative one waits without
+/// limit.
+///
+/// On success, `*message` is the message, to be freed with scl_message_free; otherwise it is NULL.
+///
+/// Errors: SCL_NOTHING (timeout 0), SCL_TIMEOUT (the text says which peers are missing), SCL_KIND, SCL_STOPPED,
+/// SCL_CLOSED, SCL_BUSY, SCL_HANDLE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_recv(gate: *mut scl_gate, timeout_ns: i64, message: *mut *mut scl_message) -> scl_status {
+    // SAFETY: the caller's duty; NULL is refused.
+    border::status(|| unsafe { give(message, || receive(&mut *gate::lock(gate)?, Wait::of(timeout_ns))) })
+}
+
+/// Receives the next message of a `sub` or `pull` gate into a buffer of `capacity` bytes, and stores its length in
+/// `*len`. The variant of scl_recv without anything to free.
+///
+/// Errors: SCL_BUFFER if the buffer is too small: `*len` is the size needed, and the next call returns the same
+/// message, unless scl_latest finds a newer one. `buffer` may be NULL if `capacity` is 0. Otherwise those of scl_recv,
+/// and `*len` is 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_recv_into(
+    gate: *mut scl_gate,
+    buffer: *mut c_void,
+    capacity: usize,
+    len: *mut usize,
+    timeout_ns: i64,
+) -> scl_status {
+    border::status(|| {
+        // SAFETY: the caller's duty; NULL is refused.
+        let len = unsafe { border::result(len, "len") }?;
+        *len = 0;
+        border::check_buffer(buffer, capacity)?;
+        let mut open = gate::lock(gate)?;
+        let message = receive(&mut open, Wait::of(timeout_ns))?;
+        *len = message.len();
+        // SAFETY: the caller promises `capacity` bytes, or NULL with a capacity of 0.
+        let stored = unsafe { border::store(&message, buffer, capacity) };
+        if stored.is_err() {
+            open.kept = Some(message);
+        }
+        stored
+    })
+}
+
+/// Returns the newest message that has arrived at a `sub` or `pull` gate and discards the older ones. It does not wait.
+///
+/// On success, `*message` is the message, to be freed with scl_message_free; otherwise it is NULL.
+///
+/// Errors: SCL_NOTHING, and those of scl_recv.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_latest(gate: *mut scl_gate, message: *mut *mut scl_message) -> scl_status {
+    // SAFETY: the caller's duty; NULL is refused.
+    border::status(|| unsafe { give(message, || newest(&mut *gate::lock(gate)?)) })
+}
+
+fn receive(open: &mut OpenGate, wait: Wait) -> Result<Bytes, Failure> {
+    if let Some(kept) = open.kept.take() {
+        return Ok(kept);
+    }
+    match (&mut open.gate, wait) {
+        (Gate::Sub(gate), Wait::No) => gate.try_recv()?.ok_or(NOTHING),
+        (Gate::Sub(gate), Wait::For(time)) => Ok(gate.recv_timeout(time)?),
+        (Gate::Sub(gate), Wait::Forever) => Ok(gate.recv_blocking()?),
+        (Gate::Pull(gate), Wait::No) => gate.try_recv()?.ok_or(NOTHING),
+        (Gate::Pull(gate), Wait::For(time)) => Ok(gate.recv_timeout(time)?),
+        (Gate::Pull(gate), Wait::Forever) => Ok(gate.recv_blocking()?),
+        _ => Err(open.wrong_kind("scl_recv")),
+    }
+}
+
+fn newest(open: &mut OpenGate) -> Result<Bytes, Failure> {
+    let newest = match &mut open.gate {
+        Gate::Sub(gate) => gate.latest()?,
+        Gate::Pull(gate) => gate.latest()?,
+        _ => return Err(open.wrong_kind("scl_latest")),
+    };
+    // What was kept is older than anything that the gate has.
+    let kept = open.kept.take();
+    newest.or(kept).ok_or(NOTHING)
+}
+
+/// Stores what a call receives, or NULL.
+///
+/// # Safety
+/// That of `border::result`.
+pub(crate) unsafe fn give(
+    result: *mut *mut scl_message,
+    receive: impl FnOnce() -> Result<Bytes, Failure>,
+) -> Result<(), Failure> {
+    // SAFETY: the caller's duty.
+    let result = unsafe { border::result(result, "message") }?;
+    *result = std::ptr::null_mut();
+    *result = message::hand_over(receive()?);
+    Ok(())
+}

@@ -1,0 +1,201 @@
+//! The registry of live handles. A handle is not an address but an index and a generation, so a closed handle, a
+//! made-up one and one of another kind are known as such; nothing is read through them.
+//!
+//! The memory of a slot is never given back, only used again. A slot's generation grows with each use, so an old handle
+//! is mistaken for a new one only after as many uses of one slot as there are generations (2^40; 2^16 on 32 bits).
+
+use crate::error::Failure;
+use crate::fork;
+use crate::status::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
+
+/// Bits of a handle: generation, index, tag. The tag is odd, so no address of an object looks like a handle.
+const TAG_BITS: u32 = 3;
+const INDEX_BITS: u32 = if usize::BITS >= 64 { 20 } else { 12 };
+const GENERATIONS: usize = 1 << (usize::BITS - TAG_BITS - INDEX_BITS);
+
+/// Number of slots in the first chunk; each further chunk has twice as many.
+const FIRST: usize = 64;
+const CHUNKS: usize = INDEX_BITS as usize - FIRST.ilog2() as usize;
+
+pub(crate) struct Registry<T> {
+    tag: usize,
+    /// What a handle stands for, for messages.
+    what: &'static str,
+    chunks: [OnceLock<Box<[Slot<T>]>>; CHUNKS],
+    free: Mutex<Free>,
+}
+
+struct Slot<T> {
+    generation: AtomicUsize,
+    /// The process that the handle belongs to.
+    forks: AtomicUsize,
+    value: Mutex<Option<T>>,
+}
+
+struct Free {
+    /// Indices of slots that were used before.
+    used: Vec<usize>,
+    /// The first index that was never used.
+    next: usize,
+}
+
+/// A value of the registry, locked for one call.
+pub(crate) struct Locked<'a, T>(MutexGuard<'a, Option<T>>);
+
+impl<T> Registry<T> {
+    pub(crate) const fn new(tag: usize, what: &'static str) -> Self {
+        assert!(tag % 2 == 1 && tag < 1 << TAG_BITS);
+        Self {
+            tag,
+            what,
+            chunks: [const { OnceLock::new() }; CHUNKS],
+            free: Mutex::new(Free { used: Vec::new(), next: 0 }),
+        }
+    }
+
+    /// Stores a value and returns its handle.
+    pub(crate) fn insert(&self, value: T) -> Result<usize, Failure> {
+        fork::watch();
+        let index = {
+            let mut free = lock(&self.free);
+            match free.used.pop() {
+                Some(index) => index,
+                None if free.next < FIRST * ((1 << CHUNKS) - 1) => {
+                    free.next += 1;
+                    free.next - 1
+                }
+                None => return Err(Failure::new(SCL_FAILED, format!("too many open {}s", self.what))),
+            }
+        };
+        let (chunk, offset) = place(index);
+        let slots = self.chunks[chunk].get_or_init(|| (0..FIRST << chunk).map(|_| Slot::new()).collect());
+        let slot = &slots[offset];
+        *lock(&slot.value) = Some(value);
+        slot.forks.store(fork::count(), Ordering::Relaxed);
+        let generation = slot.generation.load(Ordering::Relaxed);
+        Ok((generation << INDEX_BITS | index) << TAG_BITS | self.tag)
+    }
+
+    /// Locks the value of a handle for one call.
+    ///
+    /// # Errors
+    /// `SCL_HANDLE`, `SCL_FORKED`, or `SCL_BUSY` while another thread has it locked.
+    pub(crate) fn lock(&self, handle: usize) -> Result<Locked<'_, T>, Failure> {
+        let (slot, generation) = self.slot(handle)?;
+        let value = match slot.value.try_lock() {
+            Ok(value) => value,
+            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+            Err(TryLockError::WouldBlock) => return Err(self.busy()),
+        };
+        // Again under the lock, because the handle may have been closed meanwhile.
+        if slot.generation.load(Ordering::Relaxed) != generation || value.is_none() {
+            return Err(self.unknown(handle));
+        }
+        Ok(Locked(value))
+    }
+
+    /// Makes a handle invalid, waits for the end of the call that uses it, if any, and returns its value.
+    pub(crate) fn remove(&self, handle: usize) -> Result<T, Failure> {
+        let (slot, generation) = self.slot(handle)?;
+        let next = (generation + 1) % GENERATIONS;
+        let claimed = slot.generation.compare_exchange(generation, next, Ordering::AcqRel, Ordering::Relaxed);
+        claimed.map_err(|_| self.unknown(handle))?;
+        let value = lock(&slot.value).take().ok_or_else(|| self.unknown(handle))?;
+        lock(&self.free).used.push(handle >> TAG_BITS & ((1 << INDEX_BITS) - 1));
+        Ok(value)
+    }
+
+    /// A copy of the value of a handle, whatever other threads do with it.
+    pub(crate) fn get(&self, handle: usize) -> Result<T, Failure>
+    where
+        T: Clone,
+    {
+        let (slot, generation) = self.slot(handle)?;
+        let value = lock(&slot.value).clone();
+        // The slot may have got another value since it was looked up.
+        value.filter(|_| slot.generation.load(Ordering::Acquire) == generation).ok_or_else(|| self.unknown(handle))
+    }
+
+    fn slot(&self, handle: usize) -> Result<(&Slot<T>, usize), Failure> {
+        let index = handle >> TAG_BITS & ((1 << INDEX_BITS) - 1);
+        let generation = handle >> (TAG_BITS + INDEX_BITS);
+        let (chunk, offset) = place(index);
+        let slot = self.chunks.get(chunk).and_then(OnceLock::get).and_then(|slots| slots.get(offset));
+        match slot {
+            Some(slot) if self.is_live(slot, handle, generation) => {
+                if slot.forks.load(Ordering::Relaxed) != fork::count() {
+                    return Err(self.forked());
+                }
+                Ok((slot, generation))
+            }
+            _ => Err(self.unknown(handle)),
+        }
+    }
+
+    fn is_live(&self, slot: &Slot<T>, handle: usize, generation: usize) -> bool {
+        handle & ((1 << TAG_BITS) - 1) == self.tag && slot.generation.load(Ordering::Acquire) == generation
+    }
+
+    #[cold]
+    fn unknown(&self, handle: usize) -> Failure {
+        let what = self.what;
+        match handle {
+            0 => Failure::new(SCL_ARGUMENT, format!("the {what} is NULL")),
+            _ => Failure::new(SCL_HANDLE, format!("this is not an open {what}: it was closed, or never was one")),
+        }
+    }
+
+    #[cold]
+    fn busy(&self) -> Failure {
+        let what = self.what;
+        Failure::new(
+            SCL_BUSY,
+            format!("another thread is using this {what}; use each {what} from one thread at a time"),
+        )
+    }
+
+    #[cold]
+    fn forked(&self) -> Failure {
+        let what = self.what;
+        Failure::new(
+            SCL_FORKED,
+            format!(
+                "the {what} was opened before a `fork` and belongs to the parent process; \
+                 open the component in one process only"
+            ),
+        )
+    }
+}
+
+impl<T> Slot<T> {
+    fn new() -> Self {
+        Self { generation: AtomicUsize::new(1), forks: AtomicUsize::new(0), value: Mutex::new(None) }
+    }
+}
+
+impl<T> std::ops::Deref for Locked<'_, T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        self.0.as_ref().expect("checked when it was locked")
+    }
+}
+
+impl<T> std::ops::DerefMut for Locked<'_, T> {
+    fn deref_mut(&mut self) -> &mut T {
+        self.0.as_mut().expect("checked when it was locked")
+    }
+}
+
+/// Chunk and offset of an index.
+fn place(index: usize) -> (usize, usize) {
+    let position = index + FIRST;
+    let chunk = position.ilog2() - FIRST.ilog2();
+    (chunk as usize, position - (FIRST << chunk))
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,1 @@
+//! What C programs get wrong, and what they are told.

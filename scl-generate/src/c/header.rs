@@ -1,0 +1,123 @@
+//! `<system>_scl.h`.
+
+use super::function::Function;
+use super::{content, gate, messages, prefix, protobuf_c, source, wait};
+use crate::comment;
+use crate::system::{Component, Gate, System};
+use crate::writer::Writer;
+use std::collections::BTreeSet;
+
+/// What a C programmer has to know before the first call.
+const CONVENTIONS: &str = "\
+/*
+ * Open a component with <component>_open, then use the functions of its gates. They return SCL_OK or a negative status;
+ * scl_error() has the text. Timeouts are in nanoseconds: 0 does not wait, a negative one waits without limit (of a call:
+ * as long as the gate's own timeout).
+ *
+ * A message that is sent stays the caller's. A message that is received belongs to the caller, who frees it with the
+ * gate's _free (bytes: scl_message_free). Whatever the result, the pointer is set, to NULL if there is no message.
+ *
+ * Use each gate from one thread at a time.
+ */";
+
+/// Without these, C compilers call a program with a misspelt gate or another message correct.
+const STRICTNESS: &str = "\
+#if defined(__GNUC__) && !defined(__cplusplus)
+/* A misspelt gate and a wrong message type are errors, whatever the options of the compiler. */
+#pragma GCC diagnostic error \"-Wimplicit-function-declaration\"
+#pragma GCC diagnostic error \"-Wincompatible-pointer-types\"
+#pragma GCC diagnostic error \"-Wint-conversion\"
+#endif";
+
+/// The header.
+pub(super) fn text(system: &System) -> String {
+    let mut out = Writer::new("    ");
+    let guard = format!("{}_SCL_H", system.snake_name().to_ascii_uppercase());
+    source::first_line(system, &mut out);
+    out.line(format!("#ifndef {guard}\n#define {guard}\n"));
+    out.line("#include <scl.h>");
+    includes(system).into_iter().for_each(|header| out.line(format!("#include \"{header}\"")));
+    out.line(format!("\n{CONVENTIONS}\n\n{STRICTNESS}\n"));
+    out.line("#ifdef __cplusplus\nextern \"C\" {\n#endif");
+    system.components.iter().for_each(|component| write_component(system, component, &mut out));
+    out.line("\n#ifdef __cplusplus\n}\n#endif\n");
+    out.line(format!("#endif /* {guard} */"));
+    out.finish()
+}
+
+/// The headers of the messages.
+fn includes(system: &System) -> BTreeSet<String> {
+    let messages = messages(system);
+    let files = system.descriptors.as_ref();
+    messages.iter().filter_map(|message| protobuf_c::header_of(files?, &message.dotted)).collect()
+}
+
+fn write_component(system: &System, component: &Component, out: &mut Writer) {
+    let prefix = prefix(system, component);
+    out.blank();
+    let headline = format!("Component `{}` ({})", component.name, component.plan.declared_at);
+    write_comment(&headline, component.doc.as_deref(), out);
+    out.block(format!("typedef struct {prefix} {{"), &format!("}} {prefix};"), |out| {
+        out.line("scl_component *component;");
+        if component.gates.is_empty() {
+            return;
+        }
+        out.block("struct {", "} gates;", |out| {
+            component.gates.iter().for_each(|gate| out.line(format!("scl_gate *{};", gate::member(gate))));
+        });
+    });
+    out.blank();
+    component_functions(&prefix).iter().for_each(|function| function.declare(out));
+    component.gates.iter().for_each(|gate| write_gate(&prefix, component, gate, out));
+    write_wait(&prefix, component, out);
+}
+
+/// The functions that every component has, without their bodies.
+pub(super) fn component_functions(prefix: &str) -> [Function; 3] {
+    let function = |call: &str, doc: &'static str, parameter: &str| Function {
+        doc,
+        result: "scl_status",
+        name: format!("{prefix}_{call}"),
+        parameters: vec![format!("{prefix} *self"), parameter.to_owned()],
+        body: Vec::new(),
+    };
+    [
+        function("open", "Opens the component; `options_json` may be NULL, see scl_open.", "const char *options_json"),
+        function("ready", "Waits until all required peers are connected, see scl_ready.", "int64_t timeout_ns"),
+        function("close", "Hands over what was sent, and closes the component, see scl_close.", "int64_t timeout_ns"),
+    ]
+}
+
+fn write_gate(prefix: &str, component: &Component, of: &Gate, out: &mut Writer) {
+    out.blank();
+    let (kind, carries) = (of.plan.kind.word(), content::described(of));
+    let headline = format!("Gate `{}.{}` ({}): {kind}, {carries}", component.name, of.name, of.plan.declared_at);
+    write_comment(&headline, of.doc.as_deref(), out);
+    if let Some(name) = gate::request_struct(prefix, of) {
+        out.block(format!("typedef struct {name} {{"), &format!("}} {name};"), |out| {
+            gate::request_members(of).iter().for_each(|member| out.line(member));
+        });
+    }
+    gate::functions(prefix, of).iter().for_each(|function| function.declare(out));
+}
+
+fn write_wait(prefix: &str, component: &Component, out: &mut Writer) {
+    let Some(function) = wait::function(prefix, component) else { return };
+    out.blank();
+    for (bit, gate) in wait::gates(component).into_iter().enumerate() {
+        out.line(format!("#define {} (UINT64_C(1) << {bit})", wait::constant(prefix, gate)));
+    }
+    function.declare(out);
+}
+
+/// A comment of a headline and the text of `doc:`.
+fn write_comment(headline: &str, doc: Option<&str>, out: &mut Writer) {
+    let headline = comment::c_lines(headline).concat();
+    let Some(doc) = doc else {
+        out.line(format!("/* {headline} */"));
+        return;
+    };
+    out.line(format!("/*\n * {headline}\n *"));
+    comment::c_lines(doc).iter().for_each(|line| out.line(format!(" * {line}").trim_end()));
+    out.line(" */");
+}

@@ -1,0 +1,192 @@
+//! The helpers of a generated source: what all gates share.
+
+use super::content::Content;
+use super::wait;
+use crate::system::System;
+use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
+
+/// The helpers that this system needs; compilers warn of unused ones.
+pub(super) fn needed(system: &System) -> Vec<&'static str> {
+    let any = |wanted: &dyn Fn(GateKind, bool, bool) -> bool| {
+        system.components.iter().flat_map(|component| &component.gates).any(|gate| {
+            let [first, second] = Content::both(gate).map(|content| content.is_struct());
+            wanted(gate.plan.kind, first, second)
+        })
+    };
+    let sends = any(&|kind, first, _| matches!(kind, Pub | Push) && first);
+    let asks = any(&|kind, first, _| kind == Req && first);
+    let replies = any(&|kind, _, second| kind == Rep && second);
+    let receives = any(&|kind, first, _| matches!(kind, Sub | Pull) && first);
+    let is_answered = any(&|kind, _, second| kind == Req && second);
+    let is_asked = any(&|kind, first, _| kind == Rep && first);
+    let waits = system.components.iter().any(|component| !wait::gates(component).is_empty());
+    let all = [
+        (sends || asks || replies, PACK),
+        (sends, SEND),
+        (asks, CALL),
+        (replies, REPLY),
+        (receives || is_answered, UNPACK),
+        (receives, RECEIVE),
+        (is_asked, TAKE),
+        (waits, WAIT),
+    ];
+    all.into_iter().filter_map(|(is_needed, helper)| is_needed.then_some(helper)).collect()
+}
+
+const PACK: &str = "\
+/* A message as bytes: in `room` if they fit, else in memory of their own. */
+typedef struct packed {
+    uint8_t room[512];
+    uint8_t *memory;
+    const uint8_t *data;
+    size_t size;
+} packed;
+
+static scl_status pack(const ProtobufCMessage *message, const ProtobufCMessageDescriptor *type, packed *bytes)
+{
+    uint8_t *data = bytes->room;
+    bytes->memory = NULL;
+    if (message == NULL || message->descriptor != type) {
+        char text[256];
+        const char *format = message == NULL ? \"the `%s` to send is NULL\"
+                                             : \"the `%s` to send is not initialized; assign its __INIT macro first\";
+        snprintf(text, sizeof text, format, type->c_name);
+        return scl_fail(SCL_ARGUMENT, text);
+    }
+    bytes->size = protobuf_c_message_get_packed_size(message);
+    if (bytes->size > sizeof bytes->room) {
+        data = bytes->memory = (uint8_t *)malloc(bytes->size);
+        if (data == NULL) {
+            return scl_fail(SCL_SYSTEM, \"out of memory\");
+        }
+    }
+    protobuf_c_message_pack(message, data);
+    bytes->data = data;
+    return SCL_OK;
+}";
+
+const SEND: &str = "\
+static scl_status send_message(scl_gate *gate, const ProtobufCMessage *message,
+                               const ProtobufCMessageDescriptor *type, int64_t timeout_ns)
+{
+    packed bytes;
+    scl_status status = pack(message, type, &bytes);
+    if (status == SCL_OK) {
+        status = scl_send(gate, bytes.data, bytes.size, timeout_ns);
+        free(bytes.memory);
+    }
+    return status;
+}";
+
+const CALL: &str = "\
+static scl_status call_with_message(scl_gate *gate, const ProtobufCMessage *request,
+                                    const ProtobufCMessageDescriptor *type, int64_t timeout_ns, scl_message **reply)
+{
+    packed bytes;
+    scl_status status = pack(request, type, &bytes);
+    if (reply != NULL) {
+        *reply = NULL;
+    }
+    if (status == SCL_OK) {
+        status = scl_call(gate, bytes.data, bytes.size, timeout_ns, reply);
+        free(bytes.memory);
+    }
+    return status;
+}";
+
+const REPLY: &str = "\
+static scl_status reply_with_message(scl_request *request, const ProtobufCMessage *reply,
+                                     const ProtobufCMessageDescriptor *type)
+{
+    packed bytes;
+    scl_status status = pack(reply, type, &bytes);
+    if (status == SCL_OK) {
+        status = scl_reply(request, bytes.data, bytes.size);
+        free(bytes.memory);
+    }
+    return status;
+}";
+
+const UNPACK: &str = "\
+/* Frees `bytes`, and stores the message that they are in `*result`: a pointer to the struct of `type`. */
+static scl_status unpack(scl_gate *gate, const ProtobufCMessageDescriptor *type, scl_status status, scl_message *bytes,
+                         void *result)
+{
+    ProtobufCMessage *message = NULL;
+    if (status == SCL_OK) {
+        size_t size = 0;
+        const uint8_t *data = (const uint8_t *)scl_message_data(bytes, &size);
+        message = protobuf_c_message_unpack(type, NULL, size, data);
+        scl_message_free(bytes);
+        if (message == NULL) {
+            status = scl_undecodable(gate, type->name);
+        }
+    }
+    if (result != NULL) {
+        memcpy(result, &message, sizeof message);
+    }
+    return status;
+}";
+
+const RECEIVE: &str = "\
+static scl_status recv_message(scl_gate *gate, const ProtobufCMessageDescriptor *type, void *message,
+                               int64_t timeout_ns)
+{
+    scl_message *bytes = NULL;
+    scl_status status = scl_recv(gate, timeout_ns, message == NULL ? NULL : &bytes);
+    return unpack(gate, type, status, bytes, message);
+}
+
+static scl_status latest_message(scl_gate *gate, const ProtobufCMessageDescriptor *type, void *message)
+{
+    scl_message *bytes = NULL;
+    scl_status status = scl_latest(gate, message == NULL ? NULL : &bytes);
+    return unpack(gate, type, status, bytes, message);
+}";
+
+const TAKE: &str = "\
+static scl_status take_message(scl_gate *gate, const ProtobufCMessageDescriptor *type, void *message,
+                               scl_request **request, int64_t timeout_ns)
+{
+    size_t size = 0;
+    ProtobufCMessage *unpacked = NULL;
+    scl_status status = scl_take_request(gate, timeout_ns, request);
+    if (status == SCL_OK) {
+        const uint8_t *data = (const uint8_t *)scl_request_data(*request, &size);
+        unpacked = protobuf_c_message_unpack(type, NULL, size, data);
+        if (unpacked == NULL) {
+            scl_request_free(*request);
+            *request = NULL;
+            status = scl_undecodable(gate, type->name);
+        }
+    }
+    memcpy(message, &unpacked, sizeof unpacked);
+    return status;
+}";
+
+const WAIT: &str = "\
+/* Waits at those of the gates `all` whose bits are in `wanted`. */
+static scl_status wait_for(scl_component *component, scl_gate *const *all, size_t count, uint64_t wanted,
+                           int64_t timeout_ns, uint64_t *ready)
+{
+    scl_gate *chosen[64];
+    uint64_t bits[64];
+    size_t index, chosen_count = 0;
+    uint64_t found = 0;
+    scl_status status;
+    for (index = 0; index < count; index++) {
+        uint64_t bit = UINT64_C(1) << index;
+        if (wanted & bit) {
+            bits[chosen_count] = bit;
+            chosen[chosen_count++] = all[index];
+        }
+    }
+    status = scl_wait(component, chosen, chosen_count, timeout_ns, &found);
+    if (ready != NULL) {
+        *ready = 0;
+        for (index = 0; index < chosen_count; index++) {
+            *ready |= found >> index & 1 ? bits[index] : 0;
+        }
+    }
+    return status;
+}";

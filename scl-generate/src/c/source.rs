@@ -1,0 +1,102 @@
+//! `<system>_scl.c`.
+
+use super::{gate, header, helpers, messages, prefix, wait};
+use crate::comment;
+use crate::system::{Component, System};
+use crate::writer::Writer;
+
+/// The source.
+pub(super) fn text(system: &System) -> String {
+    let mut out = Writer::new("    ");
+    first_line(system, &mut out);
+    out.line(format!("#include \"{}_scl.h\"\n", system.snake_name()));
+    let has_structs = !messages(system).is_empty();
+    out.line(if has_structs {
+        "#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\n"
+    } else {
+        "#include <string.h>\n"
+    });
+    write_plan(system, &mut out);
+    helpers::needed(system).into_iter().for_each(|helper| out.line(format!("\n{helper}")));
+    system.components.iter().for_each(|component| write_component(system, component, &mut out));
+    out.finish()
+}
+
+/// The comment that every generated file begins with.
+pub(super) fn first_line(system: &System, out: &mut Writer) {
+    out.line(format!("/* {} */", comment::c_lines(&system.header()).concat()));
+}
+
+/// The plan as one text. A compiler need not accept one of more than 4095 characters, but those that warn of it do.
+fn write_plan(system: &System, out: &mut Writer) {
+    out.line("/* The plan of the system, as `scl plan` prints it. */");
+    out.line("#if defined(__GNUC__)\n#pragma GCC diagnostic push");
+    out.line("#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n#endif");
+    out.line("static const char plan[] =");
+    let json = system.plan_json();
+    let lines: Vec<&str> = json.lines().collect();
+    for (index, line) in lines.iter().enumerate() {
+        let end = if index + 1 == lines.len() { ";" } else { "" };
+        out.line(format!("    {}{end}", literal(line)));
+    }
+    out.line("#if defined(__GNUC__)\n#pragma GCC diagnostic pop\n#endif");
+}
+
+/// A text as a literal of C. A question mark could begin a trigraph.
+fn literal(text: &str) -> String {
+    let mut literal = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' | '?' => literal.extend(['\\', letter]),
+            ' '..='~' => literal.push(letter),
+            other => other.to_string().bytes().for_each(|byte| literal.push_str(&format!("\\{byte:03o}"))),
+        }
+    }
+    literal + "\""
+}
+
+fn write_component(system: &System, component: &Component, out: &mut Writer) {
+    let prefix = prefix(system, component);
+    let bodies = [open_body(component), ready_body(), close_body()];
+    for (mut function, body) in header::component_functions(&prefix).into_iter().zip(bodies) {
+        function.body = body;
+        function.define(out);
+    }
+    for gate in &component.gates {
+        gate::functions(&prefix, gate).iter().for_each(|function| function.define(out));
+    }
+    wait::function(&prefix, component).iter().for_each(|function| function.define(out));
+}
+
+fn open_body(component: &Component) -> Vec<String> {
+    let name = literal(&component.name);
+    let mut body = gate::refuse_null("self");
+    body.push("memset(self, 0, sizeof *self);".to_owned());
+    body.push(format!("scl_status status = scl_open(plan, sizeof plan - 1, {name}, options_json, &self->component);"));
+    if !component.gates.is_empty() {
+        body.push("if (status == SCL_OK) {".to_owned());
+        for gate in &component.gates {
+            let (member, name) = (gate::member(gate), literal(&gate.name));
+            body.push(format!("    self->gates.{member} = scl_gate_by_name(self->component, {name});"));
+        }
+        body.push("}".to_owned());
+    }
+    body.push("return status;".to_owned());
+    body
+}
+
+fn ready_body() -> Vec<String> {
+    vec!["return scl_ready(self == NULL ? NULL : self->component, timeout_ns);".to_owned()]
+}
+
+/// The handles end with the component; cleared, they cannot be used by mistake.
+fn close_body() -> Vec<String> {
+    let close = [
+        "scl_status status = scl_close(self->component, timeout_ns);",
+        "if (status != SCL_FORKED) {",
+        "    memset(self, 0, sizeof *self);",
+        "}",
+        "return status;",
+    ];
+    gate::refuse_null("self").into_iter().chain(close.map(str::to_owned)).collect()
+}
