@@ -17,6 +17,8 @@ mod max_size;
 mod opening;
 mod pause;
 mod programs;
+mod python_generated;
+mod python_typing;
 mod realtime;
 mod restart;
 mod runtime_folder;
