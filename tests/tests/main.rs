@@ -17,6 +17,7 @@ mod max_size;
 mod opening;
 mod pause;
 mod programs;
+mod python;
 mod python_generated;
 mod python_typing;
 mod realtime;

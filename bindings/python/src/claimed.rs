@@ -88,7 +88,7 @@ impl Drop for Claimed {
     }
 }
 
-impl Claim<'_> {
+impl<'g> Claim<'g> {
     /// Runs one step of a call.
     pub(crate) fn step<R>(&mut self, step: impl FnOnce(&mut Gate) -> Result<R, Failure>) -> Result<R, StepError> {
         self.0.with(step).map_err(StepError::Unusable)?.map_err(StepError::Failed)
@@ -119,6 +119,12 @@ impl Claim<'_> {
         self.0.bring_back(gate);
     }
 
+    /// Takes the gate along until the result is dropped.
+    pub(crate) fn borrow(mut self) -> Result<Borrowed<'g>, Unusable> {
+        let gate = self.take()?;
+        Ok(Borrowed { gate: Some(gate), claim: self })
+    }
+
     /// Keeps the claim beyond the life of this value, until [`Claimed::resume`].
     pub(crate) fn keep(self) {
         std::mem::forget(self);
@@ -129,6 +135,27 @@ impl Claimed {
     /// Goes on with a claim that was kept.
     pub(crate) fn resume(&self) -> Claim<'_> {
         Claim(self)
+    }
+}
+
+/// A gate that a call has taken along.
+pub(crate) struct Borrowed<'g> {
+    /// `None` once brought back.
+    gate: Option<Gate>,
+    claim: Claim<'g>,
+}
+
+impl Borrowed<'_> {
+    pub(crate) fn gate(&mut self) -> Option<&mut Gate> {
+        self.gate.as_mut()
+    }
+}
+
+impl Drop for Borrowed<'_> {
+    fn drop(&mut self) {
+        if let Some(gate) = self.gate.take() {
+            self.claim.bring_back(gate);
+        }
     }
 }
 

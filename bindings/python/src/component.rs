@@ -7,6 +7,7 @@ use crate::plan::Plan;
 use crate::process::{drop_detached, stay_if_exiting};
 use crate::readiness::Readiness;
 use crate::shared::Shared;
+use crate::wait_any::wait_any;
 use crate::waiting::{LOOK, wait};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -98,6 +99,19 @@ impl Component {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Waits until at least one of some gates has a message or a request. Returns their places in the list.
+    #[pyo3(signature = (gates, timeout=None))]
+    fn wait(&self, py: Python<'_>, gates: Vec<Py<Gate>>, timeout: Option<f64>) -> PyResult<Vec<usize>> {
+        let limit = Limit::of_seconds(timeout)?;
+        self.shared.check()?;
+        let gates: Vec<&Gate> = gates.iter().map(|gate| gate.get()).collect();
+        if let Some(other) = gates.iter().find(|gate| !Arc::ptr_eq(gate.shared(), &self.shared)) {
+            let text = format!("gate `{}` is not of component `{}`", other.full_name(), self.shared.component);
+            return Err(PyValueError::new_err(text));
+        }
+        wait_any(py, limit, &self.shared, &gates)
     }
 
     /// Waits until every peer that is running has taken all messages, then closes. Calls that wait end with `Closed`.

@@ -67,7 +67,7 @@ impl Gate {
     }
 
     /// As it is called in messages.
-    fn full_name(&self) -> String {
+    pub(crate) fn full_name(&self) -> String {
         format!("{}.{}", self.shared.component, self.plan.name)
     }
 

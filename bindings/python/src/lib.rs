@@ -18,6 +18,7 @@ mod request;
 mod shared;
 mod stats;
 mod stop;
+mod wait_any;
 mod waiting;
 
 use pyo3::prelude::*;

@@ -1,10 +1,14 @@
 """Components and gates, wired by one checked YAML file, over ZeroMQ.
 
+```python
 import scl
+
 controller = scl.open("topology.yaml", "controller")
 controller.actuator.send(controller.actuator.type(throttle=0.5))
+```
 """
 
+from scl import codec
 from scl._component import Component, DynamicComponent, Transport, open, open_plan
 from scl._errors import (
     Answered,
@@ -73,6 +77,7 @@ __all__ = [
     "UnsupportedCodecError",
     "WrongDirection",
     "__version__",
+    "codec",
     "open",
     "open_plan",
     "stop_requested",
