@@ -41,8 +41,10 @@ assert set(everything_scl.__all__) <= {*dir(everything_scl), *everything_scl.__a
 for name in everything_scl.__all__:
     getattr(everything_scl, name)
 
-# Every public name of components that a gate could have gets an underscore in generated modules, and no other.
 component = Import()
+# The module declares what the component has, and each public name of components is the name of a gate here.
+assert set(Import.__annotations__) == {it for it, gate in vars(component).items() if isinstance(gate, scl.Gate)}
+assert {f"{it}_" for it in dir(scl.Component) if not it.startswith("_")} <= set(Import.__annotations__)
 assert type(component.from_) is scl.Pub and component.from_.type is Job
 assert component.my_gate.name == "import.my-gate" and component.close_.name == "import.close"
 assert component.gate_private.name == "import._private"
