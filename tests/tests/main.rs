@@ -20,6 +20,7 @@ mod programs;
 mod python;
 mod python_generated;
 mod python_typing;
+mod python_values;
 mod realtime;
 mod restart;
 mod runtime_folder;

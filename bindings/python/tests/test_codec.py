@@ -11,10 +11,9 @@ from typing import Any, TypedDict
 
 import cbor2
 import pytest
+import scl
 from google.protobuf import descriptor_pb2, timestamp_pb2
 from scl.codec import Codec, MessageClasses, codec_of, messages_of_descriptors
-
-import scl
 
 VALUES = ["json", "cbor", "msgpack"]
 
