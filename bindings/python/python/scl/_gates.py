@@ -7,7 +7,7 @@ from collections.abc import AsyncIterator, Callable, Iterator
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from scl import _native
-from scl._errors import Busy, Closed, DecodeError, Full, Stopped, WrongDirection
+from scl._errors import Busy, Closed, Full, Stopped, WrongDirection
 from scl._loop import Loops
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ class _Sender(Gate, Generic[T]):
 
 
 class _Receiver(Gate, Generic[T]):
-    __slots__ = ("_decode", "_recv", "type")
+    __slots__ = ("_decode", "_owner", "_recv", "type")
 
     _can = "`recv`, `try_recv`, `latest` and iteration"
 
@@ -124,25 +124,28 @@ class _Receiver(Gate, Generic[T]):
         self.type: builtins.type[T] = codec.type
         """The class of the messages."""
         self._decode = codec.decode
+        self._owner = codec.owner
         self._recv = native.recv
 
     def recv(self, timeout: float | None = None) -> T:
         """Waits for the next message, no longer than `timeout` seconds, with 0 not at all. Raises `Timeout` then."""
-        return self._decoded(self._recv(timeout))
+        message: T = self._decode(self._recv(timeout))
+        return message
 
     def try_recv(self) -> T | None:
         """Returns the next message if one has arrived, else `None`."""
         frame = self._native.try_recv()
-        return None if frame is None else self._decoded(frame)
+        return None if frame is None else self._decode(frame)
 
     def latest(self) -> T | None:
         """Returns the newest message that has arrived and discards the older ones; `None` if there is none."""
         frame = self._native.latest()
-        return None if frame is None else self._decoded(frame)
+        return None if frame is None else self._decode(frame)
 
     async def recv_async(self, timeout: float | None = None) -> T:
         """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no message."""
-        return self._decoded(await self._until(self._native.poll_recv, timeout))
+        message: T = self._decode(await self._until(self._native.poll_recv, timeout))
+        return message
 
     def __iter__(self) -> Iterator[T]:
         """Yields messages until the component is closed or SIGTERM asks the program to stop."""
@@ -162,12 +165,9 @@ class _Receiver(Gate, Generic[T]):
                 return
             yield message
 
-    def _decoded(self, frame: bytes) -> T:
-        try:
-            message: T = self._decode(frame)
-        except DecodeError as error:
-            raise DecodeError(f"gate `{self.name}` received an undecodable message: {error}") from error.__cause__
-        return message
+    def stats(self) -> dict[str, Any]:
+        """Returns the gate's counts."""
+        return _with_rejected(super().stats(), self._owner.rejected)
 
 
 class Pub(_Sender[T]):
@@ -197,7 +197,7 @@ class Pull(_Receiver[T]):
 class Req(Gate, Generic[A, B]):
     """Asks a replier, one request at a time."""
 
-    __slots__ = ("_call", "_decode", "_encode", "reply_type", "type")
+    __slots__ = ("_call", "_decode", "_encode", "_owner", "reply_type", "type")
 
     _can = "`call`"
 
@@ -209,6 +209,7 @@ class Req(Gate, Generic[A, B]):
         """The class of replies."""
         self._encode = request.encode
         self._decode = reply.decode
+        self._owner = reply.owner
         self._call = native.call
 
     @property
@@ -221,7 +222,8 @@ class Req(Gate, Generic[A, B]):
 
         Raises `Timeout` after `timeout` seconds, by default the gate's `timeout`, and `PeerLost` if the replier disconnects after it got the request.
         """
-        return self._decoded(self._call(self._encode(request), timeout))
+        reply: B = self._decode(self._call(self._encode(request), timeout))
+        return reply
 
     async def call_async(self, request: A, timeout: float | None = None) -> B:
         """`call` for asyncio. The reply to a call that is cancelled is discarded."""
@@ -231,14 +233,12 @@ class Req(Gate, Generic[A, B]):
             reply = await self._until(call.poll_reply, None)
         finally:
             call.cancel()
-        return self._decoded(reply)
+        decoded: B = self._decode(reply)
+        return decoded
 
-    def _decoded(self, frame: bytes) -> B:
-        try:
-            reply: B = self._decode(frame)
-        except DecodeError as error:
-            raise DecodeError(f"gate `{self.name}` received an undecodable reply: {error}") from error.__cause__
-        return reply
+    def stats(self) -> dict[str, Any]:
+        """Returns the gate's counts."""
+        return _with_rejected(super().stats(), self._owner.rejected)
 
 
 class Request(Generic[A, B]):
@@ -308,8 +308,14 @@ class Rep(Gate, Generic[A, B]):
             yield request
 
     def _decoded(self, request: _native.Request) -> Request[A, B]:
-        try:
-            message: A = self._request.decode(request.data)
-        except DecodeError as error:
-            raise DecodeError(f"gate `{self.name}` received an undecodable request: {error}") from error.__cause__
-        return Request(request, message, self._reply)
+        return Request(request, self._request.decode(request.data), self._reply)
+
+    def stats(self) -> dict[str, Any]:
+        """Returns the gate's counts."""
+        return _with_rejected(super().stats(), self._request.owner.rejected)
+
+
+def _with_rejected(stats: dict[str, Any], undecodable: int) -> dict[str, Any]:
+    """Adds the frames that the package could not decode: for the native part they are bytes."""
+    stats["rejected"] += undecodable
+    return stats
