@@ -156,6 +156,10 @@ impl Gate {
             })
         };
         match self.at_once(ask_why) {
+            Ok(Some(RecvTimeoutError::Timeout { gate, peers, reason, .. })) if waited.is_zero() => {
+                let reason = reason.map_or_else(String::new, |reason| format!(": {reason}"));
+                Failure::new("Timeout", format!("gate `{gate}` has received nothing from {peers}{reason}"))
+            }
             Ok(Some(RecvTimeoutError::Timeout { gate, peers, reason, .. })) => {
                 RecvTimeoutError::Timeout { gate, peers, reason, waited }.into()
             }

@@ -54,6 +54,7 @@ class Component:
             attribute, codecs = facts[gate.name]
             found[gate.name] = self.__dict__[attribute] = _KINDS[gate.kind](gate, loops, *codecs)
         self._gates = found
+        self._attributes = frozenset(attribute for attribute, _ in facts.values())
         self._readiness: _native.Readiness | None = None
 
     @property
@@ -139,7 +140,7 @@ class Component:
 
         def __setattr__(self, name: str, value: object) -> None:
             # A misspelt gate would become an attribute of its own.
-            if isinstance(self.__dict__.get(name), Gate):
+            if name in self.__dict__.get("_attributes", ()):
                 raise AttributeError(f"gate `{self._native.name}.{name}` cannot be replaced", name=name, obj=self)
             object.__setattr__(self, name, value)
 
