@@ -65,14 +65,17 @@ fn names_that_would_be_one_are_refused() {
     let found = clashes(&format!("  - name: status\n{gate}"), "message Status {}");
     expect_test::expect![[r#"
         SCL1101: component `status` and message `a.Status` would both become `Status` in module `topology_scl`
-    "#]].assert_eq(&found);
+    "#]]
+    .assert_eq(&found);
     let gates = "    gates: [{close: {pub: a.Status, unconnected: ok}}, {close_: {pub: a.Status, unconnected: ok}}]\n";
     let found = clashes(&format!("  - name: x\n{gates}"), "message Status {}");
     expect_test::expect![[r#"
         SCL1102: gate `x.close` and gate `x.close_` would both become `close_` in class `X`
-    "#]].assert_eq(&found);
+    "#]]
+    .assert_eq(&found);
     let found = clashes(&format!("  - name: x\n{gate}"), "message Status {}\nmessage _PLAN {}");
     expect_test::expect![[r#"
         SCL1101: `_PLAN` of the module and message `a._PLAN` would both become `_PLAN` in module `topology_scl`
-    "#]].assert_eq(&found);
+    "#]]
+    .assert_eq(&found);
 }
