@@ -12,6 +12,8 @@ mod completions;
 mod diff;
 mod editor;
 mod explain;
+#[cfg(feature = "generate")]
+mod generate;
 mod graph;
 mod lsp;
 mod plan;

@@ -173,3 +173,13 @@ fn the_time_of_the_run_begins_after_the_builds() {
     assert!(err.contains("a  built after N s\na  killed by signal 15 (SIGTERM) after N s\n"), "{err}");
     assert_eq!(output.status.code(), Some(0), "{err}");
 }
+
+#[test]
+fn a_build_may_replace_the_running_command() {
+    let launch = "components: {a: {build: rm ./scl, command: echo started}}";
+    let system = System::of_files(&[("launch.yaml", launch)]);
+    std::fs::copy(env!("CARGO_BIN_EXE_scl"), system.path("scl")).unwrap();
+    let mut command = std::process::Command::new(system.path("scl"));
+    let output = command.arg("run").current_dir(system.path("")).output().unwrap();
+    assert_eq!(text(&output.stdout), "a | started\n", "{}", text(&output.stderr));
+}

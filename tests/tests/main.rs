@@ -18,6 +18,7 @@ mod max_size;
 mod opening;
 mod pause;
 mod programs;
+mod python;
 mod realtime;
 mod restart;
 mod runtime_folder;

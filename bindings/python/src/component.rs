@@ -5,7 +5,9 @@ use crate::gate::Gate;
 use crate::limit::Limit;
 use crate::plan::Plan;
 use crate::process::{drop_detached, stay_if_exiting};
+use crate::readiness::Readiness;
 use crate::shared::Shared;
+use crate::wait_any::wait_any;
 use crate::waiting::{LOOK, wait};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -49,7 +51,7 @@ impl Component {
             })
         });
         let (gates, opened) = opened?;
-        let shared = Arc::new(Shared::new(&plan.component, &plan.system));
+        let shared = Arc::new(Shared::new(&opened, &plan.component, &plan.system));
         let gates = plan.gates.iter().zip(gates);
         let gates = gates.map(|(plan, gate)| Py::new(py, Gate::new(plan.clone(), Arc::clone(&shared), gate)));
         let gates = gates.collect::<PyResult<Vec<_>>>()?;
@@ -99,6 +101,19 @@ impl Component {
         }
     }
 
+    /// Waits until at least one of some gates has a message or a request. Returns their places in the list.
+    #[pyo3(signature = (gates, timeout=None))]
+    fn wait(&self, py: Python<'_>, gates: Vec<Py<Gate>>, timeout: Option<f64>) -> PyResult<Vec<usize>> {
+        let limit = Limit::of_seconds(timeout)?;
+        self.shared.check()?;
+        let gates: Vec<&Gate> = gates.iter().map(|gate| gate.get()).collect();
+        if let Some(other) = gates.iter().find(|gate| !Arc::ptr_eq(gate.shared(), &self.shared)) {
+            let text = format!("gate `{}` is not of component `{}`", other.full_name(), self.shared.component);
+            return Err(PyValueError::new_err(text));
+        }
+        wait_any(py, limit, &self.shared, &gates)
+    }
+
     /// Waits until every peer that is running has taken all messages, then closes. Calls that wait end with `Closed`.
     #[pyo3(signature = (timeout=None))]
     fn close(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<()> {
@@ -106,7 +121,7 @@ impl Component {
         if self.shared.is_inherited() || self.shared.close() {
             return Ok(());
         }
-        py.detach(|| self.gates.iter().for_each(|gate| gate.get().close()));
+        py.detach(|| self.gates.iter().for_each(|gate| gate.get().claimed().close()));
         let Some(component) = py.detach(|| self.component.lock().unwrap_or_else(PoisonError::into_inner).take()) else {
             return Ok(());
         };
@@ -131,6 +146,18 @@ impl Component {
                 Err(RecvTimeoutError::Disconnected) => return Ok(()),
             }
         }
+    }
+
+    /// A file descriptor for event loops: of calls that were polled with it, or, with `all_gates`, of all gates.
+    fn readiness(&self, all_gates: bool) -> PyResult<Readiness> {
+        self.shared.check_open()?;
+        let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
+        let component = component.as_ref().ok_or_else(|| self.shared.closed())?;
+        let readiness = match all_gates {
+            true => component.readiness().map_err(|error| Failure::of_box(&error)),
+            false => component.readiness_of(&[]).map_err(|error| Failure::of_box(error.inner())),
+        };
+        Ok(Readiness::new(readiness?))
     }
 
     #[getter]

@@ -4,7 +4,8 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 use scl::{
-    BlockingError, CallError, NotFlushed, NotReady, RecvError, RecvTimeoutError, ReplyError, SendError, TrySendError,
+    BlockingError, CallError, NotFlushed, NotReady, RecvError, RecvTimeoutError, ReplyError, SendError,
+    SendTimeoutError, TrySendError,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -108,6 +109,27 @@ impl From<TrySendError> for Failure {
             TrySendError::Full { .. } => Self::of("Full", &error),
             TrySendError::Send(error) => error.into(),
             _ => Self::of("Error", &error),
+        }
+    }
+}
+
+impl From<SendTimeoutError> for Failure {
+    fn from(error: SendTimeoutError) -> Self {
+        match error {
+            SendTimeoutError::Timeout { .. } => Self::of("Full", &error),
+            SendTimeoutError::Send(error) => error.into(),
+            _ => Self::of("Error", &error),
+        }
+    }
+}
+
+impl From<scl::untyped::WaitError> for Failure {
+    fn from(error: scl::untyped::WaitError) -> Self {
+        use scl::untyped::WaitError;
+        match error {
+            WaitError::Recv(error) => error.into(),
+            WaitError::Blocking { source, .. } => Self::of(class_of(source), &error),
+            _ => Self::of("Timeout", &error),
         }
     }
 }

@@ -1,19 +1,24 @@
 //! A gate of any kind, with bytes as its messages.
 
-use crate::claimed::{Claim, Claimed};
+use crate::claimed::{Claim, Claimed, StepError, Unusable};
 use crate::failure::{Failure, no_panic};
 use crate::limit::Limit;
+use crate::pending_call::PendingCall;
+use crate::readiness::Readiness;
 use crate::request::Request;
 use crate::shared::Shared;
 use crate::stats;
 use crate::waiting::wait;
 use bytes::Bytes;
+use futures_sink::Sink;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use scl::RecvTimeoutError;
 use scl::plan::{GateKind, GatePlan, Payload};
 use scl::untyped::Gate as AnyGate;
+use std::pin::Pin;
 use std::sync::Arc;
+use std::task::Context;
 use std::time::Duration;
 
 /// A gate. Which calls it has depends on its kind; the package offers no others.
@@ -32,51 +37,68 @@ impl Gate {
         Self { may_wait: is_sender && plan.options.backpressure, plan, shared, gate: Claimed::new(gate) }
     }
 
-    /// Takes the gate away from Python, once the step of the call that uses it has ended.
-    pub(crate) fn close(&self) {
-        self.gate.close();
+    pub(crate) fn shared(&self) -> &Arc<Shared> {
+        &self.shared
+    }
+
+    pub(crate) fn claimed(&self) -> &Claimed {
+        &self.gate
     }
 
     /// The gate, unless another thread uses it.
-    fn claim(&self) -> Result<Claim<'_>, Failure> {
+    pub(crate) fn claim(&self) -> Result<Claim<'_>, Failure> {
         self.shared.check()?;
-        self.gate.claim().ok_or_else(|| {
-            let text = "is in use by another thread; one thread at a time may use a gate, others may use other gates";
-            Failure::new("Busy", format!("gate `{}` {text}", self.full_name()))
-        })
+        self.gate.claim().map_err(|unusable| self.unusable(unusable))
+    }
+
+    pub(crate) fn unusable(&self, unusable: Unusable) -> Failure {
+        if unusable == Unusable::Closed {
+            return self.shared.closed();
+        }
+        let text = "is in use by another thread or task; one at a time may use a gate, others may use other gates";
+        Failure::new("Busy", format!("gate `{}` {text}", self.full_name()))
+    }
+
+    pub(crate) fn failed(&self, error: StepError) -> Failure {
+        match error {
+            StepError::Unusable(unusable) => self.unusable(unusable),
+            StepError::Failed(failure) => failure,
+        }
+    }
+
+    /// As it is called in messages.
+    pub(crate) fn full_name(&self) -> String {
+        format!("{}.{}", self.shared.component, self.plan.name)
+    }
+
+    pub(crate) fn has_no<R>(&self, call: &str) -> Result<R, Failure> {
+        let text = format!("gate `{}` is a `{}` gate and has no `{call}`", self.full_name(), self.plan.kind.word());
+        Err(Failure::new("WrongDirection", text))
     }
 
     /// A call that does not wait, so it keeps the interpreter.
     fn at_once<R>(&self, step: impl FnOnce(&mut AnyGate) -> Result<R, Failure>) -> Result<R, Failure> {
         let mut claim = self.claim()?;
-        no_panic(|| claim.step(step).unwrap_or_else(|| Err(self.shared.closed())))
+        no_panic(|| claim.step(step).map_err(|error| self.failed(error)))
     }
 
-    /// A call that tries at once, and if that was not enough, waits without the interpreter. `Ok(None)` when the time is over.
+    /// A call that tries at once, and if that was not enough, waits without the interpreter. `Ok(None)` when the time is
+    /// over.
     fn try_then_wait<R: Send>(
         &self,
         py: Python<'_>,
         limit: Limit,
-        mut attempt: impl FnMut(&mut AnyGate) -> Result<Option<R>, Failure> + Send,
+        attempt: impl FnOnce(&mut AnyGate) -> Result<Option<R>, Failure>,
         mut wait_for: impl FnMut(&mut AnyGate, Duration) -> Result<Option<R>, Failure> + Send,
     ) -> PyResult<Option<R>> {
         let mut claim = self.claim()?;
-        let closed = || Err(self.shared.closed());
-        let done = no_panic(|| claim.step(&mut attempt).unwrap_or_else(closed))?;
+        let done = no_panic(|| claim.step(attempt).map_err(|error| self.failed(error)))?;
         if done.is_some() || limit.is_zero() {
             return Ok(done);
         }
-        wait(py, limit, &self.shared, |within| claim.next_step(|gate| wait_for(gate, within)).unwrap_or_else(closed))
-    }
-
-    /// As it is called in messages.
-    fn full_name(&self) -> String {
-        format!("{}.{}", self.shared.component, self.plan.name)
-    }
-
-    fn has_no<R>(&self, call: &str) -> Result<R, Failure> {
-        let text = format!("gate `{}` is a `{}` gate and has no `{call}`", self.full_name(), self.plan.kind.word());
-        Err(Failure::new("WrongDirection", text))
+        wait(py, limit, &self.shared, |within| {
+            claim.next_step(|gate| wait_for(gate, within)).map_err(|error| self.failed(error))
+        })
     }
 
     fn try_send(&self, gate: &mut AnyGate, message: &Bytes) -> Result<(), Failure> {
@@ -87,7 +109,7 @@ impl Gate {
         }
     }
 
-    fn try_recv_from(&self, gate: &mut AnyGate) -> Result<Option<Bytes>, Failure> {
+    fn try_receive(&self, gate: &mut AnyGate) -> Result<Option<Bytes>, Failure> {
         match gate {
             AnyGate::Sub(gate) => Ok(gate.try_recv()?),
             AnyGate::Pull(gate) => Ok(gate.try_recv()?),
@@ -102,20 +124,43 @@ impl Gate {
         }
     }
 
-    /// The error of a receiving call whose time is over, with the reason.
-    fn nothing_received(&self, limit: Limit) -> Failure {
+    /// What a gate has, or else `None`, and then the readiness reports when it has something.
+    fn poll_received<R>(
+        &self,
+        readiness: &Readiness,
+        take: impl Fn(&mut AnyGate) -> Result<Option<R>, Failure>,
+    ) -> Result<Option<R>, Failure> {
+        self.at_once(|gate| {
+            if let Some(taken) = take(gate)? {
+                return Ok(Some(taken));
+            }
+            let waker = readiness.waker();
+            match gate.receiving().map(|gate| gate.poll_ready(&mut Context::from_waker(&waker))) {
+                Some(std::task::Poll::Ready(ready)) => {
+                    ready?;
+                    take(gate)
+                }
+                _ => Ok(None),
+            }
+        })
+    }
+
+    /// The error of a receiving call that has waited in vain, with the reason.
+    fn nothing_received(&self, waited: Duration) -> Failure {
         let ask_why = |gate: &mut AnyGate| {
             Ok(match gate {
                 AnyGate::Sub(gate) => gate.recv_timeout(Duration::ZERO).err(),
                 AnyGate::Pull(gate) => gate.recv_timeout(Duration::ZERO).err(),
+                AnyGate::Rep(gate) => gate.recv_timeout(Duration::ZERO).err(),
                 _ => None,
             })
         };
         match self.at_once(ask_why) {
             Ok(Some(RecvTimeoutError::Timeout { gate, peers, reason, .. })) => {
-                RecvTimeoutError::Timeout { gate, peers, reason, waited: limit.waited() }.into()
+                RecvTimeoutError::Timeout { gate, peers, reason, waited }.into()
             }
             Ok(Some(error)) => error.into(),
+            // Something has arrived after the time was over.
             Ok(None) => Failure::new("Timeout", format!("gate `{}` received nothing in time", self.full_name())),
             Err(failure) => failure,
         }
@@ -141,17 +186,6 @@ impl Gate {
     }
 
     #[getter]
-    fn codec(&self) -> &str {
-        &self.plan.codec
-    }
-
-    /// The types of its messages: none for bytes, one, or request and reply.
-    #[getter]
-    fn types(&self) -> Vec<&str> {
-        self.plan.payload.types().collect()
-    }
-
-    #[getter]
     fn declared_at(&self) -> &str {
         &self.plan.declared_at
     }
@@ -166,53 +200,69 @@ impl Gate {
     fn send(&self, py: Python<'_>, message: &Bound<'_, PyBytes>, timeout: Option<f64>) -> PyResult<()> {
         let limit = Limit::of_seconds(timeout)?;
         let message = Bytes::copy_from_slice(message.as_bytes());
-        if !self.may_wait {
+        if !self.may_wait || limit.is_zero() {
             return Ok(self.at_once(|gate| self.try_send(gate, &message))?);
         }
-        let mut full = None;
-        let mut attempt = |gate: &mut AnyGate| match self.try_send(gate, &message) {
-            Err(failure) if failure.is("Full") => {
-                full = Some(failure);
-                Ok(None)
-            }
+        let attempt = |gate: &mut AnyGate| match self.try_send(gate, &message) {
+            Err(failure) if failure.is("Full") => Ok(None),
             sent => sent.map(Some),
         };
-        let mut claim = self.claim()?;
-        let closed = || Err(self.shared.closed());
-        let mut sent = no_panic(|| claim.step(&mut attempt).unwrap_or_else(closed))?;
-        if sent.is_none() && !limit.is_zero() {
-            sent = wait(py, limit, &self.shared, |within| {
-                let sent = claim.next_step(&mut attempt).unwrap_or_else(closed);
-                std::thread::sleep(Duration::from_millis(1).min(within));
-                sent
-            })?;
+        let sent = self.try_then_wait(py, limit, attempt, |gate, within| {
+            let sent = match gate {
+                AnyGate::Pub(gate) => gate.send_timeout(&message, within),
+                AnyGate::Push(gate) => gate.send_timeout(&message, within),
+                _ => return self.has_no("send"),
+            };
+            match sent {
+                Err(scl::SendTimeoutError::Timeout { .. }) => Ok(None),
+                sent => Ok(Some(sent?)),
+            }
+        })?;
+        match sent {
+            Some(()) => Ok(()),
+            // One last time, which also names the peer.
+            None => Ok(self.at_once(|gate| self.try_send(gate, &message))?),
         }
-        match (sent, full) {
-            (None, Some(full)) => Err(full.into()),
-            _ => Ok(()),
-        }
+    }
+
+    /// Sends, or returns false, and then the readiness reports when it may succeed.
+    fn poll_send(&self, message: &Bound<'_, PyBytes>, readiness: &Readiness) -> PyResult<bool> {
+        let message = Bytes::copy_from_slice(message.as_bytes());
+        let sent = self.at_once(|gate| {
+            let full = match self.try_send(gate, &message) {
+                Err(failure) if failure.is("Full") => failure,
+                sent => return sent.map(|()| true),
+            };
+            let waker = readiness.waker();
+            let cx = &mut Context::from_waker(&waker);
+            let room = match gate {
+                AnyGate::Pub(gate) => Pin::new(gate).poll_ready(cx),
+                AnyGate::Push(gate) => Pin::new(gate).poll_ready(cx),
+                _ => return Err(full),
+            };
+            if room.is_pending() {
+                return Ok(false);
+            }
+            self.try_send(gate, &message).map(|()| true)
+        })?;
+        Ok(sent)
     }
 
     #[pyo3(signature = (timeout=None))]
     fn recv<'py>(&self, py: Python<'py>, timeout: Option<f64>) -> PyResult<Bound<'py, PyBytes>> {
         let limit = Limit::of_seconds(timeout)?;
-        let attempt = |gate: &mut AnyGate| self.try_recv_from(gate);
-        let received = self.try_then_wait(py, limit, attempt, |gate, within| {
-            let received = match gate {
-                AnyGate::Sub(gate) => gate.recv_timeout(within),
-                AnyGate::Pull(gate) => gate.recv_timeout(within),
-                _ => return self.has_no("recv"),
-            };
-            unless_timeout(received)
+        let attempt = |gate: &mut AnyGate| self.try_receive(gate);
+        let received = self.try_then_wait(py, limit, attempt, |gate, within| match gate {
+            AnyGate::Sub(gate) => unless_timeout(gate.recv_timeout(within)),
+            AnyGate::Pull(gate) => unless_timeout(gate.recv_timeout(within)),
+            _ => self.has_no("recv"),
         })?;
-        match received {
-            Some(message) => Ok(PyBytes::new(py, &message)),
-            None => Err(self.nothing_received(limit).into()),
-        }
+        let received = received.ok_or_else(|| self.nothing_received(limit.waited()))?;
+        Ok(PyBytes::new(py, &received))
     }
 
     fn try_recv<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
-        let received = self.at_once(|gate| self.try_recv_from(gate))?;
+        let received = self.at_once(|gate| self.try_receive(gate))?;
         Ok(received.map(|message| PyBytes::new(py, &message)))
     }
 
@@ -225,36 +275,28 @@ impl Gate {
         Ok(newest.map(|message| PyBytes::new(py, &message)))
     }
 
-    fn call<'py>(&self, py: Python<'py>, request: &Bound<'_, PyBytes>) -> PyResult<Bound<'py, PyBytes>> {
-        let request = Bytes::copy_from_slice(request.as_bytes());
-        let limit = Limit::of_seconds(None)?;
-        let attempt = |_: &mut AnyGate| Ok(None);
-        let reply = self.try_then_wait(py, limit, attempt, |gate, _| match gate {
-            AnyGate::Req(gate) => Ok(Some(gate.call_blocking(&request)?)),
-            _ => self.has_no("call"),
-        })?;
-        let reply = reply.ok_or_else(|| self.shared.closed())?;
-        Ok(PyBytes::new(py, &reply))
+    /// Returns a message, or `None`, and then the readiness reports when there may be one.
+    fn poll_recv<'py>(&self, py: Python<'py>, readiness: &Readiness) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        let received = self.poll_received(readiness, |gate| self.try_receive(gate))?;
+        Ok(received.map(|message| PyBytes::new(py, &message)))
+    }
+
+    /// The error of a call that has waited for so many seconds in vain.
+    fn timeout_error(&self, py: Python<'_>, waited: f64) -> Py<PyAny> {
+        let waited = Duration::try_from_secs_f64(waited).unwrap_or(Duration::MAX);
+        PyErr::from(self.nothing_received(waited)).into_value(py).into_any()
     }
 
     #[pyo3(signature = (timeout=None))]
     fn recv_request(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<Request> {
         let limit = Limit::of_seconds(timeout)?;
-        let take = |gate: &mut AnyGate| self.try_take_request(gate);
-        let taken = self.try_then_wait(py, limit, take, |gate, within| {
-            let taken = take(gate)?;
-            if taken.is_none() {
-                std::thread::sleep(Duration::from_millis(1).min(within));
-            }
-            Ok(taken)
+        let attempt = |gate: &mut AnyGate| self.try_take_request(gate);
+        let taken = self.try_then_wait(py, limit, attempt, |gate, within| match gate {
+            AnyGate::Rep(gate) => unless_timeout(gate.recv_timeout(within)),
+            _ => self.has_no("recv_request"),
         })?;
-        match taken {
-            Some(taken) => Ok(Request::new(taken, Arc::clone(&self.shared))),
-            None => {
-                let text = format!("gate `{}` received no request in time", self.full_name());
-                Err(Failure::new("Timeout", text).into())
-            }
-        }
+        let taken = taken.ok_or_else(|| self.nothing_received(limit.waited()))?;
+        Ok(Request::new(taken, Arc::clone(&self.shared)))
     }
 
     fn try_recv_request(&self) -> PyResult<Option<Request>> {
@@ -262,16 +304,44 @@ impl Gate {
         Ok(taken.map(|request| Request::new(request, Arc::clone(&self.shared))))
     }
 
+    /// Returns a request, or `None`, and then the readiness reports when there may be one.
+    fn poll_recv_request(&self, readiness: &Readiness) -> PyResult<Option<Request>> {
+        let taken = self.poll_received(readiness, |gate| self.try_take_request(gate))?;
+        Ok(taken.map(|request| Request::new(request, Arc::clone(&self.shared))))
+    }
+
+    /// Sends a request and waits for the reply.
+    #[pyo3(signature = (request, timeout=None))]
+    fn call<'py>(
+        slf: &Bound<'py, Self>,
+        request: &Bound<'_, PyBytes>,
+        timeout: Option<f64>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let py = slf.py();
+        let call = PendingCall::start(slf, request, timeout)?;
+        let (shared, driver) = (&slf.get().shared, slf.get().shared.driver());
+        let reply = wait(py, Limit::of_seconds(None)?, shared, |within| call.drive(&driver, within))?;
+        let reply = reply.ok_or_else(|| shared.closed())?;
+        Ok(PyBytes::new(py, &reply))
+    }
+
+    /// Sends a request. The reply comes from the result, which must be asked for it before anything is sent.
+    #[pyo3(signature = (request, timeout=None))]
+    fn start_call(slf: &Bound<'_, Self>, request: &Bound<'_, PyBytes>, timeout: Option<f64>) -> PyResult<PendingCall> {
+        PendingCall::start(slf, request, timeout)
+    }
+
     #[getter]
     fn is_connected(&self, py: Python<'_>) -> PyResult<bool> {
         self.shared.check_open()?;
-        Ok(py.detach(|| self.gate.visit(AnyGate::is_connected)).ok_or_else(|| self.shared.closed())?)
+        let connected = py.detach(|| self.gate.visit(|gate| gate.is_connected()));
+        Ok(connected.map_err(|unusable| self.unusable(unusable))?)
     }
 
     fn stats<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.shared.check_open()?;
-        let stats = py.detach(|| self.gate.visit(stats::of_gate)).ok_or_else(|| self.shared.closed())?;
-        stats.to_dict(py)
+        let stats = py.detach(|| self.gate.visit(|gate| stats::of_gate(gate)));
+        stats.map_err(|unusable| self.unusable(unusable))?.to_dict(py)
     }
 
     fn __repr__(&self) -> String {

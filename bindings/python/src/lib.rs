@@ -10,12 +10,15 @@ mod failure;
 mod gate;
 mod limit;
 mod logging;
+mod pending_call;
 mod plan;
 mod process;
+mod readiness;
 mod request;
 mod shared;
 mod stats;
 mod stop;
+mod wait_any;
 mod waiting;
 
 use pyo3::prelude::*;
@@ -30,13 +33,17 @@ mod _native {
     #[pymodule_export]
     use super::logging::{log_hold, log_level, log_next, log_release, log_start};
     #[pymodule_export]
+    use super::pending_call::PendingCall;
+    #[pymodule_export]
     use super::plan::{Plan, unknown_gate};
     #[pymodule_export]
     use super::process::exiting;
     #[pymodule_export]
+    use super::readiness::Readiness;
+    #[pymodule_export]
     use super::request::Request;
     #[pymodule_export]
-    use super::stop::{stop_handle, stop_overdue, stop_request, stop_requested};
+    use super::stop::{stop_grace_period, stop_handle, stop_overdue, stop_request, stop_requested};
     use pyo3::prelude::*;
 
     #[pymodule_init]

@@ -8,6 +8,7 @@ use scl::plan::SystemPlan;
 use scl::untyped::GateError;
 use scl_loader::{Request, load};
 use scl_topology::diagnostic::{Severity, render};
+use scl_topology::rust_name::gate_field;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -17,8 +18,8 @@ pub(crate) struct Plan {
     plan: SystemPlan,
 }
 
-/// Name, kind, codec, the names of its types, and where it is declared.
-type GateFacts<'p> = (&'p str, &'static str, &'p str, Vec<&'p str>, &'p str);
+/// Name, name as an identifier, kind, codec, and the names of its types.
+type GateFacts<'p> = (&'p str, String, &'static str, &'p str, Vec<&'p str>);
 
 #[pymethods]
 impl Plan {
@@ -51,7 +52,7 @@ impl Plan {
         let gates = self.component(component)?.gates.iter();
         let facts = gates.map(|gate| {
             let types = gate.payload.types().collect();
-            (gate.name.as_str(), gate.kind.word(), gate.codec.as_str(), types, gate.declared_at.as_str())
+            (gate.name.as_str(), gate_field(&gate.name), gate.kind.word(), gate.codec.as_str(), types)
         });
         Ok(facts.collect())
     }

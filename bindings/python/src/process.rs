@@ -26,8 +26,7 @@ pub(crate) fn stay_if_exiting() {
 }
 
 /// Drops a value that may wait for peers, without the interpreter where there is one.
-pub(crate) fn drop_detached<T: Send>(value: Option<T>) {
-    let Some(value) = value else { return };
+pub(crate) fn drop_detached<T: Send>(value: T) {
     let mut value = Some(value);
     Python::try_attach(|py| py.detach(|| drop(value.take())));
     drop(value);

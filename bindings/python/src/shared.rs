@@ -2,30 +2,36 @@
 
 use crate::failure::Failure;
 use crate::process::Origin;
-use crate::stop;
-use scl::BlockingError;
+use scl::untyped::{Closer, Component, Driver};
+use scl::{BlockingError, host};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The state of a component, as seen by its calls.
-#[derive(Debug)]
 pub(crate) struct Shared {
     pub(crate) component: String,
     pub(crate) system: String,
     origin: Origin,
     closed: AtomicBool,
+    closer: Closer,
+    driver: Driver,
 }
 
 impl Shared {
-    pub(crate) fn new(component: &str, system: &str) -> Self {
+    pub(crate) fn new(opened: &Component, component: &str, system: &str) -> Self {
         let (component, system) = (component.to_owned(), system.to_owned());
-        Self { component, system, origin: Origin::here(), closed: AtomicBool::new(false) }
+        let (closer, driver) = (opened.closer(), opened.driver());
+        Self { component, system, origin: Origin::here(), closed: AtomicBool::new(false), closer, driver }
+    }
+
+    pub(crate) fn driver(&self) -> Driver {
+        self.driver.clone()
     }
 
     /// Fails if no call may be made, or go on waiting. What a forked child inherits is looked at first: its locks may be
     /// held by threads that exist in the parent only.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         self.check_open()?;
-        if stop::gates_stopped() {
+        if host::gates_stopped() {
             return Err(Failure::new("Stopped", "stop requested"));
         }
         Ok(())
@@ -54,8 +60,10 @@ impl Shared {
         self.closed.load(Ordering::Acquire)
     }
 
-    /// Returns whether it was closed before.
+    /// Ends all calls. Returns whether it was closed before.
     pub(crate) fn close(&self) -> bool {
-        self.closed.swap(true, Ordering::AcqRel)
+        let before = self.closed.swap(true, Ordering::AcqRel);
+        self.closer.end_calls();
+        before
     }
 }

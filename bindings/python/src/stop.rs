@@ -4,41 +4,41 @@
 //! handlers of its own. The rules are those of the crate `scl`: calls end at once, unless the program handles the request
 //! itself; then they work until its grace period is over.
 
+use crate::failure::Failure;
 use pyo3::prelude::*;
-use std::sync::atomic::{AtomicU8, Ordering};
+use scl::host::{self, StopSignal};
+use std::sync::atomic::{AtomicBool, Ordering};
 
-const REQUESTED: u8 = 1;
-const HANDLED: u8 = 2;
-const OVERDUE: u8 = 4;
-
-static FLAGS: AtomicU8 = AtomicU8::new(0);
+static HANDLED: AtomicBool = AtomicBool::new(false);
 
 /// Requests the stop.
 #[pyfunction]
 pub(crate) fn stop_request() {
-    FLAGS.fetch_or(REQUESTED, Ordering::SeqCst);
+    host::request_stop(StopSignal::Terminate);
 }
 
 /// Says that the program handles stop requests itself.
 #[pyfunction]
 pub(crate) fn stop_handle() {
-    FLAGS.fetch_or(HANDLED, Ordering::SeqCst);
+    HANDLED.store(true, Ordering::Release);
+    host::handle_stop();
 }
 
 /// Ends the grace period. Returns whether the program handles stop requests itself.
 #[pyfunction]
 pub(crate) fn stop_overdue() -> bool {
-    FLAGS.fetch_or(OVERDUE, Ordering::SeqCst) & HANDLED != 0
+    host::end_grace_period();
+    HANDLED.load(Ordering::Acquire)
 }
 
 /// Returns true if a stop was requested.
 #[pyfunction]
 pub(crate) fn stop_requested() -> bool {
-    FLAGS.load(Ordering::SeqCst) & REQUESTED != 0
+    host::is_stop_requested()
 }
 
-/// Returns true if no gate may be used any more.
-pub(crate) fn gates_stopped() -> bool {
-    let flags = FLAGS.load(Ordering::Relaxed);
-    flags & OVERDUE != 0 || flags & (REQUESTED | HANDLED) == REQUESTED
+/// How long a program may take to end after a stop request, in seconds.
+#[pyfunction]
+pub(crate) fn stop_grace_period() -> PyResult<f64> {
+    Ok(host::grace_period().map_err(Failure::from)?.as_secs_f64())
 }

@@ -1,11 +1,15 @@
 """Components and gates, wired by one checked YAML file, over ZeroMQ.
 
-    import scl
-    controller = scl.open("topology.yaml", "controller")
-    controller.actuator.send(controller.actuator.type(throttle=0.5))
+```python
+import scl
+
+controller = scl.open("topology.yaml", "controller")
+controller.actuator.send(controller.actuator.type(throttle=0.5))
+```
 """
 
-from scl._component import Component, DynamicComponent, Transport, open, open_plan
+from scl import codec
+from scl._component import Component, DynamicComponent, GeneratedComponent, Transport, open, open_plan
 from scl._errors import (
     Answered,
     Busy,
@@ -47,6 +51,7 @@ __all__ = [
     "Forked",
     "Full",
     "Gate",
+    "GeneratedComponent",
     "InternalError",
     "NotFlushed",
     "NotReady",
@@ -71,6 +76,7 @@ __all__ = [
     "UnsupportedCodecError",
     "WrongDirection",
     "__version__",
+    "codec",
     "open",
     "open_plan",
     "stop_requested",

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import asyncio
 import keyword
 import os
+import time
 import warnings
-from types import TracebackType
-from typing import TYPE_CHECKING, Any, Literal, Self
+from collections.abc import Mapping
+from types import MappingProxyType, TracebackType
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 
 from scl import _native, _process, codec
-from scl._errors import UnknownGate
-from scl._gates import Pub, Pull, Push, Rep, Req, Sub
+from scl._errors import NotReady, UnknownGate
+from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Sub
+from scl._loop import Loops
 
 Transport = Literal["ipc", "tcp"]
 
 _KINDS: dict[str, type[Any]] = {"pub": Pub, "sub": Sub, "req": Req, "rep": Rep, "push": Push, "pull": Pull}
+
+_STEP = 0.2
+"""How long a task that waits for peers keeps a thread after it was cancelled, in seconds."""
 
 
 class Component:
@@ -37,21 +44,67 @@ class Component:
         """
         plan = _native.Plan(plan) if isinstance(plan, str) else plan
         # Before anything is opened: no peer sees a component that cannot run.
-        codecs = _codecs_of(plan, name)
+        facts = _facts_of(plan, name)
         _process.prepare(signals)
-        self._native = _native.Component.open(
-            plan, name, runtime_dir=runtime_dir, system=system, transport=transport
-        )
+        self._native = _native.Component.open(plan, name, runtime_dir=runtime_dir, system=system, transport=transport)
         _process.close_at_exit(self._native)
-        self._gates = {
-            gate.name: _KINDS[gate.kind](gate, *codecs[gate.name]) for gate in self._native.gates
-        }
-        for gate_name, gate in self._gates.items():
-            setattr(self, attribute_of(gate_name), gate)
+        loops = Loops(self._native)
+        found: dict[str, Gate] = {}
+        for gate in self._native.gates:
+            attribute, gate_codecs = facts[gate.name]
+            found[attribute] = _KINDS[gate.kind](gate, loops, *gate_codecs)
+        self.__dict__.update(found)
+        self._gates = found
+        self._readiness: _native.Readiness | None = None
+
+    @property
+    def name(self) -> str:
+        """The component's name in the topology file."""
+        return self._native.name
+
+    @property
+    def system(self) -> str:
+        """The system's name in the topology file."""
+        return self._native.system
+
+    @property
+    def gates(self) -> Mapping[str, Gate]:
+        """All gates by attribute, in the order of the topology file."""
+        return MappingProxyType(self._gates)
 
     def ready(self, timeout: float | None = None) -> None:
         """Waits until all required peers are connected. Raises `NotReady` after `timeout` seconds."""
         self._native.ready(timeout)
+
+    async def ready_async(self, timeout: float | None = None) -> None:
+        """`ready` for asyncio."""
+        ends = None if timeout is None else time.monotonic() + timeout
+        while True:
+            # In steps, so that little is left behind by a task that is cancelled.
+            left = _STEP if ends is None else max(0.0, ends - time.monotonic())
+            try:
+                return await asyncio.to_thread(self._native.ready, min(left, _STEP))
+            except NotReady:
+                if left < _STEP:
+                    raise
+
+    def wait(self, *gates: Gate, timeout: float | None = None) -> list[Gate]:
+        """Waits until at least one of these gates has a message or a request, and returns those that have.
+
+        Without gates, all that receive are meant. After `timeout` seconds the list is empty.
+        """
+        chosen = gates or tuple(it for it in self._gates.values() if it.kind in ("sub", "pull", "rep"))
+        ready = self._native.wait([it._native for it in chosen], timeout)
+        return [chosen[index] for index in ready]
+
+    def fileno(self) -> int:
+        """Returns a file descriptor for `select` and its like: readable while any gate has a message or a request.
+
+        Take them with `try_recv`; do not read from the descriptor. It is closed with the component.
+        """
+        if self._readiness is None:
+            self._readiness = self._native.readiness(True)
+        return self._readiness.fileno()
 
     def close(self, timeout: float | None = 1.0) -> None:
         """Waits until every peer that is running has taken all messages, then closes.
@@ -68,6 +121,14 @@ class Component:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         _process.close(self._native, quietly=error is not None)
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        await asyncio.to_thread(_process.close, self._native, quietly=error is not None)
 
     if not TYPE_CHECKING:
 
@@ -88,6 +149,39 @@ class Component:
 
     def __repr__(self) -> str:
         return repr(self._native)
+
+
+class GeneratedComponent(Component):
+    """The base of the components in a module that `scl generate` wrote."""
+
+    _plan: ClassVar[str]
+    _component: ClassVar[str]
+
+    def __init_subclass__(
+        cls,
+        *,
+        plan: str | None = None,
+        component: str | None = None,
+        renamed: Mapping[str, str] | None = None,
+        **arguments: Any,
+    ) -> None:
+        super().__init_subclass__(**arguments)
+        # A class that a program derives from a generated one has none of its own.
+        if plan is not None and component is not None:
+            cls._plan, cls._component = plan, component
+
+    def __init__(
+        self,
+        *,
+        runtime_dir: str | os.PathLike[str] | None = None,
+        system: str | None = None,
+        transport: Transport | None = None,
+        signals: bool = True,
+    ) -> None:
+        """Opens the component. The arguments are those of `Component`."""
+        super().__init__(
+            self._plan, self._component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
+        )
 
 
 class DynamicComponent(Component):
@@ -134,16 +228,19 @@ def open_plan(
     )
 
 
-def attribute_of(gate: str) -> str:
-    """Returns the attribute for a gate: its name, with an underscore where Python or `Component` uses that name."""
-    return f"{gate}_" if keyword.iskeyword(gate) or hasattr(Component, gate) else gate
+def _attribute_of(gate: str) -> str:
+    """Returns the attribute for a gate, from its name in snake case: other names where Python or the class uses that one."""
+    if keyword.iskeyword(gate) or (hasattr(Component, gate) and not gate.startswith("_")):
+        return f"{gate}_"
+    return f"gate{gate}" if gate.startswith("_") else gate
 
 
-def _codecs_of(plan: _native.Plan, component: str) -> dict[str, list[codec.Codec]]:
-    """Returns the codecs of each gate: one, or those of request and reply."""
+def _facts_of(plan: _native.Plan, component: str) -> dict[str, tuple[str, list[codec.Codec]]]:
+    """Returns the attribute and the codecs of each gate: one codec, or those of request and reply."""
     messages = codec.messages_of_descriptors(plan.schemas) if plan.schemas else None
-    codecs = {}
-    for name, kind, word, types, _ in plan.gates(component):
-        names = types or [None] * (2 if kind in ("req", "rep") else 1)
-        codecs[name] = [codec.codec_of(f"{component}.{name}", word, it, messages) for it in names]
-    return codecs
+    facts = {}
+    for name, snake_name, kind, word, types in plan.gates(component):
+        names: list[str] | list[None] = types or [None] * (2 if kind in ("req", "rep") else 1)
+        codecs = [codec.codec_of(f"{component}.{name}", word, it, messages) for it in names]
+        facts[name] = (_attribute_of(snake_name), codecs)
+    return facts

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import builtins
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Callable, Iterator
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from scl import _native
-from scl._errors import Closed, Stopped, WrongDirection
+from scl._errors import Busy, Closed, DecodeError, Full, Stopped, WrongDirection
+from scl._loop import Loops
 
 if TYPE_CHECKING:
     from scl.codec import Codec
@@ -15,19 +16,22 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 A = TypeVar("A")
 B = TypeVar("B")
+R = TypeVar("R")
 
-_CALLS = ("send", "recv", "try_recv", "latest", "call")
+_CALLS = ("send", "send_async", "recv", "recv_async", "try_recv", "latest", "call", "call_async")
 
 
 class Gate:
     """What all gates have in common."""
 
-    __slots__ = ("_native",)
+    __slots__ = ("_awaited", "_loops", "_native")
 
     _can: ClassVar[str]
 
-    def __init__(self, native: _native.Gate) -> None:
+    def __init__(self, native: _native.Gate, loops: Loops) -> None:
         self._native = native
+        self._loops = loops
+        self._awaited = False
 
     @property
     def name(self) -> str:
@@ -60,6 +64,16 @@ class Gate:
                 obj=self,
             )
 
+    async def _until(self, poll: Callable[[_native.Readiness], R | None], timeout: float | None) -> R:
+        """Waits as `Loops.until` does. One task at a time may do so."""
+        if self._awaited:
+            raise Busy(f"gate `{self.name}` is awaited by another task; one at a time may use a gate")
+        self._awaited = True
+        try:
+            return await self._loops.until(poll, timeout, self._native.timeout_error)
+        finally:
+            self._awaited = False
+
     def __repr__(self) -> str:
         return repr(self._native)
 
@@ -72,8 +86,8 @@ class _Sender(Gate, Generic[T]):
 
     _can = "`send`"
 
-    def __init__(self, native: _native.Gate, codec: Codec) -> None:
-        super().__init__(native)
+    def __init__(self, native: _native.Gate, loops: Loops, codec: Codec) -> None:
+        super().__init__(native, loops)
         self.type: builtins.type[T] = codec.type
         """The class of the messages."""
         self._encode = codec.encode
@@ -87,14 +101,26 @@ class _Sender(Gate, Generic[T]):
         """
         self._send(self._encode(message), timeout)
 
+    async def send_async(self, message: T, timeout: float | None = None) -> None:
+        """`send` for asyncio. Cancel safe: the message was sent to all peers, or to none."""
+        frame = self._encode(message)
+        waiters = self._loops.here()
+        if self._native.poll_send(frame, waiters.readiness):
+            return
+        try:
+            await self._until(lambda readiness: self._native.poll_send(frame, readiness) or None, timeout)
+        except Full:
+            # One last time, which names the peer.
+            self._send(frame, 0)
+
 
 class _Receiver(Gate, Generic[T]):
     __slots__ = ("_decode", "_recv", "type")
 
     _can = "`recv`, `try_recv`, `latest` and iteration"
 
-    def __init__(self, native: _native.Gate, codec: Codec) -> None:
-        super().__init__(native)
+    def __init__(self, native: _native.Gate, loops: Loops, codec: Codec) -> None:
+        super().__init__(native, loops)
         self.type: builtins.type[T] = codec.type
         """The class of the messages."""
         self._decode = codec.decode
@@ -102,18 +128,21 @@ class _Receiver(Gate, Generic[T]):
 
     def recv(self, timeout: float | None = None) -> T:
         """Waits for the next message, no longer than `timeout` seconds, with 0 not at all. Raises `Timeout` then."""
-        message: T = self._decode(self._recv(timeout))
-        return message
+        return self._decoded(self._recv(timeout))
 
     def try_recv(self) -> T | None:
         """Returns the next message if one has arrived, else `None`."""
         frame = self._native.try_recv()
-        return None if frame is None else self._decode(frame)
+        return None if frame is None else self._decoded(frame)
 
     def latest(self) -> T | None:
         """Returns the newest message that has arrived and discards the older ones; `None` if there is none."""
         frame = self._native.latest()
-        return None if frame is None else self._decode(frame)
+        return None if frame is None else self._decoded(frame)
+
+    async def recv_async(self, timeout: float | None = None) -> T:
+        """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no message."""
+        return self._decoded(await self._until(self._native.poll_recv, timeout))
 
     def __iter__(self) -> Iterator[T]:
         """Yields messages until the component is closed or SIGTERM asks the program to stop."""
@@ -123,6 +152,22 @@ class _Receiver(Gate, Generic[T]):
             except (Closed, Stopped):
                 return
             yield message
+
+    async def __aiter__(self) -> AsyncIterator[T]:
+        """`__iter__` for asyncio."""
+        while True:
+            try:
+                message = await self.recv_async()
+            except (Closed, Stopped):
+                return
+            yield message
+
+    def _decoded(self, frame: bytes) -> T:
+        try:
+            message: T = self._decode(frame)
+        except DecodeError as error:
+            raise DecodeError(f"gate `{self.name}` received an undecodable message: {error}") from error.__cause__
+        return message
 
 
 class Pub(_Sender[T]):
@@ -156,8 +201,8 @@ class Req(Gate, Generic[A, B]):
 
     _can = "`call`"
 
-    def __init__(self, native: _native.Gate, request: Codec, reply: Codec) -> None:
-        super().__init__(native)
+    def __init__(self, native: _native.Gate, loops: Loops, request: Codec, reply: Codec) -> None:
+        super().__init__(native, loops)
         self.type: builtins.type[A] = request.type
         """The class of requests."""
         self.reply_type: builtins.type[B] = reply.type
@@ -171,12 +216,28 @@ class Req(Gate, Generic[A, B]):
         """The gate's `timeout`, in seconds."""
         return self._native.timeout
 
-    def call(self, request: A) -> B:
+    def call(self, request: A, timeout: float | None = None) -> B:
         """Sends a request and returns the reply.
 
-        Raises `Timeout` after the gate's `timeout`, and `PeerLost` if the replier disconnects after it got the request.
+        Raises `Timeout` after `timeout` seconds, by default the gate's `timeout`, and `PeerLost` if the replier disconnects after it got the request.
         """
-        reply: B = self._decode(self._call(self._encode(request)))
+        return self._decoded(self._call(self._encode(request), timeout))
+
+    async def call_async(self, request: A, timeout: float | None = None) -> B:
+        """`call` for asyncio. The reply to a call that is cancelled is discarded."""
+        call = self._native.start_call(self._encode(request), timeout)
+        try:
+            # The call has a time limit of its own.
+            reply = await self._until(call.poll_reply, None)
+        finally:
+            call.cancel()
+        return self._decoded(reply)
+
+    def _decoded(self, frame: bytes) -> B:
+        try:
+            reply: B = self._decode(frame)
+        except DecodeError as error:
+            raise DecodeError(f"gate `{self.name}` received an undecodable reply: {error}") from error.__cause__
         return reply
 
 
@@ -202,12 +263,12 @@ class Request(Generic[A, B]):
 class Rep(Gate, Generic[A, B]):
     """Answers the requests of any number of requesters."""
 
-    __slots__ = ("_request", "_reply", "reply_type", "type")
+    __slots__ = ("_reply", "_request", "reply_type", "type")
 
     _can = "`recv`, `try_recv` and iteration, which give requests with `reply`"
 
-    def __init__(self, native: _native.Gate, request: Codec, reply: Codec) -> None:
-        super().__init__(native)
+    def __init__(self, native: _native.Gate, loops: Loops, request: Codec, reply: Codec) -> None:
+        super().__init__(native, loops)
         self.type: builtins.type[A] = request.type
         """The class of requests."""
         self.reply_type: builtins.type[B] = reply.type
@@ -224,6 +285,10 @@ class Rep(Gate, Generic[A, B]):
         request = self._native.try_recv_request()
         return None if request is None else self._decoded(request)
 
+    async def recv_async(self, timeout: float | None = None) -> Request[A, B]:
+        """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no request."""
+        return self._decoded(await self._until(self._native.poll_recv_request, timeout))
+
     def __iter__(self) -> Iterator[Request[A, B]]:
         """Yields requests until the component is closed or SIGTERM asks the program to stop."""
         while True:
@@ -233,5 +298,18 @@ class Rep(Gate, Generic[A, B]):
                 return
             yield request
 
+    async def __aiter__(self) -> AsyncIterator[Request[A, B]]:
+        """`__iter__` for asyncio."""
+        while True:
+            try:
+                request = await self.recv_async()
+            except (Closed, Stopped):
+                return
+            yield request
+
     def _decoded(self, request: _native.Request) -> Request[A, B]:
-        return Request(request, self._request.decode(request.data), self._reply)
+        try:
+            message: A = self._request.decode(request.data)
+        except DecodeError as error:
+            raise DecodeError(f"gate `{self.name}` received an undecodable request: {error}") from error.__cause__
+        return Request(request, message, self._reply)

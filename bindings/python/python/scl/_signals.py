@@ -4,22 +4,18 @@ from __future__ import annotations
 
 import logging
 import os
-import re
 import signal
 import threading
 import time
 from types import FrameType
 
 from scl import _native
-from scl._errors import OpenError
 
-_GRACE_PERIOD = 3.0
 _LAST_FLUSH = 0.5
 _EXIT_CODE = 128 + signal.SIGTERM
-_UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 _log = logging.getLogger("scl")
-_grace_period = _GRACE_PERIOD
+_grace_period = 0.0
 
 
 def stop_requested() -> bool:
@@ -36,7 +32,7 @@ def stop_requested() -> bool:
 def watch() -> None:
     """Handles SIGTERM from now on, unless the program does, or this is not the main thread."""
     global _grace_period
-    _grace_period = _read_grace_period()
+    _grace_period = _native.stop_grace_period()
     if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
         signal.signal(signal.SIGTERM, _stop)
 
@@ -53,17 +49,3 @@ def _end_overdue_program() -> None:
     if _native.stop_overdue():
         time.sleep(_LAST_FLUSH)
     os._exit(_EXIT_CODE)
-
-
-def _read_grace_period() -> float:
-    value = os.environ.get("SCL_STOP_WITHIN", "")
-    if not value:
-        return _GRACE_PERIOD
-    found = re.fullmatch(r"([0-9][0-9.]*) *(us|ms|s)", value)
-    try:
-        seconds = float(found[1]) * _UNITS[found[2]] if found else 0.0
-    except ValueError:
-        seconds = 0.0
-    if not 1e-6 <= seconds <= 86_400:
-        raise OpenError(f"`SCL_STOP_WITHIN={value}` is not understood; expected a duration such as `3s` or `500ms`")
-    return seconds
