@@ -11,7 +11,7 @@ fn an_undecodable_message_is_reported_and_the_next_one_arrives() {
             let system = System::new();
             let mut left = Program::start(&system, left, "left");
             let mut right = Program::start(&system, right, "right");
-            left.ask("ready 60000", "ready");
+            left.ask("ready 30000", "ready");
             for (sends, takes) in [("pub_protobuf", "sub_protobuf"), ("push_protobuf", "pull_protobuf")] {
                 left.ask(&format!("garbage {sends}"), "sent");
                 left.ask(&format!("send {sends} 5 6"), "sent");
