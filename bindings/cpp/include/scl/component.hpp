@@ -28,7 +28,7 @@ class Component {
     ///
     /// Throws `Taken` if the component is already running, and `Error` if the runtime folder or the plan cannot be
     /// used.
-    Component(std::string_view plan_json, const std::string& name, const Options& options = {}) : name_(name) {
+    Component(std::string_view plan_json, const std::string& name, const Options& options = {}) : Component(name) {
         if (scl_abi() != SCL_ABI) {
             detail::raise(Errc::failed, "this program was compiled with version " + std::to_string(SCL_ABI) +
                                             " of the interface of SCL and loaded a library of version " +
@@ -92,6 +92,9 @@ class Component {
     scl_component* handle() const noexcept { return handle_; }
 
   private:
+    /// Not open yet. The other constructor may throw after this one, and then the destructor closes what it has opened.
+    explicit Component(const std::string& name) : name_(name) {}
+
     scl_status finish(std::int64_t limit) noexcept {
         if (handle_ == nullptr) {
             return SCL_OK;
