@@ -113,7 +113,7 @@ fn time_limits_are_kept_and_explained() {
         c.tell("take answer 1000000");
         c.expect_containing("SCL_TIMEOUT: gate `program.answer` received nothing");
         c.tell("ready 1000000");
-        c.expect_containing("SCL_TIMEOUT: component `program` is not ready after 1ms: `peer.");
+        c.expect_containing("SCL_TIMEOUT: component `program` is not ready after ");
         c.tell("wait 1000000 values work");
         c.expect_containing("SCL_TIMEOUT: component `program` received nothing at `program.values` or `program.work`");
         c.ask("wait 0 values work", "SCL_NOTHING: no message has arrived yet");
