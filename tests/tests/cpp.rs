@@ -2,6 +2,7 @@
 
 pub(crate) mod build;
 mod checks;
+mod cmake;
 mod json;
 mod misuse;
 mod signals;

@@ -18,8 +18,8 @@ pub(crate) struct Plan {
     plan: SystemPlan,
 }
 
-/// Name, name as an identifier, kind, codec, and the names of its types.
-type GateFacts<'p> = (&'p str, String, &'static str, &'p str, Vec<&'p str>);
+/// Name, name as an identifier, kind, codec, the names of its types, and its peers as `component.gate`.
+type GateFacts<'p> = (&'p str, String, &'static str, &'p str, Vec<&'p str>, Vec<String>);
 
 #[pymethods]
 impl Plan {
@@ -52,7 +52,8 @@ impl Plan {
         let gates = self.component(component)?.gates.iter();
         let facts = gates.map(|gate| {
             let types = gate.payload.types().collect();
-            (gate.name.as_str(), gate_field(&gate.name), gate.kind.word(), gate.codec.as_str(), types)
+            let peers = gate.connections.iter().map(|it| format!("{}.{}", it.peer_component, it.peer_gate)).collect();
+            (gate.name.as_str(), gate_field(&gate.name), gate.kind.word(), gate.codec.as_str(), types, peers)
         });
         Ok(facts.collect())
     }

@@ -9,7 +9,7 @@ controller.actuator.send(controller.actuator.type(throttle=0.5))
 """
 
 from scl import codec
-from scl._component import Component, DynamicComponent, GeneratedComponent, Transport, open, open_plan
+from scl._component import Component, DynamicComponent, Transport, open, open_plan
 from scl._errors import (
     Answered,
     Busy,
@@ -36,6 +36,7 @@ from scl._errors import (
     WrongDirection,
 )
 from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Request, Sub
+from scl._generated import GeneratedComponent
 from scl._native import __version__
 from scl._signals import stop_requested
 

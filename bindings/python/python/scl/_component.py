@@ -9,7 +9,7 @@ import time
 import warnings
 from collections.abc import Mapping
 from types import MappingProxyType, TracebackType
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 from scl import _native, _process, codec
 from scl._errors import NotReady, UnknownGate
@@ -51,10 +51,10 @@ class Component:
         loops = Loops(self._native)
         found: dict[str, Gate] = {}
         for gate in self._native.gates:
-            attribute, gate_codecs = facts[gate.name]
-            found[attribute] = _KINDS[gate.kind](gate, loops, *gate_codecs)
-        self.__dict__.update(found)
+            attribute, codecs = facts[gate.name]
+            found[gate.name] = self.__dict__[attribute] = _KINDS[gate.kind](gate, loops, *codecs)
         self._gates = found
+        self._attributes = frozenset(attribute for attribute, _ in facts.values())
         self._readiness: _native.Readiness | None = None
 
     @property
@@ -69,7 +69,7 @@ class Component:
 
     @property
     def gates(self) -> Mapping[str, Gate]:
-        """All gates by attribute, in the order of the topology file."""
+        """All gates by name, in the order of the topology file."""
         return MappingProxyType(self._gates)
 
     def ready(self, timeout: float | None = None) -> None:
@@ -140,7 +140,7 @@ class Component:
 
         def __setattr__(self, name: str, value: object) -> None:
             # A misspelt gate would become an attribute of its own.
-            if "_gates" in self.__dict__ and name in self._gates:
+            if name in self.__dict__.get("_attributes", ()):
                 raise AttributeError(f"gate `{self._native.name}.{name}` cannot be replaced", name=name, obj=self)
             object.__setattr__(self, name, value)
 
@@ -149,39 +149,6 @@ class Component:
 
     def __repr__(self) -> str:
         return repr(self._native)
-
-
-class GeneratedComponent(Component):
-    """The base of the components in a module that `scl generate` wrote."""
-
-    _plan: ClassVar[str]
-    _component: ClassVar[str]
-
-    def __init_subclass__(
-        cls,
-        *,
-        plan: str | None = None,
-        component: str | None = None,
-        renamed: Mapping[str, str] | None = None,
-        **arguments: Any,
-    ) -> None:
-        super().__init_subclass__(**arguments)
-        # A class that a program derives from a generated one has none of its own.
-        if plan is not None and component is not None:
-            cls._plan, cls._component = plan, component
-
-    def __init__(
-        self,
-        *,
-        runtime_dir: str | os.PathLike[str] | None = None,
-        system: str | None = None,
-        transport: Transport | None = None,
-        signals: bool = True,
-    ) -> None:
-        """Opens the component. The arguments are those of `Component`."""
-        super().__init__(
-            self._plan, self._component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
-        )
 
 
 class DynamicComponent(Component):
@@ -239,8 +206,8 @@ def _facts_of(plan: _native.Plan, component: str) -> dict[str, tuple[str, list[c
     """Returns the attribute and the codecs of each gate: one codec, or those of request and reply."""
     messages = codec.messages_of_descriptors(plan.schemas) if plan.schemas else None
     facts = {}
-    for name, snake_name, kind, word, types in plan.gates(component):
+    for name, snake_name, kind, word, types, peers in plan.gates(component):
         names: list[str] | list[None] = types or [None] * (2 if kind in ("req", "rep") else 1)
-        codecs = [codec.codec_of(f"{component}.{name}", word, it, messages) for it in names]
+        codecs = [codec.codec_of(f"{component}.{name}", word, it, messages, peers) for it in names]
         facts[name] = (_attribute_of(snake_name), codecs)
     return facts

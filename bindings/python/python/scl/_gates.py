@@ -7,7 +7,7 @@ from collections.abc import AsyncIterator, Callable, Iterator
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from scl import _native
-from scl._errors import Busy, Closed, DecodeError, Full, Stopped, WrongDirection
+from scl._errors import Busy, Closed, Stopped, WrongDirection
 from scl._loop import Loops
 
 if TYPE_CHECKING:
@@ -64,13 +64,15 @@ class Gate:
                 obj=self,
             )
 
-    async def _until(self, poll: Callable[[_native.Readiness], R | None], timeout: float | None) -> R:
+    async def _until(
+        self, poll: Callable[[_native.Readiness], R | None], timeout: float | None, last: Callable[[float], R]
+    ) -> R:
         """Waits as `Loops.until` does. One task at a time may do so."""
         if self._awaited:
             raise Busy(f"gate `{self.name}` is awaited by another task; one at a time may use a gate")
         self._awaited = True
         try:
-            return await self._loops.until(poll, timeout, self._native.timeout_error)
+            return await self._loops.until(poll, timeout, last)
         finally:
             self._awaited = False
 
@@ -104,18 +106,15 @@ class _Sender(Gate, Generic[T]):
     async def send_async(self, message: T, timeout: float | None = None) -> None:
         """`send` for asyncio. Cancel safe: the message was sent to all peers, or to none."""
         frame = self._encode(message)
-        waiters = self._loops.here()
-        if self._native.poll_send(frame, waiters.readiness):
-            return
-        try:
-            await self._until(lambda readiness: self._native.poll_send(frame, readiness) or None, timeout)
-        except Full:
-            # One last time, which names the peer.
-            self._send(frame, 0)
+        await self._until(
+            lambda readiness: self._native.poll_send(frame, readiness) or None,
+            timeout,
+            lambda _waited: self._send(frame, 0) is None,
+        )
 
 
 class _Receiver(Gate, Generic[T]):
-    __slots__ = ("_decode", "_recv", "type")
+    __slots__ = ("_decode", "_owner", "_recv", "type")
 
     _can = "`recv`, `try_recv`, `latest` and iteration"
 
@@ -124,25 +123,30 @@ class _Receiver(Gate, Generic[T]):
         self.type: builtins.type[T] = codec.type
         """The class of the messages."""
         self._decode = codec.decode
+        self._owner = codec.owner
         self._recv = native.recv
 
     def recv(self, timeout: float | None = None) -> T:
         """Waits for the next message, no longer than `timeout` seconds, with 0 not at all. Raises `Timeout` then."""
-        return self._decoded(self._recv(timeout))
+        message: T = self._decode(self._recv(timeout))
+        return message
 
     def try_recv(self) -> T | None:
         """Returns the next message if one has arrived, else `None`."""
         frame = self._native.try_recv()
-        return None if frame is None else self._decoded(frame)
+        return None if frame is None else self._decode(frame)
 
     def latest(self) -> T | None:
         """Returns the newest message that has arrived and discards the older ones; `None` if there is none."""
         frame = self._native.latest()
-        return None if frame is None else self._decoded(frame)
+        return None if frame is None else self._decode(frame)
 
     async def recv_async(self, timeout: float | None = None) -> T:
         """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no message."""
-        return self._decoded(await self._until(self._native.poll_recv, timeout))
+        message: T = self._decode(
+            await self._until(self._native.poll_recv, timeout, lambda waited: self._recv(0, waited))
+        )
+        return message
 
     def __iter__(self) -> Iterator[T]:
         """Yields messages until the component is closed or SIGTERM asks the program to stop."""
@@ -162,12 +166,9 @@ class _Receiver(Gate, Generic[T]):
                 return
             yield message
 
-    def _decoded(self, frame: bytes) -> T:
-        try:
-            message: T = self._decode(frame)
-        except DecodeError as error:
-            raise DecodeError(f"gate `{self.name}` received an undecodable message: {error}") from error.__cause__
-        return message
+    def stats(self) -> dict[str, Any]:
+        """Returns the gate's counts."""
+        return _with_rejected(super().stats(), self._owner.rejected)
 
 
 class Pub(_Sender[T]):
@@ -197,7 +198,7 @@ class Pull(_Receiver[T]):
 class Req(Gate, Generic[A, B]):
     """Asks a replier, one request at a time."""
 
-    __slots__ = ("_call", "_decode", "_encode", "reply_type", "type")
+    __slots__ = ("_call", "_decode", "_encode", "_owner", "reply_type", "type")
 
     _can = "`call`"
 
@@ -209,6 +210,7 @@ class Req(Gate, Generic[A, B]):
         """The class of replies."""
         self._encode = request.encode
         self._decode = reply.decode
+        self._owner = reply.owner
         self._call = native.call
 
     @property
@@ -221,24 +223,23 @@ class Req(Gate, Generic[A, B]):
 
         Raises `Timeout` after `timeout` seconds, by default the gate's `timeout`, and `PeerLost` if the replier disconnects after it got the request.
         """
-        return self._decoded(self._call(self._encode(request), timeout))
+        reply: B = self._decode(self._call(self._encode(request), timeout))
+        return reply
 
     async def call_async(self, request: A, timeout: float | None = None) -> B:
         """`call` for asyncio. The reply to a call that is cancelled is discarded."""
         call = self._native.start_call(self._encode(request), timeout)
         try:
             # The call has a time limit of its own.
-            reply = await self._until(call.poll_reply, None)
+            reply = await self._until(call.poll_reply, None, lambda _waited: b"")
         finally:
             call.cancel()
-        return self._decoded(reply)
+        decoded: B = self._decode(reply)
+        return decoded
 
-    def _decoded(self, frame: bytes) -> B:
-        try:
-            reply: B = self._decode(frame)
-        except DecodeError as error:
-            raise DecodeError(f"gate `{self.name}` received an undecodable reply: {error}") from error.__cause__
-        return reply
+    def stats(self) -> dict[str, Any]:
+        """Returns the gate's counts."""
+        return _with_rejected(super().stats(), self._owner.rejected)
 
 
 class Request(Generic[A, B]):
@@ -287,7 +288,10 @@ class Rep(Gate, Generic[A, B]):
 
     async def recv_async(self, timeout: float | None = None) -> Request[A, B]:
         """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no request."""
-        return self._decoded(await self._until(self._native.poll_recv_request, timeout))
+        native = self._native
+        return self._decoded(
+            await self._until(native.poll_recv_request, timeout, lambda waited: native.recv_request(0, waited))
+        )
 
     def __iter__(self) -> Iterator[Request[A, B]]:
         """Yields requests until the component is closed or SIGTERM asks the program to stop."""
@@ -308,8 +312,14 @@ class Rep(Gate, Generic[A, B]):
             yield request
 
     def _decoded(self, request: _native.Request) -> Request[A, B]:
-        try:
-            message: A = self._request.decode(request.data)
-        except DecodeError as error:
-            raise DecodeError(f"gate `{self.name}` received an undecodable request: {error}") from error.__cause__
-        return Request(request, message, self._reply)
+        return Request(request, self._request.decode(request.data), self._reply)
+
+    def stats(self) -> dict[str, Any]:
+        """Returns the gate's counts."""
+        return _with_rejected(super().stats(), self._request.owner.rejected)
+
+
+def _with_rejected(stats: dict[str, Any], undecodable: int) -> dict[str, Any]:
+    """Adds the frames that the package could not decode: for the native part they are bytes."""
+    stats["rejected"] += undecodable
+    return stats

@@ -2,38 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from typing import Any
 
+from scl._errors import DecodeError
 
-@dataclass(frozen=True, slots=True)
+
 class Codec:
     """Encodes the messages of one gate into frames and decodes them."""
 
-    name: str
-    """As in the topology file: `json`."""
-    type: type[Any]
-    """The class of the messages: a protobuf message class, `bytes`, or `object` for plain values."""
-    encode: Callable[[Any], bytes]
-    """Returns the frame of a message.
+    __slots__ = ("decode", "encode", "name", "owner", "type")
 
-    Raises `TypeError` for a message of another class, and `EncodeError` for a value that the codec cannot represent.
-    """
-    decode: Callable[[bytes], Any]
-    """Returns the message of a frame. Raises `DecodeError` for every frame that is not a message."""
+    def __init__(
+        self,
+        name: str,
+        type: type[Any],
+        encode: Callable[[Any], bytes],
+        decode: Callable[[bytes], Any],
+        owner: Owner,
+    ) -> None:
+        self.name = name
+        """As in the topology file: `json`."""
+        self.type = type
+        """The class of the messages: a protobuf message class, `bytes`, or `object` for plain values."""
+        self.encode = encode
+        """Returns the frame of a message.
+
+        Raises `TypeError` for a message of another class, and `EncodeError` for a value that the codec cannot represent.
+        """
+        self.decode = decode
+        """Returns the message of a frame. Raises `DecodeError` for every frame that is not a message, and counts it."""
+        self.owner = owner
+        """The gate."""
 
 
-class EncodeError(ValueError):
-    """A codec cannot represent a value."""
+class Owner:
+    """The gate for which a codec works."""
 
+    __slots__ = ("gate", "peers", "rejected")
 
-class DecodeError(ValueError):
-    """A frame is not a message of the expected type."""
+    def __init__(self, gate: str, peers: Sequence[str] = ()) -> None:
+        self.gate = gate
+        """As messages name it: `controller.sensor`."""
+        self.peers = peers
+        """The gates from which frames arrive."""
+        self.rejected = 0
+        """How many frames were not messages."""
 
-
-class UnsupportedCodecError(Exception):
-    """Python cannot read the messages of a gate, or lacks a package for it."""
+    def undecodable(self, reason: object) -> DecodeError:
+        """Counts a frame, and returns the error that names the gate and its peers."""
+        self.rejected += 1
+        senders = f" from {', '.join(f'`{peer}`' for peer in self.peers)}" if self.peers else ""
+        return DecodeError(f"gate `{self.gate}` received an undecodable message{senders}: {reason}")
 
 
 def kind_of(value: object) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import difflib
 import functools
 import importlib
 import sys
@@ -11,7 +10,7 @@ import threading
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from scl.codec._codec import UnsupportedCodecError
+from scl._errors import UnsupportedCodecError
 
 if TYPE_CHECKING:
     from google.protobuf.descriptor_pb2 import FileDescriptorProto
@@ -90,6 +89,8 @@ def lazy_messages(
         elif name in enums:
             found = messages_of_plan(plan).enum(enums[name])
         else:
+            import difflib
+
             declared = vars(sys.modules[module])
             known = [*messages, *enums, *(it for it in declared if not it.startswith("_"))]
             nearest = difflib.get_close_matches(name, known, n=1)

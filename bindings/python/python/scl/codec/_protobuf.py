@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from scl.codec._codec import Codec, DecodeError, EncodeError, kind_of
+from scl._errors import EncodeError
+from scl.codec._codec import Codec, Owner, kind_of
 
 if TYPE_CHECKING:
     from google.protobuf.message import Message
 
 
-def protobuf(gate: str, message_class: type[Message]) -> Codec:
+def protobuf(owner: Owner, message_class: type[Message]) -> Codec:
     """Returns the codec `protobuf` for a message class."""
     from google.protobuf import message
 
@@ -21,27 +21,29 @@ def protobuf(gate: str, message_class: type[Message]) -> Codec:
 
     def encode(value: Message) -> bytes:
         if type(value) is not message_class:
-            raise wrong_class(gate, name, value)
+            raise wrong_class(owner.gate, name, value)
         try:
             return serialize(value)
         except message.EncodeError as error:
             # A field that proto2 requires has no value.
-            raise EncodeError(f"gate `{gate}` cannot send this `{name}`: {error}") from error
+            raise EncodeError(f"gate `{owner.gate}` cannot send this `{name}`: {error}") from error
 
     def decode(frame: bytes) -> Message:
         try:
             return parse(frame)
         except message.DecodeError as error:
-            raise DecodeError(f"these {len(frame)} bytes do not decode as `{name}`") from error
+            raise owner.undecodable(f"these {len(frame)} bytes do not decode as `{name}`") from error
 
-    return Codec("protobuf", message_class, encode, decode)
+    return Codec("protobuf", message_class, encode, decode, owner)
 
 
-def canonical_json(gate: str, message_class: type[Message]) -> Codec:
+def canonical_json(owner: Owner, message_class: type[Message]) -> Codec:
     """Returns the codec `json` for a message class: https://protobuf.dev/programming-guides/json.
 
     Fields that the class does not know are skipped, as in `protobuf`: a newer program may send them.
     """
+    import json
+
     from google.protobuf import json_format
 
     name = message_class.DESCRIPTOR.full_name
@@ -49,22 +51,26 @@ def canonical_json(gate: str, message_class: type[Message]) -> Codec:
 
     def encode(value: Message) -> bytes:
         if type(value) is not message_class:
-            raise wrong_class(gate, name, value)
+            raise wrong_class(owner.gate, name, value)
         try:
             text = json.dumps(to_dict(value), separators=(",", ":"), ensure_ascii=False, allow_nan=False)
         except (json_format.Error, ValueError, TypeError) as error:
             # A time outside of the years 1 to 9999, for example.
-            raise EncodeError(f"gate `{gate}` cannot send this `{name}` as JSON: {error}") from error
+            raise EncodeError(f"gate `{owner.gate}` cannot send this `{name}` as JSON: {error}") from error
         return text.encode()
 
     def decode(frame: bytes) -> Message:
         try:
-            return json_format.Parse(frame.decode(), message_class(), ignore_unknown_fields=True)
+            text = frame.decode()
+            if not text.lstrip(" \t\r\n").startswith("{"):
+                # The parser takes an empty list for a message.
+                raise ValueError("it is not a JSON object")
+            return json_format.Parse(text, message_class(), ignore_unknown_fields=True)
         # The parser lets errors of its parts through, also `RecursionError` and `AttributeError`.
         except Exception as error:
-            raise DecodeError(f"these {len(frame)} bytes are not the JSON of a `{name}`: {error}") from error
+            raise owner.undecodable(f"these {len(frame)} bytes are not the JSON of a `{name}`: {error}") from error
 
-    return Codec("json", message_class, encode, decode)
+    return Codec("json", message_class, encode, decode, owner)
 
 
 def wrong_class(gate: str, expected: str, value: object) -> TypeError:

@@ -6,18 +6,18 @@ What is sent may contain dataclasses, which become maps of their fields as serde
 
 from __future__ import annotations
 
-import dataclasses
 import importlib
 import io
-import json
 import struct
 from typing import Any, NoReturn
 
-from scl.codec._codec import Codec, DecodeError, EncodeError, UnsupportedCodecError, kind_of
+from scl._errors import EncodeError, UnsupportedCodecError
+from scl.codec._codec import Codec, Owner, kind_of
 
 
-def json_values(gate: str, name: str) -> Codec:
+def json_values(owner: Owner, name: str) -> Codec:
     """Returns the codec `json` for plain values."""
+    import json
 
     def plain(value: object) -> object:
         # As serde does it: JSON has no bytes.
@@ -28,20 +28,20 @@ def json_values(gate: str, name: str) -> Codec:
             text = json.dumps(value, separators=(",", ":"), ensure_ascii=False, allow_nan=False, default=plain)
             return text.encode()
         except (TypeError, ValueError, RecursionError) as error:
-            raise _refused(gate, name, "JSON", error) from error
+            raise _refused(owner.gate, name, "JSON", error) from error
 
     def decode(frame: bytes) -> object:
         try:
             return json.loads(frame.decode(), parse_constant=_no_constant)
         except (ValueError, RecursionError) as error:
-            raise DecodeError(f"these {len(frame)} bytes are not JSON: {error}") from error
+            raise owner.undecodable(f"these {len(frame)} bytes are not JSON: {error}") from error
 
-    return Codec("json", object, encode, decode)
+    return Codec("json", object, encode, decode, owner)
 
 
-def cbor(gate: str, name: str) -> Codec:
+def cbor(owner: Owner, name: str) -> Codec:
     """Returns the codec `cbor`. Needs the package `cbor2`."""
-    cbor2 = _extra("cbor2", "cbor", gate)
+    cbor2 = _extra("cbor2", "cbor", owner.gate)
 
     def encode(value: object) -> bytes:
         try:
@@ -50,7 +50,7 @@ def cbor(gate: str, name: str) -> Codec:
                 # cbor2 shortens infinity and NaN to 16 bits, which serde does not read.
                 frame = cbor2.dumps(value, default=fields, encoders={float: wide})
         except (TypeError, ValueError, RecursionError, cbor2.CBOREncodeError) as error:
-            raise _refused(gate, name, "CBOR", error) from error
+            raise _refused(owner.gate, name, "CBOR", error) from error
         return frame
 
     def fields(encoder: Any, value: object) -> None:
@@ -65,23 +65,23 @@ def cbor(gate: str, name: str) -> Codec:
             value: object = cbor2.CBORDecoder(input).decode()
         # Tags make the decoder build dates, regular expressions and more, whose errors it lets through.
         except Exception as error:
-            raise DecodeError(f"these {len(frame)} bytes are not CBOR: {error}") from error
+            raise owner.undecodable(f"these {len(frame)} bytes are not CBOR: {error}") from error
         if input.tell() != len(frame):
-            raise DecodeError(f"data follows the CBOR item in this {len(frame)}-byte frame")
+            raise owner.undecodable(f"data follows the CBOR item in this {len(frame)}-byte frame")
         return value
 
-    return Codec("cbor", object, encode, decode)
+    return Codec("cbor", object, encode, decode, owner)
 
 
-def msgpack(gate: str, name: str) -> Codec:
+def msgpack(owner: Owner, name: str) -> Codec:
     """Returns the codec `msgpack`. Needs the package `msgpack`."""
-    library = _extra("msgpack", "msgpack", gate)
+    library = _extra("msgpack", "msgpack", owner.gate)
 
     def encode(value: object) -> bytes:
         try:
             frame: bytes = library.packb(value, default=_fields)
         except (TypeError, ValueError, OverflowError, RecursionError) as error:
-            raise _refused(gate, name, "MessagePack", error) from error
+            raise _refused(owner.gate, name, "MessagePack", error) from error
         return frame
 
     def decode(frame: bytes) -> object:
@@ -90,14 +90,16 @@ def msgpack(gate: str, name: str) -> Codec:
             value: object = library.unpackb(frame, strict_map_key=False)
         except Exception as error:
             reason = str(error) or type(error).__name__
-            raise DecodeError(f"these {len(frame)} bytes are not MessagePack: {reason}") from error
+            raise owner.undecodable(f"these {len(frame)} bytes are not MessagePack: {reason}") from error
         return value
 
-    return Codec("msgpack", object, encode, decode)
+    return Codec("msgpack", object, encode, decode, owner)
 
 
 def _fields(value: object) -> dict[str, object]:
     """Returns the fields of a dataclass; values inside of them are encoded in turn."""
+    import dataclasses
+
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
     raise TypeError(f"{kind_of(value)} is neither a plain value nor a dataclass")
