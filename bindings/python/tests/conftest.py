@@ -87,6 +87,11 @@ class Program:
     def kill(self) -> None:
         self.process.kill()
         self.process.wait()
+        for reader in self._readers:
+            reader.join(HANG_LIMIT)
+        for stream in [self.process.stdin, self.process.stdout, self.process.stderr]:
+            assert stream is not None
+            stream.close()
 
 
 class System:

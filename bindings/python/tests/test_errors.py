@@ -4,6 +4,7 @@ import json
 import pickle
 import re
 import threading
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -86,8 +87,10 @@ def test_a_topology_with_errors_is_refused_with_the_words_of_the_checker(tmp_pat
 def test_warnings_of_the_checker_are_python_warnings(system: System, tmp_path: Path) -> None:
     file = tmp_path / "warned.yaml"
     file.write_text("components:\n  - name: a\n    gates:\n      - x: pub\n")
-    with pytest.warns(UserWarning, match="warning: .SCL0701") as warned:
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
         scl.open(file, "a", runtime_dir=system.folder).close()
+    assert ["[SCL0206]" in str(warned[0].message), "[SCL0701]" in str(warned[1].message)] == [True, True]
     assert Path(warned[0].filename).name == "test_errors.py"
 
 
