@@ -183,3 +183,10 @@ fn a_build_may_replace_the_running_command() {
     let output = command.arg("run").current_dir(system.path("")).output().unwrap();
     assert_eq!(text(&output.stdout), "a | started\n", "{}", text(&output.stderr));
 }
+
+#[test]
+fn a_build_can_call_the_running_command() {
+    let output = run("components: {a: {build: $SCL --version, command: 'true'}}", &[]);
+    let err = text(&output.stderr);
+    assert!(err.contains(concat!("a | scl ", env!("CARGO_PKG_VERSION"), "\n")), "{err}");
+}

@@ -3,7 +3,9 @@
 
 mod all_topologies;
 mod c;
+mod c_programs;
 mod clashes;
+mod cpp;
 mod fixture;
 mod python;
 mod writing;

@@ -4,6 +4,7 @@ mod bad_input;
 mod bounded;
 mod children;
 mod circle;
+mod cpp;
 mod descriptors;
 mod drop;
 mod exit;
