@@ -3,7 +3,7 @@
 use crate::load::{MaxSize, load_file, show_diagnostics};
 use crate::print::{print_err, print_out};
 use clap::{Args, ValueEnum};
-use scl_generate::{Component, File, Format, Outcome, System, Target, is_current, write};
+use scl_generate::{Component, File, Format, Outcome, OutputError, System, Target, is_current, write};
 use scl_plan::SystemPlan;
 use scl_topology::diagnostic::Severity;
 use std::error::Error;
@@ -46,6 +46,9 @@ pub(crate) struct GenerateArguments {
     /// Write nothing; fail if a file is not up to date.
     #[arg(long)]
     check: bool,
+    /// Also write the dependencies of the first generated file, as Make and Ninja read them: the topology and its schemas.
+    #[arg(long, value_name = "FILE", conflicts_with = "check")]
+    depfile: Option<PathBuf>,
     #[command(flatten)]
     max_size: MaxSize,
 }
@@ -86,13 +89,22 @@ pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
             return ExitCode::FAILURE;
         }
     };
-    match (&arguments.output, arguments.target, arguments.check) {
-        (None, Language::Zmq, false) => {
-            files.iter().for_each(|file| print_out(&file.text));
-            ExitCode::SUCCESS
+    let folder = arguments.output.as_deref().unwrap_or(Path::new(""));
+    if arguments.check {
+        return check_files(folder, &files);
+    }
+    if arguments.output.is_none() && arguments.target == Language::Zmq {
+        files.iter().for_each(|file| print_out(&file.text));
+        return ExitCode::SUCCESS;
+    }
+    let depfile = arguments.depfile.as_deref().map(|path| (path, depfile(&loaded.files_read, folder, &files)));
+    match write_files(folder, &files).and_then(|()| depfile.map_or(Ok(()), |(path, file)| write_depfile(path, &file))) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let cause = error.source().map(|cause| format!(": {cause}")).unwrap_or_default();
+            print_err(&format!("error: {error}{cause}\n"));
+            ExitCode::from(COULD_NOT_RUN)
         }
-        (folder, _, true) => check_files(folder.as_deref().unwrap_or(Path::new("")), &files),
-        (folder, _, false) => write_files(folder.as_deref().unwrap_or(Path::new("")), &files),
     }
 }
 
@@ -130,17 +142,27 @@ fn check_files(folder: &Path, files: &[File]) -> ExitCode {
     if old.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-fn write_files(folder: &Path, files: &[File]) -> ExitCode {
+fn write_files(folder: &Path, files: &[File]) -> Result<(), OutputError> {
     for file in files {
-        match write(folder, file) {
-            Ok(Outcome::Written) => print_out(&format!("wrote {}\n", folder.join(&file.name).display())),
-            Ok(Outcome::Unchanged) => print_out(&format!("{} is up to date\n", folder.join(&file.name).display())),
-            Err(error) => {
-                let cause = error.source().map(|cause| format!(": {cause}")).unwrap_or_default();
-                print_err(&format!("error: {error}{cause}\n"));
-                return ExitCode::from(COULD_NOT_RUN);
-            }
+        let path = folder.join(&file.name);
+        match write(folder, file)? {
+            Outcome::Written => print_out(&format!("wrote {}\n", path.display())),
+            Outcome::Unchanged => print_out(&format!("{} is up to date\n", path.display())),
         }
     }
-    ExitCode::SUCCESS
+    Ok(())
+}
+
+/// A rule for Make: the first generated file depends on what was read.
+fn depfile(read: &[PathBuf], folder: &Path, files: &[File]) -> String {
+    let escaped = |path: &Path| path.display().to_string().replace(' ', "\\ ").replace('#', "\\#").replace('$', "$$");
+    let target = files.first().map(|file| escaped(&folder.join(&file.name))).unwrap_or_default();
+    let read: String = read.iter().map(|path| format!(" {}", escaped(path))).collect();
+    format!("{target}:{read}\n")
+}
+
+fn write_depfile(path: &Path, text: &str) -> Result<(), OutputError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    write(folder, &File { name, text: text.to_owned() }).map(drop)
 }

@@ -1,4 +1,4 @@
-//! `scl run`: starts the program of every component, shows what they print, and stops them together.
+//! `scl run`: builds and starts the program of every component, shows what they print, and stops them together.
 
 use crate::duration::parse_duration;
 use crate::load::{MaxSize, load_file, show_errors};
@@ -14,35 +14,27 @@ pub(crate) use scl_run::{GUARD_WORD, START_WORD, keep_watch};
 /// Exit code: nothing could be started.
 const COULD_NOT_RUN: u8 = 2;
 
-/// Start every component of a system and show what they print.
+/// Build and start every component of a system and show what they print.
 ///
-/// Reads `launch.yaml` in FOLDER, which says how each component is started. Without one, builds the cargo package in
-/// FOLDER and starts the program named like each component of `topology.yaml`.
+/// Reads `launch.yaml` in FOLDER, which says how each component is built and started. Without one, builds the cargo
+/// package in FOLDER and starts the program named like each component of `topology.yaml`.
 ///
 /// When one component fails, the others are stopped. Ctrl-C and SIGTERM are passed on to all; a second one kills at once.
 #[derive(Args)]
-#[command(after_help = "\
-Examples:
-  scl run                         the system in the working folder
-  scl run examples/rover --for 5s stop after 5 seconds: a test run
-  scl run rover/replay.yaml       another launch file
-
-A launch file:
-  transport: ipc                  # optional: ipc or tcp
-  environment: {RUST_LOG: info}   # optional: for all programs
-  components:
-    sensor:
-      command: [./sensor, --rate, 100]   # a list is executed as it is
-    controller:
-      command: ./controller 2>> log      # a text is given to the shell
-      environment: {GAIN: 0.5}
-      folder: control                    # default: the folder of the launch file
-
-Exit code: 0 all ended in order or were stopped, 1 a component failed or had to be killed, 2 nothing could be started.")]
+#[command(after_help = after_help())]
 pub(crate) struct RunArguments {
     /// The system's folder, or a launch file.
     #[arg(default_value = ".")]
     folder: PathBuf,
+    /// Use the programs of this profile of the launch file; several: later ones win.
+    #[arg(long = "profile", value_name = "NAME")]
+    profiles: Vec<String>,
+    /// Start these components only.
+    #[arg(long, value_name = "COMPONENT,...", value_delimiter = ',')]
+    only: Vec<String>,
+    /// Start all components but these.
+    #[arg(long, value_name = "COMPONENT,...", value_delimiter = ',', conflicts_with = "only")]
+    without: Vec<String>,
     /// Stop after this time, for example `5s`, and succeed.
     #[arg(long = "for", value_name = "TIME", value_parser = parse_duration)]
     run_for: Option<Duration>,
@@ -52,6 +44,23 @@ pub(crate) struct RunArguments {
     /// Build the cargo package with optimizations.
     #[arg(long)]
     release: bool,
+}
+
+fn after_help() -> String {
+    let example: String = scl_run::EXAMPLE_LAUNCH_FILE.lines().map(|line| format!("  {line}\n")).collect();
+    format!(
+        "\
+Examples:
+  scl run                         the system in the working folder
+  scl run examples/rover --for 5s stop after 5 seconds: a test run
+  scl run rover/replay.yaml       another launch file
+  scl run --profile python        the programs of a profile
+  scl run --only sensor           one component, while the others run elsewhere
+
+A launch file (docs/launch.md has all of it):
+{example}
+Exit code: 0 all ended in order or were stopped, 1 a component failed or had to be killed, 2 nothing could be started."
+    )
 }
 
 /// Become a component's program, which ends when its parent ends.
@@ -68,6 +77,9 @@ pub(crate) struct StartArguments {
 pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
     let options = scl_run::Options {
         folder: arguments.folder.clone(),
+        profiles: arguments.profiles.clone(),
+        only: arguments.only.clone(),
+        without: arguments.without.clone(),
         release: arguments.release,
         run_for: arguments.run_for,
         grace: arguments.grace,

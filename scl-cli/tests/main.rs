@@ -12,17 +12,25 @@ mod completions;
 mod diff;
 mod editor;
 mod explain;
+#[cfg(feature = "generate")]
+mod generate;
 mod graph;
+#[cfg(all(feature = "run", feature = "generate"))]
+mod languages;
 mod lsp;
 mod plan;
 #[cfg(feature = "run")]
 mod quickstart;
+#[cfg(feature = "run")]
+mod run_build;
 #[cfg(feature = "run")]
 mod run_mistakes;
 #[cfg(feature = "run")]
 mod run_output;
 #[cfg(feature = "run")]
 mod run_package;
+#[cfg(feature = "run")]
+mod run_profiles;
 #[cfg(feature = "run")]
 mod run_stop;
 mod rust_analyzer;

@@ -23,16 +23,16 @@ fn unknown_keys_get_a_suggestion_and_the_list() {
             error: unknown key `transprt` in a launch file
              --> launch.yaml:1:1
               = help: did you mean `transport`?
-              = note: the keys are `components`, `environment`, `transport`
+              = note: the keys are `build`, `components`, `environment`, `profiles`, `topology`, `transport`
 
             error: unknown key `comand` in component `sensor`
              --> launch.yaml:4:25
               = help: did you mean `command`?
-              = note: the keys are `command`, `environment`, `folder`
+              = note: the keys are `build`, `command`, `environment`, `folder`
 
             error: unknown key `colour` in component `b`
              --> launch.yaml:5:20
-              = note: the keys are `command`, `environment`, `folder`
+              = note: the keys are `build`, `command`, `environment`, `folder`
 
         "#]],
     );
@@ -58,7 +58,7 @@ fn a_missing_or_empty_command_is_shown_how_to_write() {
             error: unknown key `comand` in component `d`
              --> launch.yaml:6:7
               = help: did you mean `command`?
-              = note: the keys are `command`, `environment`, `folder`
+              = note: the keys are `build`, `command`, `environment`, `folder`
 
             error: component `e` has no usable `command`
              --> launch.yaml:7:7
@@ -174,4 +174,94 @@ fn a_folder_without_a_system_says_what_was_looked_for() {
     assert!(err.starts_with("error: there is neither `launch.yaml` nor `topology.yaml` in `"), "{err}");
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(system.run(&["no-such-folder"]).status.code(), Some(2));
+}
+
+#[test]
+fn mistakes_in_builds_and_profiles_have_their_place() {
+    check(
+        "\
+components:
+  a: {command: ls, build: []}
+  b: {command: ls, build: {make: all}}
+build: 3
+profiles:
+  python: {a: {comand: ls}, c: {folder: .}, b: ls}
+  sim: [a]
+  2: {}
+",
+        &expect![[r#"
+            error: this `build` is not a command
+             --> launch.yaml:4:1
+              = help: write `build: make sensor` or `build: [make, sensor]`
+
+            error: this `build` is not a command
+             --> launch.yaml:2:20
+              = help: write `build: make sensor` or `build: [make, sensor]`
+
+            error: this `build` is not a command
+             --> launch.yaml:3:20
+              = help: write `build: make sensor` or `build: [make, sensor]`
+
+            error: unknown key `comand` in component `a`
+             --> launch.yaml:6:16
+              = help: did you mean `command`?
+              = note: the keys are `build`, `command`, `environment`, `folder`
+
+            error: component `c` has no usable `command`
+             --> launch.yaml:6:29
+              = help: write `command: ./c` or `command: [./c, --verbose]`
+
+            error: the entry of component `b` is not a mapping
+             --> launch.yaml:6:45
+              = help: write `b: {command: ls}`
+
+            error: profile `sim` is not a mapping from components to commands
+             --> launch.yaml:7:3
+              = help: write `sim: {sensor: {command: ./sensor}}`
+
+            error: the name of a profile is a word, not `2`
+             --> launch.yaml:5:1
+
+        "#]],
+    );
+    check(
+        "components: {a: {command: ls}}\nprofiles: [python]\ntopology: []\n",
+        &expect![[r#"
+        error: `topology` is a path, not a list
+         --> launch.yaml:3:1
+
+        error: `profiles` is a mapping, not a list
+         --> launch.yaml:2:1
+          = help: write `profiles: {python: {sensor: {command: ./sensor.py}}}`
+
+    "#]],
+    );
+}
+
+#[test]
+fn a_missing_topology_file_is_reported_where_it_is_named() {
+    check(
+        "components: {a: {command: ls}}\ntopology: wiring.yaml\n",
+        &expect![[r#"
+        error: the topology file does not exist: `FOLDER/wiring.yaml`
+         --> launch.yaml:2:1
+
+    "#]],
+    );
+}
+
+#[test]
+fn profiles_are_compared_with_the_topology() {
+    let launch = "topology: t.yaml\ncomponents: {sensor: {command: ls}}\nprofiles: {python: {sensr: {command: ls}}}\n";
+    let topology = "components:\n  - name: sensor\n    gates: [{m: pub}]\n";
+    let system = System::of_files(&[("launch.yaml", launch), ("t.yaml", topology)]);
+    let output = system.run(&["launch.yaml"]);
+    expect![[r#"
+        error: unknown component `sensr`
+         --> launch.yaml:3:21
+          = help: did you mean `sensor`?
+          = note: the topology has the components `sensor`
+
+    "#]]
+    .assert_eq(&String::from_utf8(output.stderr).unwrap());
 }

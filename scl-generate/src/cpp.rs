@@ -1,15 +1,183 @@
-//! `--for cpp`: a header with one class per component, over `scl.hpp`.
+//! `--for cpp`: a header with one struct per component, over `scl.hpp` and the headers that protoc writes.
 
-use crate::clash::Declaration;
+mod messages;
+mod plan_text;
+
+use crate::clash::{Declaration, Origin};
+use crate::comment;
+use crate::identifier;
 use crate::output::File;
-use crate::system::System;
+use crate::system::{Component, Gate, MessageUse, System};
+use crate::writer::Writer;
+use messages::Messages;
+use scl_plan::GateKind;
+
+/// Namespaces that a system must not become: those of the standard library and of SCL itself.
+const TAKEN_NAMESPACES: [&str; 2] = ["std", "scl"];
+
+/// The functions of `scl::Component`, which a gate of the same name would hide.
+const OF_COMPONENTS: [&str; 5] = ["close", "fd", "handle", "name", "ready"];
 
 /// The names that the header declares.
-pub(crate) fn declarations(_system: &System) -> Vec<Declaration> {
-    Vec::new()
+pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
+    let namespace = namespace(system);
+    let inside = format!("the C++ namespace `{namespace}`");
+    let component = |component: &Component| Declaration {
+        scope: inside.clone(),
+        name: component.class_name.clone(),
+        origin: Origin::component(component),
+    };
+    let mut declarations = messages::declarations(system, &namespace, &inside);
+    declarations.extend(system.components.iter().map(component));
+    declarations.extend(system.components.iter().flat_map(|component| {
+        component.gates.iter().map(|gate| Declaration {
+            scope: format!("the C++ struct `{namespace}::{}`", component.class_name),
+            name: member(gate),
+            origin: Origin::gate(component, gate),
+        })
+    }));
+    declarations
 }
 
 /// `<system>.scl.hpp`.
 pub(crate) fn files(system: &System) -> Vec<File> {
-    vec![File { name: format!("{}.scl.hpp", system.snake_name()), text: format!("// {}\n", system.header()) }]
+    let messages = Messages::of(system);
+    let namespace = namespace(system);
+    let mut out = Writer::new("    ");
+    out.line(format!("// {}", system.header()));
+    out.line("#pragma once");
+    out.blank();
+    out.line("#include <scl.hpp>");
+    let gates = || system.components.iter().flat_map(|component| &component.gates);
+    if gates().any(|gate| carries_messages(gate) && gate.plan.codec == "json") {
+        out.line("#include <scl/json.hpp>");
+    }
+    if gates().any(|gate| carries_messages(gate) && gate.plan.codec == "protobuf") {
+        out.line("#include <scl/protobuf.hpp>");
+    }
+    let headers = messages.headers(
+        gates().filter(|gate| carries_messages(gate)).flat_map(|gate| &gate.types).filter(|used| used.in_schemas),
+    );
+    if !headers.is_empty() {
+        out.blank();
+        headers.iter().for_each(|header| out.line(format!("#include \"{header}\"")));
+    }
+    out.blank();
+    out.line(format!("namespace {namespace} {{"));
+    out.blank();
+    out.line("namespace scl_generated {");
+    out.blank();
+    out.line("/// What the programs need of the topology file, as `scl plan` prints it.");
+    out.line(format!("inline constexpr ::std::string_view plan = {};", plan_text::literal(&system.plan_json())));
+    out.blank();
+    out.line("} // namespace scl_generated");
+    for component in &system.components {
+        out.blank();
+        write_component(&mut out, component, &messages);
+    }
+    out.blank();
+    out.line(format!("}} // namespace {namespace}"));
+    vec![File { name: format!("{}.scl.hpp", system.snake_name()), text: out.finish() }]
+}
+
+fn namespace(system: &System) -> String {
+    let name = identifier::c_family(&system.snake_name());
+    if TAKEN_NAMESPACES.contains(&name.as_str()) { format!("{name}_") } else { name }
+}
+
+fn write_component(out: &mut Writer, component: &Component, messages: &Messages) {
+    let class = &component.class_name;
+    let default = format!("The component `{}`.", component.name);
+    write_comment(out, component.doc.as_deref().unwrap_or(&default));
+    out.block(format!("struct {class} : ::scl::Component {{"), "};", |out| {
+        out.line("/// Opens the component. Throws `scl::Taken` if it is already running.");
+        out.line(format!("explicit {class}(const ::scl::Options& options = {{}})"));
+        out.line(format!("    : ::scl::Component(scl_generated::plan, \"{}\", options) {{}}", component.name));
+        for gate in &component.gates {
+            out.blank();
+            write_gate(out, gate, messages);
+        }
+    });
+}
+
+fn write_gate(out: &mut Writer, gate: &Gate, messages: &Messages) {
+    gate.doc.iter().for_each(|doc| write_comment(out, doc));
+    write_comment(out, &peers(gate));
+    if let Some(note) = bytes_note(gate) {
+        write_comment(out, &note);
+    }
+    out.line(format!("{} {}{{*this, \"{}\"}};", gate_type(gate, messages), member(gate), gate.name));
+}
+
+fn member(gate: &Gate) -> String {
+    let name = identifier::c_family(&gate.snake_name);
+    if OF_COMPONENTS.contains(&name.as_str()) { format!("{name}_") } else { name }
+}
+
+/// `::scl::Sub<::rover::Measurement>`.
+fn gate_type(gate: &Gate, messages: &Messages) -> String {
+    let class = match gate.plan.kind {
+        GateKind::Pub => "Pub",
+        GateKind::Sub => "Sub",
+        GateKind::Req => "Req",
+        GateKind::Rep => "Rep",
+        GateKind::Push => "Push",
+        GateKind::Pull => "Pull",
+    };
+    let is_exchange = matches!(gate.plan.kind, GateKind::Req | GateKind::Rep);
+    let mut arguments: Vec<String> = gate.types.iter().map(|used| message_type(gate, used, messages)).collect();
+    if arguments.is_empty() {
+        arguments = vec![BYTES.to_owned(); if is_exchange { 2 } else { 1 }];
+    }
+    if gate.plan.codec == "json" && carries_messages(gate) {
+        arguments.push("::scl::Json".to_owned());
+    }
+    format!("::scl::{class}<{}>", arguments.join(", "))
+}
+
+const BYTES: &str = "::scl::Bytes";
+
+/// The C++ type of a message: protobuf's if there is one, text for other JSON, else bytes.
+fn message_type(gate: &Gate, used: &MessageUse, messages: &Messages) -> String {
+    match (messages.cpp_type(&used.dotted), gate.plan.codec.as_str()) {
+        (Some(cpp_type), "protobuf" | "json") if used.in_schemas => cpp_type.to_owned(),
+        (_, "json") => "::std::string".to_owned(),
+        _ => BYTES.to_owned(),
+    }
+}
+
+/// Whether a gate carries protobuf messages as such.
+fn carries_messages(gate: &Gate) -> bool {
+    matches!(gate.plan.codec.as_str(), "protobuf" | "json") && gate.types.iter().any(|used| used.in_schemas)
+}
+
+fn peers(gate: &Gate) -> String {
+    let peers: Vec<_> =
+        gate.plan.connections.iter().map(|it| format!("`{}.{}`", it.peer_component, it.peer_gate)).collect();
+    match peers.as_slice() {
+        [] => "Not connected.".to_owned(),
+        peers => format!("Connected to {}.", peers.join(", ")),
+    }
+}
+
+/// What the bytes of a gate are that has a type for which there is none in C++.
+fn bytes_note(gate: &Gate) -> Option<String> {
+    let foreign: Vec<_> = gate.types.iter().filter(|used| !used.in_schemas).collect();
+    let codec = &gate.plan.codec;
+    match foreign.as_slice() {
+        [] if carries_messages(gate) || gate.types.is_empty() => None,
+        [] => Some(format!("Bytes of the codec `{codec}`, which C++ does not know.")),
+        types => {
+            let names: Vec<_> = types.iter().map(|used| format!("`{}`", used.dotted)).collect();
+            let form = if codec == "json" { "JSON text" } else { "Bytes" };
+            Some(format!("{form} of the Rust type {} (codec `{codec}`).", names.join(" and ")))
+        }
+    }
+}
+
+fn write_comment(out: &mut Writer, text: &str) {
+    // A backslash at the end of a line would make the next one a part of the comment.
+    for line in comment::lines(text).map(|line| line.trim_end_matches('\\').trim_end().to_owned()) {
+        out.line(if line.is_empty() { "///".to_owned() } else { format!("/// {line}") });
+    }
 }

@@ -1,15 +1,115 @@
 //! `--for python`: a typed module with one class per component, over the package `scl`.
+//!
+//! ```text
+//! # header, docstring, imports
+//! _PLAN                 the plan, from which components are opened and message classes are made
+//! class Sensor          one per component, gates as annotated attributes (`component`)
+//! if TYPE_CHECKING:     the messages as type checkers and editors see them (`message`)
+//! else:                 the messages when the program runs: made from the plan when they are first used
+//! ```
 
-use crate::clash::Declaration;
+mod component;
+mod docs;
+mod layout;
+mod message;
+mod names;
+mod schema;
+
+use crate::clash::{Declaration, Origin};
 use crate::output::File;
 use crate::system::System;
+use crate::writer::Writer;
+use layout::{Doc, Layout};
+use names::Names;
+use schema::Schema;
+use std::collections::BTreeSet;
 
 /// The names that the module declares.
-pub(crate) fn declarations(_system: &System) -> Vec<Declaration> {
-    Vec::new()
+pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
+    let schema = Schema::of(system);
+    let names = Names::of(system, &schema);
+    let scope = format!("module `{}`", module_name(system));
+    let declare = |name: &str, origin| Declaration { scope: scope.clone(), name: name.to_owned(), origin };
+    let mut found: Vec<Declaration> =
+        names::OWN.iter().map(|name| declare(name, Origin::generated(format!("`{name}` of the module")))).collect();
+    for component in &system.components {
+        let class = names::class(component);
+        found.extend(component.gates.iter().map(|gate| Declaration {
+            scope: format!("class `{class}`"),
+            name: names::gate(gate),
+            origin: Origin::gate(component, gate),
+        }));
+        found.push(declare(&class, Origin::component(component)));
+    }
+    let used: Vec<_> = system.components.iter().flat_map(|it| &it.gates).flat_map(|gate| &gate.types).collect();
+    found.extend(names.top_level().map(|(name, full_name)| {
+        let used = used.iter().find(|used| used.dotted == full_name);
+        declare(name, used.map_or_else(|| Origin::other_message(full_name), |used| Origin::message(used)))
+    }));
+    found
 }
 
 /// `<system>_scl.py`.
 pub(crate) fn files(system: &System) -> Vec<File> {
-    vec![File { name: format!("{}_scl.py", system.snake_name()), text: format!("# {}\n", system.header()) }]
+    let schema = Schema::of(system);
+    let names = Names::of(system, &schema);
+    let imports = Imports::default();
+    let mut body = Writer::new("    ");
+    for component in &system.components {
+        component::write(system, component, &names, &imports, &mut body);
+    }
+    let messages = message::Messages { schema: &schema, names: &names, imports: &imports };
+    messages.write(&mut body);
+
+    let mut out = Writer::new("    ");
+    out.line(format!("# {}", system.header()));
+    // Stricter modes ask for `@override` and for assignments of all attributes.
+    out.line("# pyright: basic");
+    out.line(format!("\"\"\"Components and messages of the system `{}`.\"\"\"", docs::escape(&system.name)));
+    out.line("\nfrom __future__ import annotations\n\nfrom typing import TYPE_CHECKING\n\nimport scl as _scl\n");
+    imports.write(&mut out);
+    let exported = system.components.iter().map(names::class).chain(names.top_level().map(|(name, _)| name.to_owned()));
+    let quoted = exported.collect::<BTreeSet<_>>().into_iter().map(|name| Doc::text(format!("\"{name}\"")));
+    let all = Doc::concat([Doc::text("__all__ = "), Doc::group("[", quoted.collect(), "]")]);
+    out.line(Layout::at(0).print(&all));
+    // JSON escapes quotes, and a raw text keeps its backslashes.
+    out.line(format!("\n_PLAN = r\"\"\"\n{}\"\"\"", system.plan_json()));
+    let text = out.finish() + &body.finish();
+    vec![File { name: format!("{}.py", module_name(system)), text }]
+}
+
+fn module_name(system: &System) -> String {
+    format!("{}_scl", system.snake_name())
+}
+
+/// The imports for type checkers that the module turns out to need.
+#[derive(Default)]
+struct Imports(std::cell::RefCell<BTreeSet<(&'static str, String, String)>>);
+
+impl Imports {
+    /// The name under which `module.name` is imported: with an underscore, so that no message has it.
+    fn of(&self, module: &'static str, name: &str) -> String {
+        let alias = format!("_{name}");
+        self.0.borrow_mut().insert((module, name.to_owned(), alias.clone()));
+        alias
+    }
+
+    fn write(&self, out: &mut Writer) {
+        let found = self.0.borrow();
+        if found.is_empty() {
+            return;
+        }
+        out.line("if TYPE_CHECKING:");
+        out.indented(|out| {
+            for (module, name, alias) in found.iter() {
+                match *module {
+                    "" => out.line(format!("import {name} as {alias}")),
+                    _ => {
+                        out.line(Layout::at(1).import(&format!("from {module} import "), &format!("{name} as {alias}")))
+                    }
+                }
+            }
+        });
+        out.blank();
+    }
 }

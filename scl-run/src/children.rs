@@ -1,4 +1,4 @@
-//! The running programs of the components: each in its own process group, each with threads that watch it.
+//! The running programs, of components and builds: each in its own process group, each with threads that watch it.
 
 use super::ending::Ending;
 use super::orphan_guard::{OrphanGuard, bound_command};
@@ -19,17 +19,26 @@ use std::time::Instant;
 /// What the watching threads tell the supervisor.
 #[derive(Debug)]
 pub(crate) enum Event {
-    /// A component's program ended.
-    Ended { component: usize, ending: Ending },
-    /// One of the two streams of a component ended.
-    StreamClosed { component: usize },
+    /// A program ended.
+    Ended { program: usize, ending: Ending },
+    /// One of the two streams of a program ended.
+    StreamClosed { program: usize },
     /// The reader of our output has gone.
     OutputLost,
     /// A signal asks us to stop.
     Asked(Signal),
 }
 
-/// The program of a component. It is reaped when this value is dropped, so that its process group id is not reused
+/// What a program is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// It makes the program of a component.
+    Build,
+    /// It runs a component.
+    Component,
+}
+
+/// A running program. It is reaped when this value is dropped, so that its process group id is not reused
 /// before that.
 #[derive(Debug)]
 pub(crate) struct Running {
@@ -40,14 +49,15 @@ pub(crate) struct Running {
 }
 
 impl Running {
-    /// Starts a program and the threads that watch it.
+    /// Starts a program and the threads that watch it; `index` is its number in the events and in the output.
     ///
     /// # Errors
     ///
     /// If no process can be started, or the guard has ended.
     pub(crate) fn start(
-        component: usize,
+        index: usize,
         program: &Program,
+        role: Role,
         guard: &mut OrphanGuard,
         output: &Arc<Output>,
         events: &Sender<Event>,
@@ -65,9 +75,11 @@ impl Running {
         let (out, err) = (process.stdout.take(), process.stderr.take());
         let running = Self { process, group, started };
         guard.watch(group)?;
-        watch_stream(component, Stream::Out, out, output, events);
-        watch_stream(component, Stream::Err, err, output, events);
-        watch_end(component, group, events.clone());
+        // Whoever reads our standard output wants the components' alone.
+        let out_stream = if role == Role::Build { Stream::Err } else { Stream::Out };
+        watch_stream(index, out_stream, out, output, events);
+        watch_stream(index, Stream::Err, err, output, events);
+        watch_end(index, group, events.clone());
         Ok(running)
     }
 
@@ -86,7 +98,7 @@ impl Drop for Running {
 }
 
 fn watch_stream(
-    component: usize,
+    program: usize,
     stream: Stream,
     from: Option<impl Read + Send + 'static>,
     output: &Arc<Output>,
@@ -94,22 +106,22 @@ fn watch_stream(
 ) {
     let (output, events) = (Arc::clone(output), events.clone());
     thread::spawn(move || {
-        let copied = from.map_or(Ok(()), |from| output.copy_lines(component, stream, from));
+        let copied = from.map_or(Ok(()), |from| output.copy_lines(program, stream, from));
         // After the supervisor has finished, nothing receives or needs the event.
-        let _ = events.send(if copied.is_ok() { Event::StreamClosed { component } } else { Event::OutputLost });
+        let _ = events.send(if copied.is_ok() { Event::StreamClosed { program } } else { Event::OutputLost });
     });
 }
 
-fn watch_end(component: usize, program: Pid, events: Sender<Event>) {
+fn watch_end(program: usize, process: Pid, events: Sender<Event>) {
     thread::spawn(move || {
-        let _ = events.send(Event::Ended { component, ending: wait_for_end(program) });
+        let _ = events.send(Event::Ended { program, ending: wait_for_end(process) });
     });
 }
 
 /// Waits without reaping.
-fn wait_for_end(program: Pid) -> Ending {
+fn wait_for_end(process: Pid) -> Ending {
     loop {
-        match waitid(Id::Pid(program), WaitPidFlag::WEXITED | WaitPidFlag::WNOWAIT) {
+        match waitid(Id::Pid(process), WaitPidFlag::WEXITED | WaitPidFlag::WNOWAIT) {
             Ok(status) => {
                 if let Some(ending) = Ending::from_wait(status) {
                     return ending;

@@ -33,9 +33,9 @@ impl<'a> LaunchText<'a> {
     /// Position of the last of these keys, as `launch.yaml:3:5`. Each is searched for after the one before it. If one is
     /// not found (for example because it is written with escapes), the position of the key before it.
     pub(crate) fn place(&self, keys: &[&str]) -> String {
-        let mut at = None;
-        for key in keys {
-            let Some(found) = self.find_key(key, at.map_or(0, |at| at + 1)) else { break };
+        let mut at = keys.first().and_then(|key| self.find_top_key(key));
+        for key in keys.iter().skip(1) {
+            let Some(found) = at.and_then(|at| self.find_key(key, at + 1)) else { break };
             at = Some(found);
         }
         let Some(at) = at else { return self.path.to_owned() };
@@ -44,6 +44,15 @@ impl<'a> LaunchText<'a> {
         let line = before.matches('\n').count() + 1;
         let column = before[line_start..].chars().count() + 1;
         format!("{}:{line}:{column}", self.path)
+    }
+
+    /// A key at the start of a line, else (as in a file that is one `{...}`) the first one.
+    fn find_top_key(&self, key: &str) -> Option<usize> {
+        let starts = self.text.match_indices(key).map(|(at, _)| at);
+        let is_at_start =
+            |at: usize| matches!(self.text[..at].trim_end_matches(['"', '\'']).chars().next_back(), None | Some('\n'));
+        let mut in_block = starts.into_iter().filter(|&at| is_at_start(at) && self.is_key(at, key.len()));
+        in_block.next().or_else(|| self.find_key(key, 0))
     }
 
     /// The first position from `start` on where `key` is used as a key, outside comments.

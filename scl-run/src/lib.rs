@@ -1,4 +1,4 @@
-//! Starts the program of every component of a system, shows what they print, and stops them together.
+//! Builds and starts the program of every component of a system, shows what they print, and stops them together.
 //!
 //! This is the work behind `scl run`. The program that calls [`run`] must offer two hidden commands to itself:
 //! [`START_WORD`], which calls [`start_component`], and [`GUARD_WORD`], which calls [`keep_watch`].
@@ -15,16 +15,21 @@ mod plan;
 mod problem;
 mod program;
 mod reports;
+mod selection;
 mod supervisor;
 
+pub use launch_file::EXAMPLE as EXAMPLE_LAUNCH_FILE;
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use plan::ComponentNames;
 pub use problem::Problem;
 
-use children::{Event, Running};
+use children::{Event, Role, Running};
+use ending::Ending;
+use nix::sys::signal::Signal;
 use orphan_guard::{OrphanGuard, stop_signals};
 use output::Output;
-use program::Program;
+use plan::RunPlan;
+use program::{Build, Program};
 use reports::Reports;
 use std::io;
 use std::path::PathBuf;
@@ -32,13 +37,19 @@ use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::Duration;
-use supervisor::{Limits, Supervisor};
+use supervisor::{Outcome, Supervisor};
 
 /// What to run, and how long.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Options {
     /// The system's folder, or a launch file.
     pub folder: PathBuf,
+    /// Profiles of the launch file; later ones win.
+    pub profiles: Vec<String>,
+    /// The components to start; all if empty.
+    pub only: Vec<String>,
+    /// Components not to start.
+    pub without: Vec<String>,
     /// Whether to build the cargo package with optimizations.
     pub release: bool,
     /// When to stop the components without being asked, if ever.
@@ -47,50 +58,82 @@ pub struct Options {
     pub grace: Duration,
 }
 
-/// Starts every component, waits until all have ended, and returns true if all ended in order or were stopped.
+/// Builds, starts the components, waits until all have ended, and returns true if all ended in order or were stopped.
 ///
-/// `component_names` reads the topology file beside the launch file.
+/// `component_names` reads the topology file.
 ///
 /// # Errors
 ///
 /// Every reason why the system could not be started.
 pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<bool, Vec<Problem>> {
-    let limits = Limits { run_for: options.run_for, grace: options.grace };
-    let programs = plan::plan_programs(&options.folder, options.release, component_names)?;
-    run_programs(&programs, limits).map_err(|problem| vec![problem])
+    let plan = plan::plan_run(options, component_names)?;
+    let builds = plan.builds.iter().map(Build::label);
+    let names = builds.chain(plan.components.iter().map(|component| component.name.as_str()));
+    let output = Arc::new(Output::new(names.map(str::to_owned).collect()));
+    // Before the first thread, which inherits it: a thread that does not block them would end the process.
+    let blocked = stop_signals().thread_block();
+    blocked.map_err(|error| vec![Problem::new(format!("cannot block signals: {error}"))])?;
+    let reports = Reports::new(Arc::clone(&output));
+    let ended = run_plan(&plan, options, &output, &reports);
+    reports.finish(options.grace);
+    ended
 }
 
-/// Starts the programs and waits for their ends. Returns true if all was in order.
-fn run_programs(programs: &[Program], limits: Limits) -> Result<bool, Problem> {
-    let output = Arc::new(Output::new(programs.iter().map(|program| program.component.clone()).collect()));
-    let (sender, events) = channel();
-    listen_for_signals(sender.clone()).map_err(|error| Problem::new(format!("cannot listen for signals: {error}")))?;
-    let reports = Reports::new(Arc::clone(&output));
+fn run_plan(plan: &RunPlan, options: &Options, output: &Arc<Output>, reports: &Reports) -> Result<bool, Vec<Problem>> {
+    let failed = |message: &str, error: io::Error| vec![Problem::new(format!("cannot {message}: {error}"))];
+    let (events, received) = channel();
+    listen_for_signals(events.clone()).map_err(|error| failed("listen for signals", error))?;
     // Values are dropped in the opposite order: the guard ends while the programs are not reaped yet, so that the group
     // numbers that it knows are still theirs.
-    let mut supervisor = Supervisor::new(events, &reports, limits);
-    let mut guard = OrphanGuard::start().map_err(|error| Problem::new(format!("cannot start the guard: {error}")))?;
-    for (component, program) in programs.iter().enumerate() {
-        let started = Running::start(component, program, &mut guard, &output, &sender);
-        supervisor.add(started.map_err(|error| cannot_start(program, &error))?);
+    let mut supervisor = Supervisor::new(received, reports, options.grace);
+    let mut guard = OrphanGuard::start().map_err(|error| failed("start the guard", error))?;
+    let mut start = |supervisor: &mut Supervisor<'_>, program: &Program, role| {
+        let running = Running::start(supervisor.next_index(), program, role, &mut guard, output, &events)?;
+        supervisor.add(running, role);
+        io::Result::Ok(())
+    };
+    for build in &plan.builds {
+        build.check().map_err(|problem| vec![problem])?;
+        reports.announce(&format!("building {}: {}", build.owner(), build.shown_command()));
+        start(&mut supervisor, &build.program, Role::Build)
+            .map_err(|error| failed(&format!("start the build of {}", build.owner()), error))?;
+        match supervisor.wait_for_all() {
+            Outcome::InOrder => {}
+            Outcome::Failed(ending) => return Err(vec![failed_build(build, ending)]),
+            Outcome::Stopped(signal) => return Err(vec![stopped_build(signal)]),
+        }
     }
-    let all_in_order = supervisor.wait_for_all();
-    drop(guard);
-    drop(supervisor);
-    reports.finish(limits.grace);
-    Ok(all_in_order)
+    let problems: Vec<Problem> = plan.components.iter().filter_map(|component| component.check().err()).collect();
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    supervisor.start_time(options.run_for);
+    for component in &plan.components {
+        start(&mut supervisor, &component.program, Role::Component)
+            .map_err(|error| vec![cannot_start(&component.name, &error)])?;
+    }
+    Ok(!matches!(supervisor.wait_for_all(), Outcome::Failed(_)))
 }
 
-fn cannot_start(program: &Program, error: &io::Error) -> Problem {
-    Problem::new(format!("cannot start component `{}`: {error}", program.component))
+fn failed_build(build: &Build, ending: Ending) -> Problem {
+    let problem = Problem::new(format!("the build of {} failed, so nothing was started", build.owner()));
+    let problem = problem.note(format!("`{}` {ending}", build.shown_command()));
+    // As shells report it.
+    if ending == Ending::Exited(127) { problem.help("install the command that was not found") } else { problem }
+}
+
+fn stopped_build(signal: Signal) -> Problem {
+    Problem::new(format!("stopped on {} during a build, so nothing was started", signal.as_str()))
+}
+
+fn cannot_start(component: &str, error: &io::Error) -> Problem {
+    Problem::new(format!("cannot start component `{component}`: {error}"))
         .help("the components that were started have been stopped again")
 }
 
-/// Turns the signals that ask us to stop into events. They are blocked in this thread and so in all that it starts, and
-/// one thread waits for them.
+/// Turns the signals that ask us to stop, which are blocked in all threads, into events.
 fn listen_for_signals(events: Sender<Event>) -> io::Result<()> {
     let signals = stop_signals();
-    signals.thread_block()?;
     thread::Builder::new().spawn(move || {
         while let Ok(signal) = signals.wait() {
             if events.send(Event::Asked(signal)).is_err() {

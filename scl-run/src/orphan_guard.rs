@@ -27,11 +27,25 @@ const CANNOT_EXECUTE: u8 = 126;
 ///
 /// # Errors
 ///
-/// If the path of the running `scl` cannot be found.
+/// If the running `scl` cannot be found.
 pub(crate) fn bound_command(command: &[OsString]) -> io::Result<Command> {
-    let mut bound = Command::new(std::env::current_exe()?);
+    let mut bound = this_program()?;
     bound.arg(START_WORD).arg(std::process::id().to_string()).arg("--").args(command);
     Ok(bound)
+}
+
+/// The running `scl`, even if a build has replaced its file.
+#[cfg(target_os = "linux")]
+fn this_program() -> io::Result<Command> {
+    let mut command = Command::new("/proc/self/exe");
+    command.arg0("scl");
+    Ok(command)
+}
+
+/// The file of the running `scl`.
+#[cfg(not(target_os = "linux"))]
+fn this_program() -> io::Result<Command> {
+    std::env::current_exe().map(Command::new)
 }
 
 /// The body of `scl __start`: becomes the program `command`, which ends when the process `parent` ends. Returns only if
@@ -83,7 +97,7 @@ impl OrphanGuard {
     ///
     /// If no process can be started.
     pub(crate) fn start() -> io::Result<Self> {
-        let mut process = Command::new(std::env::current_exe()?)
+        let mut process = this_program()?
             .arg(GUARD_WORD)
             .process_group(0)
             .stdin(Stdio::piped())

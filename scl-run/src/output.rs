@@ -30,7 +30,7 @@ pub(crate) enum Stream {
     Err,
 }
 
-/// Writes the lines of all components; shared by the threads that read them.
+/// Writes the lines of all programs; shared by the threads that read them.
 #[derive(Debug)]
 pub(crate) struct Output {
     names: Vec<String>,
@@ -42,7 +42,7 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Output for components of these names, in colour if the stream is a terminal that supports it.
+    /// Output for programs of these names, in colour if the stream is a terminal that supports it.
     pub(crate) fn new(names: Vec<String>) -> Self {
         let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
         let wants_colour = |choice| !matches!(choice, ColorChoice::Never);
@@ -51,21 +51,21 @@ impl Output {
         Self { names, width, colour_out, colour_err, writing: Mutex::new(()) }
     }
 
-    /// The name of a component.
-    pub(crate) fn name(&self, component: usize) -> &str {
-        &self.names[component]
+    /// The name before the output of a program.
+    pub(crate) fn name(&self, program: usize) -> &str {
+        &self.names[program]
     }
 
-    /// Copies every line of a component's stream, with its name before it, until the stream ends.
+    /// Copies every line of a program's stream, with its name before it, until the stream ends.
     ///
     /// Bytes are copied as they are, whether or not they are UTF-8; a missing line break at the end is added.
     ///
     /// # Errors
     ///
-    /// If our own stream can no longer be written. A component's stream that cannot be read counts as ended.
-    pub(crate) fn copy_lines(&self, component: usize, stream: Stream, from: impl Read) -> io::Result<()> {
+    /// If our own stream can no longer be written. A program's stream that cannot be read counts as ended.
+    pub(crate) fn copy_lines(&self, program: usize, stream: Stream, from: impl Read) -> io::Result<()> {
         let mut reader = BufReader::with_capacity(64 * 1024, from);
-        let prefix = format!("{} | ", self.painted_name(component, stream)).into_bytes();
+        let prefix = format!("{} | ", self.painted_name(program, stream)).into_bytes();
         let mut line = prefix.clone();
         while matches!(reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line), Ok(1..)) {
             if !line.ends_with(b"\n") {
@@ -78,9 +78,9 @@ impl Output {
         Ok(())
     }
 
-    /// The name of a component as it stands before a report on it.
-    pub(crate) fn report_name(&self, component: usize) -> String {
-        self.painted_name(component, Stream::Err)
+    /// The name of a program as it stands before a report on it.
+    pub(crate) fn report_name(&self, program: usize) -> String {
+        self.painted_name(program, Stream::Err)
     }
 
     /// Writes one of our own reports to standard error.
@@ -89,13 +89,15 @@ impl Output {
         let _ = self.write(Stream::Err, line.as_bytes());
     }
 
-    fn painted_name(&self, component: usize, stream: Stream) -> String {
-        let name = format!("{:width$}", self.names[component], width = self.width);
+    fn painted_name(&self, program: usize, stream: Stream) -> String {
+        let name = format!("{:width$}", self.names[program], width = self.width);
         let coloured = match stream {
             Stream::Out => self.colour_out,
             Stream::Err => self.colour_err,
         };
-        if coloured { name.color(COLOURS[component % COLOURS.len()]).to_string() } else { name }
+        // A component's build has its name, and so its colour.
+        let first = self.names.iter().position(|name| *name == self.names[program]).unwrap_or(program);
+        if coloured { name.color(COLOURS[first % COLOURS.len()]).to_string() } else { name }
     }
 
     fn write(&self, stream: Stream, line: &[u8]) -> io::Result<()> {

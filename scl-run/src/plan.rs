@@ -1,9 +1,11 @@
-//! Decides what to start: from a launch file, or from the cargo package beside the topology.
+//! Decides what to build and to start: from a launch file, or from the cargo package beside the topology.
 
+use super::Options;
 use super::cargo_package::{BuiltProgram, build_package};
-use super::launch_file::{LaunchComponent, LaunchFile, parse_launch_file};
+use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile};
 use super::problem::{Problem, print_err, quoted_list};
-use super::program::{Program, check_programs};
+use super::program::{Build, Component, Program};
+use super::selection::Selection;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -13,26 +15,47 @@ const TOPOLOGY_FILE: &str = "topology.yaml";
 /// Reads the names of the components from a topology file, or says what is wrong with it and returns `None`.
 pub type ComponentNames<'a> = &'a dyn Fn(&Path) -> Option<Vec<String>>;
 
-/// Returns the programs to start for a system's folder or a launch file, after checking that each can be started.
+/// What to build, in this order, and then to start.
+#[derive(Debug)]
+pub(crate) struct RunPlan {
+    pub(crate) builds: Vec<Build>,
+    pub(crate) components: Vec<Component>,
+}
+
+/// Returns what to build and to start for a system's folder or a launch file.
 ///
 /// # Errors
 ///
-/// Every reason why the system cannot be started.
-pub(crate) fn plan_programs(
-    place: &Path,
-    release: bool,
-    component_names: ComponentNames<'_>,
-) -> Result<Vec<Program>, Vec<Problem>> {
-    let (folder, launch_path) = find_folder(place).map_err(|problem| vec![problem])?;
-    let components = components_of(&folder, component_names)?;
-    let programs = if launch_path.is_file() {
-        plan_from_launch_file(&folder, &launch_path, components.as_deref())?
+/// Every reason why the system cannot be started that can be seen before it is built.
+pub(crate) fn plan_run(options: &Options, component_names: ComponentNames<'_>) -> Result<RunPlan, Vec<Problem>> {
+    let (folder, launch_path) = find_folder(&options.folder).map_err(|problem| vec![problem])?;
+    let plan = if launch_path.is_file() {
+        plan_from_launch_file(&folder, &launch_path, options, component_names)?
     } else {
-        let components = components.ok_or_else(|| vec![nothing_to_start(&folder)])?;
-        plan_from_package(&folder, &components, release)?
+        let topology = folder.join(TOPOLOGY_FILE);
+        if !topology.is_file() {
+            return Err(vec![nothing_to_start(&folder)]);
+        }
+        if let Some(profile) = options.profiles.first() {
+            return Err(vec![profile_without_file(profile, &folder)]);
+        }
+        let names = read_names(&topology, component_names)?;
+        plan_from_package(&folder, &names, options)?
     };
-    let problems = check_programs(&programs);
-    if problems.is_empty() { Ok(programs) } else { Err(problems) }
+    let problems = plan.check();
+    if problems.is_empty() { Ok(plan) } else { Err(problems) }
+}
+
+impl RunPlan {
+    /// What can be checked before anything is built: everything, or, with builds, what they cannot change.
+    fn check(&self) -> Vec<Problem> {
+        if self.builds.is_empty() {
+            return self.components.iter().filter_map(|component| component.check().err()).collect();
+        }
+        let builds = self.builds.iter().map(Build::check_installed);
+        let programs = self.components.iter().map(Component::check_installed);
+        builds.chain(programs).filter_map(Result::err).collect()
+    }
 }
 
 /// The system's folder, and the path of its launch file, which need not exist.
@@ -48,14 +71,9 @@ fn find_folder(place: &Path) -> Result<(PathBuf, PathBuf), Problem> {
     Ok((folder, launch_path))
 }
 
-/// The components of the topology beside the launch file, where there is one.
-fn components_of(folder: &Path, names: ComponentNames<'_>) -> Result<Option<Vec<String>>, Vec<Problem>> {
-    let path = folder.join(TOPOLOGY_FILE);
-    if !path.is_file() {
-        return Ok(None);
-    }
-    let invalid = || Problem::new("the topology has errors, so nothing was started").at(path.display().to_string());
-    names(&path).map(Some).ok_or_else(|| vec![invalid()])
+fn read_names(topology: &Path, names: ComponentNames<'_>) -> Result<Vec<String>, Vec<Problem>> {
+    let invalid = || Problem::new("the topology has errors, so nothing was started").at(topology.display().to_string());
+    names(topology).ok_or_else(|| vec![invalid()])
 }
 
 fn nothing_to_start(folder: &Path) -> Problem {
@@ -63,53 +81,121 @@ fn nothing_to_start(folder: &Path) -> Problem {
         .help("give the folder of a system, or a launch file; `scl run --help` shows one")
 }
 
+fn profile_without_file(profile: &str, folder: &Path) -> Problem {
+    Problem::new(format!("unknown profile `{profile}`"))
+        .note(format!("profiles are in a `{LAUNCH_FILE}`, and there is none in `{}`", folder.display()))
+}
+
 fn plan_from_launch_file(
     folder: &Path,
     launch_path: &Path,
-    components: Option<&[String]>,
-) -> Result<Vec<Program>, Vec<Problem>> {
+    options: &Options,
+    component_names: ComponentNames<'_>,
+) -> Result<RunPlan, Vec<Problem>> {
     let shown = launch_path.display().to_string();
     let text = std::fs::read_to_string(launch_path)
         .map_err(|error| vec![Problem::new(format!("cannot read the launch file: {error}")).at(&shown)])?;
-    let launch = parse_launch_file(&shown, &text, components)?;
-    note_missing(&launch, components.unwrap_or(&[]));
-    Ok(launch.components.iter().map(|component| plan_component(folder, &launch, component)).collect())
+    let document = LaunchDocument::parse(&shown, &text).map_err(|problem| vec![problem])?;
+    let known = match find_topology(folder, &document).map_err(|problem| vec![problem])? {
+        Some(topology) => Some(read_names(&topology, component_names)?),
+        None => None,
+    };
+    let launch = document.read(known.as_deref())?;
+    let components = launch.components_with(&options.profiles)?;
+    let selection = Selection::new(options, &components, &shown)?;
+    if selection.is_everything() {
+        note_missing(&components, known.as_deref().unwrap_or(&[]));
+    }
+    let chosen: Vec<LaunchComponent> = components.into_iter().filter(|it| selection.includes(&it.name)).collect();
+    Ok(RunPlan {
+        builds: plan_builds(folder, &launch, &chosen),
+        components: chosen.iter().map(|component| plan_component(folder, &launch, component)).collect(),
+    })
+}
+
+/// The topology file that the launch file names, or the one beside it, where there is one.
+fn find_topology(folder: &Path, document: &LaunchDocument<'_>) -> Result<Option<PathBuf>, Problem> {
+    let Some((path, place)) = document.topology() else {
+        return Ok(Some(folder.join(TOPOLOGY_FILE)).filter(|path| path.is_file()));
+    };
+    let path: PathBuf = folder.join(path);
+    if path.is_file() {
+        return Ok(Some(path));
+    }
+    Err(Problem::new(format!("the topology file does not exist: `{}`", path.display())).at(place))
 }
 
 /// A launch file may omit components that are started elsewhere (another terminal, a replay), but not silently.
-fn note_missing(launch: &LaunchFile, components: &[String]) {
-    let is_launched = |name: &String| launch.components.iter().any(|component| component.name == *name);
+fn note_missing(launched: &[LaunchComponent], components: &[String]) {
+    let is_launched = |name: &String| launched.iter().any(|component| component.name == *name);
     let missing: Vec<&str> = components.iter().filter(|name| !is_launched(name)).map(String::as_str).collect();
     if !missing.is_empty() {
         print_err(&format!("note: not in the launch file, so not started: {}\n", quoted_list(missing)));
     }
 }
 
-fn plan_component(folder: &Path, launch: &LaunchFile, component: &LaunchComponent) -> Program {
-    let transport = launch.transport.iter().map(|word| ("SCL_TRANSPORT".to_owned(), word.clone()));
-    let environment = launch.environment.iter().chain(&component.environment).cloned();
-    Program {
-        component: component.name.clone(),
-        command: component.command.iter().map(OsString::from).collect(),
-        environment: transport.chain(environment).collect(),
-        folder: component.folder.as_ref().map_or_else(|| folder.to_owned(), |own| folder.join(own)),
+/// The builds in file order. Equal commands in the same folder become one.
+fn plan_builds(folder: &Path, launch: &LaunchFile, components: &[LaunchComponent]) -> Vec<Build> {
+    // So that a build can call `scl generate` where `scl` is not installed, or another version is.
+    let scl = std::env::current_exe().ok().and_then(|path| Some(("SCL".to_owned(), path.to_str()?.to_owned())));
+    let program = |command: &[String], folder: PathBuf| Program {
+        command: command.iter().map(OsString::from).collect(),
+        environment: scl.iter().chain(&launch.environment).cloned().collect(),
+        folder,
+    };
+    let mut builds = Vec::new();
+    if let Some(command) = &launch.build {
+        builds.push(Build { components: Vec::new(), program: program(command, folder.to_owned()) });
     }
+    for component in components {
+        let Some(command) = &component.build else { continue };
+        let program = program(command, folder_of(folder, component));
+        match builds.iter_mut().find(|build: &&mut Build| build.program == program) {
+            // The build of the whole system has run already.
+            Some(build) if build.components.is_empty() => {}
+            Some(build) => build.components.push(component.name.clone()),
+            None => builds.push(Build { components: vec![component.name.clone()], program }),
+        }
+    }
+    builds
 }
 
-fn plan_from_package(folder: &Path, components: &[String], release: bool) -> Result<Vec<Program>, Vec<Problem>> {
-    let built = build_package(folder, release).map_err(|problem| vec![problem])?;
+fn plan_component(folder: &Path, launch: &LaunchFile, component: &LaunchComponent) -> Component {
+    let transport = launch.transport.iter().map(|word| ("SCL_TRANSPORT".to_owned(), word.clone()));
+    let environment = launch.environment.iter().chain(&component.environment).cloned();
+    let program = Program {
+        command: component.command.iter().map(OsString::from).collect(),
+        environment: transport.chain(environment).collect(),
+        folder: folder_of(folder, component),
+    };
+    Component { name: component.name.clone(), program }
+}
+
+fn folder_of(folder: &Path, component: &LaunchComponent) -> PathBuf {
+    component.folder.as_ref().map_or_else(|| folder.to_owned(), |own| folder.join(own))
+}
+
+fn plan_from_package(folder: &Path, components: &[String], options: &Options) -> Result<RunPlan, Vec<Problem>> {
+    let source = folder.join(TOPOLOGY_FILE).display().to_string();
+    let selection = Selection::new(options, components, &source)?;
+    let components: Vec<&String> = components.iter().filter(|name| selection.includes(name)).collect();
+    let built = build_package(folder, options.release).map_err(|problem| vec![problem])?;
     let program_of = |name: &String| built.iter().find(|program| plays(program, name));
-    let missing: Vec<&str> = components.iter().filter(|name| program_of(name).is_none()).map(String::as_str).collect();
+    let missing = components.iter().filter(|name| program_of(name).is_none());
+    let missing: Vec<&str> = missing.map(|name| name.as_str()).collect();
     if !missing.is_empty() {
         return Err(vec![missing_programs(folder, &missing, &built)]);
     }
-    let plan = |(component, program): (&String, &BuiltProgram)| Program {
-        component: component.clone(),
-        command: vec![program.executable.clone().into_os_string()],
-        environment: Vec::new(),
-        folder: folder.to_owned(),
+    let plan = |(name, built): (&String, &BuiltProgram)| Component {
+        name: name.clone(),
+        program: Program {
+            command: vec![built.executable.clone().into_os_string()],
+            environment: Vec::new(),
+            folder: folder.to_owned(),
+        },
     };
-    Ok(components.iter().filter_map(|name| Some((name, program_of(name)?))).map(plan).collect())
+    let programs = components.iter().filter_map(|name| Some((*name, program_of(name)?)));
+    Ok(RunPlan { builds: Vec::new(), components: programs.map(plan).collect() })
 }
 
 /// Cargo targets are often named with hyphens, which component names cannot contain.

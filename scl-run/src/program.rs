@@ -1,15 +1,13 @@
-//! The program of each component, from a launch file or a cargo package.
+//! The programs of a run: what makes them, and what runs the components.
 
-use super::problem::Problem;
+use super::problem::{Problem, quoted_list};
 use std::ffi::{OsStr, OsString};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-/// The program that plays one component.
+/// A program to start.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Program {
-    /// The component's name.
-    pub(crate) component: String,
     /// The program and its arguments.
     pub(crate) command: Vec<OsString>,
     /// Variables added to our own environment.
@@ -18,41 +16,104 @@ pub(crate) struct Program {
     pub(crate) folder: PathBuf,
 }
 
-/// Checks, before any program is started, that every folder and every executable exists.
-pub(crate) fn check_programs(programs: &[Program]) -> Vec<Problem> {
-    programs.iter().filter_map(|program| check_folder(program).or_else(|| check_executable(program))).collect()
+/// A component and the program that runs it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Component {
+    pub(crate) name: String,
+    pub(crate) program: Program,
 }
 
-fn check_folder(program: &Program) -> Option<Problem> {
-    let Program { component, folder, .. } = program;
-    let message = || format!("the folder of component `{component}` does not exist: `{}`", folder.display());
-    (!folder.is_dir()).then(|| Problem::new(message()))
+/// A build command, and the components whose programs it makes; all of them if none is named.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Build {
+    pub(crate) components: Vec<String>,
+    pub(crate) program: Program,
 }
 
-fn check_executable(program: &Program) -> Option<Problem> {
-    let component = &program.component;
-    let name = program.command.first()?;
-    if name.as_encoded_bytes().contains(&b'/') {
-        // Without the `./` that a path in a launch file usually starts with.
-        let path: PathBuf = program.folder.join(name).components().collect();
-        return match () {
-            () if is_executable(&path) => None,
-            () if path.is_file() => Some(
-                Problem::new(format!("the program of component `{component}` is not executable: `{}`", path.display()))
-                    .help(format!("make it so: `chmod +x {}`", path.display())),
-            ),
-            () => Some(Problem::new(format!(
-                "the program of component `{component}` does not exist: `{}`",
-                path.display()
-            ))),
-        };
+impl Component {
+    /// Checks that the folder and the executable exist.
+    pub(crate) fn check(&self) -> Result<(), Problem> {
+        self.program.check("program", &self.shown())
     }
-    let found = search_path(program).iter().any(|folder| is_executable(&program.folder.join(folder).join(name)));
-    (!found).then(|| {
+
+    /// As [`check`](Self::check), but only what no build can change: whether a program without a path is installed.
+    pub(crate) fn check_installed(&self) -> Result<(), Problem> {
+        self.program.check_installed("program", &self.shown())
+    }
+
+    fn shown(&self) -> String {
+        format!("component `{}`", self.name)
+    }
+}
+
+impl Build {
+    /// The name before its output.
+    pub(crate) fn label(&self) -> &str {
+        self.components.first().map_or("build", String::as_str)
+    }
+
+    /// Whose programs it makes, for messages.
+    pub(crate) fn owner(&self) -> String {
+        match self.components.as_slice() {
+            [] => "all components".to_owned(),
+            [one] => format!("component `{one}`"),
+            several => format!("the components {}", quoted_list(several.iter().map(String::as_str))),
+        }
+    }
+
+    /// The command as it stands in the launch file.
+    pub(crate) fn shown_command(&self) -> String {
+        match self.program.command.as_slice() {
+            [shell, option, line] if shell == "/bin/sh" && option == "-c" => line.display().to_string(),
+            words => words.iter().map(|word| word.display().to_string()).collect::<Vec<_>>().join(" "),
+        }
+    }
+
+    /// Checks that the folder and the executable exist.
+    pub(crate) fn check(&self) -> Result<(), Problem> {
+        self.program.check("build command", &self.owner())
+    }
+
+    /// As [`check`](Self::check), but only what no other build can change.
+    pub(crate) fn check_installed(&self) -> Result<(), Problem> {
+        self.program.check_installed("build command", &self.owner())
+    }
+}
+
+impl Program {
+    /// Checks that it can be started; `what` and `owner` name it in the problem.
+    fn check(&self, what: &str, owner: &str) -> Result<(), Problem> {
+        let folder = &self.folder;
+        if !folder.is_dir() {
+            return Err(Problem::new(format!("the folder of {owner} does not exist: `{}`", folder.display())));
+        }
+        self.check_installed(what, owner)?;
+        let Some(name) = self.command.first().filter(|name| is_path(name)) else { return Ok(()) };
+        // Without the `./` that a path in a launch file usually starts with.
+        let path: PathBuf = folder.join(name).components().collect();
+        match () {
+            () if is_executable(&path) => Ok(()),
+            () if path.is_file() => {
+                let message = format!("the {what} of {owner} is not executable: `{}`", path.display());
+                Err(Problem::new(message).help(format!("make it so: `chmod +x {}`", path.display())))
+            }
+            () => Err(Problem::new(format!("the {what} of {owner} does not exist: `{}`", path.display()))),
+        }
+    }
+
+    fn check_installed(&self, what: &str, owner: &str) -> Result<(), Problem> {
+        let Some(name) = self.command.first().filter(|name| !is_path(name)) else { return Ok(()) };
+        if search_path(self).iter().any(|folder| is_executable(&self.folder.join(folder).join(name))) {
+            return Ok(());
+        }
         let name = name.display();
-        Problem::new(format!("the program `{name}` of component `{component}` is not in the search path"))
-            .help(format!("install it, or write its path: `./{name}` is looked up in the component's folder"))
-    })
+        Err(Problem::new(format!("the {what} `{name}` of {owner} is not in the search path"))
+            .help(format!("install it, or write its path: `./{name}` is looked up in the component's folder")))
+    }
+}
+
+fn is_path(name: &OsStr) -> bool {
+    name.as_encoded_bytes().contains(&b'/')
 }
 
 fn search_path(program: &Program) -> Vec<PathBuf> {

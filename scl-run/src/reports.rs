@@ -29,9 +29,9 @@ impl Reports {
         Self { output, lines, written }
     }
 
-    /// Reports on a component.
-    pub(crate) fn report(&self, component: usize, text: &str) {
-        self.send(format!("{}  {text}\n", self.output.report_name(component)));
+    /// Reports on a program.
+    pub(crate) fn report(&self, program: usize, text: &str) {
+        self.send(format!("{}  {text}\n", self.output.report_name(program)));
     }
 
     /// Reports on the whole run.
@@ -39,9 +39,9 @@ impl Reports {
         self.send(format!("scl: {text}\n"));
     }
 
-    /// The name of a component.
-    pub(crate) fn name(&self, component: usize) -> &str {
-        self.output.name(component)
+    /// The name before the output of a program.
+    pub(crate) fn name(&self, program: usize) -> &str {
+        self.output.name(program)
     }
 
     /// Waits until everything has been written, but no longer than this.

@@ -1,6 +1,6 @@
 //! Supervises the programs from the first start to the last end, event by event.
 
-use super::children::{Event, Running};
+use super::children::{Event, Role, Running};
 use super::ending::Ending;
 use super::reports::Reports;
 use nix::sys::signal::Signal;
@@ -10,13 +10,15 @@ use std::time::{Duration, Instant};
 /// How long to wait for output after a program has ended: processes it started may still write.
 const LATE_OUTPUT: Duration = Duration::from_millis(500);
 
-/// How long a run may take.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Limits {
-    /// When to stop without being asked, if ever.
-    pub(crate) run_for: Option<Duration>,
-    /// How long the programs have to stop before they are killed.
-    pub(crate) grace: Duration,
+/// How the programs ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// All in order, without being asked.
+    InOrder,
+    /// The first that did not end in order.
+    Failed(Ending),
+    /// In order, after this signal was sent to them.
+    Stopped(Signal),
 }
 
 /// The phase of a run.
@@ -27,10 +29,11 @@ enum Phase {
     Killing { asked_by: Signal },
 }
 
-/// One component's program, and how it ended.
+/// A program, and how it ended.
 #[derive(Debug)]
-struct Component {
-    program: Running,
+struct Supervised {
+    running: Running,
+    role: Role,
     open_streams: u8,
     ended: Option<(Ending, Instant)>,
     reported: bool,
@@ -39,38 +42,53 @@ struct Component {
 /// Watches the programs until all have ended.
 #[derive(Debug)]
 pub(crate) struct Supervisor<'a> {
-    components: Vec<Component>,
+    programs: Vec<Supervised>,
     events: Receiver<Event>,
     reports: &'a Reports,
     grace: Duration,
     phase: Phase,
-    failed: bool,
+    failure: Option<Ending>,
 }
 
 impl<'a> Supervisor<'a> {
-    /// Starts without programs. The time of the run counts from here.
-    pub(crate) fn new(events: Receiver<Event>, reports: &'a Reports, limits: Limits) -> Self {
-        // A time too far in the future to be represented means never.
-        let until = limits.run_for.and_then(|time| Instant::now().checked_add(time));
-        let phase = Phase::Running { until };
-        Self { components: Vec::new(), events, reports, grace: limits.grace, phase, failed: false }
+    /// Starts without programs; `grace` is how long they have to stop before they are killed.
+    pub(crate) fn new(events: Receiver<Event>, reports: &'a Reports, grace: Duration) -> Self {
+        let phase = Phase::Running { until: None };
+        Self { programs: Vec::new(), events, reports, grace, phase, failure: None }
     }
 
-    /// Adds a program that has just been started, in the order of the component numbers in events.
-    pub(crate) fn add(&mut self, program: Running) {
-        self.components.push(Component { program, open_streams: 2, ended: None, reported: false });
+    /// Stops the programs after this time, if any, without being asked.
+    pub(crate) fn start_time(&mut self, run_for: Option<Duration>) {
+        if let Phase::Running { until } = &mut self.phase {
+            // A time too far in the future to be represented means never.
+            *until = run_for.and_then(|time| Instant::now().checked_add(time));
+        }
     }
 
-    /// Waits until every program has ended. Returns true if all ended successfully.
-    pub(crate) fn wait_for_all(&mut self) -> bool {
-        while self.components.iter().any(|component| !component.reported) {
+    /// The number of the next program in events.
+    pub(crate) fn next_index(&self) -> usize {
+        self.programs.len()
+    }
+
+    /// Adds a program that has just been started with the number [`next_index`](Self::next_index).
+    pub(crate) fn add(&mut self, running: Running, role: Role) {
+        self.programs.push(Supervised { running, role, open_streams: 2, ended: None, reported: false });
+    }
+
+    /// Waits until every program has ended.
+    pub(crate) fn wait_for_all(&mut self) -> Outcome {
+        while self.programs.iter().any(|program| !program.reported) {
             match self.next_event() {
                 Some(event) => self.take(event),
                 None => self.keep_time(),
             }
             self.report_ended();
         }
-        !self.failed
+        match (self.failure, self.asked_by()) {
+            (Some(ending), _) => Outcome::Failed(ending),
+            (None, Some(signal)) => Outcome::Stopped(signal),
+            (None, None) => Outcome::InOrder,
+        }
     }
 
     /// The next event, or `None` if a deadline comes first.
@@ -85,26 +103,30 @@ impl<'a> Supervisor<'a> {
             Phase::Stopping { kill_at, .. } => kill_at,
             Phase::Killing { .. } => None,
         };
-        let unreported = self.components.iter().filter(|component| !component.reported);
-        let reports_due = unreported.filter_map(|component| component.ended.map(|(_, at)| at + LATE_OUTPUT));
+        let unreported = self.programs.iter().filter(|program| !program.reported);
+        let reports_due = unreported.filter_map(|program| program.ended.map(|(_, at)| at + LATE_OUTPUT));
         reports_due.chain(phase_due).min()
     }
 
     fn take(&mut self, event: Event) {
         match event {
-            Event::StreamClosed { component } => self.components[component].open_streams -= 1,
-            Event::Ended { component, ending } => self.take_ending(component, ending),
+            Event::StreamClosed { program } => self.programs[program].open_streams -= 1,
+            Event::Ended { program, ending } => self.take_ending(program, ending),
             Event::Asked(signal) => self.take_request(signal),
             Event::OutputLost => self.stop(Signal::SIGTERM),
         }
     }
 
-    fn take_ending(&mut self, component: usize, ending: Ending) {
-        self.components[component].ended = Some((ending, Instant::now()));
+    fn take_ending(&mut self, program: usize, ending: Ending) {
+        let asked_by = self.asked_by();
+        let ended = &mut self.programs[program];
+        ended.ended = Some((ending, Instant::now()));
         // Processes that the program left behind in its group are no longer needed.
-        self.components[component].program.signal(Signal::SIGTERM);
-        if !ending.is_in_order(self.asked_by()) {
-            self.failed = true;
+        ended.running.signal(Signal::SIGTERM);
+        // Build tools have codes of their own for being interrupted.
+        let interrupted_build = ended.role == Role::Build && asked_by.is_some();
+        if !interrupted_build && !ending.is_in_order(asked_by) {
+            self.failure.get_or_insert(ending);
             self.stop(Signal::SIGTERM);
         }
     }
@@ -148,8 +170,8 @@ impl<'a> Supervisor<'a> {
     }
 
     fn signal_all(&self, signal: Signal) {
-        for component in &self.components {
-            component.program.signal(signal);
+        for program in &self.programs {
+            program.running.signal(signal);
         }
     }
 
@@ -161,18 +183,23 @@ impl<'a> Supervisor<'a> {
     }
 
     fn names_of_living(&self) -> String {
-        let living = self.components.iter().enumerate().filter(|(_, component)| component.ended.is_none());
+        let living = self.programs.iter().enumerate().filter(|(_, program)| program.ended.is_none());
         living.map(|(index, _)| format!("`{}`", self.reports.name(index))).collect::<Vec<_>>().join(", ")
     }
 
-    /// Reports each end once, after the last output of its component.
+    /// Reports each end once, after the last output of its program.
     fn report_ended(&mut self) {
-        for (index, component) in self.components.iter_mut().enumerate().filter(|(_, it)| !it.reported) {
-            let Some((ending, at)) = component.ended else { continue };
-            if component.open_streams == 0 || at.elapsed() >= LATE_OUTPUT {
-                component.reported = true;
-                let after = at.saturating_duration_since(component.program.started).as_secs_f64();
-                self.reports.report(index, &format!("{ending} after {after:.1} s"));
+        for (index, program) in self.programs.iter_mut().enumerate().filter(|(_, it)| !it.reported) {
+            let Some((ending, at)) = program.ended else { continue };
+            if program.open_streams == 0 || at.elapsed() >= LATE_OUTPUT {
+                program.reported = true;
+                let after = at.saturating_duration_since(program.running.started).as_secs_f64();
+                let text = match (program.role, ending) {
+                    (Role::Component, _) => format!("{ending} after {after:.1} s"),
+                    (Role::Build, Ending::Exited(0)) => format!("built after {after:.1} s"),
+                    (Role::Build, _) => format!("build {ending} after {after:.1} s"),
+                };
+                self.reports.report(index, &text);
             }
         }
     }

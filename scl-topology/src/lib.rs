@@ -68,6 +68,7 @@ pub mod duration;
 pub mod external;
 pub mod fingerprint;
 pub mod grammar;
+pub mod keywords;
 pub mod model;
 pub mod parse;
 pub mod resolve;

@@ -37,6 +37,7 @@
 //! ```
 
 mod closer;
+mod driver;
 mod error;
 mod gate;
 mod intern;
@@ -44,6 +45,7 @@ mod readiness;
 mod wait;
 
 pub use closer::Closer;
+pub use driver::Driver;
 pub use error::{GateError, WaitError};
 pub use gate::Gate;
 pub use readiness::Readiness;
@@ -293,6 +295,11 @@ impl Component {
     /// A handle that ends the calls of the component and its gates, from any thread.
     pub fn closer(&self) -> Closer {
         Closer::of(&self.handle)
+    }
+
+    /// A handle that waits for futures of the gates, from any plain thread.
+    pub fn driver(&self) -> Driver {
+        Driver::of(&self.handle)
     }
 
     /// A file descriptor for event loops, which is readable while any gate that receives has something. See

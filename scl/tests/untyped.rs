@@ -3,8 +3,11 @@
 
 mod asynchronous;
 mod blocking;
+mod ending_calls;
 mod errors;
+mod readiness;
 mod specs;
+mod timeouts;
 mod typed_peers;
 
 use bytes::Bytes;

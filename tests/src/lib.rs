@@ -15,7 +15,7 @@ pub mod zmtp;
 pub use commands::{Commands, ranges, say, say_error, say_result, stop_self};
 pub use compile::{CLibrary, Compile, c_library};
 pub use process::{Exit, HANG_LIMIT, Process};
-pub use python::{python_with_packages, start_python};
+pub use python::{python_with_packages, python_with_scl, start_python};
 pub use raw_peer::{Frame, RawListener, RawPeer};
 pub use stream::{Address, Stream};
 pub use system::{System, on_each_medium};

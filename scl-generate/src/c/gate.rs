@@ -148,8 +148,8 @@ impl Maker<'_> {
 
     /// Frees a message that was received; bytes are freed with `scl_message_free`.
     fn free(&self, content: &Content) -> Option<Function> {
-        let Content::Struct { name, prefix } = content else { return None };
-        let body = vec![format!("{prefix}__free_unpacked(message, NULL);")];
+        let Content::Struct { name, .. } = content else { return None };
+        let body = vec![free_unpacked("message")];
         let doc = "Frees a message that was received; NULL is allowed.";
         Some(Function { result: "void", ..self.function("free", doc, vec![format!("{name} *message")], body) })
     }
@@ -185,7 +185,7 @@ impl Sent {
         match content {
             Content::Struct { name: message, prefix } => Self {
                 parameters: vec![format!("const {message} *{name}")],
-                arguments: format!("{name} == NULL ? NULL : &{name}->base, &{prefix}__descriptor"),
+                arguments: format!("(const ProtobufCMessage *){name}, &{prefix}__descriptor"),
             },
             Content::Bytes => Self {
                 parameters: vec!["const void *data".to_owned(), "size_t size".to_owned()],
@@ -208,10 +208,15 @@ pub(super) fn refuse_null(parameter: &str) -> Vec<String> {
     vec![format!("if ({parameter} == NULL) {{"), refusal, "}".to_owned()]
 }
 
+/// Frees a struct; NULL is allowed. Only messages that are not nested have a function of their own for that.
+fn free_unpacked(message: &str) -> String {
+    format!("protobuf_c_message_free_unpacked((ProtobufCMessage *){message}, NULL);")
+}
+
 /// Frees what a request's struct refers to besides its handle, so that it can neither leak nor be used again.
 fn clear_request(request: &Content) -> Vec<String> {
     let message = match request {
-        Content::Struct { prefix, .. } => Some(format!("    {prefix}__free_unpacked(request->message, NULL);")),
+        Content::Struct { .. } => Some(format!("    {}", free_unpacked("request->message"))),
         Content::Bytes => None,
     };
     message.into_iter().chain(["    memset(request, 0, sizeof *request);".to_owned()]).collect()

@@ -216,6 +216,11 @@ impl Inbox {
         self.report_ready();
     }
 
+    /// The gate is gone, so nothing can be received any more.
+    pub(super) fn stop_reporting(&mut self) {
+        self.ready = ReadySignals::default();
+    }
+
     /// Called whenever messages were added or removed. Only what is in the queue counts, so it is filled first: then the
     /// links have nothing, and wake the task as soon as they do.
     fn report_ready(&mut self) {

@@ -194,8 +194,10 @@ impl<T> Incoming<T> {
 impl<T> Drop for Incoming<T> {
     fn drop(&mut self) {
         if self.state.is_inherited() {
-            self.inbox.leak();
+            return self.inbox.leak();
         }
+        // The task may hold the inbox a little longer.
+        self.inbox.lock().stop_reporting();
     }
 }
 

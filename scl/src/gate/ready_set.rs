@@ -123,3 +123,129 @@ impl Drop for ReadySignals {
         self.report(false);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rustix::event::{PollFd, PollFlags, Timespec, poll};
+    use std::sync::Barrier;
+    use std::task::Waker;
+
+    const GATES: usize = 2;
+
+    #[derive(Debug, Clone, Copy)]
+    enum Step {
+        Gate(usize, bool),
+        Wake,
+        Acknowledge,
+        RequestStop,
+        AcknowledgeStop,
+    }
+
+    const STEPS: [Step; 8] = [
+        Step::Gate(0, true),
+        Step::Gate(0, false),
+        Step::Gate(1, true),
+        Step::Gate(1, false),
+        Step::Wake,
+        Step::Acknowledge,
+        Step::RequestStop,
+        Step::AcknowledgeStop,
+    ];
+
+    /// What the descriptor should do.
+    #[derive(Default)]
+    struct Model {
+        gates: [bool; GATES],
+        woken: bool,
+        stop: (bool, bool),
+    }
+
+    impl Model {
+        fn step(&mut self, step: Step) {
+            match step {
+                Step::Gate(gate, ready) => self.gates[gate] = ready,
+                Step::Wake => self.woken = true,
+                Step::Acknowledge => self.woken = false,
+                Step::RequestStop => self.stop.0 = true,
+                Step::AcknowledgeStop => self.stop.1 = true,
+            }
+        }
+
+        fn is_readable(&self) -> bool {
+            self.gates.contains(&true) || self.woken || self.stop == (true, false)
+        }
+    }
+
+    fn is_readable(set: &ReadySet) -> bool {
+        let now = Timespec { tv_sec: 0, tv_nsec: 0 };
+        poll(&mut [PollFd::new(&set.descriptor(), PollFlags::IN)], Some(&now)).unwrap() == 1
+    }
+
+    #[test]
+    fn the_descriptor_agrees_with_its_reasons_after_every_step() {
+        let sequences = STEPS.len().pow(4);
+        for sequence in 0..sequences {
+            let set = ReadySet::new().unwrap();
+            let mut signals: [ReadySignals; GATES] = Default::default();
+            signals.iter_mut().for_each(|signals| signals.add(Arc::downgrade(&set)));
+            let (mut model, mut rest) = (Model::default(), sequence);
+            for _ in 0..4 {
+                let step = STEPS[rest % STEPS.len()];
+                rest /= STEPS.len();
+                match step {
+                    Step::Gate(gate, ready) => signals[gate].report(ready),
+                    Step::Wake => Waker::from(Arc::clone(&set)).wake(),
+                    Step::Acknowledge => set.set_woken(false),
+                    Step::RequestStop => set.request_stop(),
+                    Step::AcknowledgeStop => set.acknowledge_stop(),
+                }
+                model.step(step);
+                assert_eq!(is_readable(&set), model.is_readable(), "{step:?} of sequence {sequence}");
+            }
+            // Gates that are gone have nothing.
+            drop(signals);
+            model.gates = [false; GATES];
+            assert_eq!(is_readable(&set), model.is_readable(), "sequence {sequence}");
+        }
+    }
+
+    #[test]
+    fn a_set_that_is_added_late_is_told_what_there_is() {
+        let (early, late) = (ReadySet::new().unwrap(), ReadySet::new().unwrap());
+        let mut signals = ReadySignals::default();
+        signals.add(Arc::downgrade(&early));
+        signals.report(true);
+        signals.add(Arc::downgrade(&late));
+        assert!(is_readable(&early) && is_readable(&late));
+        drop(early);
+        signals.report(false);
+        assert!(!is_readable(&late));
+    }
+
+    /// A change may come from any thread while another clears the descriptor.
+    #[test]
+    fn changes_from_several_threads_leave_the_descriptor_right() {
+        for _ in 0..2000 {
+            let set = ReadySet::new().unwrap();
+            let start = Barrier::new(3);
+            let mut signals = ReadySignals::default();
+            signals.add(Arc::downgrade(&set));
+            std::thread::scope(|threads| {
+                threads.spawn(|| {
+                    start.wait();
+                    set.set_woken(true);
+                    set.set_woken(false);
+                });
+                threads.spawn(|| {
+                    start.wait();
+                    [true, false, true].into_iter().for_each(|ready| signals.report(ready));
+                });
+                start.wait();
+            });
+            assert!(is_readable(&set), "a gate has something");
+            signals.report(false);
+            assert!(!is_readable(&set));
+        }
+    }
+}

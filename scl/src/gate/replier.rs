@@ -187,6 +187,7 @@ impl<A, B> Drop for Rep<A, B> {
             std::mem::forget(Arc::clone(&self.end));
             return std::mem::forget(Arc::clone(&self.replies));
         }
+        self.end.stop_reporting();
         self.replies.state.release(self.end.link());
     }
 }

@@ -103,6 +103,11 @@ impl ReplyEnd {
         }
     }
 
+    /// The gate is gone, so no request can be taken any more, but the end may still have replies to write.
+    pub(super) fn stop_reporting(&self) {
+        lock(&self.link).ready = ReadySignals::default();
+    }
+
     /// A call gave up.
     pub(super) fn cancel(&self) {
         self.io.cancel();

@@ -15,7 +15,8 @@ async fn main(mut c: Controller) -> scl::Result<()> {
                 let command = command?;
                 target_speed = command.target_speed;
                 c.events.send(&rover::Event { text: format!("target is now {target_speed:.1} m/s") }).await?;
-                command.reply(&rover::Status { accepted: true, reason: String::new() })?;
+                // A user interface that has been stopped no longer waits for the reply.
+                let _gone = command.reply(&rover::Status { accepted: true, reason: String::new() });
             }
         }
     }

@@ -1,0 +1,112 @@
+/// Components: opening, waiting for peers, closing.
+#pragma once
+
+#include <scl.h>
+#include <scl/coding.hpp>
+#include <scl/error.hpp>
+#include <scl/log.hpp>
+#include <scl/open_components.hpp>
+#include <scl/options.hpp>
+#include <scl/time.hpp>
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace scl {
+
+/// An open component, the base of those that `scl generate --for cpp` writes.
+///
+/// Destroying it waits up to a second until the peers that are running have taken everything; what is left then is noted
+/// in the log.
+class Component {
+  public:
+    /// Opens a component from a plan, the text that `scl plan` prints: registers it in the runtime folder and opens its
+    /// gates. Peers connect by themselves, in whatever order the programs start.
+    ///
+    /// Throws `Taken` if the component is already running, and `Error` if the runtime folder or the plan cannot be used.
+    Component(std::string_view plan_json, const std::string& name, const Options& options = {}) : name_(name) {
+        if (scl_abi() != SCL_ABI) {
+            detail::raise(Errc::failed, "this program was compiled with the header of version " + std::to_string(SCL_ABI) +
+                                            " of the SCL library and loaded version " + std::to_string(scl_abi()) +
+                                            "; compile it again, or install the other version");
+        }
+        if (options.signals) {
+            detail::UncaughtErrors::handle();
+        }
+        detail::check(
+            scl_open(plan_json.data(), plan_json.size(), name.c_str(), options.to_json().c_str(), &handle_));
+        detail::OpenComponents::instance().add(handle_);
+    }
+
+    Component(Component&& other) noexcept
+        : handle_(std::exchange(other.handle_, nullptr)), name_(std::move(other.name_)) {}
+
+    Component& operator=(Component&& other) noexcept {
+        if (this != &other) {
+            destroy();
+            handle_ = std::exchange(other.handle_, nullptr);
+            name_ = std::move(other.name_);
+        }
+        return *this;
+    }
+
+    ~Component() { destroy(); }
+
+    /// The component's name in the topology file.
+    const std::string& name() const noexcept { return name_; }
+
+    /// Waits until all required peers are connected. Throws `Timeout` if one is missing after `limit`; its text says why.
+    void ready(TimeLimit limit = TimeLimit::none()) const { detail::check(scl_ready(handle_, limit.nanoseconds())); }
+
+    /// `ready` that reports errors as codes. Returns whether all are connected.
+    bool ready(TimeLimit limit, std::error_code& error) const {
+        return detail::attempt(error, [&] { return scl_ready(handle_, limit.nanoseconds()); });
+    }
+
+    /// Waits until every peer that is running has taken all messages, then closes. Throws `NotFlushed` with the peers that
+    /// have not taken everything after `limit`. Later calls do nothing.
+    void close(TimeLimit limit = std::chrono::seconds(1)) { detail::check(finish(limit.nanoseconds())); }
+
+    /// `close` that reports errors as codes. Returns whether the peers have taken everything.
+    bool close(TimeLimit limit, std::error_code& error) {
+        return detail::attempt(error, [&] { return finish(limit.nanoseconds()); });
+    }
+
+    /// A file descriptor for `poll` and `epoll`, readable while a gate has something to receive or a stop is requested.
+    /// It belongs to the component.
+    int fd() const {
+        int descriptor = scl_fd(handle_);
+        if (descriptor < 0) {
+            detail::raise(Errc::system, scl_error());
+        }
+        return descriptor;
+    }
+
+    /// The component in the C interface, borrowed; NULL once closed or moved.
+    scl_component* handle() const noexcept { return handle_; }
+
+  private:
+    scl_status finish(std::int64_t limit) noexcept {
+        if (handle_ == nullptr) {
+            return SCL_OK;
+        }
+        detail::OpenComponents::instance().remove(handle_);
+        scl_status status = scl_close(std::exchange(handle_, nullptr), limit);
+        // An uncaught error in another thread has closed it.
+        return status == SCL_HANDLE ? SCL_OK : status;
+    }
+
+    void destroy() noexcept {
+        if (finish(detail::linger) != SCL_OK) {
+            detail::log_warning(scl_error());
+        }
+    }
+
+    scl_component* handle_ = nullptr;
+    std::string name_;
+};
+
+} // namespace scl

@@ -1,0 +1,53 @@
+/// Options for opening a component.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace scl {
+
+/// Options for opening a component. What is not set comes from the environment.
+struct Options {
+    /// The folder in which the programs meet; else `SCL_RUNTIME_DIR`.
+    std::optional<std::string> runtime_dir;
+    /// The name of the system; else `SCL_SYSTEM`, or that of the topology file.
+    std::optional<std::string> system;
+    /// `ipc` or `tcp`; else `SCL_TRANSPORT`.
+    std::optional<std::string> transport;
+    /// Whether SIGTERM and Ctrl-C request a stop, and an uncaught `scl::Error` ends the program with a message and an exit
+    /// code instead of `abort`.
+    bool signals = true;
+
+    /// The options as the C interface wants them.
+    std::string to_json() const {
+        std::string json = signals ? R"({"signals":true)" : R"({"signals":false)";
+        append(json, "runtime_dir", runtime_dir);
+        append(json, "system", system);
+        append(json, "transport", transport);
+        return json + "}";
+    }
+
+  private:
+    static void append(std::string& json, const char* key, const std::optional<std::string>& value) {
+        if (!value) {
+            return;
+        }
+        json.append(",\"").append(key).append("\":\"");
+        for (char letter : *value) {
+            if (letter == '"' || letter == '\\') {
+                json.push_back('\\');
+                json.push_back(letter);
+            } else if (static_cast<unsigned char>(letter) < 0x20) {
+                constexpr std::string_view digits = "0123456789abcdef";
+                json.append("\\u00").push_back(digits[static_cast<unsigned char>(letter) >> 4]);
+                json.push_back(digits[letter & 15]);
+            } else {
+                json.push_back(letter);
+            }
+        }
+        json.push_back('"');
+    }
+};
+
+} // namespace scl

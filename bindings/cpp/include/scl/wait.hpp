@@ -1,0 +1,45 @@
+/// Waiting for several gates at once.
+#pragma once
+
+#include <scl/gate.hpp>
+
+#include <bitset>
+#include <cstdint>
+
+namespace scl {
+
+namespace detail {
+
+template <class... Gates>
+scl_status wait(TimeLimit limit, std::bitset<sizeof...(Gates)>& ready, const Gates&... gates) {
+    static_assert(sizeof...(Gates) > 0 && sizeof...(Gates) <= 64, "scl: `wait` takes 1 to 64 gates");
+    static_assert((std::is_base_of_v<Gate, Gates> && ...), "scl: `wait` takes gates of one component");
+    scl_gate* handles[] = {gates.handle()...};
+    scl_component* components[] = {gates.component()...};
+    std::uint64_t bits = 0;
+    scl_status status = scl_wait(components[0], handles, sizeof...(Gates), limit.nanoseconds(), &bits);
+    ready = std::bitset<sizeof...(Gates)>(bits);
+    return status == SCL_TIMEOUT || status == SCL_NOTHING ? SCL_OK : status;
+}
+
+} // namespace detail
+
+/// Waits until at least one of the gates has something to receive, and returns which: bit 0 is the first gate. No bit is
+/// set if `limit` is over.
+///
+/// The gates belong to one component. Throws `Stopped` after a stop request.
+template <class... Gates> std::bitset<sizeof...(Gates)> wait(TimeLimit limit, const Gates&... gates) {
+    std::bitset<sizeof...(Gates)> ready;
+    detail::check(detail::wait(limit, ready, gates...));
+    return ready;
+}
+
+/// `wait` that reports errors as codes.
+template <class... Gates>
+std::bitset<sizeof...(Gates)> wait(TimeLimit limit, std::error_code& error, const Gates&... gates) {
+    std::bitset<sizeof...(Gates)> ready;
+    detail::attempt(error, [&] { return detail::wait(limit, ready, gates...); });
+    return ready;
+}
+
+} // namespace scl

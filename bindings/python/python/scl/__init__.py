@@ -1,0 +1,84 @@
+"""Components and gates, wired by one checked YAML file, over ZeroMQ.
+
+```python
+import scl
+
+controller = scl.open("topology.yaml", "controller")
+controller.actuator.send(controller.actuator.type(throttle=0.5))
+```
+"""
+
+from scl import codec
+from scl._component import Component, DynamicComponent, Transport, open, open_plan
+from scl._errors import (
+    Answered,
+    Busy,
+    Closed,
+    DecodeError,
+    EncodeError,
+    Error,
+    Forked,
+    Full,
+    InternalError,
+    NotFlushed,
+    NotReady,
+    OpenError,
+    PeerLost,
+    PlanError,
+    RequesterGone,
+    Stopped,
+    Timeout,
+    TooLong,
+    TopologyError,
+    UnknownComponent,
+    UnknownGate,
+    UnsupportedCodecError,
+    WrongDirection,
+)
+from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Request, Sub
+from scl._generated import GeneratedComponent
+from scl._native import __version__
+from scl._signals import stop_requested
+
+__all__ = [
+    "Answered",
+    "Busy",
+    "Closed",
+    "Component",
+    "DecodeError",
+    "DynamicComponent",
+    "EncodeError",
+    "Error",
+    "Forked",
+    "Full",
+    "Gate",
+    "GeneratedComponent",
+    "InternalError",
+    "NotFlushed",
+    "NotReady",
+    "OpenError",
+    "PeerLost",
+    "PlanError",
+    "Pub",
+    "Pull",
+    "Push",
+    "Rep",
+    "Req",
+    "Request",
+    "RequesterGone",
+    "Stopped",
+    "Sub",
+    "Timeout",
+    "TooLong",
+    "TopologyError",
+    "Transport",
+    "UnknownComponent",
+    "UnknownGate",
+    "UnsupportedCodecError",
+    "WrongDirection",
+    "__version__",
+    "codec",
+    "open",
+    "open_plan",
+    "stop_requested",
+]

@@ -1,0 +1,213 @@
+"""Components: opened from a plan, with their gates as attributes."""
+
+from __future__ import annotations
+
+import asyncio
+import keyword
+import os
+import time
+import warnings
+from collections.abc import Mapping
+from types import MappingProxyType, TracebackType
+from typing import TYPE_CHECKING, Any, Literal, Self
+
+from scl import _native, _process, codec
+from scl._errors import NotReady, UnknownGate
+from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Sub
+from scl._loop import Loops
+
+Transport = Literal["ipc", "tcp"]
+
+_KINDS: dict[str, type[Any]] = {"pub": Pub, "sub": Sub, "req": Req, "rep": Rep, "push": Push, "pull": Pull}
+
+_STEP = 0.2
+"""How long a task that waits for peers keeps a thread after it was cancelled, in seconds."""
+
+
+class Component:
+    """A component whose gates are attributes. Generated classes derive from it, and `open` returns one."""
+
+    def __init__(
+        self,
+        plan: str | _native.Plan,
+        name: str,
+        *,
+        runtime_dir: str | os.PathLike[str] | None = None,
+        system: str | None = None,
+        transport: Transport | None = None,
+        signals: bool = True,
+    ) -> None:
+        """Opens the component `name` of a plan, the JSON text of `scl plan`.
+
+        What is not given comes from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
+        `signals`, SIGTERM asks the program to stop, unless the program has a handler of its own.
+        """
+        plan = _native.Plan(plan) if isinstance(plan, str) else plan
+        # Before anything is opened: no peer sees a component that cannot run.
+        facts = _facts_of(plan, name)
+        _process.prepare(signals)
+        self._native = _native.Component.open(plan, name, runtime_dir=runtime_dir, system=system, transport=transport)
+        _process.close_at_exit(self._native)
+        loops = Loops(self._native)
+        found: dict[str, Gate] = {}
+        for gate in self._native.gates:
+            attribute, codecs = facts[gate.name]
+            found[gate.name] = self.__dict__[attribute] = _KINDS[gate.kind](gate, loops, *codecs)
+        self._gates = found
+        self._attributes = frozenset(attribute for attribute, _ in facts.values())
+        self._readiness: _native.Readiness | None = None
+
+    @property
+    def name(self) -> str:
+        """The component's name in the topology file."""
+        return self._native.name
+
+    @property
+    def system(self) -> str:
+        """The system's name in the topology file."""
+        return self._native.system
+
+    @property
+    def gates(self) -> Mapping[str, Gate]:
+        """All gates by name, in the order of the topology file."""
+        return MappingProxyType(self._gates)
+
+    def ready(self, timeout: float | None = None) -> None:
+        """Waits until all required peers are connected. Raises `NotReady` after `timeout` seconds."""
+        self._native.ready(timeout)
+
+    async def ready_async(self, timeout: float | None = None) -> None:
+        """`ready` for asyncio."""
+        ends = None if timeout is None else time.monotonic() + timeout
+        while True:
+            # In steps, so that little is left behind by a task that is cancelled.
+            left = _STEP if ends is None else max(0.0, ends - time.monotonic())
+            try:
+                return await asyncio.to_thread(self._native.ready, min(left, _STEP))
+            except NotReady:
+                if left < _STEP:
+                    raise
+
+    def wait(self, *gates: Gate, timeout: float | None = None) -> list[Gate]:
+        """Waits until at least one of these gates has a message or a request, and returns those that have.
+
+        Without gates, all that receive are meant. After `timeout` seconds the list is empty.
+        """
+        chosen = gates or tuple(it for it in self._gates.values() if it.kind in ("sub", "pull", "rep"))
+        ready = self._native.wait([it._native for it in chosen], timeout)
+        return [chosen[index] for index in ready]
+
+    def fileno(self) -> int:
+        """Returns a file descriptor for `select` and its like: readable while any gate has a message or a request.
+
+        Take them with `try_recv`; do not read from the descriptor. It is closed with the component.
+        """
+        if self._readiness is None:
+            self._readiness = self._native.readiness(True)
+        return self._readiness.fileno()
+
+    def close(self, timeout: float | None = 1.0) -> None:
+        """Waits until every peer that is running has taken all messages, then closes.
+
+        Raises `NotFlushed` after `timeout` seconds; the component is closed then, too. Calls of other threads end with
+        `Closed`, loops over gates end. Closing twice is no error.
+        """
+        self._native.close(timeout)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        _process.close(self._native, quietly=error is not None)
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        await asyncio.to_thread(_process.close, self._native, quietly=error is not None)
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            gates = self.__dict__.get("_gates")
+            if gates is None or name.startswith("__"):
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+            raise UnknownGate(_native.unknown_gate(self._native.name, name, list(gates)), name=name, obj=self)
+
+        def __setattr__(self, name: str, value: object) -> None:
+            # A misspelt gate would become an attribute of its own.
+            if name in self.__dict__.get("_attributes", ()):
+                raise AttributeError(f"gate `{self._native.name}.{name}` cannot be replaced", name=name, obj=self)
+            object.__setattr__(self, name, value)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a component cannot be pickled; open it in the process that uses it")
+
+    def __repr__(self) -> str:
+        return repr(self._native)
+
+
+class DynamicComponent(Component):
+    """A component whose gates a type checker does not know."""
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any: ...
+
+
+def open(
+    topology: str | os.PathLike[str],
+    component: str,
+    *,
+    runtime_dir: str | os.PathLike[str] | None = None,
+    system: str | None = None,
+    transport: Transport | None = None,
+    signals: bool = True,
+) -> DynamicComponent:
+    """Checks a topology file, with the words of `scl check`, and opens one of its components.
+
+    Raises `TopologyError` if the file has errors. The other arguments are those of `Component`.
+    """
+    plan, found = _native.Plan.of_file(os.fspath(topology))
+    for warning in found:
+        warnings.warn(f"\n{warning}", stacklevel=2)
+    return DynamicComponent(
+        plan, component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
+    )
+
+
+def open_plan(
+    plan: str,
+    component: str,
+    *,
+    runtime_dir: str | os.PathLike[str] | None = None,
+    system: str | None = None,
+    transport: Transport | None = None,
+    signals: bool = True,
+) -> DynamicComponent:
+    """As `open`, with the plans that `scl plan` printed instead of the topology file."""
+    return DynamicComponent(
+        plan, component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
+    )
+
+
+def _attribute_of(gate: str) -> str:
+    """Returns the attribute for a gate, from its name in snake case: other names where Python or the class uses that one."""
+    if keyword.iskeyword(gate) or (hasattr(Component, gate) and not gate.startswith("_")):
+        return f"{gate}_"
+    return f"gate{gate}" if gate.startswith("_") else gate
+
+
+def _facts_of(plan: _native.Plan, component: str) -> dict[str, tuple[str, list[codec.Codec]]]:
+    """Returns the attribute and the codecs of each gate: one codec, or those of request and reply."""
+    messages = codec.messages_of_descriptors(plan.schemas) if plan.schemas else None
+    facts = {}
+    for name, snake_name, kind, word, types, peers in plan.gates(component):
+        names: list[str] | list[None] = types or [None] * (2 if kind in ("req", "rep") else 1)
+        codecs = [codec.codec_of(f"{component}.{name}", word, it, messages, peers) for it in names]
+        facts[name] = (_attribute_of(snake_name), codecs)
+    return facts

@@ -1,0 +1,100 @@
+"""Exceptions. Every text names the component, the gate and the peer, and says what to do."""
+
+from __future__ import annotations
+
+
+class Error(Exception):
+    """The base of all exceptions of this package."""
+
+
+class TopologyError(Error):
+    """The topology file has errors. The text is that of `scl check`."""
+
+
+class PlanError(Error):
+    """The plan is damaged, of another version of its format, or contradicts itself."""
+
+
+class UnknownComponent(Error, LookupError):
+    """The system has no component with this name."""
+
+
+class OpenError(Error):
+    """The component cannot be opened: it is already running, or the runtime folder cannot be used."""
+
+
+class UnsupportedCodecError(OpenError):
+    """Python cannot read the messages of a gate, or lacks a package for it."""
+
+
+class UnknownGate(Error, AttributeError):
+    """The component has no gate with this name."""
+
+
+class WrongDirection(Error, AttributeError):
+    """The gate has no such call, because of its kind."""
+
+
+class Timeout(Error, TimeoutError):
+    """The time limit of a call is over."""
+
+
+class NotReady(Timeout):
+    """Not all required peers connected in time."""
+
+
+class NotFlushed(Timeout):
+    """Not all peers took all messages in time."""
+
+
+class Full(Timeout):
+    """A peer's queue is full. The message was sent to no peer."""
+
+
+class TooLong(Error, ValueError):
+    """The message is longer than a peer accepts. It was sent to no peer."""
+
+
+class EncodeError(Error, ValueError):
+    """A codec cannot represent a value."""
+
+
+class DecodeError(Error, ValueError):
+    """A frame is not a message of the expected type. The next call returns the next message."""
+
+
+class PeerLost(Error, ConnectionError):
+    """The replier disconnected after the request was sent; whether it acted on the request is unknown."""
+
+
+class RequesterGone(Error, ConnectionError):
+    """The requester has disconnected and does not wait for the reply any more."""
+
+
+class Answered(Error, RuntimeError):
+    """The request was answered before."""
+
+
+class Busy(Error, RuntimeError):
+    """Another thread or task uses the gate."""
+
+
+class Closed(Error, RuntimeError):
+    """The component is closed."""
+
+
+class Forked(Error, RuntimeError):
+    """The component belongs to the parent process."""
+
+
+class Stopped(Error, SystemExit):
+    """SIGTERM asked the program to stop. Where nothing catches it, the program ends with exit code 0."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__(*args)
+        # `SystemExit` takes its exit code from the arguments.
+        self.code = 0
+
+
+class InternalError(Error):
+    """A bug in SCL."""

@@ -1,0 +1,44 @@
+"""The base of the classes that `scl generate --for python` writes."""
+
+from __future__ import annotations
+
+import os
+from typing import ClassVar
+
+from scl._component import Component, Transport
+
+
+class GeneratedComponent(Component):
+    """A component of a generated module: its gates are declared as attributes, with their types."""
+
+    _plan_text: ClassVar[str]
+    _component_name: ClassVar[str]
+
+    def __init_subclass__(cls, *, plan: str | None = None, component: str | None = None) -> None:
+        """Takes the plan and the name. A program's own subclasses inherit them."""
+        super().__init_subclass__()
+        if plan is not None and component is not None:
+            cls._plan_text = plan
+            cls._component_name = component
+
+    def __init__(
+        self,
+        *,
+        runtime_dir: str | os.PathLike[str] | None = None,
+        system: str | None = None,
+        transport: Transport | None = None,
+        signals: bool = True,
+    ) -> None:
+        """Opens the component.
+
+        What is not given comes from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
+        `signals`, SIGTERM asks the program to stop, unless the program has a handler of its own.
+        """
+        super().__init__(
+            self._plan_text,
+            self._component_name,
+            runtime_dir=runtime_dir,
+            system=system,
+            transport=transport,
+            signals=signals,
+        )

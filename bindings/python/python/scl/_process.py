@@ -1,0 +1,57 @@
+"""What the package does in a process besides calls: SIGTERM, log records, forks, the end of the interpreter."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import logging
+import os
+import weakref
+
+from scl import _logging, _native, _signals
+from scl._errors import NotFlushed
+
+_LINGER = 1.0
+"""How long the end of a program waits for its peers to receive what was sent, in seconds."""
+_LAST_FLUSH = 0.5
+"""The same after a stop request, when all programs are stopping."""
+
+_log = logging.getLogger("scl")
+_open: weakref.WeakSet[_native.Component] = weakref.WeakSet()
+
+
+def prepare(signals: bool) -> None:
+    """Prepares the process for its first component, or for another one."""
+    _logging.start()
+    if signals:
+        _signals.watch()
+
+
+def close_at_exit(component: _native.Component) -> None:
+    """Closes a component at the end of the program, unless it is closed before."""
+    _open.add(component)
+
+
+def close(component: _native.Component, *, quietly: bool) -> None:
+    """Closes a component; `quietly` if there is an exception already that tells more than a failed flush."""
+    stopping = _native.stop_requested()
+    try:
+        component.close(_LAST_FLUSH if stopping else _LINGER)
+    except NotFlushed as error:
+        if not (quietly or stopping):
+            raise
+        _log.warning("%s", error)
+
+
+@atexit.register
+def _at_exit() -> None:
+    # Threads that wait in a call are daemon threads; from now on they stay where they are.
+    _native.exiting()
+    for component in list(_open):
+        with contextlib.suppress(KeyboardInterrupt):
+            close(component, quietly=True)
+    _logging.drain()
+
+
+os.register_at_fork(before=_native.log_hold, after_in_parent=_native.log_release, after_in_child=_native.log_release)
+os.register_at_fork(after_in_child=_logging.restart)

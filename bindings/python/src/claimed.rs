@@ -1,0 +1,172 @@
+//! The gate behind a Python object: one call at a time uses it, and others may look at it meanwhile.
+
+use crate::failure::Failure;
+use crate::process::drop_detached;
+use scl::untyped::Gate;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// A gate that calls claim, and that is locked only while SCL runs: not while a call looks for signals, and not by a
+/// thread that the end of the interpreter has stopped.
+pub(crate) struct Claimed {
+    claimed: AtomicBool,
+    /// Number of threads that want to look at the gate while a call waits.
+    visitors: AtomicUsize,
+    slot: Mutex<Slot>,
+}
+
+enum Slot {
+    Here(Gate),
+    /// A call has it, and will bring it back.
+    Away,
+    /// The component is closed.
+    Closed,
+}
+
+/// Why a gate cannot be used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Unusable {
+    Busy,
+    Closed,
+}
+
+/// A call that uses the gate. No other does until it is dropped.
+pub(crate) struct Claim<'g>(&'g Claimed);
+
+impl Claimed {
+    pub(crate) fn new(gate: Gate) -> Self {
+        let slot = Mutex::new(Slot::Here(gate));
+        Self { claimed: AtomicBool::new(false), visitors: AtomicUsize::new(0), slot }
+    }
+
+    /// Claims the gate unless another call uses it.
+    pub(crate) fn claim(&self) -> Result<Claim<'_>, Unusable> {
+        if self.claimed.swap(true, Ordering::Acquire) { Err(Unusable::Busy) } else { Ok(Claim(self)) }
+    }
+
+    /// Looks at the gate, between two steps of a call that waits. It may take some time.
+    pub(crate) fn visit<R>(&self, look: impl FnOnce(&mut Gate) -> R) -> Result<R, Unusable> {
+        self.visitors.fetch_add(1, Ordering::AcqRel);
+        let looked = self.with(look);
+        self.visitors.fetch_sub(1, Ordering::AcqRel);
+        looked
+    }
+
+    /// Drops the gate, at once or when the call that has it ends.
+    pub(crate) fn close(&self) {
+        self.visitors.fetch_add(1, Ordering::AcqRel);
+        let gate = std::mem::replace(&mut *self.lock(), Slot::Closed);
+        self.visitors.fetch_sub(1, Ordering::AcqRel);
+        drop(gate);
+    }
+
+    fn with<R>(&self, act: impl FnOnce(&mut Gate) -> R) -> Result<R, Unusable> {
+        match &mut *self.lock() {
+            Slot::Here(gate) => Ok(act(gate)),
+            Slot::Away => Err(Unusable::Busy),
+            Slot::Closed => Err(Unusable::Closed),
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Slot> {
+        self.slot.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn bring_back(&self, gate: Gate) {
+        let mut slot = self.lock();
+        if matches!(*slot, Slot::Away) {
+            *slot = Slot::Here(gate);
+        }
+    }
+}
+
+/// Its component may end with it, and then hands over what is left.
+impl Drop for Claimed {
+    fn drop(&mut self) {
+        drop_detached(std::mem::replace(self.slot.get_mut().unwrap_or_else(PoisonError::into_inner), Slot::Closed));
+    }
+}
+
+impl<'g> Claim<'g> {
+    /// Runs one step of a call.
+    pub(crate) fn step<R>(&mut self, step: impl FnOnce(&mut Gate) -> Result<R, Failure>) -> Result<R, StepError> {
+        self.0.with(step).map_err(StepError::Unusable)?.map_err(StepError::Failed)
+    }
+
+    /// As [`step`](Self::step), after visitors had their turn: locks are not fair.
+    pub(crate) fn next_step<R>(&mut self, step: impl FnOnce(&mut Gate) -> Result<R, Failure>) -> Result<R, StepError> {
+        while self.0.visitors.load(Ordering::Acquire) > 0 {
+            std::thread::sleep(Duration::from_micros(100));
+        }
+        self.step(step)
+    }
+
+    /// Takes the gate along, for a call that needs it between its steps, too.
+    pub(crate) fn take(&mut self) -> Result<Gate, Unusable> {
+        let mut slot = self.0.lock();
+        match std::mem::replace(&mut *slot, Slot::Away) {
+            Slot::Here(gate) => Ok(gate),
+            Slot::Away => Err(Unusable::Busy),
+            Slot::Closed => {
+                *slot = Slot::Closed;
+                Err(Unusable::Closed)
+            }
+        }
+    }
+
+    pub(crate) fn bring_back(&mut self, gate: Gate) {
+        self.0.bring_back(gate);
+    }
+
+    /// Takes the gate along until the result is dropped.
+    pub(crate) fn borrow(mut self) -> Result<Borrowed<'g>, Unusable> {
+        let gate = self.take()?;
+        Ok(Borrowed { gate: Some(gate), claim: self })
+    }
+
+    /// Keeps the claim beyond the life of this value, until [`Claimed::resume`].
+    pub(crate) fn keep(self) {
+        std::mem::forget(self);
+    }
+}
+
+impl Claimed {
+    /// Goes on with a claim that was kept.
+    pub(crate) fn resume(&self) -> Claim<'_> {
+        Claim(self)
+    }
+}
+
+/// A gate that a call has taken along.
+pub(crate) struct Borrowed<'g> {
+    /// `None` once brought back.
+    gate: Option<Gate>,
+    claim: Claim<'g>,
+}
+
+impl Borrowed<'_> {
+    pub(crate) fn gate(&mut self) -> Option<&mut Gate> {
+        self.gate.as_mut()
+    }
+}
+
+impl Drop for Borrowed<'_> {
+    fn drop(&mut self) {
+        if let Some(gate) = self.gate.take() {
+            self.claim.bring_back(gate);
+        }
+    }
+}
+
+/// Why a step of a call did not succeed.
+pub(crate) enum StepError {
+    Unusable(Unusable),
+    Failed(Failure),
+}
+
+impl Drop for Claim<'_> {
+    fn drop(&mut self) {
+        self.0.claimed.store(false, Ordering::Release);
+    }
+}

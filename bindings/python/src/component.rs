@@ -1,0 +1,196 @@
+//! A component, opened from its plan.
+
+use crate::failure::{Failure, no_panic, text_of};
+use crate::gate::Gate;
+use crate::limit::Limit;
+use crate::plan::Plan;
+use crate::process::{drop_detached, stay_if_exiting};
+use crate::readiness::Readiness;
+use crate::shared::Shared;
+use crate::wait_any::wait_any;
+use crate::waiting::{LOOK, wait};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use scl::untyped;
+use scl::{Medium, NotReady, OpenOptions};
+use std::path::PathBuf;
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// A component whose gates carry bytes.
+#[pyclass(frozen, weakref, module = "scl._native")]
+pub(crate) struct Component {
+    shared: Arc<Shared>,
+    gates: Vec<Py<Gate>>,
+    /// `None` once closed.
+    component: Mutex<Option<untyped::Component>>,
+}
+
+#[pymethods]
+impl Component {
+    /// Opens a component of a system whose plans are given as JSON.
+    #[staticmethod]
+    #[pyo3(signature = (plan, component, *, runtime_dir=None, system=None, transport=None))]
+    fn open(
+        py: Python<'_>,
+        plan: &Plan,
+        component: &str,
+        runtime_dir: Option<PathBuf>,
+        system: Option<String>,
+        transport: Option<&str>,
+    ) -> PyResult<Self> {
+        let options = options(runtime_dir, system, transport)?;
+        let plan = plan.component(component)?;
+        let opened = py.detach(|| {
+            no_panic(|| {
+                let mut opened = untyped::Component::open_blocking_with(plan, options)?;
+                let gates = plan.gates.iter().map(|gate| opened.gate(&gate.name));
+                let gates = gates.collect::<Result<Vec<_>, _>>();
+                Ok((gates.map_err(|error| Failure::new("OpenError", text_of(&error)))?, opened))
+            })
+        });
+        let (gates, opened) = opened?;
+        let shared = Arc::new(Shared::new(&opened, &plan.component, &plan.system));
+        let gates = plan.gates.iter().zip(gates);
+        let gates = gates.map(|(plan, gate)| Py::new(py, Gate::new(plan.clone(), Arc::clone(&shared), gate)));
+        let gates = gates.collect::<PyResult<Vec<_>>>()?;
+        Ok(Self { shared, gates, component: Mutex::new(Some(opened)) })
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.shared.component
+    }
+
+    #[getter]
+    fn system(&self) -> &str {
+        &self.shared.system
+    }
+
+    /// In the order of the topology file.
+    #[getter]
+    fn gates(&self, py: Python<'_>) -> Vec<Py<Gate>> {
+        self.gates.iter().map(|gate| gate.clone_ref(py)).collect()
+    }
+
+    /// Waits until all required peers are connected.
+    #[pyo3(signature = (timeout=None))]
+    fn ready(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<()> {
+        let limit = Limit::of_seconds(timeout)?;
+        self.shared.check()?;
+        let mut missing: Option<NotReady> = None;
+        let ready = wait(py, limit, &self.shared, |within| {
+            let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
+            let component = component.as_ref().ok_or_else(|| self.shared.closed())?;
+            match component.ready_blocking(within) {
+                Ok(()) => Ok(Some(())),
+                Err(error) => {
+                    let error = Box::<dyn std::error::Error + Send + Sync>::from(error);
+                    missing = Some(*error.downcast::<NotReady>().map_err(|error| Failure::of_box(&*error))?);
+                    Ok(None)
+                }
+            }
+        })?;
+        match (ready, missing) {
+            (None, Some(mut missing)) => {
+                missing.waited = limit.waited();
+                Err(Failure::from(missing).into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Waits until at least one of some gates has a message or a request. Returns their places in the list.
+    #[pyo3(signature = (gates, timeout=None))]
+    fn wait(&self, py: Python<'_>, gates: Vec<Py<Gate>>, timeout: Option<f64>) -> PyResult<Vec<usize>> {
+        let limit = Limit::of_seconds(timeout)?;
+        self.shared.check()?;
+        let gates: Vec<&Gate> = gates.iter().map(|gate| gate.get()).collect();
+        if let Some(other) = gates.iter().find(|gate| !Arc::ptr_eq(gate.shared(), &self.shared)) {
+            let text = format!("gate `{}` is not of component `{}`", other.full_name(), self.shared.component);
+            return Err(PyValueError::new_err(text));
+        }
+        wait_any(py, limit, &self.shared, &gates)
+    }
+
+    /// Waits until every peer that is running has taken all messages, then closes. Calls that wait end with `Closed`.
+    #[pyo3(signature = (timeout=None))]
+    fn close(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<()> {
+        let limit = Limit::of_seconds(timeout)?;
+        if self.shared.is_inherited() || self.shared.close() {
+            return Ok(());
+        }
+        py.detach(|| self.gates.iter().for_each(|gate| gate.get().claimed().close()));
+        let Some(component) = py.detach(|| self.component.lock().unwrap_or_else(PoisonError::into_inner).take()) else {
+            return Ok(());
+        };
+        // On a thread of its own, so that Ctrl-C ends the wait; the thread then goes on handing over.
+        let (done, is_done) = sync_channel(1);
+        let is_done = Mutex::new(is_done);
+        let within = limit.left(Duration::MAX);
+        let closing = std::thread::Builder::new().name("scl-close".to_owned()).spawn(move || {
+            let closed = no_panic(|| component.close_blocking(within).map_err(|error| Failure::of_box(error.inner())));
+            let _nobody_waits = done.send(closed);
+        });
+        closing?;
+        loop {
+            let closed = py.detach(|| {
+                let closed = is_done.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(LOOK);
+                stay_if_exiting();
+                closed
+            });
+            match closed {
+                Ok(closed) => return Ok(closed?),
+                Err(RecvTimeoutError::Timeout) => py.check_signals()?,
+                Err(RecvTimeoutError::Disconnected) => return Ok(()),
+            }
+        }
+    }
+
+    /// A file descriptor for event loops: of calls that were polled with it, or, with `all_gates`, of all gates.
+    fn readiness(&self, all_gates: bool) -> PyResult<Readiness> {
+        self.shared.check_open()?;
+        let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
+        let component = component.as_ref().ok_or_else(|| self.shared.closed())?;
+        let readiness = match all_gates {
+            true => component.readiness().map_err(|error| Failure::of_box(&error)),
+            false => component.readiness_of(&[]).map_err(|error| Failure::of_box(error.inner())),
+        };
+        Ok(Readiness::new(readiness?))
+    }
+
+    #[getter]
+    fn is_closed(&self) -> bool {
+        self.shared.is_closed()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<component {} of {}>", self.shared.component, self.shared.system)
+    }
+}
+
+/// What is left is handed over, without the interpreter.
+impl Drop for Component {
+    fn drop(&mut self) {
+        let component = self.component.get_mut().unwrap_or_else(PoisonError::into_inner).take();
+        drop_detached(component);
+    }
+}
+
+fn options(runtime_dir: Option<PathBuf>, system: Option<String>, transport: Option<&str>) -> PyResult<OpenOptions> {
+    let mut options = OpenOptions::new();
+    if let Some(folder) = runtime_dir {
+        options = options.runtime_dir(folder);
+    }
+    if let Some(name) = system {
+        options = options.system(name);
+    }
+    match transport {
+        None => {}
+        Some("ipc") => options = options.medium(Medium::Ipc),
+        Some("tcp") => options = options.medium(Medium::Tcp),
+        Some(other) => return Err(PyValueError::new_err(format!("transport={other:?}; expected \"ipc\" or \"tcp\""))),
+    }
+    Ok(options)
+}

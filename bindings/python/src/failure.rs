@@ -1,0 +1,202 @@
+//! Errors on their way to Python: the class of `scl._errors`, and the text.
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+use scl::{
+    BlockingError, CallError, NotFlushed, NotReady, RecvError, RecvTimeoutError, ReplyError, SendError,
+    SendTimeoutError, TrySendError,
+};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// An exception that is not made yet, so that it can be passed through code that has released the interpreter.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    class: &'static str,
+    text: String,
+}
+
+impl Failure {
+    pub(crate) fn new(class: &'static str, text: impl Into<String>) -> Self {
+        Self { class, text: text.into() }
+    }
+
+    pub(crate) fn is(&self, class: &str) -> bool {
+        self.class == class
+    }
+
+    /// The failure of a call that may fail in several ways.
+    pub(crate) fn of_box(error: &(dyn std::error::Error + 'static)) -> Self {
+        match error.downcast_ref::<BlockingError>() {
+            Some(error) => (*error).into(),
+            None if error.is::<NotFlushed>() => Self::of("NotFlushed", error),
+            None if error.is::<NotReady>() => Self::of("NotReady", error),
+            None => Self::of("Error", error),
+        }
+    }
+
+    fn of(class: &'static str, error: &dyn std::error::Error) -> Self {
+        Self::new(class, text_of(error))
+    }
+}
+
+/// An error and its causes in one line.
+pub(crate) fn text_of(error: &dyn std::error::Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        text.push_str(": ");
+        text.push_str(&error.to_string());
+        cause = error.source();
+    }
+    text
+}
+
+/// Turns a panic into an exception: none may cross the border.
+pub(crate) fn no_panic<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
+    catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
+        Err(Failure::new("InternalError", format!("internal error of SCL, please report it: {text}")))
+    })
+}
+
+impl From<Failure> for PyErr {
+    fn from(failure: Failure) -> Self {
+        Python::attach(|py| {
+            let class = py.import("scl._errors").and_then(|errors| errors.getattr(failure.class));
+            match class.and_then(|class| Ok(class.cast_into::<PyType>()?)) {
+                Ok(class) => PyErr::from_type(class, failure.text),
+                // Only without the Python part of the package.
+                Err(_) => PyRuntimeError::new_err(failure.text),
+            }
+        })
+    }
+}
+
+fn class_of(error: BlockingError) -> &'static str {
+    match error {
+        BlockingError::Stopped => "Stopped",
+        BlockingError::Forked => "Forked",
+        _ => "Closed",
+    }
+}
+
+impl From<scl::OpenError> for Failure {
+    fn from(error: scl::OpenError) -> Self {
+        match error {
+            scl::OpenError::Plan { .. } => Self::of("PlanError", &error),
+            _ => Self::of("OpenError", &error),
+        }
+    }
+}
+
+impl From<SendError> for Failure {
+    fn from(error: SendError) -> Self {
+        let class = match &error {
+            SendError::Encode { .. } => "EncodeError",
+            SendError::TooLong { .. } => "TooLong",
+            SendError::Blocking { source, .. } => class_of(*source),
+            _ => "Error",
+        };
+        Self::of(class, &error)
+    }
+}
+
+impl From<TrySendError> for Failure {
+    fn from(error: TrySendError) -> Self {
+        match error {
+            TrySendError::Full { .. } => Self::of("Full", &error),
+            TrySendError::Send(error) => error.into(),
+            _ => Self::of("Error", &error),
+        }
+    }
+}
+
+impl From<SendTimeoutError> for Failure {
+    fn from(error: SendTimeoutError) -> Self {
+        match error {
+            SendTimeoutError::Timeout { .. } => Self::of("Full", &error),
+            SendTimeoutError::Send(error) => error.into(),
+            _ => Self::of("Error", &error),
+        }
+    }
+}
+
+impl From<scl::untyped::WaitError> for Failure {
+    fn from(error: scl::untyped::WaitError) -> Self {
+        use scl::untyped::WaitError;
+        match error {
+            WaitError::Recv(error) => error.into(),
+            WaitError::Blocking { source, .. } => Self::of(class_of(source), &error),
+            _ => Self::of("Timeout", &error),
+        }
+    }
+}
+
+impl From<RecvError> for Failure {
+    fn from(error: RecvError) -> Self {
+        let class = match &error {
+            RecvError::Decode { .. } => "DecodeError",
+            RecvError::Blocking { source, .. } => class_of(*source),
+            _ => "Error",
+        };
+        Self::of(class, &error)
+    }
+}
+
+impl From<RecvTimeoutError> for Failure {
+    fn from(error: RecvTimeoutError) -> Self {
+        match error {
+            RecvTimeoutError::Timeout { .. } => Self::of("Timeout", &error),
+            RecvTimeoutError::Recv(error) => error.into(),
+            _ => Self::of("Error", &error),
+        }
+    }
+}
+
+impl From<CallError> for Failure {
+    fn from(error: CallError) -> Self {
+        let class = match &error {
+            CallError::Encode { .. } => "EncodeError",
+            CallError::TooLong { .. } => "TooLong",
+            CallError::Timeout { .. } => "Timeout",
+            CallError::PeerLost { .. } => "PeerLost",
+            CallError::Decode { .. } => "DecodeError",
+            CallError::Blocking { source, .. } => class_of(*source),
+            _ => "Error",
+        };
+        Self::of(class, &error)
+    }
+}
+
+impl From<ReplyError> for Failure {
+    fn from(error: ReplyError) -> Self {
+        let class = match &error {
+            ReplyError::Encode { .. } => "EncodeError",
+            ReplyError::TooLong { .. } => "TooLong",
+            ReplyError::RequesterGone { .. } => "RequesterGone",
+            ReplyError::Blocking { source, .. } => class_of(*source),
+            _ => "Error",
+        };
+        Self::of(class, &error)
+    }
+}
+
+impl From<NotReady> for Failure {
+    fn from(error: NotReady) -> Self {
+        Self::of("NotReady", &error)
+    }
+}
+
+impl From<NotFlushed> for Failure {
+    fn from(error: NotFlushed) -> Self {
+        Self::of("NotFlushed", &error)
+    }
+}
+
+impl From<BlockingError> for Failure {
+    fn from(error: BlockingError) -> Self {
+        Self::of(class_of(error), &error)
+    }
+}

@@ -1,0 +1,53 @@
+//! `scl._native`: components and gates for the Python package `scl`.
+//!
+//! Messages cross the border as bytes; the package encodes and decodes them. Every promise of a gate is kept by the crate
+//! `scl`, of which this is a thin layer: which call releases the interpreter, when a wait looks for signals, and which
+//! exception an error becomes.
+
+mod claimed;
+mod component;
+mod failure;
+mod gate;
+mod limit;
+mod logging;
+mod pending_call;
+mod plan;
+mod process;
+mod readiness;
+mod request;
+mod shared;
+mod stats;
+mod stop;
+mod wait_any;
+mod waiting;
+
+use pyo3::prelude::*;
+
+/// The native part of the package `scl`.
+#[pymodule(gil_used = false)]
+mod _native {
+    #[pymodule_export]
+    use super::component::Component;
+    #[pymodule_export]
+    use super::gate::Gate;
+    #[pymodule_export]
+    use super::logging::{log_hold, log_level, log_next, log_release, log_start};
+    #[pymodule_export]
+    use super::pending_call::PendingCall;
+    #[pymodule_export]
+    use super::plan::{Plan, unknown_gate};
+    #[pymodule_export]
+    use super::process::exiting;
+    #[pymodule_export]
+    use super::readiness::Readiness;
+    #[pymodule_export]
+    use super::request::Request;
+    #[pymodule_export]
+    use super::stop::{stop_grace_period, stop_handle, stop_overdue, stop_request, stop_requested};
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

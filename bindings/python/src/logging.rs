@@ -1,0 +1,136 @@
+//! Log records of SCL on their way to Python's `logging`.
+//!
+//! A record may be made anywhere: by a thread that holds a gate's lock while the interpreter waits for that lock. So no
+//! record waits for the interpreter: it goes into a queue, from which a thread of the package takes it.
+
+use crate::process::stay_if_exiting;
+use pyo3::prelude::*;
+use std::cell::Cell;
+use std::collections::VecDeque;
+use std::fmt::{self, Write};
+use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+use tracing::field::{Field, Visit};
+use tracing::subscriber::Interest;
+use tracing::{Event, Level, Metadata, Subscriber};
+use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
+
+/// How many records may wait; more are counted and dropped.
+const CAPACITY: usize = 4096;
+
+static QUEUE: Queue =
+    Queue { records: Mutex::new(Records { waiting: VecDeque::new(), dropped: 0 }), added: Condvar::new() };
+/// The least level that anybody reads, of Python's `logging`.
+static LEVEL: AtomicU8 = AtomicU8::new(0);
+
+struct Queue {
+    records: Mutex<Records>,
+    added: Condvar,
+}
+
+struct Records {
+    waiting: VecDeque<Record>,
+    dropped: u64,
+}
+
+/// A level of Python's `logging`, the module of SCL, the text.
+type Record = (u8, &'static str, String);
+
+/// Sends records to the queue from now on.
+#[pyfunction]
+pub(crate) fn log_start() {
+    // A forked child inherits it.
+    let _already_set = tracing::subscriber::set_global_default(tracing_subscriber::registry().with(ToQueue));
+}
+
+/// Sets the least level that is queued, of Python's `logging`.
+#[pyfunction]
+pub(crate) fn log_level(level: u8) {
+    LEVEL.store(level, Ordering::Relaxed);
+}
+
+thread_local! {
+    static HELD: Cell<Option<MutexGuard<'static, Records>>> = const { Cell::new(None) };
+}
+
+/// Locks the queue before a fork: a thread that held the lock would not exist in the child.
+#[pyfunction]
+pub(crate) fn log_hold(py: Python<'_>) {
+    py.detach(|| HELD.set(Some(QUEUE.records.lock().unwrap_or_else(PoisonError::into_inner))));
+}
+
+/// Unlocks the queue after a fork, in both processes.
+#[pyfunction]
+pub(crate) fn log_release() {
+    HELD.set(None);
+}
+
+/// Waits for records, no longer than some seconds, and takes all.
+#[pyfunction]
+pub(crate) fn log_next(py: Python<'_>, timeout: f64) -> (Vec<Record>, u64) {
+    let timeout = Duration::try_from_secs_f64(timeout).unwrap_or_default();
+    py.detach(|| {
+        let records = QUEUE.records.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_empty = |records: &mut Records| records.waiting.is_empty();
+        let waited = QUEUE.added.wait_timeout_while(records, timeout, is_empty);
+        let (mut records, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        let taken = (records.waiting.drain(..).collect(), std::mem::take(&mut records.dropped));
+        drop(records);
+        stay_if_exiting();
+        taken
+    })
+}
+
+/// The level of Python's `logging`.
+fn rank(level: &Level) -> u8 {
+    match *level {
+        Level::ERROR => 40,
+        Level::WARN => 30,
+        Level::INFO => 20,
+        Level::DEBUG => 10,
+        Level::TRACE => 5,
+    }
+}
+
+struct ToQueue;
+
+impl<S: Subscriber> Layer<S> for ToQueue {
+    fn enabled(&self, metadata: &Metadata<'_>, _: Context<'_, S>) -> bool {
+        rank(metadata.level()) >= LEVEL.load(Ordering::Relaxed) && metadata.target().starts_with("scl")
+    }
+
+    fn register_callsite(&self, _: &'static Metadata<'static>) -> Interest {
+        // The level changes with Python's.
+        Interest::sometimes()
+    }
+
+    fn on_event(&self, event: &Event<'_>, _: Context<'_, S>) {
+        let mut text = Text::default();
+        event.record(&mut text);
+        let record = (rank(event.metadata().level()), event.metadata().target(), text.message + &text.fields);
+        let mut records = QUEUE.records.lock().unwrap_or_else(PoisonError::into_inner);
+        if records.waiting.len() < CAPACITY {
+            records.waiting.push_back(record);
+        } else {
+            records.dropped += 1;
+        }
+        QUEUE.added.notify_one();
+    }
+}
+
+/// The message, and the other fields as ` key=value`.
+#[derive(Default)]
+struct Text {
+    message: String,
+    fields: String,
+}
+
+impl Visit for Text {
+    fn record_debug(&mut self, field: &Field, value: &dyn fmt::Debug) {
+        let _infallible = match field.name() {
+            "message" => write!(self.message, "{value:?}"),
+            name => write!(self.fields, " {name}={value:?}"),
+        };
+    }
+}

@@ -1,0 +1,134 @@
+//! A request that waits for its reply, in steps.
+
+use crate::failure::{Failure, no_panic};
+use crate::gate::Gate;
+use crate::limit::Limit;
+use crate::process::drop_detached;
+use crate::readiness::Readiness;
+use bytes::Bytes;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use scl::CallError;
+use scl::untyped::{Driver, Gate as AnyGate};
+use std::future::poll_fn;
+use std::pin::{Pin, pin};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::task::{Context, Poll, Waker};
+use std::time::Duration;
+
+/// A call of a `req` gate. It has the gate until it is over; dropping it cancels the call.
+#[pyclass(frozen, module = "scl._native")]
+pub(crate) struct PendingCall {
+    gate: Py<Gate>,
+    cancelled: Arc<AtomicBool>,
+    /// `None` once it is over.
+    call: Mutex<Option<Call>>,
+}
+
+/// Ends with the gate, and the reply unless the call was cancelled.
+type Call = Pin<Box<dyn Future<Output = (AnyGate, Option<Result<Bytes, CallError>>)> + Send>>;
+
+impl PendingCall {
+    /// Begins a call, which sends nothing before it is polled.
+    pub(crate) fn start(gate: &Bound<'_, Gate>, request: &Bound<'_, PyBytes>, timeout: Option<f64>) -> PyResult<Self> {
+        let timeout = timeout.map(|seconds| Limit::of_seconds(Some(seconds))).transpose()?;
+        let timeout = timeout.map(|limit| limit.left(Duration::MAX));
+        let request = Bytes::copy_from_slice(request.as_bytes());
+        let cancelled = Arc::new(AtomicBool::new(false));
+        let own = gate.get();
+        let mut claim = own.claim()?;
+        let taken = claim.take().map_err(|unusable| own.unusable(unusable))?;
+        if !matches!(taken, AnyGate::Req(_)) {
+            claim.bring_back(taken);
+            return Ok(own.has_no("call")?);
+        }
+        claim.keep();
+        let call = Box::pin(exchange(taken, request, timeout, Arc::clone(&cancelled)));
+        Ok(Self { gate: gate.clone().unbind(), cancelled, call: Mutex::new(Some(call)) })
+    }
+
+    /// Waits for the reply no longer than a given time; `None` if there is none yet.
+    pub(crate) fn drive(&self, driver: &Driver, within: Duration) -> Result<Option<Bytes>, Failure> {
+        let mut slot = self.lock();
+        let Some(call) = slot.as_mut() else { return self.answered() };
+        match driver.wait_for(call.as_mut(), within)? {
+            Some(done) => self.finish(&mut slot, done),
+            None => Ok(None),
+        }
+    }
+
+    fn poll(&self, cx: &mut Context<'_>) -> Result<Option<Bytes>, Failure> {
+        let mut slot = self.lock();
+        let Some(call) = slot.as_mut() else { return self.answered() };
+        match call.as_mut().poll(cx) {
+            Poll::Ready(done) => self.finish(&mut slot, done),
+            Poll::Pending => Ok(None),
+        }
+    }
+
+    fn finish(
+        &self,
+        slot: &mut Option<Call>,
+        (gate, reply): (AnyGate, Option<Result<Bytes, CallError>>),
+    ) -> Result<Option<Bytes>, Failure> {
+        *slot = None;
+        self.gate.get().claimed().resume().bring_back(gate);
+        Ok(reply.transpose()?)
+    }
+
+    fn answered(&self) -> Result<Option<Bytes>, Failure> {
+        Err(Failure::new("Answered", "this call is over"))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<Call>> {
+        self.call.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[pymethods]
+impl PendingCall {
+    /// Returns the reply, or `None`, and then the readiness reports when there may be one.
+    fn poll_reply<'py>(&self, py: Python<'py>, readiness: &Readiness) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        self.gate.get().shared().check()?;
+        let waker = readiness.waker();
+        let reply = no_panic(|| self.poll(&mut Context::from_waker(&waker)))?;
+        Ok(reply.map(|reply| PyBytes::new(py, &reply)))
+    }
+
+    /// Ends the call; a reply that still comes is discarded. The gate can be used again.
+    fn cancel(&self) {
+        self.cancelled.store(true, Ordering::Release);
+        if self.gate.get().shared().is_inherited() {
+            return;
+        }
+        let _over = no_panic(|| self.poll(&mut Context::from_waker(Waker::noop())));
+    }
+}
+
+impl Drop for PendingCall {
+    fn drop(&mut self) {
+        self.cancel();
+        let call = self.call.get_mut().unwrap_or_else(PoisonError::into_inner).take();
+        drop_detached(call);
+    }
+}
+
+async fn exchange(
+    mut gate: AnyGate,
+    request: Bytes,
+    timeout: Option<Duration>,
+    cancelled: Arc<AtomicBool>,
+) -> (AnyGate, Option<Result<Bytes, CallError>>) {
+    let AnyGate::Req(req) = &mut gate else { return (gate, None) };
+    let timeout = timeout.unwrap_or(req.timeout());
+    let reply = {
+        let mut call = pin!(req.call_within(&request, timeout));
+        poll_fn(|cx| match cancelled.load(Ordering::Acquire) {
+            true => Poll::Ready(None),
+            false => call.as_mut().poll(cx).map(Some),
+        })
+        .await
+    };
+    (gate, reply)
+}

@@ -1,0 +1,35 @@
+//! A file descriptor for event loops.
+
+use pyo3::prelude::*;
+use scl::untyped;
+use std::os::fd::AsRawFd;
+use std::task::Waker;
+
+/// A file descriptor that is readable while there is something to do for an event loop.
+#[pyclass(frozen, module = "scl._native")]
+pub(crate) struct Readiness {
+    readiness: untyped::Readiness,
+}
+
+impl Readiness {
+    pub(crate) fn new(readiness: untyped::Readiness) -> Self {
+        Self { readiness }
+    }
+
+    pub(crate) fn waker(&self) -> Waker {
+        self.readiness.waker()
+    }
+}
+
+#[pymethods]
+impl Readiness {
+    fn fileno(&self) -> i32 {
+        self.readiness.as_raw_fd()
+    }
+
+    /// Takes note of what made it readable. To be called before gates are polled again.
+    fn acknowledge(&self) {
+        self.readiness.acknowledge();
+        self.readiness.acknowledge_stop();
+    }
+}

@@ -1,0 +1,41 @@
+//! A request that waits for its reply.
+
+use crate::failure::{Failure, no_panic};
+use crate::shared::Shared;
+use bytes::Bytes;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A request and its way back. It may be answered later, from any thread, in any order.
+#[pyclass(frozen, module = "scl._native")]
+pub(crate) struct Request {
+    message: Bytes,
+    shared: Arc<Shared>,
+    /// `None` once answered.
+    request: Mutex<Option<scl::Request<Bytes, Bytes>>>,
+}
+
+impl Request {
+    pub(crate) fn new(request: scl::Request<Bytes, Bytes>, shared: Arc<Shared>) -> Self {
+        Self { message: request.message().clone(), shared, request: Mutex::new(Some(request)) }
+    }
+}
+
+#[pymethods]
+impl Request {
+    #[getter]
+    fn data<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.message)
+    }
+
+    fn reply(&self, message: &Bound<'_, PyBytes>) -> PyResult<()> {
+        // Also after a stop request: who asked is waiting.
+        if self.shared.is_inherited() {
+            self.shared.check_open()?;
+        }
+        let request = self.request.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let request = request.ok_or_else(|| Failure::new("Answered", "this request was answered before"))?;
+        Ok(no_panic(|| Ok(request.reply(&Bytes::copy_from_slice(message.as_bytes()))?))?)
+    }
+}

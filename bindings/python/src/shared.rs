@@ -1,0 +1,69 @@
+//! What a component's gates share with it: its name, and whether they may still be used.
+
+use crate::failure::Failure;
+use crate::process::Origin;
+use scl::untyped::{Closer, Component, Driver};
+use scl::{BlockingError, host};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The state of a component, as seen by its calls.
+pub(crate) struct Shared {
+    pub(crate) component: String,
+    pub(crate) system: String,
+    origin: Origin,
+    closed: AtomicBool,
+    closer: Closer,
+    driver: Driver,
+}
+
+impl Shared {
+    pub(crate) fn new(opened: &Component, component: &str, system: &str) -> Self {
+        let (component, system) = (component.to_owned(), system.to_owned());
+        let (closer, driver) = (opened.closer(), opened.driver());
+        Self { component, system, origin: Origin::here(), closed: AtomicBool::new(false), closer, driver }
+    }
+
+    pub(crate) fn driver(&self) -> Driver {
+        self.driver.clone()
+    }
+
+    /// Fails if no call may be made, or go on waiting. What a forked child inherits is looked at first: its locks may be
+    /// held by threads that exist in the parent only.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        self.check_open()?;
+        if host::gates_stopped() {
+            return Err(Failure::new("Stopped", "stop requested"));
+        }
+        Ok(())
+    }
+
+    /// As [`check`](Self::check), for what also works after a stop request.
+    pub(crate) fn check_open(&self) -> Result<(), Failure> {
+        if self.is_inherited() {
+            return Err(BlockingError::Forked.into());
+        }
+        if self.closed.load(Ordering::Acquire) {
+            return Err(self.closed());
+        }
+        Ok(())
+    }
+
+    pub(crate) fn closed(&self) -> Failure {
+        Failure::new("Closed", format!("component `{}` is closed", self.component))
+    }
+
+    pub(crate) fn is_inherited(&self) -> bool {
+        self.origin.is_elsewhere()
+    }
+
+    pub(crate) fn is_closed(&self) -> bool {
+        self.closed.load(Ordering::Acquire)
+    }
+
+    /// Ends all calls. Returns whether it was closed before.
+    pub(crate) fn close(&self) -> bool {
+        let before = self.closed.swap(true, Ordering::AcqRel);
+        self.closer.end_calls();
+        before
+    }
+}

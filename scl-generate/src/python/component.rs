@@ -1,0 +1,70 @@
+//! The class of a component.
+
+use super::Imports;
+use super::docs;
+use super::layout::{Doc, Layout};
+use super::names::{self, Names};
+use crate::system::{Component, Gate, MessageUse, System};
+use crate::writer::Writer;
+use scl_plan::GateKind;
+
+/// Writes the class with its gates.
+pub(super) fn write(system: &System, component: &Component, names: &Names, imports: &Imports, out: &mut Writer) {
+    let arguments = vec![
+        Doc::text("_scl.GeneratedComponent"),
+        Doc::text("plan=_PLAN"),
+        Doc::text(format!("component=\"{}\"", component.name)),
+    ];
+    let class = Doc::text(format!("class {}", names::class(component)));
+    let head = Doc::concat([class, Doc::group("(", arguments, ")"), Doc::text(":")]);
+    out.line(format!("\n\n{}", Layout::at(0).print(&head)));
+    out.indented(|out| {
+        docs::write(&docs::of_component(system, component), out);
+        for gate in &component.gates {
+            let annotation = annotation(gate, names, imports);
+            let line = Doc::concat([Doc::text(format!("{}: ", names::gate(gate))), annotation]);
+            out.line(format!("\n{}", Layout::at(1).print(&line)));
+            docs::write(&docs::of_gate(gate, unsupported(gate).as_deref()), out);
+        }
+    });
+}
+
+fn annotation(gate: &Gate, names: &Names, imports: &Imports) -> Doc {
+    let kind = gate.plan.kind;
+    let class = match kind {
+        GateKind::Pub => "_scl.Pub",
+        GateKind::Sub => "_scl.Sub",
+        GateKind::Req => "_scl.Req",
+        GateKind::Rep => "_scl.Rep",
+        GateKind::Push => "_scl.Push",
+        GateKind::Pull => "_scl.Pull",
+    };
+    let types = match gate.types.as_slice() {
+        [] if matches!(kind, GateKind::Req | GateKind::Rep) => vec![names.builtin("bytes", imports); 2],
+        [] => vec![names.builtin("bytes", imports)],
+        types => types.iter().map(|used| message(gate, used, names, imports)).collect(),
+    };
+    Doc::concat([Doc::text(class), Doc::group("[", types.into_iter().map(Doc::Text).collect(), "]")])
+}
+
+fn message(gate: &Gate, used: &MessageUse, names: &Names, imports: &Imports) -> String {
+    if unsupported(gate).is_some() {
+        imports.of("typing", "Never")
+    } else if used.in_schemas {
+        names.reference(&format!(".{}", used.dotted), imports)
+    } else {
+        imports.of("typing", "Any")
+    }
+}
+
+/// Why Python cannot read the messages of a gate. The package says the same when such a component is opened.
+fn unsupported(gate: &Gate) -> Option<String> {
+    let codec = gate.plan.codec.as_str();
+    let in_schemas = gate.types.first()?.in_schemas;
+    match (in_schemas, codec) {
+        (true, "protobuf" | "json") | (false, "json" | "cbor" | "msgpack") => None,
+        (true, _) => Some(format!("the codec `{codec}` does not carry messages of schemas")),
+        (false, "protobuf") => Some(format!("the type `{}` is not in `schemas`", gate.types.first()?.dotted)),
+        (false, _) => Some(format!("the codec `{codec}` is for Rust programs")),
+    }
+}

@@ -1,0 +1,96 @@
+//! Docstrings, which editors show when the cursor is on a name.
+
+use crate::comment;
+use crate::system::{Component, Gate, System};
+use crate::writer::Writer;
+use scl_plan::{GateKind, GateOptions, Payload, Place};
+
+/// Writes a docstring.
+pub(super) fn write(text: &str, out: &mut Writer) {
+    let lines: Vec<String> = comment::lines(text.trim()).map(|line| escape(&line)).collect();
+    match lines.as_slice() {
+        [] => {}
+        [line] => out.line(format!("\"\"\"{}\"\"\"", end_of_docstring(line))),
+        [first, rest @ ..] => {
+            out.line(format!("\"\"\"{first}"));
+            rest.iter().for_each(|line| out.line(line));
+            out.line("\"\"\"");
+        }
+    }
+}
+
+/// Text for the inside of a docstring.
+pub(super) fn escape(text: &str) -> String {
+    text.replace('\\', "\\\\").replace("\"\"\"", "'''")
+}
+
+/// A quote at the end would belong to the three that end the docstring.
+fn end_of_docstring(line: &str) -> String {
+    match line.strip_suffix('"') {
+        Some(before) => format!("{before}'"),
+        None => line.to_owned(),
+    }
+}
+
+/// The docstring of a class.
+pub(super) fn of_component(system: &System, component: &Component) -> String {
+    let declared = format!(
+        "The component `{}` of `{}`, declared at `{}`.",
+        component.name, system.name, component.plan.declared_at
+    );
+    component.doc.as_ref().map_or_else(|| declared.clone(), |doc| format!("{}\n\n{declared}", doc.trim()))
+}
+
+/// The docstring of an attribute: the gate's `doc`, what it carries, between which gates, and unusual options.
+pub(super) fn of_gate(gate: &Gate, unsupported: Option<&str>) -> String {
+    let mut parts: Vec<String> = gate.doc.iter().map(|doc| doc.trim().to_owned()).collect();
+    parts.push(format!("`{}`: {}.", gate.plan.kind.word(), sentence(gate)));
+    let options = options(gate);
+    if !options.is_empty() {
+        parts.push(format!("Options: {}.", options.join(", ")));
+    }
+    parts.extend(unsupported.map(|reason| format!("Python cannot open this gate: {reason}.")));
+    parts.push(format!("Declared at `{}`.", gate.plan.declared_at));
+    parts.join("\n\n")
+}
+
+fn sentence(gate: &Gate) -> String {
+    let message = match &gate.plan.payload {
+        Payload::Bytes => "bytes".to_owned(),
+        Payload::Message(name) => format!("`{name}`"),
+        Payload::Exchange { request, reply } => format!("`{request}` -> `{reply}`"),
+    };
+    let peers = gate.plan.connections.iter().map(|it| format!("`{}.{}`", it.peer_component, it.peer_gate));
+    let peers: Vec<String> = peers.collect();
+    let peers = if peers.is_empty() { "no peer".to_owned() } else { peers.join(", ") };
+    match gate.plan.kind {
+        GateKind::Pub => format!("publishes {message} to {peers}"),
+        GateKind::Sub => format!("subscribes to {message} from {peers}"),
+        GateKind::Req => format!("requests {message} from {peers}"),
+        GateKind::Rep => format!("replies {message} to {peers}"),
+        GateKind::Push => format!("pushes {message} to {peers}"),
+        GateKind::Pull => format!("pulls {message} from {peers}"),
+    }
+}
+
+/// The options that differ from their defaults.
+fn options(gate: &Gate) -> Vec<String> {
+    let (mut options, mut default) = (gate.plan.options.clone(), GateOptions::DEFAULT);
+    let is_typed = gate.plan.payload != Payload::Bytes;
+    let codec = (is_typed && gate.plan.codec != "protobuf").then(|| format!("`codec: {}`", gate.plan.codec));
+    let changed = GateOptions::ALL.iter().filter_map(|option| {
+        let value = value_of(&option.place, &mut options);
+        (value != value_of(&option.place, &mut default)).then(|| format!("`{}: {value}`", option.key))
+    });
+    codec.into_iter().chain(changed).collect()
+}
+
+fn value_of(place: &Place, options: &mut GateOptions) -> String {
+    match place {
+        Place::Number(number) => number(options).to_string(),
+        Place::Size(size) => format!("{}B", size(options)),
+        Place::Duration(duration) => format!("{:?}", duration(options)).replace('µ', "u"),
+        Place::Flag(flag) => flag(options).to_string(),
+        Place::Policy(policy) => policy(options).word().to_owned(),
+    }
+}

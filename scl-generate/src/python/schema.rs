@@ -1,0 +1,103 @@
+//! The schema files that the plan of a system contains, with their comments.
+
+use crate::system::System;
+use prost_types::{DescriptorProto, FileDescriptorProto};
+use std::collections::{BTreeSet, HashMap};
+
+/// The path of a declaration inside its file, as in `google.protobuf.SourceCodeInfo`.
+pub(super) type Path = Vec<i32>;
+
+/// Fields of `FileDescriptorProto`, `DescriptorProto` and `EnumDescriptorProto` in paths.
+pub(super) const FILE_MESSAGE: i32 = 4;
+pub(super) const FILE_ENUM: i32 = 5;
+pub(super) const MESSAGE_FIELD: i32 = 2;
+pub(super) const MESSAGE_NESTED: i32 = 3;
+pub(super) const MESSAGE_ENUM: i32 = 4;
+pub(super) const ENUM_VALUE: i32 = 2;
+
+/// The files, each after the files that it imports.
+pub(super) struct Schema<'s> {
+    pub(super) files: Vec<SchemaFile<'s>>,
+}
+
+/// A file and its comments by path.
+pub(super) struct SchemaFile<'s> {
+    pub(super) file: &'s FileDescriptorProto,
+    comments: HashMap<Path, String>,
+}
+
+impl<'s> Schema<'s> {
+    /// The files that declare the messages of the system's gates, with all that they import: those of the plan.
+    pub(super) fn of(system: &'s System) -> Self {
+        let Some(descriptors) = &system.descriptors else { return Self { files: Vec::new() } };
+        let gates = system.components.iter().flat_map(|component| &component.gates);
+        let used: BTreeSet<&str> =
+            gates.flat_map(|gate| &gate.types).filter(|it| it.in_schemas).map(|it| it.dotted.as_str()).collect();
+        let mut needed = BTreeSet::new();
+        let mut open: Vec<_> = descriptors.file.iter().filter(|file| declares_any(file, &used)).collect();
+        while let Some(file) = open.pop() {
+            if needed.insert(file.name()) {
+                open.extend(descriptors.file.iter().filter(|it| file.dependency.iter().any(|name| name == it.name())));
+            }
+        }
+        let files = descriptors.file.iter().filter(|file| needed.contains(file.name()));
+        Self { files: files.map(SchemaFile::of).collect() }
+    }
+
+    /// The files of the user; protobuf's own have modules in the package `google.protobuf`.
+    pub(super) fn own_files(&self) -> impl Iterator<Item = &SchemaFile<'s>> {
+        self.files.iter().filter(|file| !file.is_well_known())
+    }
+}
+
+impl<'s> SchemaFile<'s> {
+    fn of(file: &'s FileDescriptorProto) -> Self {
+        let locations = file.source_code_info.iter().flat_map(|info| &info.location);
+        let commented = locations.filter_map(|location| {
+            let comment = [location.leading_comments(), location.trailing_comments()].map(plain);
+            let comment = comment.into_iter().filter(|it| !it.is_empty()).collect::<Vec<_>>().join("\n\n");
+            (!comment.is_empty()).then(|| (location.path.clone(), comment))
+        });
+        Self { file, comments: commented.collect() }
+    }
+
+    /// `google/protobuf/timestamp.proto` and the like.
+    pub(super) fn is_well_known(&self) -> bool {
+        self.file.name().starts_with("google/protobuf/")
+    }
+
+    pub(super) fn comment(&self, path: &[i32]) -> Option<&str> {
+        self.comments.get(path).map(String::as_str)
+    }
+
+    /// Whether singular fields without `optional` have presence: not in proto3.
+    pub(super) fn has_implicit_presence(&self) -> bool {
+        self.file.syntax() != "proto3"
+    }
+
+    /// The name with the package, and a dot at its start as references have it.
+    pub(super) fn full_name(&self, name: &str) -> String {
+        match self.file.package() {
+            "" => format!(".{name}"),
+            package => format!(".{package}.{name}"),
+        }
+    }
+}
+
+/// A comment without the space that follows `//`.
+fn plain(comment: &str) -> String {
+    let lines = comment.lines().map(|line| line.strip_prefix(' ').unwrap_or(line).trim_end());
+    lines.collect::<Vec<_>>().join("\n").trim().to_owned()
+}
+
+fn declares_any(file: &FileDescriptorProto, messages: &BTreeSet<&str>) -> bool {
+    file.message_type.iter().any(|message| declares(message, file.package(), messages))
+}
+
+fn declares(message: &DescriptorProto, outer: &str, wanted: &BTreeSet<&str>) -> bool {
+    let name = match outer {
+        "" => message.name().to_owned(),
+        _ => format!("{outer}.{}", message.name()),
+    };
+    wanted.contains(name.as_str()) || message.nested_type.iter().any(|nested| declares(nested, &name, wanted))
+}

@@ -1,0 +1,161 @@
+//! Generated C: its text, and what compilers say about it and about programs that use it wrongly.
+
+use crate::fixture::{generated, repository, run, system, text, topology};
+use expect_test::{Expect, expect, expect_file};
+use scl_generate::{Target, generate, write};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const STRICT: [&str; 5] = ["-Wall", "-Wextra", "-Werror", "-pedantic", "-fsyntax-only"];
+
+#[test]
+fn every_kind_of_gate_has_its_functions() {
+    let files = generated(&topology("every_kind.yaml"), Target::C);
+    expect_file!["expected/every_kind_scl.h"].assert_eq(&text(&files, "every_kind_scl.h"));
+    expect_file!["expected/every_kind_scl.c"].assert_eq(&text(&files, "every_kind_scl.c"));
+}
+
+#[test]
+fn generated_code_compiles_without_a_warning() {
+    let quickstart = repository().join("examples/quickstart/topology.yaml");
+    for path in [topology("every_kind.yaml"), topology("bytes.yaml"), quickstart] {
+        let project = Project::of(&path);
+        let source = format!("{}_scl.c", system(&path).snake_name());
+        project.compiles("cc", &[&["-std=c11"], &STRICT[..], &[&source]].concat());
+        project.compiles("c++", &[&["-std=c++17", "-x", "c++"], &STRICT[..], &[&source]].concat());
+    }
+}
+
+#[test]
+fn one_component_alone_compiles() {
+    let path = topology("every_kind.yaml");
+    for index in 0..system(&path).components.len() {
+        let mut system = system(&path);
+        system.components = vec![system.components.swap_remove(index)];
+        let project = Project::of(&path);
+        generate(&system, Target::C).unwrap().iter().for_each(|file| {
+            write(project.path(), file).unwrap();
+        });
+        project.compiles("cc", &[&["-std=c11"], &STRICT[..], &["every_kind_scl.c"]].concat());
+    }
+}
+
+/// A program for the quick start with one statement, and what the compiler says.
+#[track_caller]
+fn refused(statement: &str, expected: Expect) {
+    let project = Project::of(&repository().join("examples/quickstart/topology.yaml"));
+    let program = format!(
+        "#include \"rover_scl.h\"\nint main(void) {{\n    rover_sensor sensor;\n    rover_controller controller;\n    \
+         Rover__Measurement measurement = ROVER__MEASUREMENT__INIT;\n    \
+         Rover__Setpoint setpoint = ROVER__SETPOINT__INIT;\n    Rover__Setpoint *received;\n    \
+         (void)sensor, (void)controller, (void)measurement, (void)setpoint, (void)received;\n    {statement}\n}}\n"
+    );
+    std::fs::write(project.path().join("main.c"), program).unwrap();
+    // Without any option that asks for warnings: the header asks for the errors itself.
+    let (compiles, told) = project.compile("cc", &["-fsyntax-only", "main.c"]);
+    // Without the places, and without the names of options, which differ between versions of compilers.
+    let shown = told.lines().filter_map(|line| {
+        let error = line.split_once("error: ").map(|(_, error)| error);
+        let text = error.or_else(|| line.split_once("note: expected").map(|(_, note)| note.trim_start()))?;
+        Some(text.split_once(" [-W").map_or(text, |(text, _)| text))
+    });
+    let errors: String = shown.map(|text| format!("{text}\n")).collect();
+    expected.assert_eq(&errors);
+    assert_eq!(compiles, errors.is_empty());
+}
+
+#[test]
+fn a_right_program_compiles() {
+    refused("return rover_sensor_measurements_send(&sensor, &measurement, -1);", expect![""]);
+}
+
+#[test]
+fn a_misspelt_gate_does_not_compile() {
+    refused(
+        "return rover_sensor_measurement_send(&sensor, &measurement, -1);",
+        expect![[r#"
+            implicit declaration of function 'rover_sensor_measurement_send'; did you mean 'rover_sensor_measurements_send'?
+        "#]],
+    );
+}
+
+#[test]
+fn the_wrong_direction_does_not_compile() {
+    refused(
+        "return rover_sensor_measurements_recv(&sensor, &received, -1);",
+        expect![[r#"
+            implicit declaration of function 'rover_sensor_measurements_recv'; did you mean 'rover_sensor_measurements_send'?
+        "#]],
+    );
+}
+
+#[test]
+fn the_wrong_message_does_not_compile() {
+    refused(
+        "return rover_sensor_measurements_send(&sensor, &setpoint, -1);",
+        expect![[r#"
+            passing argument 2 of 'rover_sensor_measurements_send' from incompatible pointer type
+            'const Rover__Measurement *' but argument is of type 'Rover__Setpoint *'
+        "#]],
+    );
+    refused(
+        "return rover_controller_sensor_recv(&controller, &received, -1);",
+        expect![[r#"
+            passing argument 2 of 'rover_controller_sensor_recv' from incompatible pointer type
+            'Rover__Measurement **' but argument is of type 'Rover__Setpoint **'
+        "#]],
+    );
+}
+
+#[test]
+fn the_wrong_component_does_not_compile() {
+    refused(
+        "return rover_sensor_measurements_send(&controller, &measurement, -1);",
+        expect![[r#"
+            passing argument 1 of 'rover_sensor_measurements_send' from incompatible pointer type
+            'rover_sensor *' but argument is of type 'rover_controller *'
+        "#]],
+    );
+}
+
+/// A folder with generated code and what `protoc-c` makes of the schemas.
+pub(crate) struct Project {
+    folder: tempfile::TempDir,
+}
+
+impl Project {
+    pub(crate) fn of(topology: &Path) -> Self {
+        let project = Self { folder: tempfile::tempdir().unwrap() };
+        for file in generated(topology, Target::C) {
+            write(project.path(), &file).unwrap();
+        }
+        let schemas = system(topology).descriptors.unwrap_or_default();
+        let names = schemas.file.iter().map(|file| file.name().to_owned());
+        let folder = topology.parent().unwrap();
+        let include = format!("-I{}", folder.display());
+        for name in names {
+            let mut command = Command::new("protoc-c");
+            command.arg(&include).arg(format!("--c_out={}", project.path().display())).arg(name);
+            let (succeeds, told) = run(&mut command, "protobuf-c-compiler");
+            assert!(succeeds, "{told}");
+        }
+        project
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    fn compile(&self, compiler: &str, arguments: &[&str]) -> (bool, String) {
+        let include: PathBuf = repository().join("bindings/c/include");
+        let mut command = Command::new(compiler);
+        command.current_dir(self.path()).arg("-I.").arg("-I").arg(include).args(arguments).env("LC_ALL", "C");
+        run(&mut command, "gcc g++ libprotobuf-c-dev")
+    }
+
+    #[track_caller]
+    fn compiles(&self, compiler: &str, arguments: &[&str]) {
+        let (succeeds, told) = self.compile(compiler, arguments);
+        assert!(succeeds, "{told}");
+    }
+}

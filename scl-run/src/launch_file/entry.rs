@@ -1,0 +1,138 @@
+//! What a launch file says about one component, in `components` or in a profile.
+
+use super::super::problem::{Problem, closest_name, quoted_list};
+use super::keys;
+use super::reader::{KeyPath, Reader, scalar_text, shown};
+use serde_yaml::{Mapping, Value};
+
+/// A component and the program that runs it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct LaunchComponent {
+    /// The component's name.
+    pub(crate) name: String,
+    /// What makes the program.
+    pub(crate) build: Option<Vec<String>>,
+    /// The program and its arguments, not empty.
+    pub(crate) command: Vec<String>,
+    /// For this program.
+    pub(crate) environment: Vec<(String, String)>,
+    /// Where it runs, as written.
+    pub(crate) folder: Option<String>,
+}
+
+/// An entry as written: keys that it lacks are `None`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Entry {
+    pub(super) name: String,
+    pub(super) build: Option<Vec<String>>,
+    pub(super) command: Option<Vec<String>>,
+    pub(super) environment: Vec<(String, String)>,
+    pub(super) folder: Option<String>,
+}
+
+impl Entry {
+    /// The component, if the entry has a command.
+    pub(super) fn into_component(self) -> Option<LaunchComponent> {
+        let Self { name, build, command, environment, folder } = self;
+        Some(LaunchComponent { name, build, command: command?, environment, folder })
+    }
+}
+
+impl Reader<'_> {
+    /// Reads an entry of `components`, which must have a command.
+    pub(super) fn read_component(&mut self, name: &Value, entry: &Value, at: KeyPath<'_>) -> Option<LaunchComponent> {
+        self.read_entry(name, entry, at, |_| true)?.into_component()
+    }
+
+    /// Reads the entry of a component in the mapping at `within`; `must_have_command` decides by the component's name.
+    pub(super) fn read_entry(
+        &mut self,
+        name: &Value,
+        entry: &Value,
+        within: KeyPath<'_>,
+        must_have_command: impl Fn(&str) -> bool,
+    ) -> Option<Entry> {
+        let Some(name) = name.as_str() else {
+            let shown = shown(name);
+            self.wrong(within, &format!("the name of a component is a word, not {shown}"));
+            return None;
+        };
+        let at = joined(within, name);
+        self.check_known(name, &at);
+        let Some(keys) = entry.as_mapping() else {
+            let message = format!("the entry of component `{name}` is not a mapping");
+            let help = format!("write `{name}: {{command: {}}}`", entry.as_str().unwrap_or("./program"));
+            self.problems.push(Problem::new(message).at(self.text.place(&at)).help(help));
+            return None;
+        };
+        self.check_keys(keys, &at, keys::COMPONENT, &format!("in component `{name}`"));
+        let command = match keys.get("command") {
+            None if !must_have_command(name) => None,
+            _ => Some(self.read_command(name, keys, &at)),
+        };
+        Some(Entry {
+            name: name.to_owned(),
+            build: self.read_build(keys.get("build"), &joined(&at, "build")),
+            command,
+            environment: self.read_environment(keys.get("environment"), &joined(&at, "environment")),
+            folder: self.read_path(keys.get("folder"), &joined(&at, "folder")),
+        })
+    }
+
+    /// Reads a build command.
+    pub(super) fn read_build(&mut self, value: Option<&Value>, at: KeyPath<'_>) -> Option<Vec<String>> {
+        let words = command_words(value?);
+        if words.is_none() {
+            let problem = Problem::new("this `build` is not a command").at(self.text.place(at));
+            self.problems.push(problem.help("write `build: make sensor` or `build: [make, sensor]`"));
+        }
+        words
+    }
+
+    fn read_command(&mut self, name: &str, keys: &Mapping, at: KeyPath<'_>) -> Vec<String> {
+        let value = keys.get("command");
+        let misspelt = || keys.keys().filter_map(Value::as_str).any(|key| closest_name(key, ["command"]).is_some());
+        if value.is_none() && misspelt() {
+            // The misspelt key has been reported, with the right one as its help.
+            return Vec::new();
+        }
+        value.and_then(command_words).unwrap_or_else(|| {
+            let message = format!("component `{name}` has no usable `command`");
+            let help = format!("write `command: ./{name}` or `command: [./{name}, --verbose]`");
+            let place = if value.is_some() { self.text.place(&joined(at, "command")) } else { self.text.place(at) };
+            self.problems.push(Problem::new(message).at(place).help(help));
+            Vec::new()
+        })
+    }
+
+    fn check_known(&mut self, name: &str, at: KeyPath<'_>) {
+        let Some(known) = self.known else { return };
+        if known.iter().any(|it| it == name) {
+            return;
+        }
+        let problem = Problem::new(format!("unknown component `{name}`")).at(self.text.place(at));
+        let problem = match closest_name(name, known.iter().map(String::as_str)) {
+            Some(close) => problem.help(format!("did you mean `{close}`?")),
+            None => problem,
+        };
+        let names = quoted_list(known.iter().map(String::as_str));
+        self.problems.push(problem.note(format!("the topology has the components {names}")));
+    }
+}
+
+/// The program and arguments of a command: a list as it is, a text for the shell. `None` if the value is not a command.
+fn command_words(value: &Value) -> Option<Vec<String>> {
+    let words: Vec<String> = match value {
+        Value::String(line) if !line.trim().is_empty() && !line.contains('\0') => {
+            ["/bin/sh", "-c", line].map(str::to_owned).to_vec()
+        }
+        Value::Sequence(words) => words.iter().map(scalar_text).collect::<Option<_>>()?,
+        _ => return None,
+    };
+    words.first().is_some_and(|program| !program.is_empty()).then_some(words)
+}
+
+/// The path of keys with one more.
+pub(super) fn joined<'k>(path: &[&'k str], key: &'k str) -> Vec<&'k str> {
+    path.iter().copied().chain([key]).collect()
+}

@@ -1,0 +1,102 @@
+//! `profiles`: other programs for the same components.
+
+use super::super::problem::{Problem, closest_name, quoted_list};
+use super::LaunchFile;
+use super::entry::{Entry, LaunchComponent, joined};
+use super::reader::{Reader, shown};
+use serde_yaml::Value;
+
+/// A named set of entries that replace or change those of `components`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Profile {
+    name: String,
+    entries: Vec<Entry>,
+}
+
+impl LaunchFile {
+    /// The components with these profiles applied in order: later ones win.
+    ///
+    /// # Errors
+    ///
+    /// Every name that is not a profile of this file.
+    pub(crate) fn components_with(&self, profiles: &[String]) -> Result<Vec<LaunchComponent>, Vec<Problem>> {
+        let mut components = self.components.clone();
+        let mut problems = Vec::new();
+        for name in profiles {
+            match self.profiles.iter().find(|profile| profile.name == *name) {
+                Some(profile) => profile.entries.iter().for_each(|entry| apply(entry, &mut components)),
+                None => problems.push(self.unknown_profile(name)),
+            }
+        }
+        if problems.is_empty() { Ok(components) } else { Err(problems) }
+    }
+
+    fn unknown_profile(&self, name: &str) -> Problem {
+        let names = || self.profiles.iter().map(|profile| profile.name.as_str());
+        let problem = Problem::new(format!("unknown profile `{name}`"));
+        if self.profiles.is_empty() {
+            return problem.note("the launch file has no `profiles`");
+        }
+        let problem = match closest_name(name, names()) {
+            Some(close) => problem.help(format!("did you mean `{close}`?")),
+            None => problem,
+        };
+        problem.note(format!("the launch file has the profiles {}", quoted_list(names())))
+    }
+}
+
+/// Applies an entry. With a command it is another program, to which the other's build and folder do not belong; without
+/// one it changes the keys that it has.
+fn apply(entry: &Entry, components: &mut Vec<LaunchComponent>) {
+    let Some(component) = components.iter_mut().find(|component| component.name == entry.name) else {
+        components.extend(entry.clone().into_component());
+        return;
+    };
+    component.environment.extend(entry.environment.iter().cloned());
+    if let Some(command) = &entry.command {
+        component.command.clone_from(command);
+        component.build.clone_from(&entry.build);
+        component.folder.clone_from(&entry.folder);
+        return;
+    }
+    if entry.build.is_some() {
+        component.build.clone_from(&entry.build);
+    }
+    if entry.folder.is_some() {
+        component.folder.clone_from(&entry.folder);
+    }
+}
+
+impl Reader<'_> {
+    /// Reads all profiles, whether or not they are used. A component that is not in `components` needs a command.
+    pub(super) fn read_profiles(&mut self, value: Option<&Value>, components: Option<&Value>) -> Vec<Profile> {
+        let profiles = match value {
+            None => return Vec::new(),
+            Some(Value::Mapping(profiles)) => profiles,
+            Some(other) => {
+                let problem = Problem::new(format!("`profiles` is a mapping, not {}", shown(other)));
+                let problem = problem.at(self.text.place(&["profiles"]));
+                self.problems.push(problem.help("write `profiles: {python: {sensor: {command: ./sensor.py}}}`"));
+                return Vec::new();
+            }
+        };
+        profiles.iter().filter_map(|(name, entries)| self.read_profile(name, entries, components)).collect()
+    }
+
+    fn read_profile(&mut self, name: &Value, entries: &Value, components: Option<&Value>) -> Option<Profile> {
+        let Some(name) = name.as_str() else {
+            self.wrong(&["profiles"], &format!("the name of a profile is a word, not {}", shown(name)));
+            return None;
+        };
+        let at = joined(&["profiles"], name);
+        let Some(entries) = entries.as_mapping() else {
+            let problem = Problem::new(format!("profile `{name}` is not a mapping from components to commands"));
+            let problem = problem.at(self.text.place(&at));
+            self.problems.push(problem.help(format!("write `{name}: {{sensor: {{command: ./sensor}}}}`")));
+            return None;
+        };
+        let is_new = |component: &str| components.and_then(|entries| entries.get(component)).is_none();
+        let entries = entries.iter().filter_map(|(name, entry)| self.read_entry(name, entry, &at, is_new)).collect();
+        Some(Profile { name: name.to_owned(), entries })
+    }
+}
