@@ -1,6 +1,6 @@
 """Converts between protobuf and JSON with Google's implementation, line by line.
 
-Arguments: a file with a FileDescriptorSet and the name of a message. A line `json <hex>` or `proto <hex>` is
+Arguments: the name of a message and a file with a FileDescriptorSet. A line `json <hex>` or `proto <hex>` is
 answered with the other encoding as `ok <hex>`, or with `error <text>`.
 """
 
@@ -8,11 +8,11 @@ import sys
 
 from google.protobuf import descriptor_pb2, descriptor_pool, json_format, message_factory
 
-files = descriptor_pb2.FileDescriptorSet.FromString(open(sys.argv[1], "rb").read())
+files = descriptor_pb2.FileDescriptorSet.FromString(open(sys.argv[2], "rb").read())
 pool = descriptor_pool.DescriptorPool()
 for file in files.file:
     pool.Add(file)
-message_type = message_factory.GetMessageClass(pool.FindMessageTypeByName(sys.argv[2]))
+message_type = message_factory.GetMessageClass(pool.FindMessageTypeByName(sys.argv[1]))
 
 for line in sys.stdin:
     kind, _, data = line.strip().partition(" ")

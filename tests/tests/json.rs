@@ -6,22 +6,23 @@ use scl::codec::{Codec, Json};
 use scl::private::prost::Message;
 use scl::private::prost_types::value::Kind;
 use scl::private::prost_types::{Duration, FieldMask, Struct, Timestamp, Value};
-use scl_tests::python_with_packages;
+use scl_tests::{python_with_packages, python_with_scl};
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 scl::topology!("topologies/json.yaml");
 
 use json::{Everything, Level, everything};
 
-fn to_json(message: &Everything) -> String {
+pub(crate) fn to_json(message: &Everything) -> String {
     let mut buffer = BytesMut::new();
     Json::encode(message, &mut buffer).expect("a message that JSON can represent");
     String::from_utf8(buffer.to_vec()).expect("text")
 }
 
-fn from_json(text: &str) -> Result<Everything, String> {
+pub(crate) fn from_json(text: &str) -> Result<Everything, String> {
     let decoded = Json::decode(Bytes::copy_from_slice(text.as_bytes()));
     decoded.map_err(|error| {
         format!("{error}: {}", std::error::Error::source(&error).map(ToString::to_string).unwrap_or_default())
@@ -30,7 +31,7 @@ fn from_json(text: &str) -> Result<Everything, String> {
 
 /// Messages that use every field, every special value and every well-known type, with their texts as in the
 /// specification.
-fn cases() -> Vec<(Everything, &'static str)> {
+pub(crate) fn cases() -> Vec<(Everything, &'static str)> {
     let default = Everything::default;
     let inner = |text: &str| everything::Inner { text: text.to_owned(), outer: None };
     let value = |kind| Value { kind: Some(kind) };
@@ -117,27 +118,36 @@ fn messages_have_the_texts_of_the_specification() {
 
 #[test]
 fn every_spelling_of_the_specification_is_read() {
-    let cases = [
-        (r#"{"an_int64": 5}"#, r#"{"anInt64":"5"}"#),
-        (
-            r#"{"anInt64": "5", "aUint64": 7, "anInt32": 1e2, "aUint32": 3.0}"#,
-            r#"{"anInt32":100,"anInt64":"5","aUint32":3,"aUint64":"7"}"#,
-        ),
-        (r#"{"someBytes": "_-4", "manyBytes": ["AQ"]}"#, r#"{"someBytes":"/+4=","manyBytes":["AQ=="]}"#),
-        (r#"{"level": 1, "levels": [-1]}"#, r#"{"level":"LEVEL_HIGH","levels":["LEVEL_MINUS"]}"#),
-        (r#"{"aString": null, "numbers": null, "inner": null}"#, "{}"),
-        (r#"{"aDouble": "-Infinity", "aFloat": "1.5"}"#, r#"{"aDouble":"-Infinity","aFloat":1.5}"#),
-        (r#"{"at": "2026-11-21T19:00:00+01:00"}"#, r#"{"at":"2026-11-21T18:00:00Z"}"#),
-        (r#"{"added": {"later": [1, {}]}, "aBool": true, "inner": {"new": 1}}"#, r#"{"aBool":true,"inner":{}}"#),
-        (r#"{"other_name": 1, "renamed": 3}"#, r#"{"otherName":3}"#),
-    ];
-    for (read, canonical) in cases {
+    for (read, canonical) in SPELLINGS {
         assert_eq!(from_json(read).map(|message| to_json(&message)), Ok(canonical.to_owned()), "{read}");
     }
 }
 
+/// Texts that programs may send, and their canonical forms.
+const SPELLINGS: [(&str, &str); 9] = [
+    (r#"{"an_int64": 5}"#, r#"{"anInt64":"5"}"#),
+    (
+        r#"{"anInt64": "5", "aUint64": 7, "anInt32": 1e2, "aUint32": 3.0}"#,
+        r#"{"anInt32":100,"anInt64":"5","aUint32":3,"aUint64":"7"}"#,
+    ),
+    (r#"{"someBytes": "_-4", "manyBytes": ["AQ"]}"#, r#"{"someBytes":"/+4=","manyBytes":["AQ=="]}"#),
+    (r#"{"level": 1, "levels": [-1]}"#, r#"{"level":"LEVEL_HIGH","levels":["LEVEL_MINUS"]}"#),
+    (r#"{"aString": null, "numbers": null, "inner": null}"#, "{}"),
+    (r#"{"aDouble": "-Infinity", "aFloat": "1.5"}"#, r#"{"aDouble":"-Infinity","aFloat":1.5}"#),
+    (r#"{"at": "2026-11-21T19:00:00+01:00"}"#, r#"{"at":"2026-11-21T18:00:00Z"}"#),
+    (r#"{"added": {"later": [1, {}]}, "aBool": true, "inner": {"new": 1}}"#, r#"{"aBool":true,"inner":{}}"#),
+    (r#"{"other_name": 1, "renamed": 3}"#, r#"{"otherName":3}"#),
+];
+
 #[test]
 fn other_texts_are_refused() {
+    for text in refused() {
+        let found = from_json(&text);
+        assert!(found.is_err(), "{}: {found:?}", &text[..text.len().min(80)]);
+    }
+}
+
+fn refused() -> Vec<String> {
     let nested = format!("{}{}", r#"{"inner":{"outer":"#.repeat(200), "{}".to_owned() + &"}}".repeat(200));
     let cases = [
         "",
@@ -159,10 +169,7 @@ fn other_texts_are_refused() {
         &"[".repeat(1_000_000),
         &format!(r#"{{"anyValue": {}"#, "[".repeat(100_000)),
     ];
-    for text in cases {
-        let found = from_json(text);
-        assert!(found.is_err(), "{}: {found:?}", &text[..text.len().min(80)]);
-    }
+    cases.map(str::to_owned).into()
 }
 
 #[tokio::test]
@@ -182,12 +189,24 @@ struct Python {
 }
 
 impl Python {
+    /// Google's implementation alone.
     fn start(message: &str) -> Self {
+        Self::run(python_with_packages(), "canonical_json.py", &[], message)
+    }
+
+    /// The codec `json` of the package `scl`.
+    fn start_scl(message: &str) -> Self {
+        Self::run(python_with_scl(), "codec.py", &["json"], message)
+    }
+
+    fn run(python: &Path, script: &str, arguments: &[&str], message: &str) -> Self {
         let mut descriptors = tempfile::NamedTempFile::new().expect("a file");
         descriptors.write_all(Here::SPEC.schema.expect("a schema").descriptors).expect("written");
-        let script = concat!(env!("CARGO_MANIFEST_DIR"), "/python/canonical_json.py");
-        let mut child = Command::new(python_with_packages())
-            .args([script.as_ref(), descriptors.path().as_os_str(), message.as_ref()])
+        let script = format!("{}/python/{script}", env!("CARGO_MANIFEST_DIR"));
+        let mut child = Command::new(python)
+            .arg(script)
+            .args(arguments)
+            .args([message.as_ref(), descriptors.path().as_os_str()])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
@@ -216,7 +235,31 @@ impl Drop for Python {
 
 #[test]
 fn python_reads_and_writes_the_same_messages() {
-    let mut python = Python::start("json.Everything");
+    agrees_with(Python::start("json.Everything"));
+}
+
+#[test]
+fn the_package_for_python_reads_and_writes_the_same_messages() {
+    agrees_with(Python::start_scl("json.Everything"));
+}
+
+#[test]
+fn the_package_for_python_reads_and_refuses_the_same_texts() {
+    let mut python = Python::start_scl("json.Everything");
+    for (read, canonical) in SPELLINGS {
+        let message = python.convert("json", read.as_bytes()).unwrap_or_else(|error| panic!("{read}: {error}"));
+        let written = python.convert("proto", &message).expect("JSON");
+        assert_eq!(String::from_utf8(written).as_deref(), Ok(canonical), "{read}");
+    }
+    // Google's parser skips characters that are not base64.
+    for text in refused().iter().filter(|text| !text.contains("someBytes")) {
+        let found = python.convert("json", text.as_bytes());
+        let error = found.err().unwrap_or_else(|| panic!("accepted: {}", &text[..text.len().min(80)]));
+        assert!(error.contains("gate `there.gate` received an undecodable message from `here.gate`"), "{error}");
+    }
+}
+
+fn agrees_with(mut python: Python) {
     for (message, _) in cases() {
         let text = to_json(&message);
         let read = python.convert("json", text.as_bytes()).unwrap_or_else(|error| panic!("{text}: {error}"));

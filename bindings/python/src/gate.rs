@@ -145,28 +145,40 @@ impl Gate {
         })
     }
 
-    /// The error of a receiving call that has waited in vain, with the reason.
-    fn nothing_received(&self, waited: Duration) -> Failure {
-        let ask_why = |gate: &mut AnyGate| {
-            Ok(match gate {
-                AnyGate::Sub(gate) => gate.recv_timeout(Duration::ZERO).err(),
-                AnyGate::Pull(gate) => gate.recv_timeout(Duration::ZERO).err(),
-                AnyGate::Rep(gate) => gate.recv_timeout(Duration::ZERO).err(),
-                _ => None,
-            })
-        };
-        match self.at_once(ask_why) {
-            Ok(Some(RecvTimeoutError::Timeout { gate, peers, reason, .. })) if waited.is_zero() => {
+    /// The last attempt of a receiving call whose time is over, which also finds the reason.
+    fn last_attempt<R>(
+        &self,
+        waited: Duration,
+        attempt: impl FnOnce(&mut AnyGate) -> Result<Result<R, RecvTimeoutError>, Failure>,
+    ) -> Result<R, Failure> {
+        self.at_once(attempt)?.map_err(|error| match error {
+            RecvTimeoutError::Timeout { gate, peers, reason, .. } if waited.is_zero() => {
                 let reason = reason.map_or_else(String::new, |reason| format!(": {reason}"));
                 Failure::new("Timeout", format!("gate `{gate}` has received nothing from {peers}{reason}"))
             }
-            Ok(Some(RecvTimeoutError::Timeout { gate, peers, reason, .. })) => {
+            RecvTimeoutError::Timeout { gate, peers, reason, .. } => {
                 RecvTimeoutError::Timeout { gate, peers, reason, waited }.into()
             }
-            Ok(Some(error)) => error.into(),
-            // Something has arrived after the time was over.
-            Ok(None) => Failure::new("Timeout", format!("gate `{}` received nothing in time", self.full_name())),
-            Err(failure) => failure,
+            error => error.into(),
+        })
+    }
+
+    fn receive(&self, gate: &mut AnyGate, within: Duration) -> Result<Result<Bytes, RecvTimeoutError>, Failure> {
+        match gate {
+            AnyGate::Sub(gate) => Ok(gate.recv_timeout(within)),
+            AnyGate::Pull(gate) => Ok(gate.recv_timeout(within)),
+            _ => self.has_no("recv"),
+        }
+    }
+
+    fn take_request(
+        &self,
+        gate: &mut AnyGate,
+        within: Duration,
+    ) -> Result<Result<scl::Request<Bytes, Bytes>, RecvTimeoutError>, Failure> {
+        match gate {
+            AnyGate::Rep(gate) => Ok(gate.recv_timeout(within)),
+            _ => self.has_no("recv_request"),
         }
     }
 }
@@ -252,16 +264,16 @@ impl Gate {
         Ok(sent)
     }
 
-    #[pyo3(signature = (timeout=None))]
-    fn recv<'py>(&self, py: Python<'py>, timeout: Option<f64>) -> PyResult<Bound<'py, PyBytes>> {
-        let limit = Limit::of_seconds(timeout)?;
+    /// Waits for a message. `waited` is for the message of the error, if an event loop has waited before.
+    #[pyo3(signature = (timeout=None, waited=None))]
+    fn recv<'py>(&self, py: Python<'py>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<Bound<'py, PyBytes>> {
+        let limit = Limit::of_seconds(timeout)?.after(waited);
         let attempt = |gate: &mut AnyGate| self.try_receive(gate);
-        let received = self.try_then_wait(py, limit, attempt, |gate, within| match gate {
-            AnyGate::Sub(gate) => unless_timeout(gate.recv_timeout(within)),
-            AnyGate::Pull(gate) => unless_timeout(gate.recv_timeout(within)),
-            _ => self.has_no("recv"),
-        })?;
-        let received = received.ok_or_else(|| self.nothing_received(limit.waited()))?;
+        let wait_for = |gate: &mut AnyGate, within| unless_timeout(self.receive(gate, within)?);
+        let received = match self.try_then_wait(py, limit, attempt, wait_for)? {
+            Some(received) => received,
+            None => self.last_attempt(limit.waited(), |gate| self.receive(gate, Duration::ZERO))?,
+        };
         Ok(PyBytes::new(py, &received))
     }
 
@@ -285,21 +297,16 @@ impl Gate {
         Ok(received.map(|message| PyBytes::new(py, &message)))
     }
 
-    /// The error of a call that has waited for so many seconds in vain.
-    fn timeout_error(&self, py: Python<'_>, waited: f64) -> Py<PyAny> {
-        let waited = Duration::try_from_secs_f64(waited).unwrap_or(Duration::MAX);
-        PyErr::from(self.nothing_received(waited)).into_value(py).into_any()
-    }
-
-    #[pyo3(signature = (timeout=None))]
-    fn recv_request(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<Request> {
-        let limit = Limit::of_seconds(timeout)?;
+    /// As `recv`, at a `rep` gate.
+    #[pyo3(signature = (timeout=None, waited=None))]
+    fn recv_request(&self, py: Python<'_>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<Request> {
+        let limit = Limit::of_seconds(timeout)?.after(waited);
         let attempt = |gate: &mut AnyGate| self.try_take_request(gate);
-        let taken = self.try_then_wait(py, limit, attempt, |gate, within| match gate {
-            AnyGate::Rep(gate) => unless_timeout(gate.recv_timeout(within)),
-            _ => self.has_no("recv_request"),
-        })?;
-        let taken = taken.ok_or_else(|| self.nothing_received(limit.waited()))?;
+        let wait_for = |gate: &mut AnyGate, within| unless_timeout(self.take_request(gate, within)?);
+        let taken = match self.try_then_wait(py, limit, attempt, wait_for)? {
+            Some(taken) => taken,
+            None => self.last_attempt(limit.waited(), |gate| self.take_request(gate, Duration::ZERO))?,
+        };
         Ok(Request::new(taken, Arc::clone(&self.shared)))
     }
 

@@ -10,6 +10,8 @@ pub(crate) struct Limit {
     began: Instant,
     /// `None` for no limit.
     length: Option<Duration>,
+    /// How long the caller had waited before.
+    before: Duration,
 }
 
 impl Limit {
@@ -23,7 +25,13 @@ impl Limit {
             // What is too long for a `Duration` never ends.
             Some(seconds) => Duration::try_from_secs_f64(seconds).ok(),
         };
-        Ok(Self { began: Instant::now(), length })
+        Ok(Self { began: Instant::now(), length, before: Duration::ZERO })
+    }
+
+    /// For a call that goes on after a wait of some seconds elsewhere.
+    pub(crate) fn after(self, waited: Option<f64>) -> Self {
+        let before = waited.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+        Self { before: before.unwrap_or_default(), ..self }
     }
 
     /// Returns true if the call must not wait.
@@ -42,6 +50,6 @@ impl Limit {
 
     /// How long the call has waited, for messages.
     pub(crate) fn waited(&self) -> Duration {
-        self.length.unwrap_or_else(|| self.began.elapsed())
+        self.before + self.length.unwrap_or_else(|| self.began.elapsed())
     }
 }

@@ -16,7 +16,6 @@ from queue import Empty, Queue
 from typing import Any
 
 import pytest
-
 import scl
 
 TOPOLOGIES = Path(__file__).parents[3] / "tests" / "topologies"
@@ -88,6 +87,11 @@ class Program:
     def kill(self) -> None:
         self.process.kill()
         self.process.wait()
+        for reader in self._readers:
+            reader.join(HANG_LIMIT)
+        for stream in [self.process.stdin, self.process.stdout, self.process.stderr]:
+            assert stream is not None
+            stream.close()
 
 
 class System:

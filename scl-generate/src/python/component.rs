@@ -10,17 +10,11 @@ use scl_plan::GateKind;
 
 /// Writes the class with its gates.
 pub(super) fn write(system: &System, component: &Component, names: &Names, imports: &Imports, out: &mut Writer) {
-    let mut arguments = vec![
+    let arguments = vec![
         Doc::text("_scl.GeneratedComponent"),
         Doc::text("plan=_PLAN"),
         Doc::text(format!("component=\"{}\"", component.name)),
     ];
-    let renamed = component.gates.iter().filter(|gate| names::gate(gate) != gate.name);
-    let renamed: Vec<Doc> =
-        renamed.map(|gate| Doc::text(format!("\"{}\": \"{}\"", names::gate(gate), gate.name))).collect();
-    if !renamed.is_empty() {
-        arguments.push(Doc::concat([Doc::text("renamed="), Doc::group("{", renamed, "}")]));
-    }
     let class = Doc::text(format!("class {}", names::class(component)));
     let head = Doc::concat([class, Doc::group("(", arguments, ")"), Doc::text(":")]);
     out.line(format!("\n\n{}", Layout::at(0).print(&head)));

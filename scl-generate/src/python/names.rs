@@ -10,8 +10,10 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 /// Names that the module has besides components and messages.
 pub(super) const OWN: &[&str] = &["TYPE_CHECKING", "annotations", "_PLAN", "_scl", "_Enum"];
 
-/// What every component has: gates of these names get a trailing underscore. A test compares them with the package.
-pub(super) const OF_COMPONENTS: &[&str] = &["close", "fileno", "gates", "name", "ready", "ready_async", "system", "wait"];
+/// What every component has: gates of these names get a trailing underscore. The package has the same rule, and a test
+/// compares the two.
+pub(super) const OF_COMPONENTS: &[&str] =
+    &["close", "fileno", "gates", "name", "ready", "ready_async", "system", "wait"];
 
 /// Names of `google.protobuf.message.Message`: fields of these names are reached by `getattr` only.
 const OF_MESSAGES: &[&str] = &[

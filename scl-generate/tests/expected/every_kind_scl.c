@@ -108,8 +108,24 @@ static const char plan[] =
     "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"timeout_ns\": 1000000000,\"connections\": [{"
     "\"peer_component\": \"left\",\"peer_gate\": \"packed\",\"endpoint\": \"right-side.packed.tjmyglsc\","
     "\"contract\": \"tjmyglsc\",\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
-    "}]}]},{\"name\": \"lonely\",\"declared_at\": \"every_kind.yaml:28:11\",\"schema\": null,\"gates\": []}],"
-    "\"schemas\": {"
+    "}]}]},{\"name\": \"lonely\",\"declared_at\": \"every_kind.yaml:28:11\","
+    "\"schema\": \"r4ktqvkabzep275ekb6dcsxlgg\",\"gates\": [{\"name\": \"close\",\"kind\": \"pub\",\"payload\": {"
+    "\"message\": \"kinds.Value\"},\"codec\": \"protobuf\",\"declared_at\": \"every_kind.yaml:30:9\","
+    "\"endpoint\": null,\"tap\": \"lonely.close.tap\",\"contract\": \"iwlze4dk\",\"max_size\": 67108864,\"queue\": 100,"
+    "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"timeout_ns\": 1000000000,\"connections\": []},{"
+    "\"name\": \"ready\",\"kind\": \"sub\",\"payload\": {\"message\": \"kinds.Value\"},\"codec\": \"protobuf\","
+    "\"declared_at\": \"every_kind.yaml:31:9\",\"endpoint\": null,\"tap\": null,\"contract\": \"iwlze4dk\","
+    "\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,"
+    "\"timeout_ns\": 1000000000,\"connections\": []},{\"name\": \"name\",\"kind\": \"req\",\"payload\": {"
+    "\"request\": \"kinds.Value\",\"reply\": \"part.Part\"},\"codec\": \"protobuf\","
+    "\"declared_at\": \"every_kind.yaml:32:9\",\"endpoint\": null,\"tap\": null,\"contract\": \"2uxfcrjj\","
+    "\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,"
+    "\"timeout_ns\": 1000000000,\"connections\": []},{\"name\": \"component\",\"kind\": \"pull\",\"payload\": {"
+    "\"message\": \"kinds.Value\"},\"codec\": \"protobuf\",\"declared_at\": \"every_kind.yaml:33:9\","
+    "\"endpoint\": \"lonely.component.ve27wo5r\",\"tap\": \"lonely.component.tap\",\"contract\": \"ve27wo5r\","
+    "\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,"
+    "\"timeout_ns\": 1000000000,\"connections\": []}]},{\"name\": \"empty\","
+    "\"declared_at\": \"every_kind.yaml:34:11\",\"schema\": null,\"gates\": []}],\"schemas\": {"
     "\"r4ktqvkabzep275ekb6dcsxlgg\": \"Ct0BChBwYXJ0cy9wYXJ0LnByb3RvEgRwYXJ0IroBCgRQYXJ0EiYKBXN0YXRlGAEgASgOMhAucGFydC5QYXJ0LlN0YXRlUgVzdGF0ZRIuCgZjb3VudHMYAiADKAsyFi5wYXJ0LlBhcnQuQ291bnRzRW50cnlSBmNvdW50cxo5CgtDb3VudHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIUCgV2YWx1ZRgCIAEoBVIFdmFsdWU6AjgBIh8KBVN0YXRlEgsKB1VOS05PV04QABIJCgVTT1VORBABYgZwcm90bzMKggIKEGV2ZXJ5X2tpbmQucHJvdG8SBWtpbmRzGhBwYXJ0cy9wYXJ0LnByb3RvImkKBVZhbHVlEhYKBm51bWJlchgBIAEoA1IGbnVtYmVyEhIKBG5hbWUYAiABKAlSBG5hbWUSEgoEZGF0YRgDIAEoDFIEZGF0YRIgCgVwYXJ0cxgEIAMoCzIKLnBhcnQuUGFydFIFcGFydHMiYgoGR1BTRml4Ei4KBWlubmVyGAEgASgLMhgua2luZHMuR1BTRml4LklubmVyX3BhcnRSBWlubmVyGigKCklubmVyX3BhcnQSGgoIbGF0aXR1ZGUYASABKAFSCGxhdGl0dWRlYgZwcm90bzM=\""
     "}}";
 #if defined(__GNUC__)
@@ -592,6 +608,12 @@ scl_status every_kind_lonely_open(every_kind_lonely *self, const char *options_j
     }
     memset(self, 0, sizeof *self);
     scl_status status = scl_open(plan, sizeof plan - 1, "lonely", options_json, &self->component);
+    if (status == SCL_OK) {
+        self->gates.close = scl_gate_by_name(self->component, "close");
+        self->gates.ready = scl_gate_by_name(self->component, "ready");
+        self->gates.name = scl_gate_by_name(self->component, "name");
+        self->gates.component = scl_gate_by_name(self->component, "component");
+    }
     return status;
 }
 
@@ -601,6 +623,97 @@ scl_status every_kind_lonely_ready(every_kind_lonely *self, int64_t timeout_ns)
 }
 
 scl_status every_kind_lonely_close(every_kind_lonely *self, int64_t timeout_ns)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    scl_status status = scl_close(self->component, timeout_ns);
+    if (status != SCL_FORKED) {
+        memset(self, 0, sizeof *self);
+    }
+    return status;
+}
+
+scl_status every_kind_lonely_close_send(every_kind_lonely *self, const Kinds__Value *message, int64_t timeout_ns)
+{
+    return send_message(self == NULL ? NULL : self->gates.close, (const ProtobufCMessage *)message, &kinds__value__descriptor, timeout_ns);
+}
+
+scl_status every_kind_lonely_ready_recv(every_kind_lonely *self, Kinds__Value **message, int64_t timeout_ns)
+{
+    return recv_message(self == NULL ? NULL : self->gates.ready, &kinds__value__descriptor, message, timeout_ns);
+}
+
+scl_status every_kind_lonely_ready_latest(every_kind_lonely *self, Kinds__Value **message)
+{
+    return latest_message(self == NULL ? NULL : self->gates.ready, &kinds__value__descriptor, message);
+}
+
+void every_kind_lonely_ready_free(Kinds__Value *message)
+{
+    protobuf_c_message_free_unpacked((ProtobufCMessage *)message, NULL);
+}
+
+scl_status every_kind_lonely_name_call(every_kind_lonely *self,
+                                       const Kinds__Value *request,
+                                       Part__Part **reply,
+                                       int64_t timeout_ns)
+{
+    scl_gate *gate = self == NULL ? NULL : self->gates.name;
+    scl_message *bytes = NULL;
+    scl_message **result = reply == NULL ? NULL : &bytes;
+    scl_status status = call_with_message(gate, (const ProtobufCMessage *)request, &kinds__value__descriptor, timeout_ns, result);
+    return unpack(gate, &part__part__descriptor, status, bytes, reply);
+}
+
+void every_kind_lonely_name_free(Part__Part *message)
+{
+    protobuf_c_message_free_unpacked((ProtobufCMessage *)message, NULL);
+}
+
+scl_status every_kind_lonely_component_recv(every_kind_lonely *self, Kinds__Value **message, int64_t timeout_ns)
+{
+    return recv_message(self == NULL ? NULL : self->gates.component, &kinds__value__descriptor, message, timeout_ns);
+}
+
+scl_status every_kind_lonely_component_latest(every_kind_lonely *self, Kinds__Value **message)
+{
+    return latest_message(self == NULL ? NULL : self->gates.component, &kinds__value__descriptor, message);
+}
+
+void every_kind_lonely_component_free(Kinds__Value *message)
+{
+    protobuf_c_message_free_unpacked((ProtobufCMessage *)message, NULL);
+}
+
+scl_status every_kind_lonely_wait(every_kind_lonely *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    scl_gate *const all[] = {
+        self->gates.ready,
+        self->gates.component,
+    };
+    return wait_for(self->component, all, sizeof all / sizeof *all, gates, timeout_ns, ready);
+}
+
+scl_status every_kind_empty_open(every_kind_empty *self, const char *options_json)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    memset(self, 0, sizeof *self);
+    scl_status status = scl_open(plan, sizeof plan - 1, "empty", options_json, &self->component);
+    return status;
+}
+
+scl_status every_kind_empty_ready(every_kind_empty *self, int64_t timeout_ns)
+{
+    return scl_ready(self == NULL ? NULL : self->component, timeout_ns);
+}
+
+scl_status every_kind_empty_close(every_kind_empty *self, int64_t timeout_ns)
 {
     if (self == NULL) {
         return scl_fail(SCL_ARGUMENT, "`self` is NULL");

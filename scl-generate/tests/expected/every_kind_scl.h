@@ -216,6 +216,12 @@ scl_status every_kind_right_side_wait(every_kind_right_side *self, uint64_t gate
 /* Component `lonely` (every_kind.yaml:28:11) */
 typedef struct every_kind_lonely {
     scl_component *component;
+    struct {
+        scl_gate *close;
+        scl_gate *ready;
+        scl_gate *name;
+        scl_gate *component;
+    } gates;
 } every_kind_lonely;
 
 /* Opens the component; `options_json` may be NULL, see scl_open. */
@@ -224,6 +230,49 @@ scl_status every_kind_lonely_open(every_kind_lonely *self, const char *options_j
 scl_status every_kind_lonely_ready(every_kind_lonely *self, int64_t timeout_ns);
 /* Hands over what was sent, and closes the component, see scl_close. */
 scl_status every_kind_lonely_close(every_kind_lonely *self, int64_t timeout_ns);
+
+/* Gate `lonely.close` (every_kind.yaml:30:9): pub, kinds.Value in protobuf */
+scl_status every_kind_lonely_close_send(every_kind_lonely *self, const Kinds__Value *message, int64_t timeout_ns);
+
+/* Gate `lonely.ready` (every_kind.yaml:31:9): sub, kinds.Value in protobuf */
+scl_status every_kind_lonely_ready_recv(every_kind_lonely *self, Kinds__Value **message, int64_t timeout_ns);
+/* The newest message, or SCL_NOTHING; older ones are discarded. */
+scl_status every_kind_lonely_ready_latest(every_kind_lonely *self, Kinds__Value **message);
+/* Frees a message that was received; NULL is allowed. */
+void every_kind_lonely_ready_free(Kinds__Value *message);
+
+/* Gate `lonely.name` (every_kind.yaml:32:9): req, kinds.Value -> part.Part in protobuf */
+/* Sends a request and waits for its reply. */
+scl_status every_kind_lonely_name_call(every_kind_lonely *self,
+                                       const Kinds__Value *request,
+                                       Part__Part **reply,
+                                       int64_t timeout_ns);
+/* Frees a message that was received; NULL is allowed. */
+void every_kind_lonely_name_free(Part__Part *message);
+
+/* Gate `lonely.component` (every_kind.yaml:33:9): pull, kinds.Value in protobuf */
+scl_status every_kind_lonely_component_recv(every_kind_lonely *self, Kinds__Value **message, int64_t timeout_ns);
+/* The newest message, or SCL_NOTHING; older ones are discarded. */
+scl_status every_kind_lonely_component_latest(every_kind_lonely *self, Kinds__Value **message);
+/* Frees a message that was received; NULL is allowed. */
+void every_kind_lonely_component_free(Kinds__Value *message);
+
+#define EVERY_KIND_LONELY_READY (UINT64_C(1) << 0)
+#define EVERY_KIND_LONELY_COMPONENT (UINT64_C(1) << 1)
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells at which. */
+scl_status every_kind_lonely_wait(every_kind_lonely *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
+
+/* Component `empty` (every_kind.yaml:34:11) */
+typedef struct every_kind_empty {
+    scl_component *component;
+} every_kind_empty;
+
+/* Opens the component; `options_json` may be NULL, see scl_open. */
+scl_status every_kind_empty_open(every_kind_empty *self, const char *options_json);
+/* Waits until all required peers are connected, see scl_ready. */
+scl_status every_kind_empty_ready(every_kind_empty *self, int64_t timeout_ns);
+/* Hands over what was sent, and closes the component, see scl_close. */
+scl_status every_kind_empty_close(every_kind_empty *self, int64_t timeout_ns);
 
 #ifdef __cplusplus
 }

@@ -19,9 +19,29 @@ const EMPTY_ELEMENTS: usize = 4096;
 
 /// Decodes a value from a frame of `length` bytes.
 pub(super) fn decode<'de, T: Deserialize<'de>, D: Deserializer<'de>>(input: D, length: usize) -> Result<T, D::Error> {
+    decode_with(input, length, Floats::OfTheirWidth)
+}
+
+/// [`decode`] with a choice for floats.
+pub(super) fn decode_with<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+    input: D,
+    length: usize,
+    floats: Floats,
+) -> Result<T, D::Error> {
     let elements = length.saturating_add(EMPTY_ELEMENTS);
-    let bounds = Bounds { levels: Cell::new(LEVELS), elements: Cell::new(elements), allocatable: Cell::new(length) };
+    let [elements, allocatable] = [elements, length].map(Cell::new);
+    let bounds = Bounds { levels: Cell::new(LEVELS), elements, allocatable, floats };
     T::deserialize(Bounded { inner: input, bounds: &bounds })
+}
+
+/// How floats are decoded.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Floats {
+    /// As the format's library does it.
+    OfTheirWidth,
+    /// From every number that the frame has. For self-describing formats whose library insists on the width: Python and
+    /// JavaScript have one width only, and send whole numbers as integers.
+    OfAnyNumber,
 }
 
 /// What remains of the limits.
@@ -30,6 +50,7 @@ struct Bounds {
     elements: Cell<usize>,
     /// The number of elements for which memory may still be allocated in advance; the total is the frame's length.
     allocatable: Cell<usize>,
+    floats: Floats,
 }
 
 impl Bounds {
@@ -90,7 +111,7 @@ impl<'de, D: Deserializer<'de>> Deserializer<'de> for Bounded<'_, D> {
         deserialize_bool() false deserialize_char() false
         deserialize_i8() false deserialize_i16() false deserialize_i32() false deserialize_i64() false
         deserialize_u8() false deserialize_u16() false deserialize_u32() false deserialize_u64() false
-        deserialize_i128() false deserialize_u128() false deserialize_f32() false deserialize_f64() false
+        deserialize_i128() false deserialize_u128() false
         deserialize_str() false deserialize_string() false deserialize_bytes() false deserialize_byte_buf() false
         deserialize_option() false deserialize_unit() false deserialize_identifier() false
         deserialize_unit_struct(name: &'static str) false
@@ -99,6 +120,20 @@ impl<'de, D: Deserializer<'de>> Deserializer<'de> for Bounded<'_, D> {
         deserialize_tuple_struct(name: &'static str, length: usize) false
         deserialize_struct(name: &'static str, fields: &'static [&'static str]) false
         deserialize_enum(name: &'static str, variants: &'static [&'static str]) false
+    }
+
+    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, D::Error> {
+        if self.bounds.floats == Floats::OfAnyNumber {
+            return self.deserialize_any(visitor);
+        }
+        self.inner.deserialize_f32(Counted { inner: visitor, bounds: self.bounds, announced: false })
+    }
+
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, D::Error> {
+        if self.bounds.floats == Floats::OfAnyNumber {
+            return self.deserialize_any(visitor);
+        }
+        self.inner.deserialize_f64(Counted { inner: visitor, bounds: self.bounds, announced: false })
     }
 
     fn is_human_readable(&self) -> bool {

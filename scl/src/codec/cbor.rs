@@ -1,6 +1,7 @@
 //! CBOR, for any serde type.
 
-use super::{Codec, DecodeError, EncodeError, bounded};
+use super::bounded::{self, Floats};
+use super::{Codec, DecodeError, EncodeError};
 use bytes::{BufMut, Bytes, BytesMut};
 use cbor4ii::core::dec::Read;
 use cbor4ii::core::utils::SliceReader;
@@ -10,9 +11,10 @@ use serde::{Serialize, de::DeserializeOwned};
 /// Encodes any serde type as one CBOR item (RFC 8949), structs as maps with field names.
 ///
 /// Unknown fields are skipped and missing optional fields become `None`, so the two ends may use different versions of
-/// a type. Values nested deeper than 128 levels (each `Some` is one level), 16-bit floats, and data after the item are
-/// refused. The unit type is encoded as an empty list, and types that accept any value decode it as such:
-/// `serde_json::Value::Null` becomes an empty array.
+/// a type. Floats are decoded from numbers of any sort, because other languages have floats of one width only and write
+/// whole numbers as integers. Values nested deeper than 128 levels (each `Some` is one level), 16-bit floats, and data
+/// after the item are refused. The unit type is encoded as an empty list, and types that accept any value decode it as
+/// such: `serde_json::Value::Null` becomes an empty array.
 #[derive(Debug)]
 pub struct Cbor;
 
@@ -32,7 +34,7 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Cbor {
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
         let refused = |reason| DecodeError::new(<Self as Codec<T>>::NAME, reason);
         let mut input = Deserializer::new(SliceReader::new(&bytes));
-        let message = bounded::decode(&mut input, bytes.len()).map_err(|error| {
+        let message = bounded::decode_with(&mut input, bytes.len(), Floats::OfAnyNumber).map_err(|error| {
             refused(format!("this {}-byte frame is not a CBOR item of the expected type", bytes.len())).caused_by(error)
         })?;
         match input.into_inner().fill(1) {

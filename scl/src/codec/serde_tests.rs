@@ -203,6 +203,23 @@ fn cbor() {
     );
 }
 
+/// Python and JavaScript send floats of 64 bits, and whole numbers as integers.
+#[cfg(feature = "cbor")]
+#[test]
+fn cbor_decodes_floats_from_numbers_of_any_sort() {
+    use super::Cbor;
+    for (frame, value) in
+        [(&b"\xfb\x3f\xf8\0\0\0\0\0\0"[..], 1.5), (b"\xfa\x3f\xc0\0\0", 1.5), (b"\x07", 7.0), (b"\x20", -1.0)]
+    {
+        let frame = Bytes::copy_from_slice(frame);
+        assert_eq!(<Cbor as Codec<f32>>::decode(frame.clone()).unwrap(), value);
+        assert_eq!(<Cbor as Codec<f64>>::decode(frame.clone()).unwrap(), f64::from(value));
+        assert!(<Cbor as Codec<Vec<f32>>>::decode(frame).is_err());
+    }
+    refused::<Cbor, f64>("a text", b"\x61\x31");
+    refused::<Cbor, f32>("16 bits", b"\xf9\x3e\0");
+}
+
 #[cfg(feature = "msgpack")]
 #[test]
 fn msgpack() {

@@ -39,7 +39,8 @@ use std::task::Waker;
 /// let readiness = recorder.readiness()?;
 ///
 /// let mut sensor = Component::open_blocking_with(system.component("sensor")?, options())?;
-/// sensor.pusher("log")?.send_blocking(&"any bytes".into())?;
+/// let mut sends = sensor.pusher("log")?;
+/// sends.send_blocking(&"any bytes".into())?;
 ///
 /// poll(&mut [PollFd::new(&readiness, PollFlags::IN)], None)?;
 /// assert_eq!(log.try_recv()?.as_deref(), Some(&b"any bytes"[..]));

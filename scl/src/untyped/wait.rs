@@ -34,7 +34,8 @@ impl Component {
     /// let mut controller = Component::open_blocking_with(system.component("controller")?, options())?;
     /// let (mut sensor, mut commands) = (controller.subscriber("sensor")?, controller.replier("commands")?);
     /// # let mut peer = Component::open_blocking_with(system.component("sensor")?, options())?;
-    /// # peer.publisher("measurements")?.send_blocking(&"any bytes".into())?;
+    /// # let mut sends = peer.publisher("measurements")?;
+    /// # sends.send_blocking(&"any bytes".into())?;
     ///
     /// let ready = controller.wait_any_blocking(&mut [&mut sensor, &mut commands], Duration::from_secs(60))?;
     /// if ready.contains(&0) {

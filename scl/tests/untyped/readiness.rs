@@ -241,3 +241,17 @@ fn blocking_calls_and_a_descriptor_work_side_by_side() {
         serving.join().unwrap();
     });
 }
+
+#[test]
+fn a_peer_that_comes_later_makes_the_descriptor_readable() {
+    on_each_medium(|options| {
+        let mut controller = Component::open_blocking_with(&plan("controller"), options.clone()).unwrap();
+        let mut pull = controller.puller("work").unwrap();
+        let readiness = controller.readiness().unwrap();
+        let mut sensor = Component::open_blocking_with(&plan("sensor"), options).unwrap();
+        let mut push = sensor.pusher("work").unwrap();
+        push.send_blocking(&bytes("1")).unwrap();
+        wait(&readiness);
+        assert_eq!(pull.try_recv().unwrap().unwrap(), "1");
+    });
+}

@@ -7,7 +7,7 @@ from collections.abc import AsyncIterator, Callable, Iterator
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from scl import _native
-from scl._errors import Busy, Closed, Full, Stopped, WrongDirection
+from scl._errors import Busy, Closed, Stopped, WrongDirection
 from scl._loop import Loops
 
 if TYPE_CHECKING:
@@ -64,13 +64,15 @@ class Gate:
                 obj=self,
             )
 
-    async def _until(self, poll: Callable[[_native.Readiness], R | None], timeout: float | None) -> R:
+    async def _until(
+        self, poll: Callable[[_native.Readiness], R | None], timeout: float | None, last: Callable[[float], R]
+    ) -> R:
         """Waits as `Loops.until` does. One task at a time may do so."""
         if self._awaited:
             raise Busy(f"gate `{self.name}` is awaited by another task; one at a time may use a gate")
         self._awaited = True
         try:
-            return await self._loops.until(poll, timeout, self._native.timeout_error)
+            return await self._loops.until(poll, timeout, last)
         finally:
             self._awaited = False
 
@@ -104,14 +106,11 @@ class _Sender(Gate, Generic[T]):
     async def send_async(self, message: T, timeout: float | None = None) -> None:
         """`send` for asyncio. Cancel safe: the message was sent to all peers, or to none."""
         frame = self._encode(message)
-        waiters = self._loops.here()
-        if self._native.poll_send(frame, waiters.readiness):
-            return
-        try:
-            await self._until(lambda readiness: self._native.poll_send(frame, readiness) or None, timeout)
-        except Full:
-            # One last time, which names the peer.
-            self._send(frame, 0)
+        await self._until(
+            lambda readiness: self._native.poll_send(frame, readiness) or None,
+            timeout,
+            lambda _waited: self._send(frame, 0) is None,
+        )
 
 
 class _Receiver(Gate, Generic[T]):
@@ -144,7 +143,9 @@ class _Receiver(Gate, Generic[T]):
 
     async def recv_async(self, timeout: float | None = None) -> T:
         """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no message."""
-        message: T = self._decode(await self._until(self._native.poll_recv, timeout))
+        message: T = self._decode(
+            await self._until(self._native.poll_recv, timeout, lambda waited: self._recv(0, waited))
+        )
         return message
 
     def __iter__(self) -> Iterator[T]:
@@ -230,7 +231,7 @@ class Req(Gate, Generic[A, B]):
         call = self._native.start_call(self._encode(request), timeout)
         try:
             # The call has a time limit of its own.
-            reply = await self._until(call.poll_reply, None)
+            reply = await self._until(call.poll_reply, None, lambda _waited: b"")
         finally:
             call.cancel()
         decoded: B = self._decode(reply)
@@ -287,7 +288,10 @@ class Rep(Gate, Generic[A, B]):
 
     async def recv_async(self, timeout: float | None = None) -> Request[A, B]:
         """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no request."""
-        return self._decoded(await self._until(self._native.poll_recv_request, timeout))
+        native = self._native
+        return self._decoded(
+            await self._until(native.poll_recv_request, timeout, lambda waited: native.recv_request(0, waited))
+        )
 
     def __iter__(self) -> Iterator[Request[A, B]]:
         """Yields requests until the component is closed or SIGTERM asks the program to stop."""

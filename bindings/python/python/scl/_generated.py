@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
 from typing import ClassVar
 
 from scl._component import Component, Transport
@@ -14,17 +13,13 @@ class GeneratedComponent(Component):
 
     _plan_text: ClassVar[str]
     _component_name: ClassVar[str]
-    _renamed: ClassVar[Mapping[str, str]]
 
-    def __init_subclass__(
-        cls, *, plan: str | None = None, component: str | None = None, renamed: Mapping[str, str] | None = None
-    ) -> None:
-        """Takes the plan, the name, and the gates whose attributes have other names. A program's own subclasses inherit them."""
+    def __init_subclass__(cls, *, plan: str | None = None, component: str | None = None) -> None:
+        """Takes the plan and the name. A program's own subclasses inherit them."""
         super().__init_subclass__()
         if plan is not None and component is not None:
             cls._plan_text = plan
             cls._component_name = component
-            cls._renamed = renamed or {}
 
     def __init__(
         self,
@@ -47,5 +42,3 @@ class GeneratedComponent(Component):
             transport=transport,
             signals=signals,
         )
-        for attribute, gate in self._renamed.items():
-            object.__setattr__(self, attribute, self._gates[gate])

@@ -26,6 +26,8 @@ def start() -> None:
     """Starts to forward records. Sets the level that `SCL_LOG` says, if it is set."""
     global _started
     _read_environment()
+    if logging.getLevelName(_LEVELS["trace"]).startswith("Level"):
+        logging.addLevelName(_LEVELS["trace"], "TRACE")
     with _lock:
         _native.log_level(_level())
         if not _started:

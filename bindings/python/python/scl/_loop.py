@@ -62,9 +62,9 @@ class Loops:
         self,
         poll: Callable[[_native.Readiness], R | None],
         timeout: float | None,
-        timeout_error: Callable[[float], BaseException],
+        last: Callable[[float], R],
     ) -> R:
-        """Polls until there is a result.
+        """Polls until there is a result; when the time is over, makes a last attempt, which may raise `Timeout`.
 
         Cancel safe: what a poll has taken is returned without an `await` in between.
         """
@@ -73,7 +73,7 @@ class Loops:
         if found is not None:
             return found
         if timeout is not None and timeout <= 0:
-            raise timeout_error(0.0)
+            return last(0.0)
         try:
             async with asyncio.timeout(timeout) as limit:
                 while found is None:
@@ -83,4 +83,4 @@ class Loops:
         except TimeoutError:
             if not limit.expired():
                 raise
-        raise timeout_error(timeout or 0.0)
+        return last(timeout or 0.0)

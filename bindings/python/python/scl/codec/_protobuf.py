@@ -61,7 +61,11 @@ def canonical_json(owner: Owner, message_class: type[Message]) -> Codec:
 
     def decode(frame: bytes) -> Message:
         try:
-            return json_format.Parse(frame.decode(), message_class(), ignore_unknown_fields=True)
+            text = frame.decode()
+            if not text.lstrip(" \t\r\n").startswith("{"):
+                # The parser takes an empty list for a message.
+                raise ValueError("it is not a JSON object")
+            return json_format.Parse(text, message_class(), ignore_unknown_fields=True)
         # The parser lets errors of its parts through, also `RecursionError` and `AttributeError`.
         except Exception as error:
             raise owner.undecodable(f"these {len(frame)} bytes are not the JSON of a `{name}`: {error}") from error

@@ -1,0 +1,299 @@
+"""Codecs: what they accept, what they refuse, and in which words."""
+
+import builtins
+import dataclasses
+import enum
+import json
+import math
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypedDict
+
+import cbor2
+import pytest
+import scl
+from google.protobuf import descriptor_pb2, timestamp_pb2
+from scl.codec import Codec, MessageClasses, codec_of, messages_of_descriptors
+
+VALUES = ["json", "cbor", "msgpack"]
+
+
+def schema(package: str = "nav", *, fields: Sequence[str] = ("number",), imports: Sequence[str] = ()) -> bytes:
+    """Returns a descriptor set with a message `Fix` that has these fields, all of them `int64`."""
+    file = descriptor_pb2.FileDescriptorProto(name="nav.proto", package=package, syntax="proto3", dependency=imports)
+    message = file.message_type.add(name="Fix")
+    for number, name in enumerate(fields, 1):
+        message.field.add(name=name, number=number, type="TYPE_INT64", label="LABEL_OPTIONAL")
+    files = [file]
+    if imports:
+        message.field.add(
+            name="at", number=100, type="TYPE_MESSAGE", type_name=".google.protobuf.Timestamp", label="LABEL_OPTIONAL"
+        )
+        well_known = descriptor_pb2.FileDescriptorProto()
+        timestamp_pb2.DESCRIPTOR.CopyToProto(well_known)
+        files.insert(0, well_known)
+    return descriptor_pb2.FileDescriptorSet(file=files).SerializeToString()
+
+
+MESSAGES: MessageClasses = messages_of_descriptors([schema()])
+Fix: Any = MESSAGES.message("nav.Fix")
+
+
+def codec(name: str, type: str | None = "Position", messages: MessageClasses | None = None) -> Codec:
+    return codec_of("gps.position", name, type, messages, peers=["hub.a", "hub.b"])
+
+
+@dataclasses.dataclass
+class Position:
+    latitude: float
+    tags: list[str]
+    inner: "Position | None" = None
+    raw: bytes = b""
+
+
+class Plain(TypedDict):
+    latitude: float
+
+
+class Mode(enum.StrEnum):
+    FAST = "fast"
+
+
+@pytest.mark.parametrize("name", VALUES)
+def test_values_come_back_as_plain_values(name: str) -> None:
+    values: list[object] = [
+        None,
+        True,
+        -1,
+        2**63,
+        0.1,
+        "läuft 😀\n\0",
+        [],
+        {},
+        {"a": [1, {"b": None}]},
+        [1, [2, [3]]],
+        Plain(latitude=1.5),
+    ]
+    for value in values:
+        frame = codec(name).encode(value)
+        assert codec(name).decode(frame) == value
+    assert codec(name).decode(codec(name).encode((1, 2))) == [1, 2]
+    assert codec(name).decode(codec(name).encode(Mode.FAST)) == "fast"
+
+
+@pytest.mark.parametrize("name", VALUES)
+def test_dataclasses_are_maps_of_their_fields(name: str) -> None:
+    value = Position(0.5, ["a"], Position(1.5, []), b"\xff")
+    found = codec(name).decode(codec(name).encode([value]))
+    raw, empty = ([255], []) if name == "json" else (b"\xff", b"")
+    inner = {"latitude": 1.5, "tags": [], "inner": None, "raw": empty}
+    assert found == [{"latitude": 0.5, "tags": ["a"], "inner": inner, "raw": raw}]
+
+
+@pytest.mark.parametrize("name", ["cbor", "msgpack"])
+def test_binary_codecs_carry_every_float(name: str) -> None:
+    values: list[float] = [math.nan, math.inf, -math.inf, 0.1, -0.0]
+    frame = codec(name).encode({"values": values})
+    found = codec(name).decode(frame)["values"]
+    assert math.isnan(found[0]) and found[1:] == values[1:]
+    # serde reads no floats of 16 bits.
+    assert b"\xf9" not in frame
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, {"a": [-math.inf]}])
+def test_json_has_no_nan(value: object) -> None:
+    with pytest.raises(scl.EncodeError, match=r"gate `gps.position` cannot send .* JSON of `Position`"):
+        codec("json").encode(value)
+    for text in [b"NaN", b"[Infinity]", b'{"a": -Infinity}']:
+        with pytest.raises(scl.DecodeError):
+            codec("json").decode(text)
+
+
+class Other:
+    pass
+
+
+@pytest.mark.parametrize("name", VALUES)
+@pytest.mark.parametrize("value", [Other(), {"a": Other()}, Position, object()])
+def test_other_objects_are_refused(name: str, value: object) -> None:
+    with pytest.raises(TypeError) as error:
+        codec(name).encode(value)
+    assert "gate `gps.position` cannot send this value" in str(error.value)
+    assert "neither a plain value nor a dataclass" in str(error.value)
+
+
+@pytest.mark.parametrize("name", VALUES)
+def test_values_too_deep_or_circular_are_refused(name: str) -> None:
+    circle: list[object] = []
+    circle.append(circle)
+    with pytest.raises(scl.EncodeError):
+        codec(name).encode(circle)
+
+
+@pytest.mark.parametrize("name", VALUES)
+def test_protobuf_messages_are_not_values(name: str) -> None:
+    with pytest.raises(TypeError, match=r"`nav.Fix` is neither a plain value nor a dataclass"):
+        codec(name).encode(Fix(number=1))
+
+
+UNDECODABLE: Mapping[str, list[bytes]] = {
+    "json": [b"", b"{", b"1 2", b"\xff", b"[" * 100_000, b'"\xed\xa0\x80"', b"\xef\xbb\xbf1", '"a"'.encode("utf-16")],
+    "cbor": [
+        b"",
+        b"\x82\x01",
+        b"\x01\x02",
+        b"\xff",
+        b"\x81" * 100_000,
+        bytes.fromhex("9b0fffffffffffffff"),
+        b"\xc1\xff",
+    ],
+    "msgpack": [
+        b"",
+        b"\x92\x01",
+        b"\x01\x02",
+        b"\xc1",
+        b"\x91" * 100_000,
+        bytes.fromhex("df80000000"),
+        b"\x81\x90\x01",
+    ],
+}
+
+
+@pytest.mark.parametrize("name", VALUES)
+def test_undecodable_frames_are_counted_and_name_gate_and_senders(name: str) -> None:
+    one = codec(name)
+    for count, frame in enumerate(UNDECODABLE[name], 1):
+        with pytest.raises(scl.DecodeError) as error:
+            one.decode(frame)
+        text = str(error.value)
+        assert text.startswith(
+            f"gate `gps.position` received an undecodable message from `hub.a`, `hub.b`: these {len(frame)}"
+        ) or ("data follows" in text)
+        assert one.owner.rejected == count
+
+
+@pytest.mark.parametrize("name", ["protobuf", "json"])
+def test_messages_of_schemas(name: str) -> None:
+    one = codec(name, "nav.Fix", MESSAGES)
+    assert one.type is Fix
+    message = Fix(number=2**62)
+    assert one.decode(one.encode(message)) == message
+    if name == "json":
+        assert one.encode(message) == b'{"number":"4611686018427387904"}'
+        assert one.decode(b'{"number": 5, "added": {}}') == Fix(number=5)
+    other = messages_of_descriptors([schema(fields=["number", "more"])])
+    refused: list[tuple[object, str]] = [
+        (3, "gate `gps.position` carries `nav.Fix`, not `int`"),
+        (None, "not `NoneType`"),
+        ({"number": 3}, "not `dict`"),
+        (Fix, "not the class `nav.Fix` itself"),
+        (timestamp_pb2.Timestamp(), "not `google.protobuf.Timestamp`"),
+        (other.message("nav.Fix")(), "this is a `nav.Fix` of another module or topology"),
+    ]
+    for value, words in refused:
+        with pytest.raises(TypeError) as error:
+            one.encode(value)
+        assert words in str(error.value)
+    for frame in [b"\x08", b"\xff" * 20]:
+        with pytest.raises(scl.DecodeError, match=r"gate `gps.position` received an undecodable message from `hub.a`"):
+            one.decode(frame)
+    assert one.owner.rejected == 2
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"",
+        b"[]",
+        b"null",
+        b"{} {}",
+        b"\xff",
+        b'{"number": NaN}',
+        b'{"number": 1.5}',
+        b'{"number": "one"}',
+        b'{"number": 9223372036854775808}',
+        b'{"number": {}}',
+        b'{"x": ' + b"[" * 100_000,
+    ],
+)
+def test_texts_that_are_not_canonical_json_are_refused(text: bytes) -> None:
+    with pytest.raises(scl.DecodeError, match="received an undecodable message"):
+        codec("json", "nav.Fix", MESSAGES).decode(text)
+
+
+def test_bytes_are_bytes() -> None:
+    one = codec("raw", None)
+    assert one.type is bytes
+    values: list[object] = [b"a", bytearray(b"a"), memoryview(b"a")]
+    for value in values:
+        assert one.encode(value) == b"a" and type(one.encode(value)) is bytes
+    refused: list[tuple[object, str]] = [
+        ("a", "not `str`; use its method `encode` first"),
+        (3, "not `int`"),
+        ([1], "not `list`"),
+    ]
+    for value, words in refused:
+        with pytest.raises(TypeError, match="gate `gps.position` carries bytes") as error:
+            one.encode(value)
+        assert words in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "type", "words"),
+    [
+        ("postcard", "Position", "`postcard` is for Rust programs; use `json`, `cbor` or `msgpack`"),
+        ("raw", "Position", "`raw` is the memory layout of a Rust type"),
+        ("my_crate::Flat", "Position", "the codec `my_crate::Flat` is Rust code"),
+        ("protobuf", "nav.Position", "the type `nav.Position` is not in `schemas:`"),
+        ("cbor", "nav.Fix", "the codec `cbor` does not carry messages of schemas"),
+    ],
+)
+def test_codecs_of_rust_are_refused(name: str, type: str, words: str) -> None:
+    with pytest.raises(scl.UnsupportedCodecError) as error:
+        codec(name, type, MESSAGES)
+    assert "Python cannot open gate `gps.position`" in str(error.value)
+    assert words in str(error.value)
+
+
+@pytest.mark.parametrize(("name", "package"), [("cbor", "cbor2"), ("msgpack", "msgpack")])
+def test_a_missing_package_names_the_extra(name: str, package: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(scl.UnsupportedCodecError) as error:
+        codec(name)
+    assert f"needs the package `{package}`: pip install 'scl[{name}]'" in str(error.value)
+
+
+def test_equal_schemas_have_equal_classes() -> None:
+    assert messages_of_descriptors([schema()]).message("nav.Fix") is Fix
+    # Files of one name in two systems may differ.
+    other = messages_of_descriptors([schema(fields=["a", "b"])])
+    assert other.message("nav.Fix") is not Fix
+    with pytest.raises(scl.UnsupportedCodecError, match=r"the schemas do not declare the message `nav.Fxi`"):
+        other.message("nav.Fxi")
+
+
+def test_well_known_types_are_those_of_protobuf() -> None:
+    imports = ["google/protobuf/timestamp.proto"]
+    first, second = (
+        messages_of_descriptors([schema("clock", fields=fields, imports=imports)]).message("clock.Fix")
+        for fields in [["a"], ["b"]]
+    )
+    message: Any = first(a=1, at=timestamp_pb2.Timestamp(seconds=5))
+    assert type(message.at) is timestamp_pb2.Timestamp
+    # The second has a file and a message of the same names, so protobuf's own pool does not take it.
+    again: Any = second(b=1)
+    again.at.FromSeconds(5)
+    assert again.at.ToSeconds() == 5
+
+
+def test_bytes_need_no_protobuf(monkeypatch: pytest.MonkeyPatch) -> None:
+    real: Callable[..., Any] = builtins.__import__
+
+    def refuse(name: str, *arguments: Any, **more: Any) -> Any:
+        assert not name.startswith("google"), name
+        return real(name, *arguments, **more)
+
+    monkeypatch.setattr(builtins, "__import__", refuse)
+    assert codec("raw", None).decode(b"a") == b"a"
+    assert json.loads(codec("json").encode([1])) == [1]
+    assert cbor2.loads(codec("cbor").encode([1])) == [1]

@@ -1,0 +1,193 @@
+"""The process around a component: forks, the end of the interpreter, garbage collection, log records."""
+
+import gc
+import logging
+
+import pytest
+import scl
+from conftest import SIX, System
+
+
+def test_a_forked_child_is_told_so(system: System) -> None:
+    sink = system.rust("sink")
+    program = system.python("""
+        import os
+        source = scl.open(SIX, "source")
+        source.ready(60)
+        child = os.fork()
+        if child == 0:
+            for call in [lambda: source.readings.send(source.readings.type()), source.readings.stats, source.ready]:
+                try:
+                    call()
+                except scl.Forked as error:
+                    print(error, flush=True)
+            source.close()
+            # It may open components of its own.
+            watcher = scl.open(SIX, "watcher")
+            watcher.ready(60)
+            print("ready", flush=True)
+        else:
+            assert os.waitpid(child, 0)[1] == 0
+            source.jobs.send(source.jobs.type(value=5))
+            print("parent", flush=True)
+    """)
+    text = "the component was opened before a `fork` and belongs to the parent process; open it in one process only"
+    for _ in range(3):
+        program.expect(text)
+    program.expect("ready")
+    program.expect("parent")
+    assert program.end() == (0, "")
+    assert sink.ask("pull 1") == "5..6"
+
+
+def test_multiprocessing_children_are_told_so(system: System) -> None:
+    program = system.python("""
+        import multiprocessing
+        sink = scl.open(SIX, "sink")
+
+        def work():
+            try:
+                sink.readings.try_recv()
+            except scl.Forked:
+                print("forked", flush=True)
+
+        def wait_in_thread():
+            for _ in sink.readings:
+                pass
+
+        import threading
+        threading.Thread(target=wait_in_thread, daemon=True).start()
+        # Also a child that was forked while another thread is in a call.
+        for _ in range(20):
+            child = multiprocessing.get_context("fork").Process(target=work)
+            child.start()
+            child.join()
+            assert child.exitcode == 0
+    """)
+    for _ in range(20):
+        program.expect("forked")
+    assert program.end() == (0, "")
+
+
+@pytest.mark.parametrize(
+    "wait",
+    ["sink.readings.recv()", "list(sink.jobs)", "sink.answer.recv()", "sink.wait()", "sink.ready()"],
+)
+def test_the_interpreter_ends_while_a_daemon_thread_waits(system: System, wait: str) -> None:
+    program = system.python(f"""
+        import threading
+        sink = scl.open(SIX, "sink")
+        def work():
+            print("waiting", flush=True)
+            {wait}
+        threading.Thread(target=work, daemon=True).start()
+        input()
+    """)
+    program.expect("waiting")
+    program.tell("end")
+    assert program.end() == (0, "")
+
+
+def test_what_was_sent_arrives_although_nobody_closes(system: System) -> None:
+    sink = system.rust("sink")
+    for end in ["", "del source", "import os, signal; os.kill(os.getpid(), signal.SIGTERM)", "raise SystemExit"]:
+        program = system.python(f"""
+            source = scl.open(SIX, "source")
+            source.ready(60)
+            for value in range(500):
+                source.jobs.send(source.jobs.type(value=value))
+            {end}
+        """)
+        assert sink.ask("pull 500") == "0..500"
+        assert program.end() == (0, "")
+
+
+def test_a_component_that_is_collected_is_closed(system: System) -> None:
+    sink = system.rust("sink")
+    source = scl.open(SIX, "source", runtime_dir=system.folder)
+    source.ready(60)
+    jobs = source.jobs
+    jobs.send(jobs.type(value=1))
+    del source
+    gc.collect()
+    # A gate keeps its component open.
+    jobs.send(jobs.type(value=2))
+    assert sink.ask("pull 2") == "1..3"
+    del jobs
+    gc.collect()
+    system.open("source")
+
+
+def test_a_component_that_did_not_open_leaves_nothing(system: System) -> None:
+    for _ in range(3):
+        with pytest.raises(scl.UnknownComponent):
+            system.open("sinc")
+    with system.open("sink") as sink:
+        assert not sink.readings.is_connected
+    with system.open("sink"):
+        pass
+
+
+def test_leaving_the_block_says_what_peers_did_not_take(system: System) -> None:
+    text = "1 message from `source.{0}` to `sink.{0}`, which is not running"
+    with system.open("source") as source:
+        source.readings.send(source.readings.type())
+    # It is an error only where the topology promises that nothing is lost.
+    with pytest.raises(scl.NotFlushed) as left, system.open("source") as source:
+        source.jobs.send(source.jobs.type())
+    assert text.format("jobs") in str(left.value)
+    with pytest.raises(ZeroDivisionError), system.open("source") as source:
+        source.jobs.send(source.jobs.type())
+        1 / 0  # noqa: B018
+
+
+def test_log_records_arrive_at_logging(system: System, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.DEBUG, logger="scl")
+    source = system.open("source")
+    with caplog.at_level(logging.DEBUG):
+        for _ in range(2000):
+            source.readings.send(source.readings.type())
+        source.close()
+        scl._logging.drain()
+        _wait_for(caplog, "queue of `sink.readings` is full; dropping messages")
+    record = next(record for record in caplog.records if "is full" in record.message)
+    assert record.name == "scl.gate.connection" and record.levelno == logging.WARNING
+
+
+def test_levels_follow_logging(system: System) -> None:
+    for environment, expected in [({}, False), ({"SCL_LOG": "debug"}, True), ({"SCL_LOG": "off"}, False)]:
+        program = system.python(
+            """
+            source = scl.open(SIX, "source")
+            source.ready()
+            """,
+            **environment,
+        )
+        sink = system.rust("sink")
+        code, errors = program.end()
+        sink.kill()
+        assert (code, "DEBUG" in errors) == (0, expected), errors
+
+
+def test_a_handler_that_uses_gates_does_not_deadlock(system: System) -> None:
+    program = system.python("""
+        import logging
+
+        class ToGate(logging.Handler):
+            def emit(self, record):
+                source.readings.send(source.readings.type(value=1))
+
+        source = scl.open(SIX, "source")
+        logging.getLogger("scl").addHandler(ToGate())
+        for _ in range(5000):
+            source.readings.send(source.readings.type())
+            source.lossless.send(source.lossless.type(), 0) if _ < 10 else None
+        print("sent", flush=True)
+    """)
+    program.expect("sent")
+    assert program.end()[0] == 0
+
+
+def _wait_for(caplog: pytest.LogCaptureFixture, text: str) -> None:
+    while text not in caplog.text:
+        scl._logging.drain()
