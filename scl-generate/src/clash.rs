@@ -51,6 +51,10 @@ impl Origin {
     pub(crate) fn generated(what: impl Into<String>) -> Self {
         Self { what: what.into(), span: None, is_message: false }
     }
+
+    fn is_generated(&self) -> bool {
+        self.span.is_none() && !self.is_message
+    }
 }
 
 /// Every two declarations of one name in one scope that stand for different things.
@@ -75,8 +79,11 @@ fn report(declaration: &Declaration, first: &Origin, second: &Origin) -> Diagnos
     let rule = if first.is_message != second.is_message { &MESSAGE_CLASH } else { &NAME_CLASH };
     let headline = format!("{} and {} would both become `{name}` in {scope}", first.what, second.what);
     // What can be renamed most easily comes last: a component or a gate rather than a message.
-    let [other, renamed] =
-        if first.is_message || second.span.is_some() && !second.is_message { [first, second] } else { [second, first] };
+    let [other, renamed] = if first.is_message || first.is_generated() || second.span.is_some() && !second.is_message {
+        [first, second]
+    } else {
+        [second, first]
+    };
     let mut problem = match renamed.span.or(other.span) {
         Some(span) => rule.at(headline, span, format!("becomes `{name}`")),
         None => rule.without_place(headline),
