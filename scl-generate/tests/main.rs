@@ -6,6 +6,7 @@ mod c;
 mod c_programs;
 mod clashes;
 mod cpp;
+mod cpp_names;
 mod fixture;
 mod python;
 mod writing;

@@ -5,5 +5,6 @@ mod checks;
 mod cmake;
 mod json;
 mod misuse;
+mod page;
 mod signals;
 mod six_kinds;

@@ -39,7 +39,12 @@ fn a_project_is_built_checked_and_built_again() {
     project.exchange();
 
     for (file, right, wrong, words) in [
-        ("topology.yaml", "sensor.measurements,", "sensor.measurement,", "component `sensor` has no gate `measurement`"),
+        (
+            "topology.yaml",
+            "sensor.measurements,",
+            "sensor.measurement,",
+            "component `sensor` has no gate `measurement`",
+        ),
         ("rover.proto", "string text = 1;", "strin text = 1;", "[SCL0406]"),
         ("sensor.cpp", "sensor.measurements.send", "sensor.measurement.send", "did you mean"),
     ] {
