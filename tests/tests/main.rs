@@ -20,6 +20,7 @@ mod opening;
 mod pause;
 mod programs;
 mod python;
+mod python_bench;
 mod python_generated;
 mod python_typing;
 mod python_values;
