@@ -37,9 +37,9 @@ pub(crate) struct GenerateArguments {
     /// The folder for the files, created if need be [default: the current folder; for `zmq`, standard output].
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// How `zmq` is written.
-    #[arg(long, value_name = "FORMAT", default_value = "json")]
-    format: TextFormat,
+    /// How `zmq` is written [default: json].
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<TextFormat>,
     /// Generate only this component; may be repeated.
     #[arg(long = "component", value_name = "NAME")]
     components: Vec<String>,
@@ -73,6 +73,10 @@ enum TextFormat {
 
 /// The body of `scl generate`.
 pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
+    if let Some(text) = arguments.contradiction() {
+        print_err(&format!("error: {text}\n"));
+        return ExitCode::from(COULD_NOT_RUN);
+    }
     let loaded = load_file(&arguments.file, arguments.max_size);
     show_diagnostics(&loaded, loaded.diagnostics.iter().filter(|it| it.severity != Severity::Lint));
     let Some(mut system) = System::of(&loaded) else {
@@ -93,7 +97,7 @@ pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
     if arguments.check {
         return check_files(folder, &files);
     }
-    if arguments.output.is_none() && arguments.target == Language::Zmq {
+    if arguments.is_printed() {
         files.iter().for_each(|file| print_out(&file.text));
         return ExitCode::SUCCESS;
     }
@@ -109,10 +113,25 @@ pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
 }
 
 impl GenerateArguments {
+    fn is_printed(&self) -> bool {
+        self.output.is_none() && self.target == Language::Zmq && !self.check
+    }
+
+    /// What the arguments ask for that cannot be done.
+    fn contradiction(&self) -> Option<&'static str> {
+        match self {
+            Self { target, format: Some(_), .. } if *target != Language::Zmq => {
+                Some("`--format` is for `--for zmq` only")
+            }
+            Self { depfile: Some(_), .. } if self.is_printed() => Some("`--depfile` needs a folder: add `-o DIR`"),
+            _ => None,
+        }
+    }
+
     fn target(&self) -> Target {
         match (self.target, self.format) {
-            (Language::Zmq, TextFormat::Json) => Target::Zmq(Format::Json),
-            (Language::Zmq, TextFormat::Yaml) => Target::Zmq(Format::Yaml),
+            (Language::Zmq, Some(TextFormat::Yaml)) => Target::Zmq(Format::Yaml),
+            (Language::Zmq, Some(TextFormat::Json) | None) => Target::Zmq(Format::Json),
             (Language::C, _) => Target::C,
             (Language::Cpp, _) => Target::Cpp,
             (Language::Python, _) => Target::Python,

@@ -103,6 +103,17 @@ fn check_tells_what_is_not_up_to_date() {
 }
 
 #[test]
+fn arguments_without_effect_are_refused() {
+    let system = rover();
+    check(&system, &["--for", "c", "--format", "yaml"], 2, expect![[r#"
+        error: `--format` is for `--for zmq` only
+    "#]]);
+    check(&system, &["--for", "zmq", "--depfile", "rover.d"], 2, expect![[r#"
+        error: `--depfile` needs a folder: add `-o DIR`
+    "#]]);
+}
+
+#[test]
 fn mistakes_are_told_and_nothing_is_written() {
     let system = rover();
     check(

@@ -9,6 +9,7 @@ mod gate;
 mod header;
 mod helpers;
 mod protobuf_c;
+mod recursion;
 mod source;
 mod wait;
 

@@ -68,3 +68,55 @@ fn what_is_not_a_message_is_told_with_names_and_counted() {
     values.send_blocking(&b"\x08\x07".as_slice().into()).unwrap();
     right.expect("value 7 0");
 }
+
+/// protobuf-c itself would overflow the stack.
+#[test]
+fn deeply_nested_messages_are_undecodable() {
+    let path = topology("every_kind.yaml");
+    let project = Project::of(&path);
+    let program = kinds(&project);
+    let meeting = System::new();
+    let mut right = start(&meeting, &program, "right");
+    right.expect("open");
+    let system = system(&path);
+    let mut left = Component::open_blocking_with(&system.components[0].plan, meeting.options()).unwrap();
+    let mut trees = left.pusher("trees").unwrap();
+    left.ready_blocking(Duration::from_secs(30)).unwrap();
+    let mut send = |bytes: Vec<u8>| trees.send_blocking(&bytes.into()).unwrap();
+    send(nested(100));
+    right.expect("tree 7 1");
+    for depth in [101, 100_000] {
+        send(nested(depth));
+        right.expect("tree SCL_DECODE");
+    }
+    // Every wire type, an unknown field, and an entry of the map.
+    send(vec![0x28, 7, 0x1d, 1, 2, 3, 4, 0x21, 1, 2, 3, 4, 5, 6, 7, 8, 0x7a, 1, 0xff, 0x12, 2, 0x0a, 0, 0x0a, 0]);
+    right.expect("tree 7 1");
+    for damaged in [&[0x0a, 2, 0x28][..], &[0x0a, 0xff], &[0x1d, 1], &[0x0b], &[0xff; 12]] {
+        send(damaged.to_vec());
+        right.expect("tree SCL_DECODE");
+    }
+}
+
+/// A `Tree` with the number 7, in which trees are nested; it counts as 1 itself.
+fn nested(depth: usize) -> Vec<u8> {
+    let mut from_inside = Vec::new();
+    for _ in 1..depth {
+        // Written from its end, so that it takes linear time.
+        from_inside.extend(varint(from_inside.len()).into_iter().rev());
+        from_inside.push(0x0a);
+    }
+    from_inside.reverse();
+    from_inside.extend([0x28, 7]);
+    from_inside
+}
+
+fn varint(mut number: usize) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    while number > 0x7f {
+        bytes.push(number as u8 | 0x80);
+        number >>= 7;
+    }
+    bytes.push(number as u8);
+    bytes
+}

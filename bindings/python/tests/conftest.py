@@ -114,10 +114,10 @@ class System:
         program.expect("open")
         return program
 
-    def python(self, script: str, **environment: str) -> Program:
+    def python(self, script: str, *arguments: str, **environment: str) -> Program:
         """Starts a Python program. It finds the path of the topology in `SIX`."""
         text = f"import scl\nSIX = {str(SIX)!r}\n{textwrap.dedent(script)}"
-        return self._start([sys.executable, "-c", text], environment)
+        return self._start([sys.executable, "-c", text, *arguments], environment)
 
     def _start(self, arguments: list[str], environment: dict[str, str] | None = None) -> Program:
         own = {"SCL_RUNTIME_DIR": self.folder, "SCL_TRANSPORT": self.transport, **(environment or {})}

@@ -91,6 +91,18 @@ static void take_values(every_kind_right_side *self)
     every_kind_right_side_values_free(value);
 }
 
+static void take_tree(every_kind_right_side *self)
+{
+    Kinds__Tree *tree;
+    scl_status status = every_kind_right_side_trees_recv(self, &tree, 0);
+    if (status != SCL_OK) {
+        printf("tree %s\n", scl_status_name(status));
+        return;
+    }
+    printf("tree %d %d\n", (int)tree->number, (int)tree->n_branches);
+    every_kind_right_side_trees_free(tree);
+}
+
 static void answer(every_kind_right_side *self)
 {
     every_kind_right_side_answer_request request;
@@ -123,7 +135,8 @@ static int right(void)
 {
     const uint64_t gates = EVERY_KIND_RIGHT_SIDE_VALUES + EVERY_KIND_RIGHT_SIDE_FROM + EVERY_KIND_RIGHT_SIDE_ANSWER +
                            EVERY_KIND_RIGHT_SIDE_RAW_IN + EVERY_KIND_RIGHT_SIDE_RAW_JOBS +
-                           EVERY_KIND_RIGHT_SIDE_RAW_ANSWER + EVERY_KIND_RIGHT_SIDE_JSON_ANSWER;
+                           EVERY_KIND_RIGHT_SIDE_RAW_ANSWER + EVERY_KIND_RIGHT_SIDE_JSON_ANSWER +
+                           EVERY_KIND_RIGHT_SIDE_TREES;
     every_kind_right_side self;
     uint64_t ready;
     scl_status status;
@@ -150,6 +163,9 @@ static int right(void)
         if (ready & EVERY_KIND_RIGHT_SIDE_RAW_JOBS) {
             expect(every_kind_right_side_raw_jobs_recv(&self, &bytes, 0), SCL_OK, "raw_jobs");
             say_bytes("bytes", bytes);
+        }
+        if (ready & EVERY_KIND_RIGHT_SIDE_TREES) {
+            take_tree(&self);
         }
         if (ready & EVERY_KIND_RIGHT_SIDE_RAW_ANSWER) {
             answer_raw(&self);

@@ -1,7 +1,8 @@
 //! Takes the place of `probe` with the `zeromq` library alone: `plain_publish CELSIUS`.
 
 use serde_json::{Value, json};
-use std::{env, error::Error, fs, os::unix::fs::DirBuilderExt, time::Duration};
+use std::os::unix::fs::{DirBuilderExt, MetadataExt};
+use std::{env, error::Error, fs, time::Duration};
 use zeromq::{PubSocket, Socket, SocketSend};
 
 #[tokio::main(flavor = "current_thread")]
@@ -24,9 +25,10 @@ async fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn system_folder(system: &str) -> Result<String, Box<dyn Error>> {
-    let usual = env::var("XDG_RUNTIME_DIR").map(|session| format!("{session}/scl"));
-    let runtime_dir = env::var("SCL_RUNTIME_DIR").or(usual)?;
-    let folder = format!("{runtime_dir}/{system}");
+    let session = env::var("XDG_RUNTIME_DIR").map(|session| format!("{session}/scl"));
+    let temporary = format!("{}/scl-{}", env::temp_dir().display(), fs::metadata("/proc/self")?.uid());
+    let runtime_dir = env::var("SCL_RUNTIME_DIR").or(session).unwrap_or(temporary);
+    let folder = format!("{runtime_dir}/{}", env::var("SCL_SYSTEM").unwrap_or(system.to_owned()));
     fs::DirBuilder::new().recursive(true).mode(0o700).create(&folder)?;
     Ok(folder)
 }

@@ -1,7 +1,7 @@
 //! Receives what `station` publishes for `heater`, beside it or in its place, with the `zeromq` library alone.
 
 use serde_json::Value;
-use std::{env, error::Error, time::Duration};
+use std::{env, error::Error, fs, os::unix::fs::MetadataExt, time::Duration};
 use zeromq::{Socket, SocketRecv, SubSocket};
 
 #[tokio::main(flavor = "current_thread")]
@@ -28,6 +28,8 @@ async fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn system_folder(system: &str) -> Result<String, Box<dyn Error>> {
-    let usual = env::var("XDG_RUNTIME_DIR").map(|session| format!("{session}/scl"));
-    Ok(format!("{}/{system}", env::var("SCL_RUNTIME_DIR").or(usual)?))
+    let session = env::var("XDG_RUNTIME_DIR").map(|session| format!("{session}/scl"));
+    let temporary = format!("{}/scl-{}", env::temp_dir().display(), fs::metadata("/proc/self")?.uid());
+    let runtime_dir = env::var("SCL_RUNTIME_DIR").or(session).unwrap_or(temporary);
+    Ok(format!("{runtime_dir}/{}", env::var("SCL_SYSTEM").unwrap_or(system.to_owned())))
 }
