@@ -3,7 +3,7 @@
 use crate::load::{MaxSize, load_file, show_diagnostics};
 use crate::print::{print_err, print_out};
 use clap::{Args, ValueEnum};
-use scl_generate::{Component, File, Format, Outcome, System, Target, is_current, write};
+use scl_generate::{Component, File, Format, Outcome, OutputError, System, Target, is_current, write};
 use scl_plan::SystemPlan;
 use scl_topology::diagnostic::Severity;
 use std::error::Error;
@@ -37,15 +37,18 @@ pub(crate) struct GenerateArguments {
     /// The folder for the files, created if need be [default: the current folder; for `zmq`, standard output].
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// How `zmq` is written.
-    #[arg(long, value_name = "FORMAT", default_value = "json")]
-    format: TextFormat,
+    /// How `zmq` is written [default: json].
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<TextFormat>,
     /// Generate only this component; may be repeated.
     #[arg(long = "component", value_name = "NAME")]
     components: Vec<String>,
     /// Write nothing; fail if a file is not up to date.
     #[arg(long)]
     check: bool,
+    /// Also write the dependencies of the first generated file, as Make and Ninja read them: the topology and its schemas.
+    #[arg(long, value_name = "FILE", conflicts_with = "check")]
+    depfile: Option<PathBuf>,
     #[command(flatten)]
     max_size: MaxSize,
 }
@@ -70,6 +73,10 @@ enum TextFormat {
 
 /// The body of `scl generate`.
 pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
+    if let Some(text) = arguments.contradiction() {
+        print_err(&format!("error: {text}\n"));
+        return ExitCode::from(COULD_NOT_RUN);
+    }
     let loaded = load_file(&arguments.file, arguments.max_size);
     show_diagnostics(&loaded, loaded.diagnostics.iter().filter(|it| it.severity != Severity::Lint));
     let Some(mut system) = System::of(&loaded) else {
@@ -86,21 +93,45 @@ pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
             return ExitCode::FAILURE;
         }
     };
-    match (&arguments.output, arguments.target, arguments.check) {
-        (None, Language::Zmq, false) => {
-            files.iter().for_each(|file| print_out(&file.text));
-            ExitCode::SUCCESS
+    let folder = arguments.output.as_deref().unwrap_or(Path::new(""));
+    if arguments.check {
+        return check_files(folder, &files);
+    }
+    if arguments.is_printed() {
+        files.iter().for_each(|file| print_out(&file.text));
+        return ExitCode::SUCCESS;
+    }
+    let depfile = arguments.depfile.as_deref().map(|path| (path, depfile(&loaded.files_read, folder, &files)));
+    match write_files(folder, &files).and_then(|()| depfile.map_or(Ok(()), |(path, file)| write_depfile(path, &file))) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let cause = error.source().map(|cause| format!(": {cause}")).unwrap_or_default();
+            print_err(&format!("error: {error}{cause}\n"));
+            ExitCode::from(COULD_NOT_RUN)
         }
-        (folder, _, true) => check_files(folder.as_deref().unwrap_or(Path::new("")), &files),
-        (folder, _, false) => write_files(folder.as_deref().unwrap_or(Path::new("")), &files),
     }
 }
 
 impl GenerateArguments {
+    fn is_printed(&self) -> bool {
+        self.output.is_none() && self.target == Language::Zmq && !self.check
+    }
+
+    /// What the arguments ask for that cannot be done.
+    fn contradiction(&self) -> Option<&'static str> {
+        match self {
+            Self { target, format: Some(_), .. } if *target != Language::Zmq => {
+                Some("`--format` is for `--for zmq` only")
+            }
+            Self { depfile: Some(_), .. } if self.is_printed() => Some("`--depfile` needs a folder: add `-o DIR`"),
+            _ => None,
+        }
+    }
+
     fn target(&self) -> Target {
         match (self.target, self.format) {
-            (Language::Zmq, TextFormat::Json) => Target::Zmq(Format::Json),
-            (Language::Zmq, TextFormat::Yaml) => Target::Zmq(Format::Yaml),
+            (Language::Zmq, Some(TextFormat::Yaml)) => Target::Zmq(Format::Yaml),
+            (Language::Zmq, Some(TextFormat::Json) | None) => Target::Zmq(Format::Json),
             (Language::C, _) => Target::C,
             (Language::Cpp, _) => Target::Cpp,
             (Language::Python, _) => Target::Python,
@@ -130,17 +161,27 @@ fn check_files(folder: &Path, files: &[File]) -> ExitCode {
     if old.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-fn write_files(folder: &Path, files: &[File]) -> ExitCode {
+fn write_files(folder: &Path, files: &[File]) -> Result<(), OutputError> {
     for file in files {
-        match write(folder, file) {
-            Ok(Outcome::Written) => print_out(&format!("wrote {}\n", folder.join(&file.name).display())),
-            Ok(Outcome::Unchanged) => print_out(&format!("{} is up to date\n", folder.join(&file.name).display())),
-            Err(error) => {
-                let cause = error.source().map(|cause| format!(": {cause}")).unwrap_or_default();
-                print_err(&format!("error: {error}{cause}\n"));
-                return ExitCode::from(COULD_NOT_RUN);
-            }
+        let path = folder.join(&file.name);
+        match write(folder, file)? {
+            Outcome::Written => print_out(&format!("wrote {}\n", path.display())),
+            Outcome::Unchanged => print_out(&format!("{} is up to date\n", path.display())),
         }
     }
-    ExitCode::SUCCESS
+    Ok(())
+}
+
+/// A rule for Make: the first generated file depends on what was read.
+fn depfile(read: &[PathBuf], folder: &Path, files: &[File]) -> String {
+    let escaped = |path: &Path| path.display().to_string().replace(' ', "\\ ").replace('#', "\\#").replace('$', "$$");
+    let target = files.first().map(|file| escaped(&folder.join(&file.name))).unwrap_or_default();
+    let read: String = read.iter().map(|path| format!(" {}", escaped(path))).collect();
+    format!("{target}:{read}\n")
+}
+
+fn write_depfile(path: &Path, text: &str) -> Result<(), OutputError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    write(folder, &File { name, text: text.to_owned() }).map(drop)
 }

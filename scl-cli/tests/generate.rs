@@ -103,6 +103,17 @@ fn check_tells_what_is_not_up_to_date() {
 }
 
 #[test]
+fn arguments_without_effect_are_refused() {
+    let system = rover();
+    check(&system, &["--for", "c", "--format", "yaml"], 2, expect![[r#"
+        error: `--format` is for `--for zmq` only
+    "#]]);
+    check(&system, &["--for", "zmq", "--depfile", "rover.d"], 2, expect![[r#"
+        error: `--depfile` needs a folder: add `-o DIR`
+    "#]]);
+}
+
+#[test]
 fn mistakes_are_told_and_nothing_is_written() {
     let system = rover();
     check(
@@ -169,9 +180,24 @@ fn a_folder_that_cannot_be_written_is_an_error() {
             error: cannot create the folder `file/below`: Not a directory (os error 20)
         "#]],
     );
-    check(&system, &["--for", "c", "-o", "file"], 2, expect![[r#"
+    check(
+        &system,
+        &["--for", "c", "-o", "file"],
+        2,
+        expect![[r#"
         error: cannot create the folder `file`: File exists (os error 17)
-    "#]]);
+    "#]],
+    );
+}
+
+#[test]
+fn build_systems_learn_what_a_file_depends_on() {
+    let system = System::of_files(&[("a folder/topology.yaml", ROVER), ("a folder/rover.proto", SCHEMA)]);
+    generate(&system, &["--for", "c", "a folder/topology.yaml", "-o", "gen", "--depfile", "gen/rover.d"]);
+    expect![[r#"
+        gen/rover_scl.h: a\ folder/topology.yaml a\ folder/rover.proto
+    "#]]
+    .assert_eq(&std::fs::read_to_string(system.path("gen/rover.d")).unwrap());
 }
 
 /// Every program of a system may generate when it is built or started.

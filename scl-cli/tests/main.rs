@@ -15,6 +15,8 @@ mod explain;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
+#[cfg(all(feature = "run", feature = "generate"))]
+mod languages;
 mod lsp;
 mod plan;
 #[cfg(feature = "run")]

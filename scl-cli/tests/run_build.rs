@@ -131,7 +131,7 @@ fn a_request_to_stop_ends_a_build_with_its_children_and_starts_nothing() {
         let launch = "\
 components:
   sensor:
-    build: exec 3>alive; tail -f /dev/null >/dev/null & echo > building; tail -f /dev/null >/dev/null; exit 7
+    build: exec 3>alive; trap 'exit 7' INT TERM; tail -f /dev/null >/dev/null & echo > building; wait
     command: echo started
 ";
         let system = System::of_files(&[("launch.yaml", launch)]);
@@ -182,4 +182,11 @@ fn a_build_may_replace_the_running_command() {
     let mut command = std::process::Command::new(system.path("scl"));
     let output = command.arg("run").current_dir(system.path("")).output().unwrap();
     assert_eq!(text(&output.stdout), "a | started\n", "{}", text(&output.stderr));
+}
+
+#[test]
+fn a_build_can_call_the_running_command() {
+    let output = run("components: {a: {build: $SCL --version, command: 'true'}}", &[]);
+    let err = text(&output.stderr);
+    assert!(err.contains(concat!("a | scl ", env!("CARGO_PKG_VERSION"), "\n")), "{err}");
 }

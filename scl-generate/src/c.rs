@@ -9,6 +9,7 @@ mod gate;
 mod header;
 mod helpers;
 mod protobuf_c;
+mod recursion;
 mod source;
 mod wait;
 
@@ -18,26 +19,31 @@ use crate::system::{Component, System};
 use content::Content;
 use std::collections::BTreeMap;
 
+/// The scope of everything but members of structs.
+const C: &str = "C";
+
 /// The names that the header declares, and those of the messages that it uses.
 pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     let mut found = Vec::new();
-    let mut declare = |name: String, origin: Origin| {
-        found.push(Declaration { scope: "C".to_owned(), name, origin });
+    let mut declare = |scope: &str, name: String, origin: Origin| {
+        found.push(Declaration { scope: scope.to_owned(), name, origin });
     };
     for message in messages(system) {
-        protobuf_c::declared(&message.dotted).into_iter().for_each(|name| declare(name, Origin::message(&message)));
+        protobuf_c::declared(&message.dotted).into_iter().for_each(|name| declare(C, name, Origin::message(&message)));
     }
     for component in &system.components {
         let prefix = prefix(system, component);
-        declare(prefix.clone(), Origin::component(component));
+        declare(C, prefix.clone(), Origin::component(component));
         for call in ["open", "ready", "close", "wait"] {
-            declare(format!("{prefix}_{call}"), Origin::component(component));
+            declare(C, format!("{prefix}_{call}"), Origin::component(component));
         }
         for gate in &component.gates {
-            gate::declared(&prefix, gate).into_iter().for_each(|name| declare(name, Origin::gate(component, gate)));
+            let origin = Origin::gate(component, gate);
+            gate::declared(&prefix, gate).into_iter().for_each(|name| declare(C, name, origin.clone()));
+            declare(&format!("the C struct `{prefix}`"), gate::member(gate), origin);
         }
         for gate in wait::gates(component) {
-            declare(wait::constant(&prefix, gate), Origin::gate(component, gate));
+            declare(C, wait::constant(&prefix, gate), Origin::gate(component, gate));
         }
     }
     found

@@ -4,7 +4,7 @@ use crate::system::{Component, Gate, MessageUse};
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::{MESSAGE_CLASH, NAME_CLASH};
 use scl_topology::source::Span;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A name that a generated file declares.
 #[derive(Debug, Clone)]
@@ -19,51 +19,58 @@ pub(crate) struct Declaration {
 }
 
 /// What a name stands for.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct Origin {
     /// For messages: ``component `sensor` ``.
     what: String,
     /// Where it is written; `None` for what the topology file does not name.
     span: Option<Span>,
-    is_message: bool,
+    kind: Kind,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Kind {
+    Component,
+    Gate,
+    Message,
+    Generated,
 }
 
 impl Origin {
     pub(crate) fn component(component: &Component) -> Self {
-        Self { what: format!("component `{}`", component.name), span: Some(component.span), is_message: false }
+        Self { what: format!("component `{}`", component.name), span: Some(component.span), kind: Kind::Component }
     }
 
     pub(crate) fn gate(component: &Component, gate: &Gate) -> Self {
-        Self { what: format!("gate `{}.{}`", component.name, gate.name), span: Some(gate.span), is_message: false }
+        Self { what: format!("gate `{}.{}`", component.name, gate.name), span: Some(gate.span), kind: Kind::Gate }
     }
 
     /// A message that a gate carries.
     pub(crate) fn message(used: &MessageUse) -> Self {
-        Self { what: format!("message `{}`", used.dotted), span: Some(used.span), is_message: true }
+        Self { what: format!("message `{}`", used.dotted), span: Some(used.span), kind: Kind::Message }
     }
 
     /// A message that is in the schemas, but at no gate.
     pub(crate) fn other_message(dotted: &str) -> Self {
-        Self { what: format!("message `{dotted}`"), span: None, is_message: true }
+        Self { what: format!("message `{dotted}`"), span: None, kind: Kind::Message }
     }
 
     /// A name of SCL's own, for example ``method `close` ``.
     pub(crate) fn generated(what: impl Into<String>) -> Self {
-        Self { what: what.into(), span: None, is_message: false }
+        Self { what: what.into(), span: None, kind: Kind::Generated }
     }
 }
 
 /// Every two declarations of one name in one scope that stand for different things.
 pub(crate) fn find(declarations: &[Declaration]) -> Vec<Diagnostic> {
     let mut first: HashMap<(&str, &str), &Declaration> = HashMap::new();
-    let mut told: Vec<(&Origin, &Origin)> = Vec::new();
+    let mut told: HashSet<(&Origin, &Origin)> = HashSet::new();
     let mut found = Vec::new();
     for declaration in declarations {
         let other = *first.entry((&declaration.scope, &declaration.name)).or_insert(declaration);
         // Many names may come from one component; one of them tells enough.
         let pair = (&other.origin, &declaration.origin);
-        if other.origin != declaration.origin && !told.contains(&pair) {
-            told.push(pair);
+        if other.origin != declaration.origin && told.insert(pair) {
             found.push(report(declaration, &other.origin, &declaration.origin));
         }
     }
@@ -72,11 +79,16 @@ pub(crate) fn find(declarations: &[Declaration]) -> Vec<Diagnostic> {
 
 fn report(declaration: &Declaration, first: &Origin, second: &Origin) -> Diagnostic {
     let Declaration { scope, name, .. } = declaration;
-    let rule = if first.is_message != second.is_message { &MESSAGE_CLASH } else { &NAME_CLASH };
+    let rule = match (first.kind, second.kind) {
+        (Kind::Component, Kind::Message) | (Kind::Message, Kind::Component) => &MESSAGE_CLASH,
+        _ => &NAME_CLASH,
+    };
     let headline = format!("{} and {} would both become `{name}` in {scope}", first.what, second.what);
-    // What can be renamed most easily comes last: a component or a gate rather than a message.
-    let [other, renamed] =
-        if first.is_message || second.span.is_some() && !second.is_message { [first, second] } else { [second, first] };
+    // What is easier to rename: components and gates rather than messages, of which other programs may know.
+    let [other, renamed] = match (first.kind, second.kind) {
+        (_, Kind::Component | Kind::Gate) | (Kind::Generated, _) => [first, second],
+        _ => [second, first],
+    };
     let mut problem = match renamed.span.or(other.span) {
         Some(span) => rule.at(headline, span, format!("becomes `{name}`")),
         None => rule.without_place(headline),

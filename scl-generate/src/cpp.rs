@@ -15,6 +15,9 @@ use scl_plan::GateKind;
 /// Namespaces that a system must not become: those of the standard library and of SCL itself.
 const TAKEN_NAMESPACES: [&str; 2] = ["std", "scl"];
 
+/// The functions of `scl::Component`, which a gate of the same name would hide.
+const OF_COMPONENTS: [&str; 5] = ["close", "fd", "handle", "name", "ready"];
+
 /// The names that the header declares.
 pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     let namespace = namespace(system);
@@ -26,6 +29,13 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     };
     let mut declarations = messages::declarations(system, &namespace, &inside);
     declarations.extend(system.components.iter().map(component));
+    declarations.extend(system.components.iter().flat_map(|component| {
+        component.gates.iter().map(|gate| Declaration {
+            scope: format!("the C++ struct `{namespace}::{}`", component.class_name),
+            name: member(gate),
+            origin: Origin::gate(component, gate),
+        })
+    }));
     declarations
 }
 
@@ -96,8 +106,12 @@ fn write_gate(out: &mut Writer, gate: &Gate, messages: &Messages) {
     if let Some(note) = bytes_note(gate) {
         write_comment(out, &note);
     }
-    let member = identifier::c_family(&gate.snake_name);
-    out.line(format!("{} {member}{{*this, \"{}\"}};", gate_type(gate, messages), gate.name));
+    out.line(format!("{} {}{{*this, \"{}\"}};", gate_type(gate, messages), member(gate), gate.name));
+}
+
+fn member(gate: &Gate) -> String {
+    let name = identifier::c_family(&gate.snake_name);
+    if OF_COMPONENTS.contains(&name.as_str()) { format!("{name}_") } else { name }
 }
 
 /// `::scl::Sub<::rover::Measurement>`.

@@ -8,7 +8,6 @@
 //! that would be one are reported with their places in the topology file, and `files` makes the texts.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 #![deny(missing_docs)]
-#![allow(dead_code, reason = "the generators are yet to use what they share")]
 
 mod c;
 mod clash;

@@ -110,3 +110,69 @@ connections:
           = help: rename the component `_measurement__init`
     "#]].assert_eq(&clashes(yaml, SCHEMA, Target::C));
 }
+
+#[test]
+fn a_keyword_and_its_escape_become_one_member() {
+    let yaml = "\
+system: rover
+components:
+  - name: teacher
+    gates:
+      - class: pub
+      - class_: pub
+  - name: pupil
+    gates:
+      - one: sub
+      - other: sub
+connections:
+  - [teacher.class, pupil.one]
+  - [teacher.class_, pupil.other]
+";
+    for target in [Target::C, Target::Cpp, Target::Python] {
+        let told = clashes(yaml, SCHEMA, target);
+        let headline = told.lines().next().unwrap_or_default();
+        let expected = "error: [SCL1102] gate `teacher.class` and gate `teacher.class_` would both become `class_` in ";
+        assert!(headline.starts_with(expected), "{target:?}: {told}");
+    }
+}
+
+#[test]
+fn a_component_and_a_message_share_the_namespace_of_the_system() {
+    let yaml = "\
+system: rover
+schemas: [rover.proto]
+components:
+  - name: measurement
+    gates:
+      - values: {pub: rover.Measurement}
+  - name: sink
+    gates:
+      - values: {sub: rover.Measurement}
+connections:
+  - [measurement.values, sink.values]
+";
+    assert_eq!(clashes(yaml, SCHEMA, Target::C), "");
+    let told = [Target::Cpp, Target::Python].map(|target| clashes(yaml, SCHEMA, target));
+    expect![[r#"
+        error: [SCL1101] message `rover.Measurement` and component `measurement` would both become `Measurement` in the C++ namespace `rover`
+         --> topology.yaml:4:11
+          |
+        4 |   - name: measurement
+          |           ^^^^^^^^^^^ becomes `Measurement`
+        5 |     gates:
+        6 |       - values: {pub: rover.Measurement}
+          |                       ----------------- message `rover.Measurement` becomes `Measurement`
+          |
+          = help: rename the component `measurement`
+        error: [SCL1101] component `measurement` and message `rover.Measurement` would both become `Measurement` in module `rover_scl`
+         --> topology.yaml:4:11
+          |
+        4 |   - name: measurement
+          |           ^^^^^^^^^^^ becomes `Measurement`
+        5 |     gates:
+        6 |       - values: {pub: rover.Measurement}
+          |                       ----------------- message `rover.Measurement` becomes `Measurement`
+          |
+          = help: rename the component `measurement`
+    "#]].assert_eq(&told.concat());
+}

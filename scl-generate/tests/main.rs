@@ -3,7 +3,10 @@
 
 mod all_topologies;
 mod c;
+mod c_programs;
 mod clashes;
+mod cpp;
+mod cpp_names;
 mod fixture;
 mod python;
 mod writing;

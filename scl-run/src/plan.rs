@@ -136,9 +136,11 @@ fn note_missing(launched: &[LaunchComponent], components: &[String]) {
 
 /// The builds in file order. Equal commands in the same folder become one.
 fn plan_builds(folder: &Path, launch: &LaunchFile, components: &[LaunchComponent]) -> Vec<Build> {
+    // So that a build can call `scl generate` where `scl` is not installed, or another version is.
+    let scl = std::env::current_exe().ok().and_then(|path| Some(("SCL".to_owned(), path.to_str()?.to_owned())));
     let program = |command: &[String], folder: PathBuf| Program {
         command: command.iter().map(OsString::from).collect(),
-        environment: launch.environment.clone(),
+        environment: scl.iter().chain(&launch.environment).cloned().collect(),
         folder,
     };
     let mut builds = Vec::new();

@@ -16,13 +16,13 @@ scl::topology!("topologies/json.yaml");
 
 use json::{Everything, Level, everything};
 
-fn to_json(message: &Everything) -> String {
+pub(crate) fn to_json(message: &Everything) -> String {
     let mut buffer = BytesMut::new();
     Json::encode(message, &mut buffer).expect("a message that JSON can represent");
     String::from_utf8(buffer.to_vec()).expect("text")
 }
 
-fn from_json(text: &str) -> Result<Everything, String> {
+pub(crate) fn from_json(text: &str) -> Result<Everything, String> {
     let decoded = Json::decode(Bytes::copy_from_slice(text.as_bytes()));
     decoded.map_err(|error| {
         format!("{error}: {}", std::error::Error::source(&error).map(ToString::to_string).unwrap_or_default())
@@ -31,7 +31,7 @@ fn from_json(text: &str) -> Result<Everything, String> {
 
 /// Messages that use every field, every special value and every well-known type, with their texts as in the
 /// specification.
-fn cases() -> Vec<(Everything, &'static str)> {
+pub(crate) fn cases() -> Vec<(Everything, &'static str)> {
     let default = Everything::default;
     let inner = |text: &str| everything::Inner { text: text.to_owned(), outer: None };
     let value = |kind| Value { kind: Some(kind) };

@@ -4,6 +4,7 @@ use crate::programs::open;
 use rustix::process::Signal;
 use scl_tests::{Process, System, on_each_medium, python_with_scl};
 use std::path::Path;
+use tempfile::TempDir;
 
 const MODULES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scl-generate/tests/python/expected");
 
@@ -31,7 +32,6 @@ fn every_kind_of_gate_carries_messages_between_python_and_rust() {
             source.ask("ready 30000", "ready");
             source.ask("publish 0 100", "published");
             sink.ask("receive 100", "0..100");
-            sink.ask("newest", "99");
             source.ask("lossless 0 5", "published");
             sink.ask("receive_lossless 5", "0..5");
             source.ask("push 0 100", "pushed");
@@ -64,22 +64,24 @@ fn messages_have_every_sort_of_field_at_run_time() {
     program.expect("done");
 }
 
-/// Two statements of the type checkers' tests, so that these programs do not merely look right.
+/// The Python blocks of the page.
+fn examples() -> Vec<&'static str> {
+    let page = include_str!("../../docs/python-generated.md");
+    let blocks = page.split("```python\n").skip(1).filter_map(|rest| rest.split_once("```"));
+    blocks.map(|(block, _)| block).collect()
+}
+
+fn run_text(system: &System, folder: &TempDir, program: &str) -> Process {
+    let path = folder.path().join("program.py");
+    std::fs::write(&path, program).expect("written");
+    let python = python_with_scl().to_str().expect("text");
+    system.start_with(python, &[path.to_str().expect("text")], &[("PYTHONPATH", MODULES)])
+}
+
 #[test]
 fn the_shortest_program_runs() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let program = "\
-from rover_scl import Actuator
-with Actuator() as a:
-    for setpoint in a.setpoint:
-        print(setpoint.throttle, flush=True)
-";
-    let path = folder.path().join("actuator.py");
-    std::fs::write(&path, program).expect("written");
-    let system = System::new();
-    let python = python_with_scl().to_str().expect("text");
-    let path = path.to_str().expect("text");
-    let mut actuator = system.start_with(python, &[path], &[("PYTHONPATH", MODULES)]);
+    let (system, folder) = (System::new(), TempDir::new().expect("a folder"));
+    let mut actuator = run_text(&system, &folder, examples().first().expect("the first example"));
     let mut controller = run(&system, "generated_controller.py", &[]);
     controller.ask("0.25", "sent");
     controller.ask("0.5", "sent");
@@ -88,6 +90,16 @@ with Actuator() as a:
     actuator.signal(Signal::TERM);
     let exit = actuator.wait_for_exit();
     assert!(exit.status.success(), "{exit:?}");
+}
+
+#[test]
+fn the_other_examples_of_the_page_run() {
+    let (system, folder) = (System::new(), TempDir::new().expect("a folder"));
+    let examples = examples();
+    assert!(examples.len() > 3, "{examples:?}");
+    let program = examples[1..].join("\n") + "\nprint('done')\n";
+    let exit = run_text(&system, &folder, &program).wait_for_exit();
+    assert_eq!(exit.output, ["done"], "{:#?}", exit.log);
 }
 
 #[test]

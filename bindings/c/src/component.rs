@@ -167,6 +167,11 @@ impl Opened {
         Self { name: name.to_owned(), component, closer, gates: Vec::new(), readiness }
     }
 
+    /// Returns true if a handle is that of one of its gates.
+    pub(crate) fn owns(&self, gate: *mut scl_gate) -> bool {
+        self.gates.iter().any(|(_, handle)| *handle == gate as usize)
+    }
+
     fn remove_gates(&self) {
         // Only this component's own gates, each once.
         self.gates.iter().for_each(|(_, gate)| drop(gate::remove(*gate)));

@@ -38,9 +38,13 @@ pub unsafe extern "C" fn scl_wait(
         *ready = 0;
         // SAFETY: the caller's duty; NULL and too many are refused.
         let gates = unsafe { list(gates, count) }?;
-        let mut gates = gates.iter().map(|gate| gate::lock(*gate)).collect::<Result<Vec<_>, _>>()?;
-        *ready = match kept(&gates) {
-            0 => component::find(component)?.with(|component| wait(component, &mut gates, Wait::of(timeout_ns)))?,
+        let opened = component::find(component)?;
+        let mut locked = gates.iter().map(|gate| gate::lock(*gate)).collect::<Result<Vec<_>, _>>()?;
+        if let Some(index) = gates.iter().position(|gate| !opened.owns(*gate)) {
+            return Err(Failure::argument(format!("`gates[{index}]` is not a gate of this component")));
+        }
+        *ready = match kept(&locked) {
+            0 => opened.with(|component| wait(component, &mut locked, Wait::of(timeout_ns)))?,
             kept => kept,
         };
         Ok(())

@@ -5,6 +5,7 @@ use scl::untyped::Component;
 use scl_tests::{Compile, Process, System};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 use tempfile::TempDir;
 
@@ -64,10 +65,22 @@ impl Program {
         self.system.start_with(program.to_str().unwrap(), &arguments, environment)
     }
 
+    /// Starts a program with another plan.
+    pub fn start_plan(&self, program: &str, plan: &Path, more: &[&str]) -> Process {
+        let program = compiled(program, self.build);
+        self.system.start(program.to_str().unwrap(), &[&[plan.to_str().unwrap()], more].concat())
+    }
+
+    /// Starts any command in the runtime folder.
+    pub fn spawn(&self, mut command: Command) -> Process {
+        command.env("SCL_RUNTIME_DIR", self.system.runtime_dir());
+        Process::spawn(command)
+    }
+
     /// Starts `commands` and waits until it has opened the component.
     #[track_caller]
     pub fn commands(&self) -> Process {
-        let mut process = self.start("commands", &[]);
+        let mut process = self.start("commands", &["program", ""]);
         process.expect("open");
         process
     }

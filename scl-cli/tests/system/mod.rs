@@ -95,15 +95,21 @@ impl Started {
         self.wait_until(start, |line| line.starts_with(start));
     }
 
-    fn wait_until(&mut self, expected: &str, found: impl Fn(&str) -> bool) {
-        let mut seen = String::new();
+    /// The next line of standard output; `None` at its end.
+    pub(crate) fn next_line(&mut self) -> Option<String> {
+        let mut line = String::new();
+        (self.lines.read_line(&mut line).unwrap() > 0).then(|| line.trim_end().to_owned())
+    }
+
+    /// Reads standard output up to a line for which `found` returns true.
+    pub(crate) fn wait_until(&mut self, expected: &str, found: impl Fn(&str) -> bool) {
+        let mut seen = Vec::new();
         loop {
-            let mut line = String::new();
-            assert_ne!(self.lines.read_line(&mut line).unwrap(), 0, "no line `{expected}` in:\n{seen}");
-            if found(line.trim_end()) {
+            let line = self.next_line().unwrap_or_else(|| panic!("no line `{expected}` in:\n{}", seen.join("\n")));
+            if found(&line) {
                 return;
             }
-            seen.push_str(&line);
+            seen.push(line);
         }
     }
 

@@ -1,7 +1,8 @@
 //! The helpers of a generated source: what all gates share.
 
 use super::content::Content;
-use super::wait;
+use super::recursion::is_any_recursive;
+use super::{messages, wait};
 use crate::system::System;
 use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
 
@@ -20,11 +21,16 @@ pub(super) fn needed(system: &System) -> Vec<&'static str> {
     let is_answered = any(&|kind, _, second| kind == Req && second);
     let is_asked = any(&|kind, first, _| kind == Rep && first);
     let waits = system.components.iter().any(|component| !wait::gates(component).is_empty());
+    let messages = messages(system);
+    let mut names = messages.iter().map(|message| message.dotted.as_str());
+    let is_recursive = system.descriptors.as_ref().is_some_and(|files| is_any_recursive(files, &mut names));
     let all = [
+        (true, OPEN),
         (sends || asks || replies, PACK),
         (sends, SEND),
         (asks, CALL),
         (replies, REPLY),
+        (receives || is_answered || is_asked, if is_recursive { UNPACK_LIMITED } else { UNPACK_MESSAGE }),
         (receives || is_answered, UNPACK),
         (receives, RECEIVE),
         (is_asked, TAKE),
@@ -32,6 +38,16 @@ pub(super) fn needed(system: &System) -> Vec<&'static str> {
     ];
     all.into_iter().filter_map(|(is_needed, helper)| is_needed.then_some(helper)).collect()
 }
+
+const OPEN: &str = "\
+static scl_status open_component(const char *name, const char *options_json, scl_component **component)
+{
+    if (scl_abi() != SCL_ABI) {
+        return scl_fail(SCL_FAILED, \"the library has another version than the `scl.h` that this program was compiled \"
+                                    \"with; compile it again\");
+    }
+    return scl_open(plan, sizeof plan - 1, name, options_json, component);
+}";
 
 const PACK: &str = "\
 /* A message as bytes: in `room` if they fit, else in memory of their own. */
@@ -107,6 +123,83 @@ static scl_status reply_with_message(scl_request *request, const ProtobufCMessag
     return status;
 }";
 
+const UNPACK_MESSAGE: &str = "\
+static ProtobufCMessage *unpack_message(const ProtobufCMessageDescriptor *type, const uint8_t *data, size_t size)
+{
+    return protobuf_c_message_unpack(type, NULL, size, data);
+}";
+
+/// protobuf-c has no limit of its own, so some kilobytes of nested messages would end the program.
+const UNPACK_LIMITED: &str = "\
+/* Reads a number of protobuf and moves past it. */
+static int read_varint(const uint8_t **data, const uint8_t *end, uint64_t *number)
+{
+    unsigned shift;
+    *number = 0;
+    for (shift = 0; shift < 64 && *data < end; shift += 7) {
+        uint8_t byte = *(*data)++;
+        *number |= (uint64_t)(byte & 0x7f) << shift;
+        if (byte < 0x80) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Whether the bytes are a message whose messages are nested at most 100 deep, as other implementations accept it. */
+static int is_shallow(const ProtobufCMessageDescriptor *type, const uint8_t *data, size_t size, unsigned depth)
+{
+    const uint8_t *end = data + size;
+    while (data < end) {
+        uint64_t key, length = 0;
+        if (!read_varint(&data, end, &key)) {
+            return 0;
+        }
+        switch (key & 7) {
+        case 0:
+            if (!read_varint(&data, end, &length)) {
+                return 0;
+            }
+            length = 0;
+            break;
+        case 1:
+            length = 8;
+            break;
+        case 2:
+            if (!read_varint(&data, end, &length)) {
+                return 0;
+            }
+            break;
+        case 5:
+            length = 4;
+            break;
+        default:
+            return 0;
+        }
+        if (length > (size_t)(end - data)) {
+            return 0;
+        }
+        if ((key & 7) == 2) {
+            const ProtobufCFieldDescriptor *field =
+                protobuf_c_message_descriptor_get_field(type, (unsigned)(key >> 3));
+            if (field != NULL && field->type == PROTOBUF_C_TYPE_MESSAGE) {
+                const ProtobufCMessageDescriptor *inner = (const ProtobufCMessageDescriptor *)field->descriptor;
+                if (depth == 100 || !is_shallow(inner, data, (size_t)length, depth + 1)) {
+                    return 0;
+                }
+            }
+        }
+        data += length;
+    }
+    return 1;
+}
+
+/* protobuf-c has no limit for nested messages, and would run out of stack. */
+static ProtobufCMessage *unpack_message(const ProtobufCMessageDescriptor *type, const uint8_t *data, size_t size)
+{
+    return is_shallow(type, data, size, 1) ? protobuf_c_message_unpack(type, NULL, size, data) : NULL;
+}";
+
 const UNPACK: &str = "\
 /* Frees `bytes`, and stores the message that they are in `*result`: a pointer to the struct of `type`. */
 static scl_status unpack(scl_gate *gate, const ProtobufCMessageDescriptor *type, scl_status status, scl_message *bytes,
@@ -116,7 +209,7 @@ static scl_status unpack(scl_gate *gate, const ProtobufCMessageDescriptor *type,
     if (status == SCL_OK) {
         size_t size = 0;
         const uint8_t *data = (const uint8_t *)scl_message_data(bytes, &size);
-        message = protobuf_c_message_unpack(type, NULL, size, data);
+        message = unpack_message(type, data, size);
         scl_message_free(bytes);
         if (message == NULL) {
             status = scl_undecodable(gate, type->name);
@@ -153,7 +246,7 @@ static scl_status take_message(scl_gate *gate, const ProtobufCMessageDescriptor 
     scl_status status = scl_take_request(gate, timeout_ns, request);
     if (status == SCL_OK) {
         const uint8_t *data = (const uint8_t *)scl_request_data(*request, &size);
-        unpacked = protobuf_c_message_unpack(type, NULL, size, data);
+        unpacked = unpack_message(type, data, size);
         if (unpacked == NULL) {
             scl_request_free(*request);
             *request = NULL;

@@ -72,7 +72,7 @@ fn open_body(component: &Component) -> Vec<String> {
     let name = literal(&component.name);
     let mut body = gate::refuse_null("self");
     body.push("memset(self, 0, sizeof *self);".to_owned());
-    body.push(format!("scl_status status = scl_open(plan, sizeof plan - 1, {name}, options_json, &self->component);"));
+    body.push(format!("scl_status status = open_component({name}, options_json, &self->component);"));
     if !component.gates.is_empty() {
         body.push("if (status == SCL_OK) {".to_owned());
         for gate in &component.gates {

@@ -107,9 +107,6 @@ fn split(doc: &Doc) -> Option<(String, Vec<Doc>, [&'static str; 2], String)> {
     }
 }
 
-fn unicode_length(line: &str) -> usize {
-    line.chars().count()
-}
 #[cfg(test)]
 mod tests {
     use super::{Doc, Layout};

@@ -12,7 +12,7 @@
 #endif
 static const char plan[] =
     "{\"version\": 1,\"system\": \"every-kind\",\"components\": [{\"name\": \"left\","
-    "\"declared_at\": \"every_kind.yaml:5:11\",\"schema\": \"r4ktqvkabzep275ekb6dcsxlgg\",\"gates\": [{"
+    "\"declared_at\": \"every_kind.yaml:5:11\",\"schema\": \"ma7xgrncj6we35cmeede3c7b2b\",\"gates\": [{"
     "\"name\": \"values\",\"kind\": \"pub\",\"payload\": {\"message\": \"kinds.Value\"},\"codec\": \"protobuf\","
     "\"declared_at\": \"every_kind.yaml:10:9\",\"endpoint\": null,\"tap\": \"left.values.tap\","
     "\"contract\": \"iwlze4dk\",\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\","
@@ -58,63 +58,99 @@ static const char plan[] =
     "\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,"
     "\"timeout_ns\": 1000000000,\"connections\": [{\"peer_component\": \"right-side\",\"peer_gate\": \"packed\","
     "\"endpoint\": \"right-side.packed.tjmyglsc\",\"contract\": \"tjmyglsc\",\"required\": true,\"queue\": 100,"
-    "\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]}]},{\"name\": \"right-side\","
-    "\"declared_at\": \"every_kind.yaml:18:11\",\"schema\": \"r4ktqvkabzep275ekb6dcsxlgg\",\"gates\": [{"
-    "\"name\": \"values\",\"kind\": \"sub\",\"payload\": {\"message\": \"kinds.Value\"},\"codec\": \"protobuf\","
-    "\"declared_at\": \"every_kind.yaml:20:9\",\"endpoint\": null,\"tap\": null,\"contract\": \"iwlze4dk\","
+    "\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]},{\"name\": \"trees\",\"kind\": \"push\",\"payload\": {"
+    "\"message\": \"kinds.Tree\"},\"codec\": \"protobuf\",\"declared_at\": \"every_kind.yaml:18:9\",\"endpoint\": null,"
+    "\"tap\": null,\"contract\": \"mgd2eiso\",\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\","
+    "\"backpressure\": false,\"timeout_ns\": 1000000000,\"connections\": [{\"peer_component\": \"right-side\","
+    "\"peer_gate\": \"trees\",\"endpoint\": \"right-side.trees.mgd2eiso\",\"contract\": \"mgd2eiso\","
+    "\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]}]},{"
+    "\"name\": \"right-side\",\"declared_at\": \"every_kind.yaml:19:11\",\"schema\": \"ma7xgrncj6we35cmeede3c7b2b\","
+    "\"gates\": [{\"name\": \"values\",\"kind\": \"sub\",\"payload\": {\"message\": \"kinds.Value\"},\"codec\": \"protobuf\","
+    "\"declared_at\": \"every_kind.yaml:21:9\",\"endpoint\": null,\"tap\": null,\"contract\": \"iwlze4dk\","
     "\"max_size\": 67108864,\"queue\": 1,\"when_full\": \"drop_oldest\",\"backpressure\": false,"
     "\"timeout_ns\": 1000000000,\"connections\": [{\"peer_component\": \"left\",\"peer_gate\": \"values\","
     "\"endpoint\": \"left.values--right-side.values.iwlze4dk\",\"contract\": \"iwlze4dk\",\"required\": true,"
     "\"queue\": 1,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]},{\"name\": \"from\",\"kind\": \"pull\","
     "\"payload\": {\"message\": \"kinds.GPSFix.Inner_part\"},\"codec\": \"protobuf\","
-    "\"declared_at\": \"every_kind.yaml:21:9\",\"endpoint\": \"right-side.from.baol5fbn\","
+    "\"declared_at\": \"every_kind.yaml:22:9\",\"endpoint\": \"right-side.from.baol5fbn\","
     "\"tap\": \"right-side.from.tap\",\"contract\": \"baol5fbn\",\"max_size\": 67108864,\"queue\": 100,"
     "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"timeout_ns\": 1000000000,\"connections\": [{"
     "\"peer_component\": \"left\",\"peer_gate\": \"class\",\"endpoint\": \"right-side.from.baol5fbn\","
     "\"contract\": \"baol5fbn\",\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
     "}]},{\"name\": \"answer\",\"kind\": \"rep\",\"payload\": {\"request\": \"kinds.Value\",\"reply\": \"part.Part\"},"
-    "\"codec\": \"protobuf\",\"declared_at\": \"every_kind.yaml:22:9\",\"endpoint\": \"right-side.answer.2uxfcrjj\","
+    "\"codec\": \"protobuf\",\"declared_at\": \"every_kind.yaml:23:9\",\"endpoint\": \"right-side.answer.2uxfcrjj\","
     "\"tap\": \"right-side.answer.tap\",\"contract\": \"2uxfcrjj\",\"max_size\": 67108864,\"queue\": 100,"
     "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"timeout_ns\": 1000000000,\"connections\": [{"
     "\"peer_component\": \"left\",\"peer_gate\": \"int\",\"endpoint\": \"right-side.answer.2uxfcrjj\","
     "\"contract\": \"2uxfcrjj\",\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
     "}]},{\"name\": \"rawIn\",\"kind\": \"sub\",\"payload\": null,\"codec\": \"raw\","
-    "\"declared_at\": \"every_kind.yaml:23:9\",\"endpoint\": null,\"tap\": null,\"contract\": \"rqhnei4n\","
+    "\"declared_at\": \"every_kind.yaml:24:9\",\"endpoint\": null,\"tap\": null,\"contract\": \"rqhnei4n\","
     "\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,"
     "\"timeout_ns\": 1000000000,\"connections\": [{\"peer_component\": \"left\",\"peer_gate\": \"raw_out\","
     "\"endpoint\": \"left.raw_out--right-side.rawIn.rqhnei4n\",\"contract\": \"rqhnei4n\",\"required\": true,"
     "\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]},{\"name\": \"raw_jobs\",\"kind\": \"pull\","
-    "\"payload\": null,\"codec\": \"raw\",\"declared_at\": \"every_kind.yaml:24:9\","
+    "\"payload\": null,\"codec\": \"raw\",\"declared_at\": \"every_kind.yaml:25:9\","
     "\"endpoint\": \"right-side.raw_jobs.djajuayx\",\"tap\": \"right-side.raw_jobs.tap\",\"contract\": \"djajuayx\","
     "\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,"
     "\"timeout_ns\": 1000000000,\"connections\": [{\"peer_component\": \"left\",\"peer_gate\": \"raw_jobs\","
     "\"endpoint\": \"right-side.raw_jobs.djajuayx\",\"contract\": \"djajuayx\",\"required\": true,\"queue\": 100,"
     "\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]},{\"name\": \"raw_answer\",\"kind\": \"rep\","
-    "\"payload\": null,\"codec\": \"raw\",\"declared_at\": \"every_kind.yaml:25:9\","
+    "\"payload\": null,\"codec\": \"raw\",\"declared_at\": \"every_kind.yaml:26:9\","
     "\"endpoint\": \"right-side.raw_answer.rynbne7t\",\"tap\": \"right-side.raw_answer.tap\","
     "\"contract\": \"rynbne7t\",\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\","
     "\"backpressure\": false,\"timeout_ns\": 1000000000,\"connections\": [{\"peer_component\": \"left\","
     "\"peer_gate\": \"raw_question\",\"endpoint\": \"right-side.raw_answer.rynbne7t\",\"contract\": \"rynbne7t\","
     "\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]},{"
     "\"name\": \"json_answer\",\"kind\": \"rep\",\"payload\": {\"request\": \"kinds.Value\",\"reply\": \"part.Part\"},"
-    "\"codec\": \"json\",\"declared_at\": \"every_kind.yaml:26:9\",\"endpoint\": \"right-side.json_answer.h2hanz43\","
+    "\"codec\": \"json\",\"declared_at\": \"every_kind.yaml:27:9\",\"endpoint\": \"right-side.json_answer.h2hanz43\","
     "\"tap\": \"right-side.json_answer.tap\",\"contract\": \"h2hanz43\",\"max_size\": 67108864,\"queue\": 100,"
     "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"timeout_ns\": 1000000000,\"connections\": [{"
     "\"peer_component\": \"left\",\"peer_gate\": \"json_question\",\"endpoint\": \"right-side.json_answer.h2hanz43\","
     "\"contract\": \"h2hanz43\",\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
     "}]},{\"name\": \"packed\",\"kind\": \"pull\",\"payload\": {\"message\": \"camera.Image\"},\"codec\": \"cbor\","
-    "\"declared_at\": \"every_kind.yaml:27:9\",\"endpoint\": \"right-side.packed.tjmyglsc\","
+    "\"declared_at\": \"every_kind.yaml:28:9\",\"endpoint\": \"right-side.packed.tjmyglsc\","
     "\"tap\": \"right-side.packed.tap\",\"contract\": \"tjmyglsc\",\"max_size\": 67108864,\"queue\": 100,"
     "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"timeout_ns\": 1000000000,\"connections\": [{"
     "\"peer_component\": \"left\",\"peer_gate\": \"packed\",\"endpoint\": \"right-side.packed.tjmyglsc\","
     "\"contract\": \"tjmyglsc\",\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
-    "}]}]},{\"name\": \"lonely\",\"declared_at\": \"every_kind.yaml:28:11\",\"schema\": null,\"gates\": []}],"
-    "\"schemas\": {"
-    "\"r4ktqvkabzep275ekb6dcsxlgg\": \"Ct0BChBwYXJ0cy9wYXJ0LnByb3RvEgRwYXJ0IroBCgRQYXJ0EiYKBXN0YXRlGAEgASgOMhAucGFydC5QYXJ0LlN0YXRlUgVzdGF0ZRIuCgZjb3VudHMYAiADKAsyFi5wYXJ0LlBhcnQuQ291bnRzRW50cnlSBmNvdW50cxo5CgtDb3VudHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIUCgV2YWx1ZRgCIAEoBVIFdmFsdWU6AjgBIh8KBVN0YXRlEgsKB1VOS05PV04QABIJCgVTT1VORBABYgZwcm90bzMKggIKEGV2ZXJ5X2tpbmQucHJvdG8SBWtpbmRzGhBwYXJ0cy9wYXJ0LnByb3RvImkKBVZhbHVlEhYKBm51bWJlchgBIAEoA1IGbnVtYmVyEhIKBG5hbWUYAiABKAlSBG5hbWUSEgoEZGF0YRgDIAEoDFIEZGF0YRIgCgVwYXJ0cxgEIAMoCzIKLnBhcnQuUGFydFIFcGFydHMiYgoGR1BTRml4Ei4KBWlubmVyGAEgASgLMhgua2luZHMuR1BTRml4LklubmVyX3BhcnRSBWlubmVyGigKCklubmVyX3BhcnQSGgoIbGF0aXR1ZGUYASABKAFSCGxhdGl0dWRlYgZwcm90bzM=\""
+    "}]},{\"name\": \"trees\",\"kind\": \"pull\",\"payload\": {\"message\": \"kinds.Tree\"},\"codec\": \"protobuf\","
+    "\"declared_at\": \"every_kind.yaml:29:9\",\"endpoint\": \"right-side.trees.mgd2eiso\","
+    "\"tap\": \"right-side.trees.tap\",\"contract\": \"mgd2eiso\",\"max_size\": 67108864,\"queue\": 100,"
+    "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"timeout_ns\": 1000000000,\"connections\": [{"
+    "\"peer_component\": \"left\",\"peer_gate\": \"trees\",\"endpoint\": \"right-side.trees.mgd2eiso\","
+    "\"contract\": \"mgd2eiso\",\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
+    "}]}]},{\"name\": \"lonely\",\"declared_at\": \"every_kind.yaml:30:11\","
+    "\"schema\": \"ma7xgrncj6we35cmeede3c7b2b\",\"gates\": [{\"name\": \"close\",\"kind\": \"pub\",\"payload\": {"
+    "\"message\": \"kinds.Value\"},\"codec\": \"protobuf\",\"declared_at\": \"every_kind.yaml:32:9\","
+    "\"endpoint\": null,\"tap\": \"lonely.close.tap\",\"contract\": \"iwlze4dk\",\"max_size\": 67108864,\"queue\": 100,"
+    "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"timeout_ns\": 1000000000,\"connections\": []},{"
+    "\"name\": \"ready\",\"kind\": \"sub\",\"payload\": {\"message\": \"kinds.Value\"},\"codec\": \"protobuf\","
+    "\"declared_at\": \"every_kind.yaml:33:9\",\"endpoint\": null,\"tap\": null,\"contract\": \"iwlze4dk\","
+    "\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,"
+    "\"timeout_ns\": 1000000000,\"connections\": []},{\"name\": \"name\",\"kind\": \"req\",\"payload\": {"
+    "\"request\": \"kinds.Value\",\"reply\": \"part.Part\"},\"codec\": \"protobuf\","
+    "\"declared_at\": \"every_kind.yaml:34:9\",\"endpoint\": null,\"tap\": null,\"contract\": \"2uxfcrjj\","
+    "\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,"
+    "\"timeout_ns\": 1000000000,\"connections\": []},{\"name\": \"component\",\"kind\": \"pull\",\"payload\": {"
+    "\"message\": \"kinds.Value\"},\"codec\": \"protobuf\",\"declared_at\": \"every_kind.yaml:35:9\","
+    "\"endpoint\": \"lonely.component.ve27wo5r\",\"tap\": \"lonely.component.tap\",\"contract\": \"ve27wo5r\","
+    "\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,"
+    "\"timeout_ns\": 1000000000,\"connections\": []}]},{\"name\": \"empty\","
+    "\"declared_at\": \"every_kind.yaml:36:11\",\"schema\": null,\"gates\": []}],\"schemas\": {"
+    "\"ma7xgrncj6we35cmeede3c7b2b\": \"Ct0BChBwYXJ0cy9wYXJ0LnByb3RvEgRwYXJ0IroBCgRQYXJ0EiYKBXN0YXRlGAEgASgOMhAucGFydC5QYXJ0LlN0YXRlUgVzdGF0ZRIuCgZjb3VudHMYAiADKAsyFi5wYXJ0LlBhcnQuQ291bnRzRW50cnlSBmNvdW50cxo5CgtDb3VudHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIUCgV2YWx1ZRgCIAEoBVIFdmFsdWU6AjgBIh8KBVN0YXRlEgsKB1VOS05PV04QABIJCgVTT1VORBABYgZwcm90bzMK7QMKEGV2ZXJ5X2tpbmQucHJvdG8SBWtpbmRzGhBwYXJ0cy9wYXJ0LnByb3RvImkKBVZhbHVlEhYKBm51bWJlchgBIAEoA1IGbnVtYmVyEhIKBG5hbWUYAiABKAlSBG5hbWUSEgoEZGF0YRgDIAEoDFIEZGF0YRIgCgVwYXJ0cxgEIAMoCzIKLnBhcnQuUGFydFIFcGFydHMiYgoGR1BTRml4Ei4KBWlubmVyGAEgASgLMhgua2luZHMuR1BTRml4LklubmVyX3BhcnRSBWlubmVyGigKCklubmVyX3BhcnQSGgoIbGF0aXR1ZGUYASABKAFSCGxhdGl0dWRlIugBCgRUcmVlEicKCGJyYW5jaGVzGAEgAygLMgsua2luZHMuVHJlZVIIYnJhbmNoZXMSLAoFbmFtZWQYAiADKAsyFi5raW5kcy5UcmVlLk5hbWVkRW50cnlSBW5hbWVkEhQKBXNtYWxsGAMgASgHUgVzbWFsbBIUCgVsYXJnZRgEIAEoBlIFbGFyZ2USFgoGbnVtYmVyGAUgASgFUgZudW1iZXIaRQoKTmFtZWRFbnRyeRIQCgNrZXkYASABKAlSA2tleRIhCgV2YWx1ZRgCIAEoCzILLmtpbmRzLlRyZWVSBXZhbHVlOgI4AWIGcHJvdG8z\""
     "}}";
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif
+
+static scl_status open_component(const char *name, const char *options_json, scl_component **component)
+{
+    if (scl_abi() != SCL_ABI) {
+        return scl_fail(SCL_FAILED, "the library has another version than the `scl.h` that this program was compiled "
+                                    "with; compile it again");
+    }
+    return scl_open(plan, sizeof plan - 1, name, options_json, component);
+}
 
 /* A message as bytes: in `room` if they fit, else in memory of their own. */
 typedef struct packed {
@@ -186,6 +222,75 @@ static scl_status reply_with_message(scl_request *request, const ProtobufCMessag
     return status;
 }
 
+/* Reads a number of protobuf and moves past it. */
+static int read_varint(const uint8_t **data, const uint8_t *end, uint64_t *number)
+{
+    unsigned shift;
+    *number = 0;
+    for (shift = 0; shift < 64 && *data < end; shift += 7) {
+        uint8_t byte = *(*data)++;
+        *number |= (uint64_t)(byte & 0x7f) << shift;
+        if (byte < 0x80) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Whether the bytes are a message whose messages are nested at most 100 deep, as other implementations accept it. */
+static int is_shallow(const ProtobufCMessageDescriptor *type, const uint8_t *data, size_t size, unsigned depth)
+{
+    const uint8_t *end = data + size;
+    while (data < end) {
+        uint64_t key, length = 0;
+        if (!read_varint(&data, end, &key)) {
+            return 0;
+        }
+        switch (key & 7) {
+        case 0:
+            if (!read_varint(&data, end, &length)) {
+                return 0;
+            }
+            length = 0;
+            break;
+        case 1:
+            length = 8;
+            break;
+        case 2:
+            if (!read_varint(&data, end, &length)) {
+                return 0;
+            }
+            break;
+        case 5:
+            length = 4;
+            break;
+        default:
+            return 0;
+        }
+        if (length > (size_t)(end - data)) {
+            return 0;
+        }
+        if ((key & 7) == 2) {
+            const ProtobufCFieldDescriptor *field =
+                protobuf_c_message_descriptor_get_field(type, (unsigned)(key >> 3));
+            if (field != NULL && field->type == PROTOBUF_C_TYPE_MESSAGE) {
+                const ProtobufCMessageDescriptor *inner = (const ProtobufCMessageDescriptor *)field->descriptor;
+                if (depth == 100 || !is_shallow(inner, data, (size_t)length, depth + 1)) {
+                    return 0;
+                }
+            }
+        }
+        data += length;
+    }
+    return 1;
+}
+
+/* protobuf-c has no limit for nested messages, and would run out of stack. */
+static ProtobufCMessage *unpack_message(const ProtobufCMessageDescriptor *type, const uint8_t *data, size_t size)
+{
+    return is_shallow(type, data, size, 1) ? protobuf_c_message_unpack(type, NULL, size, data) : NULL;
+}
+
 /* Frees `bytes`, and stores the message that they are in `*result`: a pointer to the struct of `type`. */
 static scl_status unpack(scl_gate *gate, const ProtobufCMessageDescriptor *type, scl_status status, scl_message *bytes,
                          void *result)
@@ -194,7 +299,7 @@ static scl_status unpack(scl_gate *gate, const ProtobufCMessageDescriptor *type,
     if (status == SCL_OK) {
         size_t size = 0;
         const uint8_t *data = (const uint8_t *)scl_message_data(bytes, &size);
-        message = protobuf_c_message_unpack(type, NULL, size, data);
+        message = unpack_message(type, data, size);
         scl_message_free(bytes);
         if (message == NULL) {
             status = scl_undecodable(gate, type->name);
@@ -229,7 +334,7 @@ static scl_status take_message(scl_gate *gate, const ProtobufCMessageDescriptor 
     scl_status status = scl_take_request(gate, timeout_ns, request);
     if (status == SCL_OK) {
         const uint8_t *data = (const uint8_t *)scl_request_data(*request, &size);
-        unpacked = protobuf_c_message_unpack(type, NULL, size, data);
+        unpacked = unpack_message(type, data, size);
         if (unpacked == NULL) {
             scl_request_free(*request);
             *request = NULL;
@@ -272,7 +377,7 @@ scl_status every_kind_left_open(every_kind_left *self, const char *options_json)
         return scl_fail(SCL_ARGUMENT, "`self` is NULL");
     }
     memset(self, 0, sizeof *self);
-    scl_status status = scl_open(plan, sizeof plan - 1, "left", options_json, &self->component);
+    scl_status status = open_component("left", options_json, &self->component);
     if (status == SCL_OK) {
         self->gates.values = scl_gate_by_name(self->component, "values");
         self->gates.class_ = scl_gate_by_name(self->component, "class");
@@ -282,6 +387,7 @@ scl_status every_kind_left_open(every_kind_left *self, const char *options_json)
         self->gates.raw_question = scl_gate_by_name(self->component, "raw_question");
         self->gates.json_question = scl_gate_by_name(self->component, "json_question");
         self->gates.packed = scl_gate_by_name(self->component, "packed");
+        self->gates.trees = scl_gate_by_name(self->component, "trees");
     }
     return status;
 }
@@ -365,13 +471,18 @@ scl_status every_kind_left_packed_send(every_kind_left *self, const void *data, 
     return scl_send(self == NULL ? NULL : self->gates.packed, data, size, timeout_ns);
 }
 
+scl_status every_kind_left_trees_send(every_kind_left *self, const Kinds__Tree *message, int64_t timeout_ns)
+{
+    return send_message(self == NULL ? NULL : self->gates.trees, (const ProtobufCMessage *)message, &kinds__tree__descriptor, timeout_ns);
+}
+
 scl_status every_kind_right_side_open(every_kind_right_side *self, const char *options_json)
 {
     if (self == NULL) {
         return scl_fail(SCL_ARGUMENT, "`self` is NULL");
     }
     memset(self, 0, sizeof *self);
-    scl_status status = scl_open(plan, sizeof plan - 1, "right-side", options_json, &self->component);
+    scl_status status = open_component("right-side", options_json, &self->component);
     if (status == SCL_OK) {
         self->gates.values = scl_gate_by_name(self->component, "values");
         self->gates.from = scl_gate_by_name(self->component, "from");
@@ -381,6 +492,7 @@ scl_status every_kind_right_side_open(every_kind_right_side *self, const char *o
         self->gates.raw_answer = scl_gate_by_name(self->component, "raw_answer");
         self->gates.json_answer = scl_gate_by_name(self->component, "json_answer");
         self->gates.packed = scl_gate_by_name(self->component, "packed");
+        self->gates.trees = scl_gate_by_name(self->component, "trees");
     }
     return status;
 }
@@ -567,6 +679,21 @@ scl_status every_kind_right_side_packed_latest(every_kind_right_side *self, scl_
     return scl_latest(self == NULL ? NULL : self->gates.packed, message);
 }
 
+scl_status every_kind_right_side_trees_recv(every_kind_right_side *self, Kinds__Tree **message, int64_t timeout_ns)
+{
+    return recv_message(self == NULL ? NULL : self->gates.trees, &kinds__tree__descriptor, message, timeout_ns);
+}
+
+scl_status every_kind_right_side_trees_latest(every_kind_right_side *self, Kinds__Tree **message)
+{
+    return latest_message(self == NULL ? NULL : self->gates.trees, &kinds__tree__descriptor, message);
+}
+
+void every_kind_right_side_trees_free(Kinds__Tree *message)
+{
+    protobuf_c_message_free_unpacked((ProtobufCMessage *)message, NULL);
+}
+
 scl_status every_kind_right_side_wait(every_kind_right_side *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready)
 {
     if (self == NULL) {
@@ -581,6 +708,7 @@ scl_status every_kind_right_side_wait(every_kind_right_side *self, uint64_t gate
         self->gates.raw_answer,
         self->gates.json_answer,
         self->gates.packed,
+        self->gates.trees,
     };
     return wait_for(self->component, all, sizeof all / sizeof *all, gates, timeout_ns, ready);
 }
@@ -591,7 +719,13 @@ scl_status every_kind_lonely_open(every_kind_lonely *self, const char *options_j
         return scl_fail(SCL_ARGUMENT, "`self` is NULL");
     }
     memset(self, 0, sizeof *self);
-    scl_status status = scl_open(plan, sizeof plan - 1, "lonely", options_json, &self->component);
+    scl_status status = open_component("lonely", options_json, &self->component);
+    if (status == SCL_OK) {
+        self->gates.close = scl_gate_by_name(self->component, "close");
+        self->gates.ready = scl_gate_by_name(self->component, "ready");
+        self->gates.name = scl_gate_by_name(self->component, "name");
+        self->gates.component = scl_gate_by_name(self->component, "component");
+    }
     return status;
 }
 
@@ -601,6 +735,97 @@ scl_status every_kind_lonely_ready(every_kind_lonely *self, int64_t timeout_ns)
 }
 
 scl_status every_kind_lonely_close(every_kind_lonely *self, int64_t timeout_ns)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    scl_status status = scl_close(self->component, timeout_ns);
+    if (status != SCL_FORKED) {
+        memset(self, 0, sizeof *self);
+    }
+    return status;
+}
+
+scl_status every_kind_lonely_close_send(every_kind_lonely *self, const Kinds__Value *message, int64_t timeout_ns)
+{
+    return send_message(self == NULL ? NULL : self->gates.close, (const ProtobufCMessage *)message, &kinds__value__descriptor, timeout_ns);
+}
+
+scl_status every_kind_lonely_ready_recv(every_kind_lonely *self, Kinds__Value **message, int64_t timeout_ns)
+{
+    return recv_message(self == NULL ? NULL : self->gates.ready, &kinds__value__descriptor, message, timeout_ns);
+}
+
+scl_status every_kind_lonely_ready_latest(every_kind_lonely *self, Kinds__Value **message)
+{
+    return latest_message(self == NULL ? NULL : self->gates.ready, &kinds__value__descriptor, message);
+}
+
+void every_kind_lonely_ready_free(Kinds__Value *message)
+{
+    protobuf_c_message_free_unpacked((ProtobufCMessage *)message, NULL);
+}
+
+scl_status every_kind_lonely_name_call(every_kind_lonely *self,
+                                       const Kinds__Value *request,
+                                       Part__Part **reply,
+                                       int64_t timeout_ns)
+{
+    scl_gate *gate = self == NULL ? NULL : self->gates.name;
+    scl_message *bytes = NULL;
+    scl_message **result = reply == NULL ? NULL : &bytes;
+    scl_status status = call_with_message(gate, (const ProtobufCMessage *)request, &kinds__value__descriptor, timeout_ns, result);
+    return unpack(gate, &part__part__descriptor, status, bytes, reply);
+}
+
+void every_kind_lonely_name_free(Part__Part *message)
+{
+    protobuf_c_message_free_unpacked((ProtobufCMessage *)message, NULL);
+}
+
+scl_status every_kind_lonely_component_recv(every_kind_lonely *self, Kinds__Value **message, int64_t timeout_ns)
+{
+    return recv_message(self == NULL ? NULL : self->gates.component, &kinds__value__descriptor, message, timeout_ns);
+}
+
+scl_status every_kind_lonely_component_latest(every_kind_lonely *self, Kinds__Value **message)
+{
+    return latest_message(self == NULL ? NULL : self->gates.component, &kinds__value__descriptor, message);
+}
+
+void every_kind_lonely_component_free(Kinds__Value *message)
+{
+    protobuf_c_message_free_unpacked((ProtobufCMessage *)message, NULL);
+}
+
+scl_status every_kind_lonely_wait(every_kind_lonely *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    scl_gate *const all[] = {
+        self->gates.ready,
+        self->gates.component,
+    };
+    return wait_for(self->component, all, sizeof all / sizeof *all, gates, timeout_ns, ready);
+}
+
+scl_status every_kind_empty_open(every_kind_empty *self, const char *options_json)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    memset(self, 0, sizeof *self);
+    scl_status status = open_component("empty", options_json, &self->component);
+    return status;
+}
+
+scl_status every_kind_empty_ready(every_kind_empty *self, int64_t timeout_ns)
+{
+    return scl_ready(self == NULL ? NULL : self->component, timeout_ns);
+}
+
+scl_status every_kind_empty_close(every_kind_empty *self, int64_t timeout_ns)
 {
     if (self == NULL) {
         return scl_fail(SCL_ARGUMENT, "`self` is NULL");

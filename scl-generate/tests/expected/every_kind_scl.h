@@ -45,6 +45,7 @@ typedef struct every_kind_left {
         scl_gate *raw_question;
         scl_gate *json_question;
         scl_gate *packed;
+        scl_gate *trees;
     } gates;
 } every_kind_left;
 
@@ -101,7 +102,10 @@ scl_status every_kind_left_json_question_call(every_kind_left *self,
 /* Gate `left.packed` (every_kind.yaml:17:9): push, camera.Image in cbor; the program encodes and decodes */
 scl_status every_kind_left_packed_send(every_kind_left *self, const void *data, size_t size, int64_t timeout_ns);
 
-/* Component `right-side` (every_kind.yaml:18:11) */
+/* Gate `left.trees` (every_kind.yaml:18:9): push, kinds.Tree in protobuf */
+scl_status every_kind_left_trees_send(every_kind_left *self, const Kinds__Tree *message, int64_t timeout_ns);
+
+/* Component `right-side` (every_kind.yaml:19:11) */
 typedef struct every_kind_right_side {
     scl_component *component;
     struct {
@@ -113,6 +117,7 @@ typedef struct every_kind_right_side {
         scl_gate *raw_answer;
         scl_gate *json_answer;
         scl_gate *packed;
+        scl_gate *trees;
     } gates;
 } every_kind_right_side;
 
@@ -123,14 +128,14 @@ scl_status every_kind_right_side_ready(every_kind_right_side *self, int64_t time
 /* Hands over what was sent, and closes the component, see scl_close. */
 scl_status every_kind_right_side_close(every_kind_right_side *self, int64_t timeout_ns);
 
-/* Gate `right-side.values` (every_kind.yaml:20:9): sub, kinds.Value in protobuf */
+/* Gate `right-side.values` (every_kind.yaml:21:9): sub, kinds.Value in protobuf */
 scl_status every_kind_right_side_values_recv(every_kind_right_side *self, Kinds__Value **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_right_side_values_latest(every_kind_right_side *self, Kinds__Value **message);
 /* Frees a message that was received; NULL is allowed. */
 void every_kind_right_side_values_free(Kinds__Value *message);
 
-/* Gate `right-side.from` (every_kind.yaml:21:9): pull, kinds.GPSFix.Inner_part in protobuf */
+/* Gate `right-side.from` (every_kind.yaml:22:9): pull, kinds.GPSFix.Inner_part in protobuf */
 scl_status every_kind_right_side_from_recv(every_kind_right_side *self,
                                            Kinds__GPSFix__InnerPart **message,
                                            int64_t timeout_ns);
@@ -139,7 +144,7 @@ scl_status every_kind_right_side_from_latest(every_kind_right_side *self, Kinds_
 /* Frees a message that was received; NULL is allowed. */
 void every_kind_right_side_from_free(Kinds__GPSFix__InnerPart *message);
 
-/* Gate `right-side.answer` (every_kind.yaml:22:9): rep, kinds.Value -> part.Part in protobuf */
+/* Gate `right-side.answer` (every_kind.yaml:23:9): rep, kinds.Value -> part.Part in protobuf */
 typedef struct every_kind_right_side_answer_request {
     Kinds__Value *message;
     scl_request *handle;
@@ -153,17 +158,17 @@ scl_status every_kind_right_side_answer_reply(every_kind_right_side_answer_reque
 /* Frees a request that is not to be answered. */
 void every_kind_right_side_answer_free(every_kind_right_side_answer_request *request);
 
-/* Gate `right-side.rawIn` (every_kind.yaml:23:9): sub, bytes without a type */
+/* Gate `right-side.rawIn` (every_kind.yaml:24:9): sub, bytes without a type */
 scl_status every_kind_right_side_raw_in_recv(every_kind_right_side *self, scl_message **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_right_side_raw_in_latest(every_kind_right_side *self, scl_message **message);
 
-/* Gate `right-side.raw_jobs` (every_kind.yaml:24:9): pull, bytes without a type */
+/* Gate `right-side.raw_jobs` (every_kind.yaml:25:9): pull, bytes without a type */
 scl_status every_kind_right_side_raw_jobs_recv(every_kind_right_side *self, scl_message **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_right_side_raw_jobs_latest(every_kind_right_side *self, scl_message **message);
 
-/* Gate `right-side.raw_answer` (every_kind.yaml:25:9): rep, bytes without a type */
+/* Gate `right-side.raw_answer` (every_kind.yaml:26:9): rep, bytes without a type */
 typedef struct every_kind_right_side_raw_answer_request {
     const void *data;
     size_t size;
@@ -180,7 +185,7 @@ scl_status every_kind_right_side_raw_answer_reply(every_kind_right_side_raw_answ
 /* Frees a request that is not to be answered. */
 void every_kind_right_side_raw_answer_free(every_kind_right_side_raw_answer_request *request);
 
-/* Gate `right-side.json_answer` (every_kind.yaml:26:9): rep, kinds.Value -> part.Part in json; the program encodes and decodes */
+/* Gate `right-side.json_answer` (every_kind.yaml:27:9): rep, kinds.Value -> part.Part in json; the program encodes and decodes */
 typedef struct every_kind_right_side_json_answer_request {
     const void *data;
     size_t size;
@@ -197,10 +202,17 @@ scl_status every_kind_right_side_json_answer_reply(every_kind_right_side_json_an
 /* Frees a request that is not to be answered. */
 void every_kind_right_side_json_answer_free(every_kind_right_side_json_answer_request *request);
 
-/* Gate `right-side.packed` (every_kind.yaml:27:9): pull, camera.Image in cbor; the program encodes and decodes */
+/* Gate `right-side.packed` (every_kind.yaml:28:9): pull, camera.Image in cbor; the program encodes and decodes */
 scl_status every_kind_right_side_packed_recv(every_kind_right_side *self, scl_message **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_right_side_packed_latest(every_kind_right_side *self, scl_message **message);
+
+/* Gate `right-side.trees` (every_kind.yaml:29:9): pull, kinds.Tree in protobuf */
+scl_status every_kind_right_side_trees_recv(every_kind_right_side *self, Kinds__Tree **message, int64_t timeout_ns);
+/* The newest message, or SCL_NOTHING; older ones are discarded. */
+scl_status every_kind_right_side_trees_latest(every_kind_right_side *self, Kinds__Tree **message);
+/* Frees a message that was received; NULL is allowed. */
+void every_kind_right_side_trees_free(Kinds__Tree *message);
 
 #define EVERY_KIND_RIGHT_SIDE_VALUES (UINT64_C(1) << 0)
 #define EVERY_KIND_RIGHT_SIDE_FROM (UINT64_C(1) << 1)
@@ -210,12 +222,19 @@ scl_status every_kind_right_side_packed_latest(every_kind_right_side *self, scl_
 #define EVERY_KIND_RIGHT_SIDE_RAW_ANSWER (UINT64_C(1) << 5)
 #define EVERY_KIND_RIGHT_SIDE_JSON_ANSWER (UINT64_C(1) << 6)
 #define EVERY_KIND_RIGHT_SIDE_PACKED (UINT64_C(1) << 7)
+#define EVERY_KIND_RIGHT_SIDE_TREES (UINT64_C(1) << 8)
 /* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells at which. */
 scl_status every_kind_right_side_wait(every_kind_right_side *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
-/* Component `lonely` (every_kind.yaml:28:11) */
+/* Component `lonely` (every_kind.yaml:30:11) */
 typedef struct every_kind_lonely {
     scl_component *component;
+    struct {
+        scl_gate *close;
+        scl_gate *ready;
+        scl_gate *name;
+        scl_gate *component;
+    } gates;
 } every_kind_lonely;
 
 /* Opens the component; `options_json` may be NULL, see scl_open. */
@@ -224,6 +243,49 @@ scl_status every_kind_lonely_open(every_kind_lonely *self, const char *options_j
 scl_status every_kind_lonely_ready(every_kind_lonely *self, int64_t timeout_ns);
 /* Hands over what was sent, and closes the component, see scl_close. */
 scl_status every_kind_lonely_close(every_kind_lonely *self, int64_t timeout_ns);
+
+/* Gate `lonely.close` (every_kind.yaml:32:9): pub, kinds.Value in protobuf */
+scl_status every_kind_lonely_close_send(every_kind_lonely *self, const Kinds__Value *message, int64_t timeout_ns);
+
+/* Gate `lonely.ready` (every_kind.yaml:33:9): sub, kinds.Value in protobuf */
+scl_status every_kind_lonely_ready_recv(every_kind_lonely *self, Kinds__Value **message, int64_t timeout_ns);
+/* The newest message, or SCL_NOTHING; older ones are discarded. */
+scl_status every_kind_lonely_ready_latest(every_kind_lonely *self, Kinds__Value **message);
+/* Frees a message that was received; NULL is allowed. */
+void every_kind_lonely_ready_free(Kinds__Value *message);
+
+/* Gate `lonely.name` (every_kind.yaml:34:9): req, kinds.Value -> part.Part in protobuf */
+/* Sends a request and waits for its reply. */
+scl_status every_kind_lonely_name_call(every_kind_lonely *self,
+                                       const Kinds__Value *request,
+                                       Part__Part **reply,
+                                       int64_t timeout_ns);
+/* Frees a message that was received; NULL is allowed. */
+void every_kind_lonely_name_free(Part__Part *message);
+
+/* Gate `lonely.component` (every_kind.yaml:35:9): pull, kinds.Value in protobuf */
+scl_status every_kind_lonely_component_recv(every_kind_lonely *self, Kinds__Value **message, int64_t timeout_ns);
+/* The newest message, or SCL_NOTHING; older ones are discarded. */
+scl_status every_kind_lonely_component_latest(every_kind_lonely *self, Kinds__Value **message);
+/* Frees a message that was received; NULL is allowed. */
+void every_kind_lonely_component_free(Kinds__Value *message);
+
+#define EVERY_KIND_LONELY_READY (UINT64_C(1) << 0)
+#define EVERY_KIND_LONELY_COMPONENT (UINT64_C(1) << 1)
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells at which. */
+scl_status every_kind_lonely_wait(every_kind_lonely *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
+
+/* Component `empty` (every_kind.yaml:36:11) */
+typedef struct every_kind_empty {
+    scl_component *component;
+} every_kind_empty;
+
+/* Opens the component; `options_json` may be NULL, see scl_open. */
+scl_status every_kind_empty_open(every_kind_empty *self, const char *options_json);
+/* Waits until all required peers are connected, see scl_ready. */
+scl_status every_kind_empty_ready(every_kind_empty *self, int64_t timeout_ns);
+/* Hands over what was sent, and closes the component, see scl_close. */
+scl_status every_kind_empty_close(every_kind_empty *self, int64_t timeout_ns);
 
 #ifdef __cplusplus
 }

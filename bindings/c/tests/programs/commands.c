@@ -1,4 +1,4 @@
-/* Makes the calls that its input names, one per line, and prints what comes back: `commands PLAN_FILE [OPTIONS]`. */
+/* Makes the calls that its input names, one per line, and prints what comes back: `commands PLAN_FILE COMPONENT OPTIONS`. */
 #include "support.h"
 
 static scl_component *component;
@@ -168,10 +168,13 @@ static void obey(const char *command) {
 
 int main(int count, char **arguments) {
     char line[1024];
-    if (count < 2) {
+    size_t len;
+    if (count != 4) {
         return 2;
     }
-    scl_status status = open_program(arguments[1], count > 2 ? arguments[2] : NULL, &component);
+    char *plan = read_file(arguments[1], &len);
+    scl_status status = scl_open(plan, len, arguments[2], arguments[3], &component);
+    free(plan);
     answer(status, "open", 4);
     while (status == SCL_OK && fgets(line, sizeof line, stdin) != NULL) {
         line[strcspn(line, "\n")] = 0;

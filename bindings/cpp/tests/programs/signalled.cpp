@@ -70,6 +70,11 @@ static void play(const std::string& task) {
     } else if (task == "thread") {
         // Nobody catches what the thread throws.
         std::thread([&] { left.values_in.recv(); }).join();
+    } else if (task == "ready_never") {
+        left.ready();
+        left.values_in.recv();
+    } else if (task == "other_exception") {
+        throw std::logic_error("not of SCL");
     } else if (task == "handled") {
         for (std::uint64_t value = 0; !scl::stop_requested(); ++value) {
             left.values.send(number(value));

@@ -48,16 +48,17 @@ def canonical_json(owner: Owner, message_class: type[Message]) -> Codec:
 
     name = message_class.DESCRIPTOR.full_name
     to_dict: Callable[[Message], object] = json_format.MessageToDict
+    # Made once: `json.dumps` with options would make a new one each time.
+    to_text = json.JSONEncoder(separators=(",", ":"), ensure_ascii=False, allow_nan=False).encode
 
     def encode(value: Message) -> bytes:
         if type(value) is not message_class:
             raise wrong_class(owner.gate, name, value)
         try:
-            text = json.dumps(to_dict(value), separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+            return to_text(to_dict(value)).encode()
         except (json_format.Error, ValueError, TypeError) as error:
             # A time outside of the years 1 to 9999, for example.
             raise EncodeError(f"gate `{owner.gate}` cannot send this `{name}` as JSON: {error}") from error
-        return text.encode()
 
     def decode(frame: bytes) -> Message:
         try:

@@ -23,16 +23,19 @@ def json_values(owner: Owner, name: str) -> Codec:
         # As serde does it: JSON has no bytes.
         return list(value) if isinstance(value, bytes | bytearray) else _fields(value)
 
+    # Made once: `json.dumps` and `json.loads` with options would make new ones each time.
+    to_text = json.JSONEncoder(separators=(",", ":"), ensure_ascii=False, allow_nan=False, default=plain).encode
+    from_text = json.JSONDecoder(parse_constant=_no_constant).decode
+
     def encode(value: object) -> bytes:
         try:
-            text = json.dumps(value, separators=(",", ":"), ensure_ascii=False, allow_nan=False, default=plain)
-            return text.encode()
+            return to_text(value).encode()
         except (TypeError, ValueError, RecursionError) as error:
             raise _refused(owner.gate, name, "JSON", error) from error
 
     def decode(frame: bytes) -> object:
         try:
-            return json.loads(frame.decode(), parse_constant=_no_constant)
+            return from_text(frame.decode())
         except (ValueError, RecursionError) as error:
             raise owner.undecodable(f"these {len(frame)} bytes are not JSON: {error}") from error
 

@@ -1,0 +1,37 @@
+//! Generated C++ compiles, with all the awkward names.
+
+use crate::fixture::{generated, repository, run, system, topology};
+use scl_generate::{Target, write};
+use std::path::Path;
+use std::process::Command;
+
+#[test]
+fn generated_headers_compile_without_a_warning() {
+    for path in
+        [topology("every_kind.yaml"), topology("bytes.yaml"), repository().join("examples/quickstart/topology.yaml")]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        for file in generated(&path, Target::Cpp) {
+            write(folder.path(), &file).unwrap();
+            std::fs::write(folder.path().join("main.cpp"), format!("#include \"{}\"\n", file.name)).unwrap();
+        }
+        compile_schemas(&path, folder.path());
+        let mut command = Command::new("c++");
+        command.args(["-std=c++17", "-Wall", "-Wextra", "-Werror", "-pedantic", "-fsyntax-only", "-I."]);
+        for include in ["bindings/c/include", "bindings/cpp/include"] {
+            command.arg("-I").arg(repository().join(include));
+        }
+        let (succeeds, told) = run(command.arg("main.cpp").current_dir(folder.path()), "g++ libprotobuf-dev");
+        assert!(succeeds, "{}: {told}", path.display());
+    }
+}
+
+fn compile_schemas(topology: &Path, output: &Path) {
+    let schemas = system(topology).descriptors.unwrap_or_default();
+    for file in schemas.file {
+        let mut command = Command::new("protoc");
+        command.arg("-I").arg(topology.parent().unwrap()).arg(format!("--cpp_out={}", output.display()));
+        let (succeeds, told) = run(command.arg(file.name()), "protobuf-compiler");
+        assert!(succeeds, "{told}");
+    }
+}
