@@ -104,7 +104,7 @@ components:
 ";
     let schema = format!("{SCHEMA} message _PLAN {{}}");
     expect![[r#"
-        error: [SCL1101] `_PLAN` of the module and message `rover._PLAN` would both become `_PLAN` in module `topology_scl`
+        error: [SCL1102] `_PLAN` of the module and message `rover._PLAN` would both become `_PLAN` in module `topology_scl`
          |
          = help: rename the message `rover._PLAN`
     "#]].assert_eq(&clashes(yaml, &schema, Target::Python));

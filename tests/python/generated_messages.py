@@ -4,7 +4,7 @@ import copy
 import sys
 
 import everything_scl
-from everything_scl import Everything, Import, Job, Kind, Level, Old, every_Status, second_Status
+from everything_scl import Everything, Import, Job, Kind, Level, Old, Word, class_, every_Status, second_Status
 from google.protobuf.duration_pb2 import Duration
 from google.protobuf.timestamp_pb2 import Timestamp
 
@@ -27,7 +27,9 @@ again.by_number[1] = True
 assert again.WhichOneof("choice") is None and not again.HasField("maybe")
 assert getattr(again, "from") == ""
 assert second_Status.DESCRIPTOR.full_name == "second.Status" and every_Status is not second_Status
-assert Old(number=1, Kind=[Kind(name="a")]).int == "seven"
+old = Old(number=1, Kind=[Kind(name="a")], part=Old.Part(list=True))
+assert old.int == "seven" and old.word == Word.MINUS == -1 and old.inner_word.FALSE == Old.Word.FALSE == 0
+assert class_(otherwise=True).WhichOneof("if") == "otherwise"
 
 for wrong in [lambda: Everything(a_dubble=1), lambda: message.a_sring, lambda: everything_scl.Evrything]:
     try:

@@ -32,7 +32,6 @@ fn every_kind_of_gate_carries_messages_between_python_and_rust() {
             source.ask("ready 30000", "ready");
             source.ask("publish 0 100", "published");
             sink.ask("receive 100", "0..100");
-            sink.ask("newest", "99");
             source.ask("lossless 0 5", "published");
             sink.ask("receive_lossless 5", "0..5");
             source.ask("push 0 100", "pushed");

@@ -12,7 +12,7 @@
 
 namespace scl::detail {
 
-/// Encodes a message and passes its bytes to `use`. The memory for them belongs to the thread and is reused, up to 1 MiB.
+/// Encodes a message and passes its bytes to `use`. Their memory belongs to the thread and is reused, up to 1 MiB.
 template <class T, class Format, class Use>
 scl_status encode(const sent_t<T>& message, const std::string& gate, Use&& use) {
     constexpr std::size_t kept = 1 << 20;

@@ -11,10 +11,11 @@ namespace scl {
 
 template <class A, class B, class Format> class Rep;
 
-/// A request and its way back. It may be answered later than others, and by another thread than the one that received it.
+/// A request and its way back. It may be answered later than others, and by another thread than the one that received
+/// it.
 ///
-/// A request that is destroyed without an answer, for example by an exception, is noted in the log; its sender waits until
-/// its timeout.
+/// A request that is destroyed without an answer, for example by an exception, is noted in the log; its sender waits
+/// until its timeout.
 template <class A, class B, class Format = Native> class Request {
   public:
     Request(Request&&) = default;
@@ -74,7 +75,7 @@ template <class A, class B, class Format = Native> class Request {
 
     void require_unanswered() const {
         if (handle_ == nullptr) {
-            throw Error(Errc::handle, "a request of gate `" + gate_ + "` was answered before, or moved to another object");
+            throw Error(Errc::handle, "this request of gate `" + gate_ + "` was answered, or moved to another object");
         }
     }
 
@@ -105,8 +106,8 @@ template <class A, class B, class Format = Native> class Rep : public Gate {
 
     /// Waits for the next request.
     ///
-    /// Throws `Stopped` after a stop request, and `DecodeError` if the codec cannot read a request: its sender gets no reply,
-    /// and the next call returns the next request.
+    /// Throws `Stopped` after a stop request, and `DecodeError` if the codec cannot read a request: its sender gets no
+    /// reply, and the next call returns the next request.
     Request recv() {
         std::optional<Request> request;
         require(receive(request, TimeLimit::none()));

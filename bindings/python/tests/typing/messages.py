@@ -4,7 +4,20 @@ from collections.abc import MutableSequence
 from typing import Any, assert_type
 
 import scl
-from everything_scl import Everything, Import, Job, Kind, Level, Old, Sink, Source, every_Status, second_Status
+from everything_scl import (
+    Everything,
+    Import,
+    Job,
+    Kind,
+    Level,
+    Old,
+    Sink,
+    Source,
+    Word,
+    class_,
+    every_Status,
+    second_Status,
+)
 from google.protobuf.duration_pb2 import Duration
 from google.protobuf.message import Message
 from google.protobuf.struct_pb2 import Struct
@@ -93,6 +106,11 @@ old = Old(number=1, int="one", Kind=[Kind(name="a")])
 assert_type(old.number, int)
 assert_type(old.int, str)
 assert_type(old.Kind[0], Kind)
+assert_type(old.part.list, bool)
+assert_type(old.word, Word)
+assert_type(old.inner_word, Old.Word)
+old.word = Old.Word.FALSE  # error: Word
+class_(otherwise=True).WhichOneof("iff")  # error: iff
 
 # Gates with names of Python and of components, and gates that Python cannot open.
 other = Import()

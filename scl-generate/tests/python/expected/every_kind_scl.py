@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable as _Iterable
     from collections.abc import Mapping as _Mapping
     from google.protobuf.descriptor import EnumDescriptor as _EnumDescriptor
+    from google.protobuf.internal.containers import MessageMap as _MessageMap
     from google.protobuf.internal.containers import (
         RepeatedCompositeFieldContainer as _RepeatedCompositeFieldContainer,
     )
@@ -25,11 +26,11 @@ if TYPE_CHECKING:
     from typing import Self as _Self
     from typing import final as _final
 
-__all__ = ["Empty", "GPSFix", "Left", "Lonely", "Part", "RightSide", "Value"]
+__all__ = ["Empty", "GPSFix", "Left", "Lonely", "Part", "RightSide", "Tree", "Value"]
 
 _PLAN = r"""
 {"version": 1,"system": "every-kind","components": [{"name": "left",
-"declared_at": "every_kind.yaml:5:11","schema": "r4ktqvkabzep275ekb6dcsxlgg","gates": [{
+"declared_at": "every_kind.yaml:5:11","schema": "ma7xgrncj6we35cmeede3c7b2b","gates": [{
 "name": "values","kind": "pub","payload": {"message": "kinds.Value"},"codec": "protobuf",
 "declared_at": "every_kind.yaml:10:9","endpoint": null,"tap": "left.values.tap",
 "contract": "iwlze4dk","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
@@ -75,75 +76,86 @@ _PLAN = r"""
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "right-side","peer_gate": "packed",
 "endpoint": "right-side.packed.tjmyglsc","contract": "tjmyglsc","required": true,"queue": 100,
-"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "right-side",
-"declared_at": "every_kind.yaml:18:11","schema": "r4ktqvkabzep275ekb6dcsxlgg","gates": [{
-"name": "values","kind": "sub","payload": {"message": "kinds.Value"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:20:9","endpoint": null,"tap": null,"contract": "iwlze4dk",
+"when_full": "drop_oldest","max_size": 67108864}]},{"name": "trees","kind": "push","payload": {
+"message": "kinds.Tree"},"codec": "protobuf","declared_at": "every_kind.yaml:18:9","endpoint": null,
+"tap": null,"contract": "mgd2eiso","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
+"peer_gate": "trees","endpoint": "right-side.trees.mgd2eiso","contract": "mgd2eiso",
+"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{
+"name": "right-side","declared_at": "every_kind.yaml:19:11","schema": "ma7xgrncj6we35cmeede3c7b2b",
+"gates": [{"name": "values","kind": "sub","payload": {"message": "kinds.Value"},"codec": "protobuf",
+"declared_at": "every_kind.yaml:21:9","endpoint": null,"tap": null,"contract": "iwlze4dk",
 "max_size": 67108864,"queue": 1,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "left","peer_gate": "values",
 "endpoint": "left.values--right-side.values.iwlze4dk","contract": "iwlze4dk","required": true,
 "queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "from","kind": "pull",
 "payload": {"message": "kinds.GPSFix.Inner_part"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:21:9","endpoint": "right-side.from.baol5fbn",
+"declared_at": "every_kind.yaml:22:9","endpoint": "right-side.from.baol5fbn",
 "tap": "right-side.from.tap","contract": "baol5fbn","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
 "peer_component": "left","peer_gate": "class","endpoint": "right-side.from.baol5fbn",
 "contract": "baol5fbn","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 }]},{"name": "answer","kind": "rep","payload": {"request": "kinds.Value","reply": "part.Part"},
-"codec": "protobuf","declared_at": "every_kind.yaml:22:9","endpoint": "right-side.answer.2uxfcrjj",
+"codec": "protobuf","declared_at": "every_kind.yaml:23:9","endpoint": "right-side.answer.2uxfcrjj",
 "tap": "right-side.answer.tap","contract": "2uxfcrjj","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
 "peer_component": "left","peer_gate": "int","endpoint": "right-side.answer.2uxfcrjj",
 "contract": "2uxfcrjj","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 }]},{"name": "rawIn","kind": "sub","payload": null,"codec": "raw",
-"declared_at": "every_kind.yaml:23:9","endpoint": null,"tap": null,"contract": "rqhnei4n",
+"declared_at": "every_kind.yaml:24:9","endpoint": null,"tap": null,"contract": "rqhnei4n",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "left","peer_gate": "raw_out",
 "endpoint": "left.raw_out--right-side.rawIn.rqhnei4n","contract": "rqhnei4n","required": true,
 "queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_jobs","kind": "pull",
-"payload": null,"codec": "raw","declared_at": "every_kind.yaml:24:9",
+"payload": null,"codec": "raw","declared_at": "every_kind.yaml:25:9",
 "endpoint": "right-side.raw_jobs.djajuayx","tap": "right-side.raw_jobs.tap","contract": "djajuayx",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "left","peer_gate": "raw_jobs",
 "endpoint": "right-side.raw_jobs.djajuayx","contract": "djajuayx","required": true,"queue": 100,
 "when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_answer","kind": "rep",
-"payload": null,"codec": "raw","declared_at": "every_kind.yaml:25:9",
+"payload": null,"codec": "raw","declared_at": "every_kind.yaml:26:9",
 "endpoint": "right-side.raw_answer.rynbne7t","tap": "right-side.raw_answer.tap",
 "contract": "rynbne7t","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "left",
 "peer_gate": "raw_question","endpoint": "right-side.raw_answer.rynbne7t","contract": "rynbne7t",
 "required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{
 "name": "json_answer","kind": "rep","payload": {"request": "kinds.Value","reply": "part.Part"},
-"codec": "json","declared_at": "every_kind.yaml:26:9","endpoint": "right-side.json_answer.h2hanz43",
+"codec": "json","declared_at": "every_kind.yaml:27:9","endpoint": "right-side.json_answer.h2hanz43",
 "tap": "right-side.json_answer.tap","contract": "h2hanz43","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
 "peer_component": "left","peer_gate": "json_question","endpoint": "right-side.json_answer.h2hanz43",
 "contract": "h2hanz43","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 }]},{"name": "packed","kind": "pull","payload": {"message": "camera.Image"},"codec": "cbor",
-"declared_at": "every_kind.yaml:27:9","endpoint": "right-side.packed.tjmyglsc",
+"declared_at": "every_kind.yaml:28:9","endpoint": "right-side.packed.tjmyglsc",
 "tap": "right-side.packed.tap","contract": "tjmyglsc","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
 "peer_component": "left","peer_gate": "packed","endpoint": "right-side.packed.tjmyglsc",
 "contract": "tjmyglsc","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]}]},{"name": "lonely","declared_at": "every_kind.yaml:28:11",
-"schema": "r4ktqvkabzep275ekb6dcsxlgg","gates": [{"name": "close","kind": "pub","payload": {
-"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:30:9",
+}]},{"name": "trees","kind": "pull","payload": {"message": "kinds.Tree"},"codec": "protobuf",
+"declared_at": "every_kind.yaml:29:9","endpoint": "right-side.trees.mgd2eiso",
+"tap": "right-side.trees.tap","contract": "mgd2eiso","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
+"peer_component": "left","peer_gate": "trees","endpoint": "right-side.trees.mgd2eiso",
+"contract": "mgd2eiso","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]}]},{"name": "lonely","declared_at": "every_kind.yaml:30:11",
+"schema": "ma7xgrncj6we35cmeede3c7b2b","gates": [{"name": "close","kind": "pub","payload": {
+"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:32:9",
 "endpoint": null,"tap": "lonely.close.tap","contract": "iwlze4dk","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": []},{
 "name": "ready","kind": "sub","payload": {"message": "kinds.Value"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:31:9","endpoint": null,"tap": null,"contract": "iwlze4dk",
+"declared_at": "every_kind.yaml:33:9","endpoint": null,"tap": null,"contract": "iwlze4dk",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": []},{"name": "name","kind": "req","payload": {
 "request": "kinds.Value","reply": "part.Part"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:32:9","endpoint": null,"tap": null,"contract": "2uxfcrjj",
+"declared_at": "every_kind.yaml:34:9","endpoint": null,"tap": null,"contract": "2uxfcrjj",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": []},{"name": "component","kind": "pull","payload": {
-"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:33:9",
+"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:35:9",
 "endpoint": "lonely.component.ve27wo5r","tap": "lonely.component.tap","contract": "ve27wo5r",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": []}]},{"name": "empty",
-"declared_at": "every_kind.yaml:34:11","schema": null,"gates": []}],"schemas": {
-"r4ktqvkabzep275ekb6dcsxlgg": "Ct0BChBwYXJ0cy9wYXJ0LnByb3RvEgRwYXJ0IroBCgRQYXJ0EiYKBXN0YXRlGAEgASgOMhAucGFydC5QYXJ0LlN0YXRlUgVzdGF0ZRIuCgZjb3VudHMYAiADKAsyFi5wYXJ0LlBhcnQuQ291bnRzRW50cnlSBmNvdW50cxo5CgtDb3VudHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIUCgV2YWx1ZRgCIAEoBVIFdmFsdWU6AjgBIh8KBVN0YXRlEgsKB1VOS05PV04QABIJCgVTT1VORBABYgZwcm90bzMKggIKEGV2ZXJ5X2tpbmQucHJvdG8SBWtpbmRzGhBwYXJ0cy9wYXJ0LnByb3RvImkKBVZhbHVlEhYKBm51bWJlchgBIAEoA1IGbnVtYmVyEhIKBG5hbWUYAiABKAlSBG5hbWUSEgoEZGF0YRgDIAEoDFIEZGF0YRIgCgVwYXJ0cxgEIAMoCzIKLnBhcnQuUGFydFIFcGFydHMiYgoGR1BTRml4Ei4KBWlubmVyGAEgASgLMhgua2luZHMuR1BTRml4LklubmVyX3BhcnRSBWlubmVyGigKCklubmVyX3BhcnQSGgoIbGF0aXR1ZGUYASABKAFSCGxhdGl0dWRlYgZwcm90bzM="
+"declared_at": "every_kind.yaml:36:11","schema": null,"gates": []}],"schemas": {
+"ma7xgrncj6we35cmeede3c7b2b": "Ct0BChBwYXJ0cy9wYXJ0LnByb3RvEgRwYXJ0IroBCgRQYXJ0EiYKBXN0YXRlGAEgASgOMhAucGFydC5QYXJ0LlN0YXRlUgVzdGF0ZRIuCgZjb3VudHMYAiADKAsyFi5wYXJ0LlBhcnQuQ291bnRzRW50cnlSBmNvdW50cxo5CgtDb3VudHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIUCgV2YWx1ZRgCIAEoBVIFdmFsdWU6AjgBIh8KBVN0YXRlEgsKB1VOS05PV04QABIJCgVTT1VORBABYgZwcm90bzMK7QMKEGV2ZXJ5X2tpbmQucHJvdG8SBWtpbmRzGhBwYXJ0cy9wYXJ0LnByb3RvImkKBVZhbHVlEhYKBm51bWJlchgBIAEoA1IGbnVtYmVyEhIKBG5hbWUYAiABKAlSBG5hbWUSEgoEZGF0YRgDIAEoDFIEZGF0YRIgCgVwYXJ0cxgEIAMoCzIKLnBhcnQuUGFydFIFcGFydHMiYgoGR1BTRml4Ei4KBWlubmVyGAEgASgLMhgua2luZHMuR1BTRml4LklubmVyX3BhcnRSBWlubmVyGigKCklubmVyX3BhcnQSGgoIbGF0aXR1ZGUYASABKAFSCGxhdGl0dWRlIugBCgRUcmVlEicKCGJyYW5jaGVzGAEgAygLMgsua2luZHMuVHJlZVIIYnJhbmNoZXMSLAoFbmFtZWQYAiADKAsyFi5raW5kcy5UcmVlLk5hbWVkRW50cnlSBW5hbWVkEhQKBXNtYWxsGAMgASgHUgVzbWFsbBIUCgVsYXJnZRgEIAEoBlIFbGFyZ2USFgoGbnVtYmVyGAUgASgFUgZudW1iZXIaRQoKTmFtZWRFbnRyeRIQCgNrZXkYASABKAlSA2tleRIhCgV2YWx1ZRgCIAEoCzILLmtpbmRzLlRyZWVSBXZhbHVlOgI4AWIGcHJvdG8z"
 }}
 """
 
@@ -209,46 +221,52 @@ class Left(_scl.GeneratedComponent, plan=_PLAN, component="left"):
     Declared at `every_kind.yaml:17:9`.
     """
 
+    trees: _scl.Push[Tree]
+    """`push`: pushes `kinds.Tree` to `right-side.trees`.
+
+    Declared at `every_kind.yaml:18:9`.
+    """
+
 
 class RightSide(_scl.GeneratedComponent, plan=_PLAN, component="right-side"):
-    """The component `right-side` of `every-kind`, declared at `every_kind.yaml:18:11`."""
+    """The component `right-side` of `every-kind`, declared at `every_kind.yaml:19:11`."""
 
     values: _scl.Sub[Value]
     """`sub`: subscribes to `kinds.Value` from `left.values`.
 
     Options: `queue: 1`.
 
-    Declared at `every_kind.yaml:20:9`.
+    Declared at `every_kind.yaml:21:9`.
     """
 
     from_: _scl.Pull[GPSFix.Inner_part]
     """`pull`: pulls `kinds.GPSFix.Inner_part` from `left.class`.
 
-    Declared at `every_kind.yaml:21:9`.
+    Declared at `every_kind.yaml:22:9`.
     """
 
     answer: _scl.Rep[Value, Part]
     """`rep`: replies `kinds.Value` -> `part.Part` to `left.int`.
 
-    Declared at `every_kind.yaml:22:9`.
+    Declared at `every_kind.yaml:23:9`.
     """
 
     raw_in: _scl.Sub[_builtins.bytes]
     """`sub`: subscribes to bytes from `left.raw_out`.
 
-    Declared at `every_kind.yaml:23:9`.
+    Declared at `every_kind.yaml:24:9`.
     """
 
     raw_jobs: _scl.Pull[_builtins.bytes]
     """`pull`: pulls bytes from `left.raw_jobs`.
 
-    Declared at `every_kind.yaml:24:9`.
+    Declared at `every_kind.yaml:25:9`.
     """
 
     raw_answer: _scl.Rep[_builtins.bytes, _builtins.bytes]
     """`rep`: replies bytes to `left.raw_question`.
 
-    Declared at `every_kind.yaml:25:9`.
+    Declared at `every_kind.yaml:26:9`.
     """
 
     json_answer: _scl.Rep[Value, Part]
@@ -256,7 +274,7 @@ class RightSide(_scl.GeneratedComponent, plan=_PLAN, component="right-side"):
 
     Options: `codec: json`.
 
-    Declared at `every_kind.yaml:26:9`.
+    Declared at `every_kind.yaml:27:9`.
     """
 
     packed: _scl.Pull[_Any]
@@ -264,40 +282,46 @@ class RightSide(_scl.GeneratedComponent, plan=_PLAN, component="right-side"):
 
     Options: `codec: cbor`.
 
-    Declared at `every_kind.yaml:27:9`.
+    Declared at `every_kind.yaml:28:9`.
+    """
+
+    trees: _scl.Pull[Tree]
+    """`pull`: pulls `kinds.Tree` from `left.trees`.
+
+    Declared at `every_kind.yaml:29:9`.
     """
 
 
 class Lonely(_scl.GeneratedComponent, plan=_PLAN, component="lonely"):
-    """The component `lonely` of `every-kind`, declared at `every_kind.yaml:28:11`."""
+    """The component `lonely` of `every-kind`, declared at `every_kind.yaml:30:11`."""
 
     close_: _scl.Pub[Value]
     """`pub`: publishes `kinds.Value` to no peer.
 
-    Declared at `every_kind.yaml:30:9`.
+    Declared at `every_kind.yaml:32:9`.
     """
 
     ready_: _scl.Sub[Value]
     """`sub`: subscribes to `kinds.Value` from no peer.
 
-    Declared at `every_kind.yaml:31:9`.
+    Declared at `every_kind.yaml:33:9`.
     """
 
     name_: _scl.Req[Value, Part]
     """`req`: requests `kinds.Value` -> `part.Part` from no peer.
 
-    Declared at `every_kind.yaml:32:9`.
+    Declared at `every_kind.yaml:34:9`.
     """
 
     component: _scl.Pull[Value]
     """`pull`: pulls `kinds.Value` from no peer.
 
-    Declared at `every_kind.yaml:33:9`.
+    Declared at `every_kind.yaml:35:9`.
     """
 
 
 class Empty(_scl.GeneratedComponent, plan=_PLAN, component="empty"):
-    """The component `empty` of `every-kind`, declared at `every_kind.yaml:34:11`."""
+    """The component `empty` of `every-kind`, declared at `every_kind.yaml:36:11`."""
 
 
 if TYPE_CHECKING:
@@ -403,10 +427,47 @@ if TYPE_CHECKING:
         def ClearField(self, field_name: _Literal["inner"]) -> None: ...
 
         def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+    @_final
+    class Tree(_Message):
+        @_builtins.property
+        def branches(self) -> _RepeatedCompositeFieldContainer[Tree]: ...
+
+        @_builtins.property
+        def named(self) -> _MessageMap[_builtins.str, Tree]: ...
+
+        small: _builtins.int
+
+        large: _builtins.int
+
+        number: _builtins.int
+
+        def __init__(
+            self,
+            *,
+            branches: _Iterable[Tree] | None = None,
+            named: _Mapping[_builtins.str, Tree] | None = None,
+            small: _builtins.int | None = None,
+            large: _builtins.int | None = None,
+            number: _builtins.int | None = None,
+        ) -> None: ...
+
+        def HasField(self, field_name: _Never) -> _builtins.bool: ...
+
+        def ClearField(
+            self, field_name: _Literal["branches", "named", "small", "large", "number"]
+        ) -> None: ...
+
+        def WhichOneof(self, oneof_group: _Never) -> None: ...
 else:
     __getattr__ = _scl.codec.lazy_messages(
         __name__,
         _PLAN,
-        {"GPSFix": "kinds.GPSFix", "Part": "part.Part", "Value": "kinds.Value"},
+        {
+            "GPSFix": "kinds.GPSFix",
+            "Part": "part.Part",
+            "Tree": "kinds.Tree",
+            "Value": "kinds.Value",
+        },
         {},
     )

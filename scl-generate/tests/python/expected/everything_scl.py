@@ -44,13 +44,15 @@ __all__ = [
     "Old",
     "Sink",
     "Source",
+    "Word",
+    "class_",
     "every_Status",
     "second_Status",
 ]
 
 _PLAN = r"""
 {"version": 1,"system": "everything","components": [{"name": "source",
-"declared_at": "everything.yaml:6:11","schema": "3iqgzrqyi4az35i37e7a5x2v4g","gates": [{
+"declared_at": "everything.yaml:6:11","schema": "piethqborvbhclctt6m7masqwf","gates": [{
 "name": "readings","kind": "pub","payload": {"message": "every.Everything"},"codec": "protobuf",
 "declared_at": "everything.yaml:12:9","endpoint": null,"tap": "source.readings.tap",
 "contract": "efckezly","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
@@ -116,7 +118,7 @@ _PLAN = r"""
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
 "peer_component": "sink","peer_gate": "old","endpoint": "source.old--sink.old.2detqmzv",
 "contract": "2detqmzv","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]}]},{"name": "sink","declared_at": "everything.yaml:24:11","schema": "3iqgzrqyi4az35i37e7a5x2v4g",
+}]}]},{"name": "sink","declared_at": "everything.yaml:24:11","schema": "piethqborvbhclctt6m7masqwf",
 "gates": [{"name": "readings","kind": "sub","payload": {"message": "every.Everything"},
 "codec": "protobuf","declared_at": "everything.yaml:26:9","endpoint": null,"tap": null,
 "contract": "efckezly","max_size": 67108864,"queue": 1,"when_full": "drop_oldest",
@@ -216,7 +218,7 @@ _PLAN = r"""
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": []}]},{"name": "none",
 "declared_at": "everything.yaml:49:11","schema": null,"gates": []}],"schemas": {
-"3iqgzrqyi4az35i37e7a5x2v4g": "Cv8BCh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvEg9nb29nbGUucHJvdG9idWYiOwoJVGltZXN0YW1wEhgKB3NlY29uZHMYASABKANSB3NlY29uZHMSFAoFbmFub3MYAiABKAVSBW5hbm9zQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5UaW1lc3RhbXBQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi90aW1lc3RhbXBwYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCvsBCh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiI6CghEdXJhdGlvbhIYCgdzZWNvbmRzGAEgASgDUgdzZWNvbmRzEhQKBW5hbm9zGAIgASgFUgVuYW5vc0KDAQoTY29tLmdvb2dsZS5wcm90b2J1ZkINRHVyYXRpb25Qcm90b1ABWjFnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9kdXJhdGlvbnBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMK4gUKHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiKYAQoGU3RydWN0EjsKBmZpZWxkcxgBIAMoCzIjLmdvb2dsZS5wcm90b2J1Zi5TdHJ1Y3QuRmllbGRzRW50cnlSBmZpZWxkcxpRCgtGaWVsZHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIsCgV2YWx1ZRgCIAEoCzIWLmdvb2dsZS5wcm90b2J1Zi5WYWx1ZVIFdmFsdWU6AjgBIrICCgVWYWx1ZRI7CgpudWxsX3ZhbHVlGAEgASgOMhouZ29vZ2xlLnByb3RvYnVmLk51bGxWYWx1ZUgAUgludWxsVmFsdWUSIwoMbnVtYmVyX3ZhbHVlGAIgASgBSABSC251bWJlclZhbHVlEiMKDHN0cmluZ192YWx1ZRgDIAEoCUgAUgtzdHJpbmdWYWx1ZRIfCgpib29sX3ZhbHVlGAQgASgISABSCWJvb2xWYWx1ZRI8CgxzdHJ1Y3RfdmFsdWUYBSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0SABSC3N0cnVjdFZhbHVlEjsKCmxpc3RfdmFsdWUYBiABKAsyGi5nb29nbGUucHJvdG9idWYuTGlzdFZhbHVlSABSCWxpc3RWYWx1ZUIGCgRraW5kIjsKCUxpc3RWYWx1ZRIuCgZ2YWx1ZXMYASADKAsyFi5nb29nbGUucHJvdG9idWYuVmFsdWVSBnZhbHVlcyobCglOdWxsVmFsdWUSDgoKTlVMTF9WQUxVRRAAQn8KE2NvbS5nb29nbGUucHJvdG9idWZCC1N0cnVjdFByb3RvUAFaL2dvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3N0cnVjdHBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMKvgsKEGV2ZXJ5dGhpbmcucHJvdG8SBWV2ZXJ5Gh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvGh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8aHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8ixgkKCkV2ZXJ5dGhpbmcSGQoIYV9kb3VibGUYASABKAFSB2FEb3VibGUSFwoHYV9mbG9hdBgCIAEoAlIGYUZsb2F0EhkKCGFuX2ludDMyGAMgASgFUgdhbkludDMyEhkKCGFfdWludDY0GAQgASgEUgdhVWludDY0EhUKBmFfYm9vbBgFIAEoCFIFYUJvb2wSGQoIYV9zdHJpbmcYBiABKAlSB2FTdHJpbmcSHQoKc29tZV9ieXRlcxgHIAEoDFIJc29tZUJ5dGVzEiIKBWxldmVsGAggASgOMgwuZXZlcnkuTGV2ZWxSBWxldmVsEi0KBWlubmVyGAkgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lclIFaW5uZXISGAoHbnVtYmVycxgKIAMoA1IHbnVtYmVycxIkCgZsZXZlbHMYCyADKA4yDC5ldmVyeS5MZXZlbFIGbGV2ZWxzEi8KBmlubmVycxgMIAMoCzIXLmV2ZXJ5LkV2ZXJ5dGhpbmcuSW5uZXJSBmlubmVycxI2CgdieV9uYW1lGA0gAygLMh0uZXZlcnkuRXZlcnl0aGluZy5CeU5hbWVFbnRyeVIGYnlOYW1lEjwKCWJ5X251bWJlchgOIAMoCzIfLmV2ZXJ5LkV2ZXJ5dGhpbmcuQnlOdW1iZXJFbnRyeVIIYnlOdW1iZXISGQoHYXNfdGV4dBgPIAEoCUgAUgZhc1RleHQSHQoJYXNfbnVtYmVyGBAgASgESABSCGFzTnVtYmVyEjQKCGFzX2lubmVyGBEgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lckgAUgdhc0lubmVyEhIKA3llcxgSIAEoCEgBUgN5ZXMSEAoCbm8YEyABKAhIAVICbm8SGQoFbWF5YmUYFCABKAVIAlIFbWF5YmWIAQESKgoCYXQYFSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wUgJhdBItCgR0b29rGBYgASgLMhkuZ29vZ2xlLnByb3RvYnVmLkR1cmF0aW9uUgR0b29rEjYKCmFueV9vYmplY3QYFyABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0UglhbnlPYmplY3QSEgoEZnJvbRgYIAEoCVIEZnJvbRISCgRzZWxmGBkgASgJUgRzZWxmGqEBCgVJbm5lchISCgR0ZXh0GAEgASgJUgR0ZXh0EicKBW91dGVyGAIgASgLMhEuZXZlcnkuRXZlcnl0aGluZ1IFb3V0ZXISMwoFY29sb3IYAyABKA4yHS5ldmVyeS5FdmVyeXRoaW5nLklubmVyLkNvbG9yUgVjb2xvciImCgVDb2xvchIOCgpDT0xPUl9OT05FEAASDQoJQ09MT1JfUkVEEAEaUgoLQnlOYW1lRW50cnkSEAoDa2V5GAEgASgJUgNrZXkSLQoFdmFsdWUYAiABKAsyFy5ldmVyeS5FdmVyeXRoaW5nLklubmVyUgV2YWx1ZToCOAEaOwoNQnlOdW1iZXJFbnRyeRIQCgNrZXkYASABKANSA2tleRIUCgV2YWx1ZRgCIAEoCFIFdmFsdWU6AjgBQggKBmNob2ljZUIOCgxvdGhlcl9jaG9pY2VCCAoGX21heWJlIh0KA0pvYhIWCgZudW1iZXIYASABKAVSBm51bWJlciIjCgZTdGF0dXMSGQoIaXNfcmVhZHkYASABKAhSB2lzUmVhZHkiBwoFRW1wdHkqJgoFTGV2ZWwSDQoJTEVWRUxfTE9XEAASDgoKTEVWRUxfSElHSBABYgZwcm90bzMKPAoMc2Vjb25kLnByb3RvEgZzZWNvbmQiHAoGU3RhdHVzEhIKBHRleHQYASABKAlSBHRleHRiBnByb3RvMwqDAQoJb2xkLnByb3RvEgNvbGQiGgoES2luZBISCgRuYW1lGAEgASgJUgRuYW1lIlUKA09sZBIWCgZudW1iZXIYASACKAVSBm51bWJlchIXCgNpbnQYAiABKAk6BXNldmVuUgNpbnQSHQoES2luZBgDIAMoCzIJLm9sZC5LaW5kUgRLaW5k",
+"piethqborvbhclctt6m7masqwf": "Cv8BCh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvEg9nb29nbGUucHJvdG9idWYiOwoJVGltZXN0YW1wEhgKB3NlY29uZHMYASABKANSB3NlY29uZHMSFAoFbmFub3MYAiABKAVSBW5hbm9zQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5UaW1lc3RhbXBQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi90aW1lc3RhbXBwYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCvsBCh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiI6CghEdXJhdGlvbhIYCgdzZWNvbmRzGAEgASgDUgdzZWNvbmRzEhQKBW5hbm9zGAIgASgFUgVuYW5vc0KDAQoTY29tLmdvb2dsZS5wcm90b2J1ZkINRHVyYXRpb25Qcm90b1ABWjFnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9kdXJhdGlvbnBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMK4gUKHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiKYAQoGU3RydWN0EjsKBmZpZWxkcxgBIAMoCzIjLmdvb2dsZS5wcm90b2J1Zi5TdHJ1Y3QuRmllbGRzRW50cnlSBmZpZWxkcxpRCgtGaWVsZHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIsCgV2YWx1ZRgCIAEoCzIWLmdvb2dsZS5wcm90b2J1Zi5WYWx1ZVIFdmFsdWU6AjgBIrICCgVWYWx1ZRI7CgpudWxsX3ZhbHVlGAEgASgOMhouZ29vZ2xlLnByb3RvYnVmLk51bGxWYWx1ZUgAUgludWxsVmFsdWUSIwoMbnVtYmVyX3ZhbHVlGAIgASgBSABSC251bWJlclZhbHVlEiMKDHN0cmluZ192YWx1ZRgDIAEoCUgAUgtzdHJpbmdWYWx1ZRIfCgpib29sX3ZhbHVlGAQgASgISABSCWJvb2xWYWx1ZRI8CgxzdHJ1Y3RfdmFsdWUYBSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0SABSC3N0cnVjdFZhbHVlEjsKCmxpc3RfdmFsdWUYBiABKAsyGi5nb29nbGUucHJvdG9idWYuTGlzdFZhbHVlSABSCWxpc3RWYWx1ZUIGCgRraW5kIjsKCUxpc3RWYWx1ZRIuCgZ2YWx1ZXMYASADKAsyFi5nb29nbGUucHJvdG9idWYuVmFsdWVSBnZhbHVlcyobCglOdWxsVmFsdWUSDgoKTlVMTF9WQUxVRRAAQn8KE2NvbS5nb29nbGUucHJvdG9idWZCC1N0cnVjdFByb3RvUAFaL2dvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3N0cnVjdHBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMKvgsKEGV2ZXJ5dGhpbmcucHJvdG8SBWV2ZXJ5Gh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvGh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8aHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8ixgkKCkV2ZXJ5dGhpbmcSGQoIYV9kb3VibGUYASABKAFSB2FEb3VibGUSFwoHYV9mbG9hdBgCIAEoAlIGYUZsb2F0EhkKCGFuX2ludDMyGAMgASgFUgdhbkludDMyEhkKCGFfdWludDY0GAQgASgEUgdhVWludDY0EhUKBmFfYm9vbBgFIAEoCFIFYUJvb2wSGQoIYV9zdHJpbmcYBiABKAlSB2FTdHJpbmcSHQoKc29tZV9ieXRlcxgHIAEoDFIJc29tZUJ5dGVzEiIKBWxldmVsGAggASgOMgwuZXZlcnkuTGV2ZWxSBWxldmVsEi0KBWlubmVyGAkgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lclIFaW5uZXISGAoHbnVtYmVycxgKIAMoA1IHbnVtYmVycxIkCgZsZXZlbHMYCyADKA4yDC5ldmVyeS5MZXZlbFIGbGV2ZWxzEi8KBmlubmVycxgMIAMoCzIXLmV2ZXJ5LkV2ZXJ5dGhpbmcuSW5uZXJSBmlubmVycxI2CgdieV9uYW1lGA0gAygLMh0uZXZlcnkuRXZlcnl0aGluZy5CeU5hbWVFbnRyeVIGYnlOYW1lEjwKCWJ5X251bWJlchgOIAMoCzIfLmV2ZXJ5LkV2ZXJ5dGhpbmcuQnlOdW1iZXJFbnRyeVIIYnlOdW1iZXISGQoHYXNfdGV4dBgPIAEoCUgAUgZhc1RleHQSHQoJYXNfbnVtYmVyGBAgASgESABSCGFzTnVtYmVyEjQKCGFzX2lubmVyGBEgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lckgAUgdhc0lubmVyEhIKA3llcxgSIAEoCEgBUgN5ZXMSEAoCbm8YEyABKAhIAVICbm8SGQoFbWF5YmUYFCABKAVIAlIFbWF5YmWIAQESKgoCYXQYFSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wUgJhdBItCgR0b29rGBYgASgLMhkuZ29vZ2xlLnByb3RvYnVmLkR1cmF0aW9uUgR0b29rEjYKCmFueV9vYmplY3QYFyABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0UglhbnlPYmplY3QSEgoEZnJvbRgYIAEoCVIEZnJvbRISCgRzZWxmGBkgASgJUgRzZWxmGqEBCgVJbm5lchISCgR0ZXh0GAEgASgJUgR0ZXh0EicKBW91dGVyGAIgASgLMhEuZXZlcnkuRXZlcnl0aGluZ1IFb3V0ZXISMwoFY29sb3IYAyABKA4yHS5ldmVyeS5FdmVyeXRoaW5nLklubmVyLkNvbG9yUgVjb2xvciImCgVDb2xvchIOCgpDT0xPUl9OT05FEAASDQoJQ09MT1JfUkVEEAEaUgoLQnlOYW1lRW50cnkSEAoDa2V5GAEgASgJUgNrZXkSLQoFdmFsdWUYAiABKAsyFy5ldmVyeS5FdmVyeXRoaW5nLklubmVyUgV2YWx1ZToCOAEaOwoNQnlOdW1iZXJFbnRyeRIQCgNrZXkYASABKANSA2tleRIUCgV2YWx1ZRgCIAEoCFIFdmFsdWU6AjgBQggKBmNob2ljZUIOCgxvdGhlcl9jaG9pY2VCCAoGX21heWJlIh0KA0pvYhIWCgZudW1iZXIYASABKAVSBm51bWJlciIjCgZTdGF0dXMSGQoIaXNfcmVhZHkYASABKAhSB2lzUmVhZHkiBwoFRW1wdHkqJgoFTGV2ZWwSDQoJTEVWRUxfTE9XEAASDgoKTEVWRUxfSElHSBABYgZwcm90bzMKPAoMc2Vjb25kLnByb3RvEgZzZWNvbmQiHAoGU3RhdHVzEhIKBHRleHQYASABKAlSBHRleHRiBnByb3RvMwq6BQoJb2xkLnByb3RvEgNvbGQiGgoES2luZBISCgRuYW1lGAEgASgJUgRuYW1lIt4DCgNPbGQSFgoGbnVtYmVyGAEgAigFUgZudW1iZXISFwoDaW50GAIgASgJOgVzZXZlblIDaW50Eh0KBEtpbmQYAyADKAsyCS5vbGQuS2luZFIES2luZBIhCgRwYXJ0GAQgASgKMg0ub2xkLk9sZC5QYXJ0UgRwYXJ0EhoKCHByb3BlcnR5GAYgASgJUghwcm9wZXJ0eRIeCgpERVNDUklQVE9SGAcgASgJUgpERVNDUklQVE9SEhgKCF9faGlkZGVuGAggASgJUgZIaWRkZW4SGgoISGFzRmllbGQYCSABKAlSCEhhc0ZpZWxkEiQKBHdvcmQYCiABKA4yCS5vbGQuV29yZDoFTUlOVVNSBHdvcmQSIAoFY2xhc3MYCyABKAsyCi5vbGQuY2xhc3NSBWNsYXNzEiwKCmlubmVyX3dvcmQYDCABKAsyDS5vbGQuT2xkLldvcmRSCWlubmVyV29yZBIoCgpvdXRlcl93b3JkGA0gASgOMgkub2xkLldvcmRSCW91dGVyV29yZBoaCgRQYXJ0EhIKBGxpc3QYBSABKAhSBGxpc3QaLwoEV29yZBIUCgV0cnV0aBgBIAEoCFIFdHJ1dGgiEQoEYm9vbBIJCgVGQUxTRRAAKgUIZBDJASJDCgVjbGFzcxIUCgRlbHNlGAEgASgISABSBGVsc2USHgoJb3RoZXJ3aXNlGAIgASgISABSCW90aGVyd2lzZUIECgJpZipICgRXb3JkEggKBE5vbmUQABILCgdOb3RoaW5nEAASEgoFTUlOVVMQ////////////ARIHCgNtcm8QAhIICgRuYW1lEAMaAhABOhwKBG1vcmUSCC5vbGQuT2xkGGQgASgJUgRtb3Jl",
 "wu5rlvedb4na7iar5q57lfccxd": "Cv8BCh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvEg9nb29nbGUucHJvdG9idWYiOwoJVGltZXN0YW1wEhgKB3NlY29uZHMYASABKANSB3NlY29uZHMSFAoFbmFub3MYAiABKAVSBW5hbm9zQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5UaW1lc3RhbXBQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi90aW1lc3RhbXBwYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCvsBCh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiI6CghEdXJhdGlvbhIYCgdzZWNvbmRzGAEgASgDUgdzZWNvbmRzEhQKBW5hbm9zGAIgASgFUgVuYW5vc0KDAQoTY29tLmdvb2dsZS5wcm90b2J1ZkINRHVyYXRpb25Qcm90b1ABWjFnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9kdXJhdGlvbnBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMK4gUKHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiKYAQoGU3RydWN0EjsKBmZpZWxkcxgBIAMoCzIjLmdvb2dsZS5wcm90b2J1Zi5TdHJ1Y3QuRmllbGRzRW50cnlSBmZpZWxkcxpRCgtGaWVsZHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIsCgV2YWx1ZRgCIAEoCzIWLmdvb2dsZS5wcm90b2J1Zi5WYWx1ZVIFdmFsdWU6AjgBIrICCgVWYWx1ZRI7CgpudWxsX3ZhbHVlGAEgASgOMhouZ29vZ2xlLnByb3RvYnVmLk51bGxWYWx1ZUgAUgludWxsVmFsdWUSIwoMbnVtYmVyX3ZhbHVlGAIgASgBSABSC251bWJlclZhbHVlEiMKDHN0cmluZ192YWx1ZRgDIAEoCUgAUgtzdHJpbmdWYWx1ZRIfCgpib29sX3ZhbHVlGAQgASgISABSCWJvb2xWYWx1ZRI8CgxzdHJ1Y3RfdmFsdWUYBSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0SABSC3N0cnVjdFZhbHVlEjsKCmxpc3RfdmFsdWUYBiABKAsyGi5nb29nbGUucHJvdG9idWYuTGlzdFZhbHVlSABSCWxpc3RWYWx1ZUIGCgRraW5kIjsKCUxpc3RWYWx1ZRIuCgZ2YWx1ZXMYASADKAsyFi5nb29nbGUucHJvdG9idWYuVmFsdWVSBnZhbHVlcyobCglOdWxsVmFsdWUSDgoKTlVMTF9WQUxVRRAAQn8KE2NvbS5nb29nbGUucHJvdG9idWZCC1N0cnVjdFByb3RvUAFaL2dvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3N0cnVjdHBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMKvgsKEGV2ZXJ5dGhpbmcucHJvdG8SBWV2ZXJ5Gh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvGh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8aHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8ixgkKCkV2ZXJ5dGhpbmcSGQoIYV9kb3VibGUYASABKAFSB2FEb3VibGUSFwoHYV9mbG9hdBgCIAEoAlIGYUZsb2F0EhkKCGFuX2ludDMyGAMgASgFUgdhbkludDMyEhkKCGFfdWludDY0GAQgASgEUgdhVWludDY0EhUKBmFfYm9vbBgFIAEoCFIFYUJvb2wSGQoIYV9zdHJpbmcYBiABKAlSB2FTdHJpbmcSHQoKc29tZV9ieXRlcxgHIAEoDFIJc29tZUJ5dGVzEiIKBWxldmVsGAggASgOMgwuZXZlcnkuTGV2ZWxSBWxldmVsEi0KBWlubmVyGAkgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lclIFaW5uZXISGAoHbnVtYmVycxgKIAMoA1IHbnVtYmVycxIkCgZsZXZlbHMYCyADKA4yDC5ldmVyeS5MZXZlbFIGbGV2ZWxzEi8KBmlubmVycxgMIAMoCzIXLmV2ZXJ5LkV2ZXJ5dGhpbmcuSW5uZXJSBmlubmVycxI2CgdieV9uYW1lGA0gAygLMh0uZXZlcnkuRXZlcnl0aGluZy5CeU5hbWVFbnRyeVIGYnlOYW1lEjwKCWJ5X251bWJlchgOIAMoCzIfLmV2ZXJ5LkV2ZXJ5dGhpbmcuQnlOdW1iZXJFbnRyeVIIYnlOdW1iZXISGQoHYXNfdGV4dBgPIAEoCUgAUgZhc1RleHQSHQoJYXNfbnVtYmVyGBAgASgESABSCGFzTnVtYmVyEjQKCGFzX2lubmVyGBEgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lckgAUgdhc0lubmVyEhIKA3llcxgSIAEoCEgBUgN5ZXMSEAoCbm8YEyABKAhIAVICbm8SGQoFbWF5YmUYFCABKAVIAlIFbWF5YmWIAQESKgoCYXQYFSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wUgJhdBItCgR0b29rGBYgASgLMhkuZ29vZ2xlLnByb3RvYnVmLkR1cmF0aW9uUgR0b29rEjYKCmFueV9vYmplY3QYFyABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0UglhbnlPYmplY3QSEgoEZnJvbRgYIAEoCVIEZnJvbRISCgRzZWxmGBkgASgJUgRzZWxmGqEBCgVJbm5lchISCgR0ZXh0GAEgASgJUgR0ZXh0EicKBW91dGVyGAIgASgLMhEuZXZlcnkuRXZlcnl0aGluZ1IFb3V0ZXISMwoFY29sb3IYAyABKA4yHS5ldmVyeS5FdmVyeXRoaW5nLklubmVyLkNvbG9yUgVjb2xvciImCgVDb2xvchIOCgpDT0xPUl9OT05FEAASDQoJQ09MT1JfUkVEEAEaUgoLQnlOYW1lRW50cnkSEAoDa2V5GAEgASgJUgNrZXkSLQoFdmFsdWUYAiABKAsyFy5ldmVyeS5FdmVyeXRoaW5nLklubmVyUgV2YWx1ZToCOAEaOwoNQnlOdW1iZXJFbnRyeRIQCgNrZXkYASABKANSA2tleRIUCgV2YWx1ZRgCIAEoCFIFdmFsdWU6AjgBQggKBmNob2ljZUIOCgxvdGhlcl9jaG9pY2VCCAoGX21heWJlIh0KA0pvYhIWCgZudW1iZXIYASABKAVSBm51bWJlciIjCgZTdGF0dXMSGQoIaXNfcmVhZHkYASABKAhSB2lzUmVhZHkiBwoFRW1wdHkqJgoFTGV2ZWwSDQoJTEVWRUxfTE9XEAASDgoKTEVWRUxfSElHSBABYgZwcm90bzM="
 }}
 """
@@ -748,6 +750,16 @@ if TYPE_CHECKING:
 
         def WhichOneof(self, oneof_group: _Never) -> None: ...
 
+    class Word(_Enum):
+        """Names of Python and of protobuf."""
+
+        # None: no attribute of Python
+        Nothing: _ClassVar[_type_Word]
+        MINUS: _ClassVar[_type_Word]
+        """Less than that."""
+        mro: _ClassVar[_type_Word]
+        name: _ClassVar[_type_Word]
+
     @_final
     class Kind(_Message):
         name: _builtins.str
@@ -764,6 +776,37 @@ if TYPE_CHECKING:
     class Old(_Message):
         """Fields that hide what their neighbours need."""
 
+        @_final
+        class Part(_Message):
+            list: _builtins.bool
+
+            def __init__(self, *, list: _builtins.bool | None = None) -> None: ...
+
+            def HasField(self, field_name: _Literal["list"]) -> _builtins.bool: ...
+
+            def ClearField(self, field_name: _Literal["list"]) -> None: ...
+
+            def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+        @_final
+        class Word(_Message):
+            """A nested message of the name of another."""
+
+            class bool(_Enum):
+                FALSE: _ClassVar[Old.Word.bool]
+
+            FALSE: _ClassVar[Old.Word.bool]
+
+            truth: _builtins.bool
+
+            def __init__(self, *, truth: _builtins.bool | None = None) -> None: ...
+
+            def HasField(self, field_name: _Literal["truth"]) -> _builtins.bool: ...
+
+            def ClearField(self, field_name: _Literal["truth"]) -> None: ...
+
+            def WhichOneof(self, oneof_group: _Never) -> None: ...
+
         number: _builtins.int
 
         int: _builtins.str
@@ -771,21 +814,98 @@ if TYPE_CHECKING:
         @_builtins.property
         def Kind(self) -> _RepeatedCompositeFieldContainer[_type_Kind]: ...
 
+        @_builtins.property
+        def part(self) -> Old.Part: ...
+
+        property: _builtins.str
+
+        # DESCRIPTOR: no attribute of Python, so `getattr(message, "DESCRIPTOR")`
+
+        # __hidden: no attribute of Python, so `getattr(message, "__hidden")`
+
+        # HasField: no attribute of Python, so `getattr(message, "HasField")`
+
+        word: _type_Word
+
+        # class: no attribute of Python, so `getattr(message, "class")`
+
+        @_builtins.property
+        def inner_word(self) -> Old.Word: ...
+
+        outer_word: _type_Word
+
         def __init__(
             self,
             *,
             number: _builtins.int | None = None,
             int: _builtins.str | None = None,
             Kind: _Iterable[_type_Kind] | None = None,
+            part: Old.Part | None = None,
+            property: _builtins.str | None = None,
+            word: _type_Word | None = None,
+            inner_word: Old.Word | None = None,
+            outer_word: _type_Word | None = None,
         ) -> None: ...
 
-        def HasField(self, field_name: _Literal["number", "int"]) -> _builtins.bool: ...
+        def HasField(
+            self,
+            field_name: _Literal[
+                "number",
+                "int",
+                "part",
+                "property",
+                "DESCRIPTOR",
+                "__hidden",
+                "HasField",
+                "word",
+                "class",
+                "inner_word",
+                "outer_word",
+            ],
+        ) -> _builtins.bool: ...
 
-        def ClearField(self, field_name: _Literal["number", "int", "Kind"]) -> None: ...
+        def ClearField(
+            self,
+            field_name: _Literal[
+                "number",
+                "int",
+                "Kind",
+                "part",
+                "property",
+                "DESCRIPTOR",
+                "__hidden",
+                "HasField",
+                "word",
+                "class",
+                "inner_word",
+                "outer_word",
+            ],
+        ) -> None: ...
 
         def WhichOneof(self, oneof_group: _Never) -> None: ...
 
+    @_final
+    class class_(_Message):
+        # else: no attribute of Python, so `getattr(message, "else")`
+
+        otherwise: _builtins.bool
+
+        def __init__(self, *, otherwise: _builtins.bool | None = None) -> None: ...
+
+        def HasField(
+            self, field_name: _Literal["else", "otherwise", "if"]
+        ) -> _builtins.bool: ...
+
+        def ClearField(
+            self, field_name: _Literal["else", "otherwise", "if"]
+        ) -> None: ...
+
+        def WhichOneof(
+            self, oneof_group: _Literal["if"]
+        ) -> _Literal["else", "otherwise"] | None: ...
+
     _type_Kind = Kind
+    _type_Word = Word
 else:
     __getattr__ = _scl.codec.lazy_messages(
         __name__,
@@ -796,8 +916,9 @@ else:
             "Job": "every.Job",
             "Kind": "old.Kind",
             "Old": "old.Old",
+            "class_": "old.class",
             "every_Status": "every.Status",
             "second_Status": "second.Status",
         },
-        {"Level": "every.Level"},
+        {"Level": "every.Level", "Word": "old.Word"},
     )
