@@ -75,7 +75,7 @@ fn names_that_would_be_one_are_refused() {
     .assert_eq(&found);
     let found = clashes(&format!("  - name: x\n{gate}"), "message Status {}\nmessage _PLAN {}");
     expect_test::expect![[r#"
-        SCL1101: `_PLAN` of the module and message `a._PLAN` would both become `_PLAN` in module `topology_scl`
+        SCL1102: `_PLAN` of the module and message `a._PLAN` would both become `_PLAN` in module `topology_scl`
     "#]]
     .assert_eq(&found);
 }
