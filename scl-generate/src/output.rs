@@ -48,8 +48,8 @@ pub enum OutputError {
 
 /// Writes a file into a folder, which is made if need be, unless it has this content already.
 ///
-/// The file is replaced as a whole: a reader, and another program that writes it, never meets a part of it. Any number of
-/// programs may write it at once. A symbolic link stays, and what it leads to is replaced.
+/// The file is replaced as a whole: a reader, and another program that writes it, never meets a part of it. Any number
+/// of programs may write it at once. A symbolic link stays, and what it leads to is replaced.
 ///
 /// # Errors
 /// [`OutputError`]: the folder or the file cannot be written. The file is then as it was.

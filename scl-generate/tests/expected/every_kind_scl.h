@@ -7,9 +7,9 @@
 #include "parts/part.pb-c.h"
 
 /*
- * Open a component with <component>_open, then use the functions of its gates. They return SCL_OK or a negative status;
- * scl_error() has the text. Timeouts are in nanoseconds: 0 does not wait, a negative one waits without limit (of a call:
- * as long as the gate's own timeout).
+ * Open a component with <component>_open, then use the functions of its gates. They return SCL_OK or a negative
+ * status; scl_error() has the text. Timeouts are in nanoseconds: 0 does not wait, a negative one waits without limit (of
+ * a call: as long as the gate's own timeout).
  *
  * A message that is sent stays the caller's. A message that is received belongs to the caller, who frees it with the
  * gate's _free (bytes: scl_message_free). Whatever the result, the pointer is set, to NULL if there is no message.
@@ -225,7 +225,7 @@ void every_kind_right_side_trees_free(Kinds__Tree *message);
 #define EVERY_KIND_RIGHT_SIDE_JSON_ANSWER (UINT64_C(1) << 6)
 #define EVERY_KIND_RIGHT_SIDE_PACKED (UINT64_C(1) << 7)
 #define EVERY_KIND_RIGHT_SIDE_TREES (UINT64_C(1) << 8)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells at which. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
 scl_status every_kind_right_side_wait(every_kind_right_side *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
 /* Component `lonely` (every_kind.yaml:32:11) */
@@ -274,7 +274,7 @@ void every_kind_lonely_component_free(Kinds__Value *message);
 
 #define EVERY_KIND_LONELY_READY (UINT64_C(1) << 0)
 #define EVERY_KIND_LONELY_COMPONENT (UINT64_C(1) << 1)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells at which. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
 scl_status every_kind_lonely_wait(every_kind_lonely *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
 /* Component `empty` (every_kind.yaml:38:11) */
