@@ -57,6 +57,15 @@ fn what_cannot_be_written_is_an_error_and_leaves_nothing() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
 }
 
+#[test]
+fn what_a_killed_process_left_is_in_nobodys_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let left = format!(".rover_scl.h.{}.0.tmp", std::process::id());
+    fs::write(folder.path().join(left), "half").unwrap();
+    write(folder.path(), &file("one")).unwrap();
+    assert!(is_current(folder.path(), &file("one")));
+}
+
 /// As other files that this user creates, not as a temporary one of this user alone.
 #[test]
 fn a_new_file_has_the_usual_permissions() {
