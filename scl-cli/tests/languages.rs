@@ -86,24 +86,33 @@ impl Example {
         let readme = std::fs::read_to_string(example().join("README.md")).unwrap();
         self.system.write("hardware.h", "double read_hardware(void);\nvoid apply(double throttle);\n");
         let workspace = workspace();
+        let source = workspace.join("examples/quickstart");
+        let topology = source.join("topology.yaml");
         let include = |folder: &str| format!("-I{}", workspace.join(folder).display());
-        for (fence, compiler, standard) in [("c", "cc", "-std=c11"), ("cpp", "c++", "-std=c++17")] {
+        let languages =
+            [("c", "cc", "-std=c11", "protoc-c", "--c_out=."), ("cpp", "c++", "-std=c++17", "protoc", "--cpp_out=.")];
+        for (fence, compiler, standard, protoc, out) in languages {
+            self.succeed(&mut self.system.scl(&["generate", "--for", fence, topology.to_str().unwrap(), "-o", "."]));
+            self.succeed(Command::new(protoc).arg(out).arg("--proto_path").arg(&source).arg("rover.proto"));
             for listing in listings(&readme, fence) {
                 let name = format!("listing.{fence}");
                 self.system.write(&name, &listing);
                 let mut command = Command::new(compiler);
                 command.args([standard, "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "-include", "hardware.h"]);
-                command.args(["bindings/c/include", "bindings/cpp/include"].map(include));
-                command.arg(include(&format!("target/languages/{fence}"))).arg(&name);
-                let output = command.current_dir(self.system.path("")).output().unwrap();
-                assert!(output.status.success(), "{listing}\n{}", String::from_utf8_lossy(&output.stderr));
+                command.args(["bindings/c/include", "bindings/cpp/include"].map(include)).args(["-I.", &name]);
+                self.succeed(&mut command);
             }
         }
         let python = workspace.join("target/languages/venv/bin/python");
         for listing in listings(&readme, "python") {
             let program = format!("import ast; ast.parse({listing:?})");
-            assert!(Command::new(&python).args(["-c", &program]).status().unwrap().success(), "{listing}");
+            self.succeed(Command::new(&python).args(["-c", &program]));
         }
+    }
+
+    fn succeed(&self, command: &mut Command) {
+        let output = command.current_dir(self.system.path("")).output().unwrap();
+        assert!(output.status.success(), "{command:?}\n{}", String::from_utf8_lossy(&output.stderr));
     }
 
     /// The others go on while the controller is killed and its twin in another language starts.

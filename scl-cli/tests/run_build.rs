@@ -131,7 +131,7 @@ fn a_request_to_stop_ends_a_build_with_its_children_and_starts_nothing() {
         let launch = "\
 components:
   sensor:
-    build: exec 3>alive; tail -f /dev/null >/dev/null & echo > building; tail -f /dev/null >/dev/null; exit 7
+    build: exec 3>alive; trap 'exit 7' INT TERM; tail -f /dev/null >/dev/null & echo > building; wait
     command: echo started
 ";
         let system = System::of_files(&[("launch.yaml", launch)]);

@@ -13,6 +13,7 @@ mod fuzz;
 mod interoperability;
 mod json;
 mod kill;
+mod languages;
 mod listing1;
 mod max_size;
 mod opening;

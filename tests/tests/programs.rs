@@ -9,6 +9,7 @@ pub(crate) const FRESH: &str = env!("CARGO_BIN_EXE_fresh");
 pub(crate) const FUZZ_ROUND: &str = env!("CARGO_BIN_EXE_fuzz_round");
 pub(crate) const LEAVER: &str = env!("CARGO_BIN_EXE_leaver");
 pub(crate) const LISTING1: &str = env!("CARGO_BIN_EXE_listing1");
+pub(crate) const MATRIX: &str = env!("CARGO_BIN_EXE_matrix");
 pub(crate) const PEER: &str = env!("CARGO_BIN_EXE_peer");
 pub(crate) const PLAIN: &str = env!("CARGO_BIN_EXE_plain");
 pub(crate) const SHAPES: &str = env!("CARGO_BIN_EXE_shapes");

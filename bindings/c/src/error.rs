@@ -89,17 +89,20 @@ impl From<GateError> for Failure {
     }
 }
 
+fn opening(error: &OpenError) -> scl_status {
+    match error {
+        OpenError::RuntimeDir { source: RuntimeDirError::AlreadyRunning { .. }, .. } => SCL_TAKEN,
+        OpenError::RuntimeDir { .. } => SCL_FOLDER,
+        OpenError::Plan { .. } | OpenError::TooManyPlans { .. } => SCL_PLAN,
+        OpenError::Environment { .. } => SCL_ENVIRONMENT,
+        OpenError::Gate { .. } | OpenError::Timer { .. } | OpenError::Runtime { .. } => SCL_SYSTEM,
+        _ => SCL_FAILED,
+    }
+}
+
 impl From<OpenError> for Failure {
     fn from(error: OpenError) -> Self {
-        let status = match &error {
-            OpenError::RuntimeDir { source: RuntimeDirError::AlreadyRunning { .. }, .. } => SCL_TAKEN,
-            OpenError::RuntimeDir { .. } => SCL_FOLDER,
-            OpenError::Plan { .. } | OpenError::TooManyPlans { .. } => SCL_PLAN,
-            OpenError::Environment { .. } => SCL_ENVIRONMENT,
-            OpenError::Gate { .. } | OpenError::Timer { .. } | OpenError::Runtime { .. } => SCL_SYSTEM,
-            _ => SCL_FAILED,
-        };
-        Self::of(status, &error)
+        Self::of(opening(&error), &error)
     }
 }
 
@@ -197,10 +200,14 @@ impl From<scl::Error> for Failure {
         let error = error.inner();
         let status = if let Some(source) = error.downcast_ref() {
             blocking(source)
+        } else if let Some(error) = error.downcast_ref() {
+            opening(error)
         } else if error.is::<NotReady>() {
             SCL_TIMEOUT
         } else if error.is::<NotFlushed>() {
             SCL_NOT_FLUSHED
+        } else if error.is::<std::io::Error>() {
+            SCL_SYSTEM
         } else {
             SCL_FAILED
         };

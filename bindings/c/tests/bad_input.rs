@@ -22,8 +22,8 @@ fn a_forked_child_is_refused() {
         let (mut values, mut out) = (peer.publisher("values").unwrap(), peer.subscriber("out").unwrap());
         values.send_blocking(&"hello".into()).unwrap();
         let mut c = program.start("forked", &[]);
-        assert_eq!(out.recv_blocking().unwrap(), "still here");
         c.expect("done");
+        assert_eq!(out.recv_blocking().unwrap(), "still here");
         expect_success(c);
     });
 }
@@ -31,7 +31,9 @@ fn a_forked_child_is_refused() {
 /// The promise: a peer with another contract, or with messages of another shape, is not connected, and the text says why.
 #[test]
 fn other_contracts_and_shapes_are_refused() {
-    for (theirs, words) in [("contract", "contract"), ("shape", "`test.Number`")] {
+    for (theirs, words) in
+        [("contract", "codec `json`, this program expects `test.Number` and `protobuf`"), ("shape", "`test.Number`")]
+    {
         let system = System::new();
         let mut peer = Component::open_blocking_with(
             plans(&format!("peers/{theirs}.yaml")).component("sensor").unwrap(),

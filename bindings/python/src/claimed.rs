@@ -16,6 +16,7 @@ pub(crate) struct Claimed {
     slot: Mutex<Slot>,
 }
 
+#[allow(clippy::large_enum_variant, reason = "there is one per gate, and a box would be allocated for each call")]
 enum Slot {
     Here(Gate),
     /// A call has it, and will bring it back.

@@ -1,20 +1,21 @@
 """Plays `left` or `right` of `topologies/matrix/matrix.yaml` with nothing but pyzmq (and protobuf for the messages):
-`main.py COMPONENT ZMQ_FILE FOLDER MODULE`, with the file of `scl generate --for zmq` and a module of protoc.
+`main.py COMPONENT ZMQ_FILE FOLDER DESCRIPTORS`, with the file of `scl generate --for zmq` and descriptors of protoc.
 
 The commands are those of all programs in `languages`; a plain program has no counts and does not refuse anything.
 """
 
-import importlib.util
 import json
 import sys
+from pathlib import Path
 
 import zmq
-from google.protobuf import json_format
+from google.protobuf import descriptor_pb2, descriptor_pool, json_format, message_factory
 
-component, file, folder, module = sys.argv[1:5]
-spec = importlib.util.spec_from_file_location("matrix_pb2", module)
-matrix_pb2 = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(matrix_pb2)
+component, file, folder, descriptors = sys.argv[1:5]
+pool = descriptor_pool.DescriptorPool()
+for described in descriptor_pb2.FileDescriptorSet.FromString(Path(descriptors).read_bytes()).file:
+    pool.Add(described)
+Sample = message_factory.GetMessageClass(pool.FindMessageTypeByName("matrix.Sample"))
 
 REPLY = 1000
 context = zmq.Context()
@@ -44,7 +45,7 @@ def text(number):
 def encode(gate, number):
     if gate.endswith("_bytes"):
         return text(number).encode()
-    sample = matrix_pb2.Sample(number=number, text=text(number))
+    sample = Sample(number=number, text=text(number))
     return json_format.MessageToJson(sample).encode() if gate.endswith("_json") else sample.SerializeToString()
 
 
@@ -52,7 +53,7 @@ def decode(gate, frame):
     if gate.endswith("_bytes"):
         number, found = int(frame.decode().split()[1]), frame.decode()
     else:
-        sample = matrix_pb2.Sample()
+        sample = Sample()
         json_format.Parse(frame, sample) if gate.endswith("_json") else sample.ParseFromString(frame)
         number, found = sample.number, sample.text
     assert found == text(number), frame

@@ -167,7 +167,7 @@ static void handles(scl_component *component) {
     scl_gate *values = scl_gate_by_name(component, "values");
     uint64_t memory[8] = {0}, ready;
     scl_gate *made_up[] = {(scl_gate *)component, (scl_gate *)memory, (scl_gate *)&message, (scl_gate *)1,
-                           (scl_gate *)5, (scl_gate *)(uintptr_t)UINTPTR_MAX, (scl_gate *)((uintptr_t)values + 8),
+                           (scl_gate *)5, (scl_gate *)(uintptr_t)UINTPTR_MAX, (scl_gate *)((uintptr_t)values + 1),
                            (scl_gate *)((uintptr_t)values ^ (UINTPTR_MAX / 2 + 1))};
     for (size_t index = 0; index < sizeof made_up / sizeof *made_up; index++) {
         EXPECT(scl_recv(made_up[index], 0, &message), SCL_HANDLE, "this is not an open gate");

@@ -41,10 +41,11 @@ int main(int count, char **arguments) {
     }
     OK(open_program(arguments[1], NULL, &component));
     scl_gate *out = scl_gate_by_name(component, "out"), *values = scl_gate_by_name(component, "values");
+    scl_gate *answer = scl_gate_by_name(component, "answer");
     OK(scl_recv(values, FOREVER, &received));
     pid_t child = fork();
     if (child == 0) {
-        in_child(arguments[1], component, out, values, scl_gate_by_name(component, "answer"), received);
+        in_child(arguments[1], component, out, values, answer, received);
         _exit(0);
     }
     ASSERT(waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0);
