@@ -42,7 +42,7 @@ fn one_component_alone_compiles() {
 
 #[test]
 fn the_documented_example_compiles() {
-    let page = std::fs::read_to_string(repository().join("docs/generate.md")).unwrap();
+    let page = std::fs::read_to_string(repository().join("docs/c.md")).unwrap();
     let example = page.split("```c\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     let project = Project::of(&repository().join("examples/quickstart/topology.yaml"));
     std::fs::write(project.path().join("main.c"), example).unwrap();
