@@ -40,8 +40,8 @@ mark_as_advanced(SCL_INCLUDE_DIR SCL_CPP_INCLUDE_DIR SCL_LIBRARY SCL_EXECUTABLE)
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(scl
   REQUIRED_VARS SCL_LIBRARY SCL_INCLUDE_DIR SCL_CPP_INCLUDE_DIR
-  REASON_FAILURE_MESSAGE "Install the C library with `cargo cinstall -p scl-c --release`, or build it in the source tree \
-of SCL with `cargo build -p scl-c --release`")
+  REASON_FAILURE_MESSAGE "Install the C library with `cargo cinstall -p scl-c --release`, \
+or build it in the source tree of SCL with `cargo build -p scl-c --release`")
 
 if(scl_FOUND AND NOT TARGET scl::c)
   include(CMakeFindDependencyMacro)

@@ -16,7 +16,8 @@ function(scl_generate target topology)
     message(FATAL_ERROR "scl_generate: unknown argument `${arg_UNPARSED_ARGUMENTS}`; \
 usage: scl_generate(TARGET TOPOLOGY COMPONENTS NAME...)")
   elseif("COMPONENTS" IN_LIST arg_KEYWORDS_MISSING_VALUES)
-    message(FATAL_ERROR "scl_generate: `COMPONENTS` without names; name components of the topology, or leave the word out")
+    message(FATAL_ERROR "scl_generate: `COMPONENTS` without names; \
+name components of the topology, or leave the word out")
   elseif(NOT SCL_EXECUTABLE)
     message(FATAL_ERROR "scl_generate: the program `scl` was not found; install it with `cargo install scl-cli`, \
 or set SCL_EXECUTABLE to its path")

@@ -43,7 +43,7 @@ mod _native {
     #[pymodule_export]
     use super::request::Request;
     #[pymodule_export]
-    use super::stop::{stop_grace_period, stop_handle, stop_overdue, stop_request, stop_requested};
+    use super::stop::{stop_check, stop_handle, stop_request, stop_requested};
     use pyo3::prelude::*;
 
     #[pymodule_init]

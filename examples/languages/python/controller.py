@@ -28,4 +28,5 @@ async def main() -> None:
         await asyncio.gather(steer(), obey())
 
 
-asyncio.run(main())
+with suppress(KeyboardInterrupt):
+    asyncio.run(main())

@@ -1,12 +1,13 @@
 """Publishes a made-up speed ten times a second."""
 
+from contextlib import suppress
 from itertools import count
 from math import sin
 from time import sleep
 
 from rover_scl import Measurement, Sensor
 
-with Sensor() as sensor:
+with suppress(KeyboardInterrupt), Sensor() as sensor:
     for step in count():
         sleep(0.1)
         speed = 1.0 + sin(step)

@@ -57,4 +57,7 @@ fn expect_success_in(process: Process) {
     let exit = process.wait_for_exit();
     assert_eq!(exit.code(), 0, "after {:?}:\n{}", exit.output.last(), exit.log.join("\n"));
     assert!(!exit.output.is_empty());
+    let forgotten = "WARN gate `right.answer` did not answer a request";
+    let expects_it = exit.output.iter().any(|check| check == "an_exception_of_the_program_loses_no_request_in_silence");
+    assert_eq!(exit.text().contains(forgotten), expects_it, "{exit:?}");
 }

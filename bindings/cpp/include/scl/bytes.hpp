@@ -30,8 +30,8 @@ inline constexpr bool is_byte_container<
 
 } // namespace detail
 
-/// Bytes that belong to somebody else, for the duration of a call: made from strings, string views, and any container or
-/// array of `char`, `unsigned char` or `std::byte`.
+/// Bytes that belong to somebody else, for the duration of a call: made from strings, string views, and any container
+/// or array of `char`, `unsigned char` or `std::byte`.
 class BytesView {
   public:
     constexpr BytesView() noexcept = default;

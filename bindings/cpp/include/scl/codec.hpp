@@ -1,5 +1,5 @@
-/// Codecs: how messages become bytes. Those of bytes and plain structs are here; `scl/protobuf.hpp` and `scl/json.hpp` have
-/// those that need libprotobuf.
+/// Codecs: how messages become bytes. Those of bytes and plain structs are here; `scl/protobuf.hpp` and `scl/json.hpp`
+/// have those that need libprotobuf.
 #pragma once
 
 #include <scl/bytes.hpp>
@@ -37,9 +37,9 @@ template <class...> inline constexpr bool never = false;
 ///
 /// Both report what they cannot do by throwing, `scl::EncodeError` and `scl::DecodeError` or any other exception.
 template <class T, class Format = Native, class Enable = void> struct Codec {
-    static_assert(detail::never<T>, "scl: no codec turns messages of this type into bytes. For a protobuf message include "
-                                    "<scl/protobuf.hpp> (or <scl/json.hpp>); for a type of your own specialise "
-                                    "scl::Codec, see docs/cpp.md, \"Codecs\"");
+    static_assert(detail::never<T>, "scl: no codec turns messages of this type into bytes. For a protobuf message "
+                                    "include <scl/protobuf.hpp> (or <scl/json.hpp>); for a type of your own "
+                                    "specialise scl::Codec, see docs/cpp.md, \"Codecs\"");
     static BytesView encode(const T& message, std::string& buffer);
     static T decode(Bytes bytes);
 };

@@ -12,7 +12,7 @@
 
 namespace scl::detail {
 
-/// Encodes a message and passes its bytes to `use`. The memory for them belongs to the thread and is reused, up to 1 MiB.
+/// Encodes a message and passes its bytes to `use`. Their memory belongs to the thread and is reused, up to 1 MiB.
 template <class T, class Format, class Use>
 scl_status encode(const sent_t<T>& message, const std::string& gate, Use&& use) {
     constexpr std::size_t kept = 1 << 20;
@@ -35,13 +35,15 @@ scl_status encode(const sent_t<T>& message, const std::string& gate, Use&& use) 
     return status;
 }
 
-/// Decodes a message that a gate received, by `Codec<T, Format>::decode(bytes)`.
-template <class T, class Format, class Source> T decode(Source&& bytes, const std::string& gate) {
+/// Decodes a message that a gate received, by `Codec<T, Format>::decode(bytes)`. If that fails, the gate counts it.
+template <class T, class Format, class Source> T decode(Source&& bytes, scl_gate* handle, const std::string& gate) {
     try {
         return Codec<T, Format>::decode(bytes());
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
+        // Its own text does not say what the codec found.
+        scl_undecodable(handle, "message");
         throw DecodeError("gate `" + gate + "` received an undecodable message: " + error.what());
     }
 }

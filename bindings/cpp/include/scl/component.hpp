@@ -19,19 +19,21 @@ namespace scl {
 
 /// An open component, the base of those that `scl generate --for cpp` writes.
 ///
-/// Destroying it waits up to a second until the peers that are running have taken everything; what is left then is noted
-/// in the log.
+/// Destroying it waits up to a second until the peers that are running have taken everything; what is left then is
+/// noted in the log.
 class Component {
   public:
     /// Opens a component from a plan, the text that `scl plan` prints: registers it in the runtime folder and opens its
     /// gates. Peers connect by themselves, in whatever order the programs start.
     ///
-    /// Throws `Taken` if the component is already running, and `Error` if the runtime folder or the plan cannot be used.
-    Component(std::string_view plan_json, const std::string& name, const Options& options = {}) : name_(name) {
+    /// Throws `Taken` if the component is already running, and `Error` if the runtime folder or the plan cannot be
+    /// used.
+    Component(std::string_view plan_json, const std::string& name, const Options& options = {}) : Component(name) {
         if (scl_abi() != SCL_ABI) {
-            detail::raise(Errc::failed, "this program was compiled with the header of version " + std::to_string(SCL_ABI) +
-                                            " of the SCL library and loaded version " + std::to_string(scl_abi()) +
-                                            "; compile it again, or install the other version");
+            detail::raise(Errc::failed, "this program was compiled with version " + std::to_string(SCL_ABI) +
+                                            " of the interface of SCL and loaded a library of version " +
+                                            std::to_string(scl_abi()) +
+                                            "; compile it again, or install the other library");
         }
         if (options.signals) {
             detail::UncaughtErrors::handle();
@@ -58,7 +60,8 @@ class Component {
     /// The component's name in the topology file.
     const std::string& name() const noexcept { return name_; }
 
-    /// Waits until all required peers are connected. Throws `Timeout` if one is missing after `limit`; its text says why.
+    /// Waits until all required peers are connected. Throws `Timeout` if one is missing after `limit`; its text says
+    /// why.
     void ready(TimeLimit limit = TimeLimit::none()) const { detail::check(scl_ready(handle_, limit.nanoseconds())); }
 
     /// `ready` that reports errors as codes. Returns whether all are connected.
@@ -66,8 +69,8 @@ class Component {
         return detail::attempt(error, [&] { return scl_ready(handle_, limit.nanoseconds()); });
     }
 
-    /// Waits until every peer that is running has taken all messages, then closes. Throws `NotFlushed` with the peers that
-    /// have not taken everything after `limit`. Later calls do nothing.
+    /// Waits until every peer that is running has taken all messages, then closes. Throws `NotFlushed` with the peers
+    /// that have not taken everything after `limit`. Later calls do nothing.
     void close(TimeLimit limit = std::chrono::seconds(1)) { detail::check(finish(limit.nanoseconds())); }
 
     /// `close` that reports errors as codes. Returns whether the peers have taken everything.
@@ -89,6 +92,9 @@ class Component {
     scl_component* handle() const noexcept { return handle_; }
 
   private:
+    /// Not open yet. The other constructor may throw after this one, and then the destructor closes what it has opened.
+    explicit Component(const std::string& name) : name_(name) {}
+
     scl_status finish(std::int64_t limit) noexcept {
         if (handle_ == nullptr) {
             return SCL_OK;

@@ -56,7 +56,8 @@ enum class Errc : int {
     panic = SCL_PANIC,
     /// Any other failure.
     failed = SCL_FAILED,
-    /// The codec cannot express the message. (Codecs are part of this library alone, so the C library has no such status.)
+    /// The codec cannot express the message. (Codecs are part of this library alone, so the C library has no such
+    /// status.)
     encode = -1000,
 };
 
@@ -154,8 +155,8 @@ inline std::string& own_error() noexcept {
 
 } // namespace detail
 
-/// The text of this thread's last failed call, for calls that report errors as `std::error_code`, whose `message()` knows
-/// neither gate nor peer. Valid until the thread's next failure.
+/// The text of this thread's last failed call, for calls that report errors as `std::error_code`, whose `message()`
+/// knows neither gate nor peer. Valid until the thread's next failure.
 inline const char* last_error() noexcept {
     const std::string& own = detail::own_error();
     return own.empty() ? scl_error() : own.c_str();

@@ -17,8 +17,9 @@ namespace scl {
 
 /// The part of a gate that does not depend on its messages.
 ///
-/// A gate belongs to its component: once that is closed or destroyed, calls throw `scl::Error` (`Errc::handle`). Different
-/// threads may use different gates at the same time; one gate serves one thread at a time (else `Errc::busy`).
+/// A gate belongs to its component: once that is closed or destroyed, calls throw `scl::Error` (`Errc::handle`).
+/// Different threads may use different gates at the same time; one gate serves one thread at a time (else
+/// `Errc::busy`).
 class Gate : public detail::OtherKinds {
   public:
     Gate(Gate&& other) noexcept

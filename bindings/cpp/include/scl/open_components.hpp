@@ -58,8 +58,8 @@ class OpenComponents {
     std::vector<scl_component*> components_;
 };
 
-/// Ends the program as an error that a Rust program returns from `main`: after a stop request with exit code 0, else with a
-/// message and exit code 1, and only when the messages that were sent are flushed.
+/// Ends the program as an error that a Rust program returns from `main`: after a stop request with exit code 0, else
+/// with a message and exit code 1, and only when the messages that were sent are flushed.
 class UncaughtErrors {
   public:
     static void handle() {

@@ -15,8 +15,8 @@ struct Options {
     std::optional<std::string> system;
     /// `ipc` or `tcp`; else `SCL_TRANSPORT`.
     std::optional<std::string> transport;
-    /// Whether SIGTERM and Ctrl-C request a stop, and an uncaught `scl::Error` ends the program with a message and an exit
-    /// code instead of `abort`.
+    /// Whether SIGTERM and Ctrl-C request a stop, and an uncaught `scl::Error` ends the program with a message and an
+    /// exit code instead of `abort`.
     bool signals = true;
 
     /// The options as the C interface wants them.

@@ -33,7 +33,7 @@ template <class Gate> class ReceivedIterator {
     }
 
     friend bool operator==(const ReceivedIterator& iterator, ReceivedEnd) noexcept { return !iterator.message_; }
-    friend bool operator!=(const ReceivedIterator& iterator, ReceivedEnd) noexcept { return iterator.message_.has_value(); }
+    friend bool operator!=(const ReceivedIterator& iterator, ReceivedEnd end) noexcept { return !(iterator == end); }
 
   private:
     void next() {

@@ -16,8 +16,8 @@ template <class T, class Format> class ReceivingGate : public Gate {
 
     /// Waits for the next message. At a gate with `queue: 1` this is always the newest one.
     ///
-    /// Throws `Stopped` after a stop request, and `DecodeError` if the codec cannot read a message; the next call returns
-    /// the next message.
+    /// Throws `Stopped` after a stop request, and `DecodeError` if the codec cannot read a message; the next call
+    /// returns the next message.
     T recv() {
         std::optional<T> message;
         require(receive(message, TimeLimit::none()));
@@ -84,7 +84,7 @@ template <class T, class Format> class ReceivingGate : public Gate {
 
     scl_status take(std::optional<T>& message, scl_status status, scl_message* received) const {
         if (status == SCL_OK) {
-            message.emplace(decode<T, Format>([&] { return Bytes(received); }, name()));
+            message.emplace(decode<T, Format>([&] { return Bytes(received); }, handle(), name()));
         }
         return status == SCL_NOTHING || status == SCL_TIMEOUT ? SCL_OK : status;
     }

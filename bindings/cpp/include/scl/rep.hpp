@@ -11,10 +11,11 @@ namespace scl {
 
 template <class A, class B, class Format> class Rep;
 
-/// A request and its way back. It may be answered later than others, and by another thread than the one that received it.
+/// A request and its way back. It may be answered later than others, and by another thread than the one that received
+/// it.
 ///
-/// A request that is destroyed without an answer, for example by an exception, is noted in the log; its sender waits until
-/// its timeout.
+/// A request that is destroyed without an answer, for example by an exception, is noted in the log; its sender waits
+/// until its timeout.
 template <class A, class B, class Format = Native> class Request {
   public:
     Request(Request&&) = default;
@@ -63,18 +64,18 @@ template <class A, class B, class Format = Native> class Request {
 
     using Handle = std::unique_ptr<scl_request, Free>;
 
-    Request(Handle handle, const std::string& gate)
-        : handle_(std::move(handle)), message_(decode(handle_.get(), gate)), gate_(gate) {}
+    Request(Handle handle, scl_gate* receiver, const std::string& gate)
+        : handle_(std::move(handle)), message_(decode(handle_.get(), receiver, gate)), gate_(gate) {}
 
-    static A decode(scl_request* request, const std::string& gate) {
+    static A decode(scl_request* request, scl_gate* receiver, const std::string& gate) {
         std::size_t size = 0;
         const void* data = scl_request_data(request, &size);
-        return detail::decode<A, Format>([&] { return Bytes::borrowed(data, size); }, gate);
+        return detail::decode<A, Format>([&] { return Bytes::borrowed(data, size); }, receiver, gate);
     }
 
     void require_unanswered() const {
         if (handle_ == nullptr) {
-            throw Error(Errc::handle, "a request of gate `" + gate_ + "` was answered before, or moved to another object");
+            throw Error(Errc::handle, "this request of gate `" + gate_ + "` was answered, or moved to another object");
         }
     }
 
@@ -105,8 +106,8 @@ template <class A, class B, class Format = Native> class Rep : public Gate {
 
     /// Waits for the next request.
     ///
-    /// Throws `Stopped` after a stop request, and `DecodeError` if the codec cannot read a request: its sender gets no reply,
-    /// and the next call returns the next request.
+    /// Throws `Stopped` after a stop request, and `DecodeError` if the codec cannot read a request: its sender gets no
+    /// reply, and the next call returns the next request.
     Request recv() {
         std::optional<Request> request;
         require(receive(request, TimeLimit::none()));
@@ -147,7 +148,7 @@ template <class A, class B, class Format = Native> class Rep : public Gate {
         scl_request* taken = nullptr;
         scl_status status = scl_take_request(handle(), limit.nanoseconds(), &taken);
         if (status == SCL_OK) {
-            request = Request(typename Request::Handle(taken), name());
+            request = Request(typename Request::Handle(taken), handle(), name());
         }
         return status == SCL_NOTHING || status == SCL_TIMEOUT ? SCL_OK : status;
     }

@@ -19,8 +19,8 @@ template <class A, class B, class Format = Native> class Req : public Gate {
     template <class Other, std::enable_if_t<std::is_same_v<Other, Bytes> && !std::is_same_v<A, Bytes>, int> = 0>
     explicit Req(Req<Other, Other>&& bytes) noexcept : Gate(std::move(bytes)) {}
 
-    /// Sends a request and waits for the reply, together no longer than the `timeout` of the gate in the topology file. A
-    /// replier that is not connected yet, or that restarts, is waited for within that time.
+    /// Sends a request and waits for the reply, together no longer than the `timeout` of the gate in the topology file.
+    /// A replier that is not connected yet, or that restarts, is waited for within that time.
     ///
     /// Throws `Timeout`, `PeerLost` if the replier disconnected after the request was sent, `TooLong`, `EncodeError`,
     /// `DecodeError`, and `Stopped` after a stop request. Whatever it throws, the next call starts afresh.
@@ -58,7 +58,7 @@ template <class A, class B, class Format = Native> class Req : public Gate {
             return scl_call(handle(), data, size, limit.nanoseconds(), &received);
         });
         if (status == SCL_OK) {
-            reply.emplace(detail::decode<B, Format>([&] { return Bytes(received); }, name()));
+            reply.emplace(detail::decode<B, Format>([&] { return Bytes(received); }, handle(), name()));
         }
         return status == SCL_NOTHING ? SCL_TIMEOUT : status;
     }

@@ -13,10 +13,11 @@ template <class T, class Format> class SendingGate : public Gate {
 
     SendingGate(const Component& component, const std::string& name) : Gate(component, name) {}
 
-    /// Sends a message. It waits only at a gate with `backpressure: true`, for a peer with `when_full: wait` whose queue is
-    /// full.
+    /// Sends a message. It waits only at a gate with `backpressure: true`, for a peer with `when_full: wait` whose
+    /// queue is full.
     ///
-    /// Throws `Stopped` after a stop request, `TooLong` if a peer does not accept messages of this length, and `EncodeError`.
+    /// Throws `Stopped` after a stop request, `TooLong` if a peer does not accept messages of this length, and
+    /// `EncodeError`.
     void send(const sent_t<T>& message) { require(transmit(message, TimeLimit::none())); }
 
     /// Sends a message, and throws `Full` if it would have to wait for longer than `limit`. Nothing was sent then.

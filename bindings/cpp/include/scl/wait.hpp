@@ -24,8 +24,8 @@ scl_status wait(TimeLimit limit, std::bitset<sizeof...(Gates)>& ready, const Gat
 
 } // namespace detail
 
-/// Waits until at least one of the gates has something to receive, and returns which: bit 0 is the first gate. No bit is
-/// set if `limit` is over.
+/// Waits until at least one of the gates has something to receive, and returns which: bit 0 is the first gate. No bit
+/// is set if `limit` is over.
 ///
 /// The gates belong to one component. Throws `Stopped` after a stop request.
 template <class... Gates> std::bitset<sizeof...(Gates)> wait(TimeLimit limit, const Gates&... gates) {

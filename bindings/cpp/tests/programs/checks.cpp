@@ -1,5 +1,5 @@
-/// Checks of single promises, by name: `checks NAME`, or all of them without a name. Both components of `checks.yaml` are
-/// opened in this process, each on its own sockets.
+/// Checks of single promises, by name: `checks NAME`, or all of them without a name. Both components of `checks.yaml`
+/// are opened in this process, each on its own sockets.
 
 #include "default.scl.hpp"
 #include "support.hpp"
@@ -336,10 +336,17 @@ static void bytes_are_taken_from_anything() {
     both.left.delete_.send(first);
     CHECK(both.right.class_.latest().has_value() || both.right.class_.recv().to_string() == "moved");
 
+    std::string memory = "borrowed";
+    scl::Bytes borrowed = scl::Bytes::borrowed(memory.data(), memory.size());
+    scl::Bytes kept = std::move(borrowed);
+    memory = "replaced";
+    CHECK(kept.text() == "borrowed" && borrowed.empty());
+
     std::thread serve([&] {
         for (auto& request : both.right.answer_bytes) {
-            scl::Bytes kept = scl::Bytes::borrowed(request->data(), request->size());
             request.reply(*request);
+            // The message stays when the request is gone.
+            CHECK(request->text() == "echo" && request.message().size() == 4);
             break;
         }
     });
@@ -490,7 +497,8 @@ static_assert(scl::TimeLimit(std::chrono::duration<double, std::pico>(1)).nanose
 static_assert(scl::TimeLimit(std::chrono::duration<double>(0.5)).nanoseconds() == 500'000'000);
 static_assert(scl::TimeLimit(std::chrono::hours::max()).nanoseconds() == -1);
 static_assert(scl::TimeLimit::none().nanoseconds() == -1);
-static_assert(std::is_nothrow_move_constructible_v<scl::Pub<Number>> && !std::is_copy_constructible_v<scl::Pub<Number>>);
+static_assert(std::is_nothrow_move_constructible_v<scl::Pub<Number>>);
+static_assert(!std::is_copy_constructible_v<scl::Pub<Number>>);
 static_assert(std::is_move_assignable_v<Left> && !std::is_copy_constructible_v<Left>);
 static_assert(std::is_move_constructible_v<scl::Request<Number, Text>>);
 static_assert(!std::is_convertible_v<std::string, scl::Bytes> && !std::is_convertible_v<int, scl::BytesView>);

@@ -1,4 +1,5 @@
-/// Plays a component of `six_kinds.yaml` and follows the commands of `tests/src/bin/peer.rs`: `peer source`, `peer sink`.
+/// Plays a component of `six_kinds.yaml` and follows the commands of `tests/src/bin/peer.rs`: `peer source`, `peer
+/// sink`.
 
 #include "six.scl.hpp"
 #include "support.hpp"
