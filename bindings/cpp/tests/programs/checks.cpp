@@ -448,7 +448,8 @@ static void an_exception_of_the_program_loses_no_request_in_silence() {
 static void several_gates_are_awaited_together() {
     Both both;
     both.left.numbers.send(number(1));
-    auto ready = scl::wait(60s, both.right.jobs, both.right.numbers, both.right.answer);
+    auto ready = scl::wait(both.right.jobs, both.right.numbers, both.right.answer);
+    CHECK(ready == scl::wait(60s, both.right.jobs, both.right.numbers, both.right.answer));
     CHECK(ready.to_ulong() == 2);
     CHECK(both.right.numbers.try_recv()->value() == 1);
     std::error_code error;
