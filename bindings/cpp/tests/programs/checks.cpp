@@ -285,6 +285,7 @@ static void undecodable_messages_are_told_and_skipped() {
     CHECK(!both.right.numbers.recv(code) && code == scl::Errc::decode);
     CHECK(contains(scl::last_error(), {"`right.numbers`", "undecodable"}));
     CHECK(both.right.numbers.recv(code)->value() == 5 && !code);
+    CHECK(contains(both.right.numbers.stats(), {R"("rejected":2,)"}));
 
     scl::Pub<scl::Bytes> text(both.left, "text");
     text.send("{\"text\": 5");
