@@ -15,8 +15,8 @@ const COULD_NOT_RUN: u8 = 2;
 
 /// Generate code for C, C++ and Python from a topology, or its sockets for any program with a ZeroMQ library.
 ///
-/// A file is written only if its content changes, and replaced as a whole: a build system rebuilds nothing without need, and
-/// any number of programs may generate into one folder at once.
+/// A file is written only if its content changes, and replaced as a whole: a build system rebuilds nothing without need,
+/// and any number of programs may generate into one folder at once.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -46,7 +46,7 @@ pub(crate) struct GenerateArguments {
     /// Write nothing; fail if a file is not up to date.
     #[arg(long)]
     check: bool,
-    /// Also write the dependencies of the first generated file, as Make and Ninja read them: the topology and its schemas.
+    /// Also write what the first generated file depends on, the topology and its schemas, as Make and Ninja read it.
     #[arg(long, value_name = "FILE", conflicts_with = "check")]
     depfile: Option<PathBuf>,
     #[command(flatten)]

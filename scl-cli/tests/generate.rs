@@ -105,12 +105,22 @@ fn check_tells_what_is_not_up_to_date() {
 #[test]
 fn arguments_without_effect_are_refused() {
     let system = rover();
-    check(&system, &["--for", "c", "--format", "yaml"], 2, expect![[r#"
+    check(
+        &system,
+        &["--for", "c", "--format", "yaml"],
+        2,
+        expect![[r#"
         error: `--format` is for `--for zmq` only
-    "#]]);
-    check(&system, &["--for", "zmq", "--depfile", "rover.d"], 2, expect![[r#"
+    "#]],
+    );
+    check(
+        &system,
+        &["--for", "zmq", "--depfile", "rover.d"],
+        2,
+        expect![[r#"
         error: `--depfile` needs a folder: add `-o DIR`
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]

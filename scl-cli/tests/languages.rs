@@ -16,6 +16,30 @@ fn every_language_runs_every_component_and_takes_over_from_another() {
     example.swap_the_controller();
 }
 
+#[test]
+fn a_machine_without_compilers_is_told_what_to_install() {
+    let example = Example::new();
+    // What the build script itself needs.
+    std::fs::create_dir(example.system.path("bin")).unwrap();
+    for tool in ["dirname", "mkdir"] {
+        std::os::unix::fs::symlink(Path::new("/usr/bin").join(tool), example.system.path("bin").join(tool)).unwrap();
+    }
+    let packages = [
+        ("c", "gcc make pkg-config protobuf-compiler protobuf-c-compiler libprotobuf-c-dev"),
+        ("cpp", "g++ make cmake pkg-config protobuf-compiler libprotobuf-dev"),
+        ("python", "python3-venv"),
+    ];
+    for (profile, packages) in packages {
+        let run = example.start_with(&["--profile", profile, "--only", "controller"], |command| {
+            command.env("PATH", example.system.path("bin"));
+        });
+        let (status, _, err) = run.finish();
+        let told = format!("controller | error: missing: {packages}; on Debian: apt-get install {packages}\n");
+        assert!(err.contains(&told), "{err}");
+        assert_eq!(status.code(), Some(2));
+    }
+}
+
 /// The listings of the readme: as long as its table says.
 #[test]
 fn the_readme_counts_the_lines_of_its_listings() {
@@ -45,10 +69,15 @@ impl Example {
     }
 
     fn start(&self, arguments: &[&str]) -> Started {
+        self.start_with(arguments, |_| {})
+    }
+
+    fn start_with(&self, arguments: &[&str], prepare: impl Fn(&mut Command)) -> Started {
         let example = example();
         let arguments = [&[example.to_str().unwrap(), "--grace", "1h"], arguments].concat();
         self.system.start_with(&arguments, |command| {
             command.env("SCL_RUNTIME_DIR", self.system.path("run")).env_remove("SCL_SYSTEM");
+            prepare(command);
         })
     }
 

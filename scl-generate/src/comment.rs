@@ -2,7 +2,17 @@
 
 /// The lines of a text for a block comment of C and C++.
 pub(crate) fn c_lines(text: &str) -> Vec<String> {
-    lines(text).map(|line| line.replace("*/", "* /").replace("/*", "/ *")).collect()
+    lines(text).map(|line| without_trigraphs(&line).replace("*/", "* /").replace("/*", "/ *")).collect()
+}
+
+/// The lines of a text for line comments of C++. A backslash at the end of a line would make the next one a part of it.
+pub(crate) fn cpp_lines(text: &str) -> Vec<String> {
+    lines(text).map(|line| without_trigraphs(line.trim_end_matches('\\')).trim_end().to_owned()).collect()
+}
+
+/// Without the trigraph of a backslash, which compilers warn of even in comments.
+fn without_trigraphs(line: &str) -> String {
+    line.replace("??/", "?? /")
 }
 
 /// The lines of a text, without control characters and trailing spaces; empty ones at the end are left out.
@@ -16,10 +26,12 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = String> {
 
 #[cfg(test)]
 mod tests {
-    use super::c_lines;
+    use super::{c_lines, cpp_lines};
 
     #[test]
     fn no_text_ends_its_comment() {
         assert_eq!(c_lines("one */ two\n\n/*/ \u{7} \n\n"), ["one * / two", "", "/ * /"]);
+        assert_eq!(c_lines("really??/"), ["really?? /"]);
+        assert_eq!(cpp_lines("one \\\\\ntwo??/\n\\"), ["one", "two?? /", ""]);
     }
 }

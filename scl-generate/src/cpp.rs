@@ -176,8 +176,7 @@ fn bytes_note(gate: &Gate) -> Option<String> {
 }
 
 fn write_comment(out: &mut Writer, text: &str) {
-    // A backslash at the end of a line would make the next one a part of the comment.
-    for line in comment::lines(text).map(|line| line.trim_end_matches('\\').trim_end().to_owned()) {
+    for line in comment::cpp_lines(text) {
         out.line(if line.is_empty() { "///".to_owned() } else { format!("/// {line}") });
     }
 }

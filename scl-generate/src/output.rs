@@ -3,7 +3,6 @@
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 use thiserror::Error;
 
 /// A generated file.
@@ -48,8 +47,8 @@ pub enum OutputError {
 
 /// Writes a file into a folder, which is made if need be, unless it has this content already.
 ///
-/// The file is replaced as a whole: a reader, and another program that writes it, never meets a part of it. Any number of
-/// programs may write it at once. A symbolic link stays, and what it leads to is replaced.
+/// The file is replaced as a whole: a reader, and another program that writes it, never meets a part of it. Any number
+/// of programs may write it at once. A symbolic link stays, and what it leads to is replaced.
 ///
 /// # Errors
 /// [`OutputError`]: the folder or the file cannot be written. The file is then as it was.
@@ -71,10 +70,12 @@ pub fn is_current(folder: &Path, file: &File) -> bool {
     is_candidate && fs::read(&path).is_ok_and(|bytes| bytes == file.text.as_bytes())
 }
 
+/// More files than killed processes leave behind.
+const ATTEMPTS: u32 = 1_000;
+
 fn replace(path: &Path, text: &str) -> io::Result<()> {
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let temporary = beside(&path);
-    let mut file = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
+    let (temporary, mut file) = create_beside(&path)?;
     let done = file.write_all(text.as_bytes()).and_then(|()| fs::rename(&temporary, &path));
     if done.is_err() {
         // The first error is the one to report.
@@ -83,10 +84,17 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
     done
 }
 
-/// A name of this call alone in the same folder, as only within one file system a rename is atomic.
-fn beside(path: &Path) -> PathBuf {
-    static CALLS: AtomicU64 = AtomicU64::new(0);
+/// A new file in the same folder, as only within one file system a rename is atomic. A file of that name may have been left
+/// by a killed process with the same id: containers use few ids.
+fn create_beside(path: &Path) -> io::Result<(PathBuf, fs::File)> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let call = CALLS.fetch_add(1, Ordering::Relaxed);
-    path.with_file_name(format!(".{name}.{}.{call}.tmp", std::process::id()))
+    let mut attempt = 0;
+    loop {
+        let temporary = path.with_file_name(format!(".{name}.{}.{attempt}.tmp", std::process::id()));
+        match OpenOptions::new().write(true).create_new(true).open(&temporary) {
+            Ok(file) => return Ok((temporary, file)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < ATTEMPTS => attempt += 1,
+            Err(error) => return Err(error),
+        }
+    }
 }

@@ -40,6 +40,15 @@ fn one_component_alone_compiles() {
     }
 }
 
+#[test]
+fn the_documented_example_compiles() {
+    let page = std::fs::read_to_string(repository().join("docs/c.md")).unwrap();
+    let example = page.split("```c\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let project = Project::of(&repository().join("examples/quickstart/topology.yaml"));
+    std::fs::write(project.path().join("main.c"), example).unwrap();
+    project.compiles("cc", &[&["-std=c11"], &STRICT[..], &["main.c"]].concat());
+}
+
 /// A program for the quick start with one statement, and what the compiler says.
 #[track_caller]
 fn refused(statement: &str, expected: Expect) {

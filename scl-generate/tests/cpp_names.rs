@@ -1,6 +1,7 @@
 //! Names in generated C++: types of messages, headers, namespaces, and what protoc declares beside the components.
 
-use crate::fixture::{clashes, system, topology};
+use crate::fixture::{clashes, generated, system, text, topology};
+use expect_test::expect_file;
 use scl_generate::{System, Target, generate};
 use scl_loader::{Request, load};
 
@@ -22,6 +23,12 @@ fn header(gates: &str, schema: &str) -> String {
     let loaded = load(&Request::new(&path));
     let system = System::of(&loaded).unwrap_or_else(|| panic!("{:#?}", loaded.diagnostics));
     generate(&system, Target::Cpp).unwrap().remove(0).text
+}
+
+#[test]
+fn every_kind_of_gate_is_a_member() {
+    let files = generated(&topology("every_kind.yaml"), Target::Cpp);
+    expect_file!["expected/every_kind.scl.hpp"].assert_eq(&text(&files, "every_kind.scl.hpp"));
 }
 
 #[test]

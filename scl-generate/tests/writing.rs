@@ -2,6 +2,7 @@
 
 use scl_generate::{File, Outcome, OutputError, is_current, write};
 use std::fs;
+use std::io::Read;
 use std::os::unix::fs::{PermissionsExt, symlink};
 
 fn file(text: &str) -> File {
@@ -20,6 +21,18 @@ fn a_file_is_written_only_if_its_content_changes() {
     assert_eq!(write(&inner, &file("two")).unwrap(), Outcome::Written);
     assert_eq!(fs::read_to_string(inner.join("rover_scl.h")).unwrap(), "two");
     assert_eq!(fs::read_dir(&inner).unwrap().count(), 1);
+}
+
+/// A compiler that has begun to read goes on with a whole file.
+#[test]
+fn a_reader_keeps_the_file_that_it_has_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &file("one")).unwrap();
+    let mut reader = fs::File::open(folder.path().join("rover_scl.h")).unwrap();
+    write(folder.path(), &file("another")).unwrap();
+    let mut text = String::new();
+    reader.read_to_string(&mut text).unwrap();
+    assert_eq!(text, "one");
 }
 
 #[test]
@@ -42,6 +55,15 @@ fn what_cannot_be_written_is_an_error_and_leaves_nothing() {
     let error = write(folder.path(), &file("one")).unwrap_err();
     assert!(matches!(error, OutputError::File { .. }), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+}
+
+#[test]
+fn what_a_killed_process_left_is_in_nobodys_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let left = format!(".rover_scl.h.{}.0.tmp", std::process::id());
+    fs::write(folder.path().join(left), "half").unwrap();
+    write(folder.path(), &file("one")).unwrap();
+    assert!(is_current(folder.path(), &file("one")));
 }
 
 /// As other files that this user creates, not as a temporary one of this user alone.

@@ -10,6 +10,7 @@ pub use main::{run_async, run_blocking};
 pub use opener::Opener;
 pub use outcome::Returned;
 
+use crate::environment::Variables;
 use crate::error::{BlockingError, Missing, MissingPeer, NotFlushed, NotReady, OpenError, PeerName};
 use crate::gate::AnyGate;
 use crate::options::OpenOptions;
@@ -33,6 +34,12 @@ pub trait Component: Sized + Send + Sync + 'static {
 
     /// Returns its gates, in file order.
     fn gates(&self) -> Vec<&dyn AnyGate>;
+}
+
+/// Reads the real-time settings and applies them to the calling thread.
+pub(crate) fn apply_real_time(variables: Variables<'_>) -> Result<(), OpenError> {
+    realtime::Settings::read(variables)?.apply();
+    Ok(())
 }
 
 /// Opens a component on the tokio runtime of the caller.

@@ -13,6 +13,7 @@
 //! # }
 //! ```
 
+use crate::component;
 use crate::environment;
 use crate::error::{OpenError, Result};
 use crate::{log, stop};
@@ -36,6 +37,16 @@ pub fn start_log() -> Result<(), OpenError> {
 /// `SCL_STOP_WITHIN` is not a duration, or the operating system provides no thread or no file descriptor.
 pub fn watch_signals() -> Result<()> {
     Ok(stop::watch_signals(grace_period()?)?)
+}
+
+/// Applies the real-time settings `SCL_SCHED` and `SCL_CPU` to the calling thread and to those that it starts from now on,
+/// and logs a warning for what the operating system refuses. To be called after [`watch_signals`], whose thread must run
+/// while a thread with these settings computes.
+///
+/// # Errors
+/// [`OpenError::Environment`] if a setting is not understood.
+pub fn apply_real_time() -> Result<(), OpenError> {
+    component::apply_real_time(&environment::of_process)
 }
 
 /// How long a program may take to end after a stop request: `SCL_STOP_WITHIN`, or 3 s.

@@ -203,8 +203,9 @@ const char *scl_error(void);
  *
  *     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc" or "tcp", "signals": true}
  *
- * The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. Unless `signals` is
- * false, SIGTERM and SIGINT no longer end the process but request a stop: see scl_stop_requested.
+ * The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. The first component
+ * also starts the log (SCL_LOG) and applies the real-time settings (SCL_SCHED, SCL_CPU) to the calling thread. Unless
+ * `signals` is false, SIGTERM and SIGINT no longer end the process but request a stop: see scl_stop_requested.
  *
  * On success, `*opened` is the new component, to be closed with scl_close; otherwise it is NULL.
  *

@@ -10,7 +10,7 @@ use scl::host;
 use scl::plan::{SystemPlan, nearest};
 use scl::untyped::{Closer, Component, GateError, Readiness};
 use std::ffi::{c_char, c_void};
-use std::sync::{Arc, OnceLock, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError, RwLock};
 
 /// A component, opened by this process.
 #[allow(non_camel_case_types)]
@@ -41,8 +41,9 @@ static COMPONENTS: Registry<Arc<Opened>> = Registry::new(3, "component");
 ///
 ///     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc" or "tcp", "signals": true}
 ///
-/// The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. Unless `signals` is
-/// false, SIGTERM and SIGINT no longer end the process but request a stop: see scl_stop_requested.
+/// The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. The first component
+/// also starts the log (SCL_LOG) and applies the real-time settings (SCL_SCHED, SCL_CPU) to the calling thread. Unless
+/// `signals` is false, SIGTERM and SIGINT no longer end the process but request a stop: see scl_stop_requested.
 ///
 /// On success, `*opened` is the new component, to be closed with scl_close; otherwise it is NULL.
 ///
@@ -120,10 +121,7 @@ fn open(plan: &[u8], name: &str, options: &Options) -> Result<usize, Failure> {
     let text = std::str::from_utf8(plan).map_err(utf8)?;
     let system = SystemPlan::from_json(text).map_err(|error| Failure::of(SCL_PLAN, &error))?;
     let plan = system.component(name).map_err(|error| Failure::of(SCL_NAME, &error))?;
-    host::start_log()?;
-    if options.signals() {
-        host::watch_signals()?;
-    }
+    set_up(options)?;
     let mut component = Component::open_blocking_with(plan, options.for_opening())?;
     let mut opened = Opened::new(name, component.closer());
     for gate in &plan.gates {
@@ -138,6 +136,21 @@ fn open(plan: &[u8], name: &str, options: &Options) -> Result<usize, Failure> {
     }
     opened.component = RwLock::new(Some(component));
     COMPONENTS.insert(Arc::new(opened))
+}
+
+/// What `#[scl::main]` does for a Rust program, before its first component is opened.
+fn set_up(options: &Options) -> Result<(), Failure> {
+    host::start_log()?;
+    if options.signals() {
+        host::watch_signals()?;
+    }
+    static REAL_TIME: Mutex<bool> = Mutex::new(false);
+    let mut is_set = REAL_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    if !*is_set {
+        host::apply_real_time()?;
+        *is_set = true;
+    }
+    Ok(())
 }
 
 fn close(handle: usize, wait: Wait) -> Result<(), Failure> {

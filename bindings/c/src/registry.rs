@@ -199,3 +199,69 @@ fn place(index: usize) -> (usize, usize) {
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused<T>(result: Result<T, Failure>) -> scl_status {
+        result.map(drop).unwrap_err().status
+    }
+
+    #[test]
+    fn a_removed_handle_is_never_found_again() {
+        let registry = Registry::new(5, "thing");
+        let first = registry.insert(1).unwrap();
+        assert_eq!(*registry.lock(first).unwrap(), 1);
+        assert_eq!(registry.remove(first).unwrap(), 1);
+        for value in 2..100 {
+            // The same slot, with another handle.
+            let next = registry.insert(value).unwrap();
+            assert_eq!(refused(registry.lock(first)), SCL_HANDLE);
+            assert_eq!(refused(registry.get(first)), SCL_HANDLE);
+            assert_eq!(refused(registry.remove(first)), SCL_HANDLE);
+            assert_eq!(registry.remove(next).unwrap(), value);
+        }
+    }
+
+    #[test]
+    fn handles_are_told_from_other_numbers() {
+        let registry = Registry::new(5, "thing");
+        let handle = registry.insert('x').unwrap();
+        assert_eq!(refused(registry.lock(0)), SCL_ARGUMENT);
+        for bit in 0..usize::BITS {
+            assert_eq!(refused(registry.lock(handle ^ (1 << bit))), SCL_HANDLE, "{bit}");
+        }
+        assert_eq!(refused(registry.lock(usize::MAX)), SCL_HANDLE);
+        assert_eq!(registry.get(handle).unwrap(), 'x');
+    }
+
+    #[test]
+    fn thousands_of_values_have_their_own_handles() {
+        let registry = Registry::new(3, "thing");
+        let handles: Vec<usize> = (0..4000).map(|value| registry.insert(value).unwrap()).collect();
+        for (value, handle) in handles.iter().enumerate() {
+            assert_eq!(registry.get(*handle).unwrap(), value);
+        }
+        for (value, handle) in handles.iter().enumerate() {
+            assert_eq!(registry.remove(*handle).unwrap(), value);
+        }
+        assert!(handles.iter().all(|handle| refused(registry.get(*handle)) == SCL_HANDLE));
+    }
+
+    #[test]
+    fn a_value_is_busy_while_it_is_locked_and_removed_after_that() {
+        let registry = Registry::new(5, "thing");
+        let handle = registry.insert(1).unwrap();
+        let mut locked = registry.lock(handle).unwrap();
+        std::thread::scope(|scope| {
+            assert_eq!(scope.spawn(|| refused(registry.lock(handle))).join().unwrap(), SCL_BUSY);
+            let removed = scope.spawn(|| registry.remove(handle));
+            // The handle is invalid at once, but the value stays until it is unlocked.
+            while refused(registry.lock(handle)) == SCL_BUSY {}
+            *locked = 2;
+            drop(locked);
+            assert_eq!(removed.join().unwrap().unwrap(), 2);
+        });
+    }
+}

@@ -6,6 +6,7 @@ mod calls;
 mod event_loop;
 mod header;
 mod leaks;
+mod page;
 mod programs;
 mod stopping;
 mod threads;

@@ -10,9 +10,9 @@ use std::collections::BTreeSet;
 /// What a C programmer has to know before the first call.
 const CONVENTIONS: &str = "\
 /*
- * Open a component with <component>_open, then use the functions of its gates. They return SCL_OK or a negative status;
- * scl_error() has the text. Timeouts are in nanoseconds: 0 does not wait, a negative one waits without limit (of a call:
- * as long as the gate's own timeout).
+ * Open a component with <component>_open, then use the functions of its gates. They return SCL_OK or a negative
+ * status; scl_error() has the text. Timeouts are in nanoseconds: 0 does not wait, a negative one waits without limit (of
+ * a call: as long as the gate's own timeout).
  *
  * A message that is sent stays the caller's. A message that is received belongs to the caller, who frees it with the
  * gate's _free (bytes: scl_message_free). Whatever the result, the pointer is set, to NULL if there is no message.

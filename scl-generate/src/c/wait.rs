@@ -33,7 +33,7 @@ pub(super) fn function(prefix: &str, component: &Component) -> Option<Function> 
     body.push("};".to_owned());
     body.push("return wait_for(self->component, all, sizeof all / sizeof *all, gates, timeout_ns, ready);".to_owned());
     Some(Function {
-        doc: "Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells at which.",
+        doc: "Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where.",
         result: "scl_status",
         name: format!("{prefix}_wait"),
         parameters: vec![

@@ -7,10 +7,16 @@ use scl_plan::{GateKind, GateOptions, Payload, Place};
 
 /// Writes a docstring.
 pub(super) fn write(text: &str, out: &mut Writer) {
-    let lines: Vec<String> = comment::lines(text.trim()).map(|line| escape(&line)).collect();
+    let mut lines: Vec<String> = comment::lines(text.trim()).map(|line| escape(&line)).collect();
+    remove_common_indentation(lines.get_mut(1..).unwrap_or_default());
+    // A quote beside the three of the docstring would be taken for one of them; ruff puts a space there.
+    if let Some(first) = lines.first_mut().filter(|line| line.starts_with('"')) {
+        first.insert(0, ' ');
+    }
     match lines.as_slice() {
         [] => {}
-        [line] => out.line(format!("\"\"\"{}\"\"\"", end_of_docstring(line))),
+        [line] if line.ends_with('"') => out.line(format!("\"\"\"{line} \"\"\"")),
+        [line] => out.line(format!("\"\"\"{line}\"\"\"")),
         [first, rest @ ..] => {
             out.line(format!("\"\"\"{first}"));
             rest.iter().for_each(|line| out.line(line));
@@ -19,17 +25,16 @@ pub(super) fn write(text: &str, out: &mut Writer) {
     }
 }
 
+/// As docstrings are displayed, and as ruff formats them.
+fn remove_common_indentation(lines: &mut [String]) {
+    let indentation = |line: &String| line.len() - line.trim_start_matches(' ').len();
+    let common = lines.iter().filter(|line| !line.is_empty()).map(indentation).min().unwrap_or(0);
+    lines.iter_mut().filter(|line| !line.is_empty()).for_each(|line| drop(line.drain(..common)));
+}
+
 /// Text for the inside of a docstring.
 pub(super) fn escape(text: &str) -> String {
     text.replace('\\', "\\\\").replace("\"\"\"", "'''")
-}
-
-/// A quote at the end would belong to the three that end the docstring.
-fn end_of_docstring(line: &str) -> String {
-    match line.strip_suffix('"') {
-        Some(before) => format!("{before}'"),
-        None => line.to_owned(),
-    }
 }
 
 /// The docstring of a class.

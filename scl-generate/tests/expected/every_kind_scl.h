@@ -7,9 +7,9 @@
 #include "parts/part.pb-c.h"
 
 /*
- * Open a component with <component>_open, then use the functions of its gates. They return SCL_OK or a negative status;
- * scl_error() has the text. Timeouts are in nanoseconds: 0 does not wait, a negative one waits without limit (of a call:
- * as long as the gate's own timeout).
+ * Open a component with <component>_open, then use the functions of its gates. They return SCL_OK or a negative
+ * status; scl_error() has the text. Timeouts are in nanoseconds: 0 does not wait, a negative one waits without limit (of
+ * a call: as long as the gate's own timeout).
  *
  * A message that is sent stays the caller's. A message that is received belongs to the caller, who frees it with the
  * gate's _free (bytes: scl_message_free). Whatever the result, the pointer is set, to NULL if there is no message.
@@ -32,7 +32,9 @@ extern "C" {
  * Component `left` (every_kind.yaml:5:11)
  *
  * Sends first. * / int x; / *
- * "Quotes", \n, ?? and ünïcode stay text.
+ * "Quotes", \n, ?? and ünïcode stay text. ?? /
+ * This line ends with a backslash. \
+ * """ and so does the last one: \
  */
 typedef struct every_kind_left {
     scl_component *component;
@@ -57,18 +59,18 @@ scl_status every_kind_left_ready(every_kind_left *self, int64_t timeout_ns);
 scl_status every_kind_left_close(every_kind_left *self, int64_t timeout_ns);
 
 /*
- * Gate `left.values` (every_kind.yaml:10:9): pub, kinds.Value in protobuf
+ * Gate `left.values` (every_kind.yaml:12:9): pub, kinds.Value in protobuf
  *
  * A value: 100 %s a second.
  */
 scl_status every_kind_left_values_send(every_kind_left *self, const Kinds__Value *message, int64_t timeout_ns);
 
-/* Gate `left.class` (every_kind.yaml:11:9): push, kinds.GPSFix.Inner_part in protobuf */
+/* Gate `left.class` (every_kind.yaml:13:9): push, kinds.GPSFix.Inner_part in protobuf */
 scl_status every_kind_left_class_send(every_kind_left *self,
                                       const Kinds__GPSFix__InnerPart *message,
                                       int64_t timeout_ns);
 
-/* Gate `left.int` (every_kind.yaml:12:9): req, kinds.Value -> part.Part in protobuf */
+/* Gate `left.int` (every_kind.yaml:14:9): req, kinds.Value -> part.Part in protobuf */
 /* Sends a request and waits for its reply. */
 scl_status every_kind_left_int_call(every_kind_left *self,
                                     const Kinds__Value *request,
@@ -77,13 +79,13 @@ scl_status every_kind_left_int_call(every_kind_left *self,
 /* Frees a message that was received; NULL is allowed. */
 void every_kind_left_int_free(Part__Part *message);
 
-/* Gate `left.raw_out` (every_kind.yaml:13:9): pub, bytes without a type */
+/* Gate `left.raw_out` (every_kind.yaml:15:9): pub, bytes without a type */
 scl_status every_kind_left_raw_out_send(every_kind_left *self, const void *data, size_t size, int64_t timeout_ns);
 
-/* Gate `left.raw_jobs` (every_kind.yaml:14:9): push, bytes without a type */
+/* Gate `left.raw_jobs` (every_kind.yaml:16:9): push, bytes without a type */
 scl_status every_kind_left_raw_jobs_send(every_kind_left *self, const void *data, size_t size, int64_t timeout_ns);
 
-/* Gate `left.raw_question` (every_kind.yaml:15:9): req, bytes without a type */
+/* Gate `left.raw_question` (every_kind.yaml:17:9): req, bytes without a type */
 /* Sends a request and waits for its reply. */
 scl_status every_kind_left_raw_question_call(every_kind_left *self,
                                              const void *data,
@@ -91,7 +93,7 @@ scl_status every_kind_left_raw_question_call(every_kind_left *self,
                                              scl_message **reply,
                                              int64_t timeout_ns);
 
-/* Gate `left.json_question` (every_kind.yaml:16:9): req, kinds.Value -> part.Part in json; the program encodes and decodes */
+/* Gate `left.json_question` (every_kind.yaml:18:9): req, kinds.Value -> part.Part in json; the program encodes and decodes */
 /* Sends a request and waits for its reply. */
 scl_status every_kind_left_json_question_call(every_kind_left *self,
                                               const void *data,
@@ -99,13 +101,13 @@ scl_status every_kind_left_json_question_call(every_kind_left *self,
                                               scl_message **reply,
                                               int64_t timeout_ns);
 
-/* Gate `left.packed` (every_kind.yaml:17:9): push, camera.Image in cbor; the program encodes and decodes */
+/* Gate `left.packed` (every_kind.yaml:19:9): push, camera.Image in cbor; the program encodes and decodes */
 scl_status every_kind_left_packed_send(every_kind_left *self, const void *data, size_t size, int64_t timeout_ns);
 
-/* Gate `left.trees` (every_kind.yaml:18:9): push, kinds.Tree in protobuf */
+/* Gate `left.trees` (every_kind.yaml:20:9): push, kinds.Tree in protobuf */
 scl_status every_kind_left_trees_send(every_kind_left *self, const Kinds__Tree *message, int64_t timeout_ns);
 
-/* Component `right-side` (every_kind.yaml:19:11) */
+/* Component `right-side` (every_kind.yaml:21:11) */
 typedef struct every_kind_right_side {
     scl_component *component;
     struct {
@@ -128,14 +130,14 @@ scl_status every_kind_right_side_ready(every_kind_right_side *self, int64_t time
 /* Hands over what was sent, and closes the component, see scl_close. */
 scl_status every_kind_right_side_close(every_kind_right_side *self, int64_t timeout_ns);
 
-/* Gate `right-side.values` (every_kind.yaml:21:9): sub, kinds.Value in protobuf */
+/* Gate `right-side.values` (every_kind.yaml:23:9): sub, kinds.Value in protobuf */
 scl_status every_kind_right_side_values_recv(every_kind_right_side *self, Kinds__Value **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_right_side_values_latest(every_kind_right_side *self, Kinds__Value **message);
 /* Frees a message that was received; NULL is allowed. */
 void every_kind_right_side_values_free(Kinds__Value *message);
 
-/* Gate `right-side.from` (every_kind.yaml:22:9): pull, kinds.GPSFix.Inner_part in protobuf */
+/* Gate `right-side.from` (every_kind.yaml:24:9): pull, kinds.GPSFix.Inner_part in protobuf */
 scl_status every_kind_right_side_from_recv(every_kind_right_side *self,
                                            Kinds__GPSFix__InnerPart **message,
                                            int64_t timeout_ns);
@@ -144,7 +146,7 @@ scl_status every_kind_right_side_from_latest(every_kind_right_side *self, Kinds_
 /* Frees a message that was received; NULL is allowed. */
 void every_kind_right_side_from_free(Kinds__GPSFix__InnerPart *message);
 
-/* Gate `right-side.answer` (every_kind.yaml:23:9): rep, kinds.Value -> part.Part in protobuf */
+/* Gate `right-side.answer` (every_kind.yaml:25:9): rep, kinds.Value -> part.Part in protobuf */
 typedef struct every_kind_right_side_answer_request {
     Kinds__Value *message;
     scl_request *handle;
@@ -158,17 +160,17 @@ scl_status every_kind_right_side_answer_reply(every_kind_right_side_answer_reque
 /* Frees a request that is not to be answered. */
 void every_kind_right_side_answer_free(every_kind_right_side_answer_request *request);
 
-/* Gate `right-side.rawIn` (every_kind.yaml:24:9): sub, bytes without a type */
+/* Gate `right-side.rawIn` (every_kind.yaml:26:9): sub, bytes without a type */
 scl_status every_kind_right_side_raw_in_recv(every_kind_right_side *self, scl_message **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_right_side_raw_in_latest(every_kind_right_side *self, scl_message **message);
 
-/* Gate `right-side.raw_jobs` (every_kind.yaml:25:9): pull, bytes without a type */
+/* Gate `right-side.raw_jobs` (every_kind.yaml:27:9): pull, bytes without a type */
 scl_status every_kind_right_side_raw_jobs_recv(every_kind_right_side *self, scl_message **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_right_side_raw_jobs_latest(every_kind_right_side *self, scl_message **message);
 
-/* Gate `right-side.raw_answer` (every_kind.yaml:26:9): rep, bytes without a type */
+/* Gate `right-side.raw_answer` (every_kind.yaml:28:9): rep, bytes without a type */
 typedef struct every_kind_right_side_raw_answer_request {
     const void *data;
     size_t size;
@@ -185,7 +187,7 @@ scl_status every_kind_right_side_raw_answer_reply(every_kind_right_side_raw_answ
 /* Frees a request that is not to be answered. */
 void every_kind_right_side_raw_answer_free(every_kind_right_side_raw_answer_request *request);
 
-/* Gate `right-side.json_answer` (every_kind.yaml:27:9): rep, kinds.Value -> part.Part in json; the program encodes and decodes */
+/* Gate `right-side.json_answer` (every_kind.yaml:29:9): rep, kinds.Value -> part.Part in json; the program encodes and decodes */
 typedef struct every_kind_right_side_json_answer_request {
     const void *data;
     size_t size;
@@ -202,12 +204,12 @@ scl_status every_kind_right_side_json_answer_reply(every_kind_right_side_json_an
 /* Frees a request that is not to be answered. */
 void every_kind_right_side_json_answer_free(every_kind_right_side_json_answer_request *request);
 
-/* Gate `right-side.packed` (every_kind.yaml:28:9): pull, camera.Image in cbor; the program encodes and decodes */
+/* Gate `right-side.packed` (every_kind.yaml:30:9): pull, camera.Image in cbor; the program encodes and decodes */
 scl_status every_kind_right_side_packed_recv(every_kind_right_side *self, scl_message **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_right_side_packed_latest(every_kind_right_side *self, scl_message **message);
 
-/* Gate `right-side.trees` (every_kind.yaml:29:9): pull, kinds.Tree in protobuf */
+/* Gate `right-side.trees` (every_kind.yaml:31:9): pull, kinds.Tree in protobuf */
 scl_status every_kind_right_side_trees_recv(every_kind_right_side *self, Kinds__Tree **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_right_side_trees_latest(every_kind_right_side *self, Kinds__Tree **message);
@@ -223,10 +225,10 @@ void every_kind_right_side_trees_free(Kinds__Tree *message);
 #define EVERY_KIND_RIGHT_SIDE_JSON_ANSWER (UINT64_C(1) << 6)
 #define EVERY_KIND_RIGHT_SIDE_PACKED (UINT64_C(1) << 7)
 #define EVERY_KIND_RIGHT_SIDE_TREES (UINT64_C(1) << 8)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells at which. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
 scl_status every_kind_right_side_wait(every_kind_right_side *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
-/* Component `lonely` (every_kind.yaml:30:11) */
+/* Component `lonely` (every_kind.yaml:32:11) */
 typedef struct every_kind_lonely {
     scl_component *component;
     struct {
@@ -244,17 +246,17 @@ scl_status every_kind_lonely_ready(every_kind_lonely *self, int64_t timeout_ns);
 /* Hands over what was sent, and closes the component, see scl_close. */
 scl_status every_kind_lonely_close(every_kind_lonely *self, int64_t timeout_ns);
 
-/* Gate `lonely.close` (every_kind.yaml:32:9): pub, kinds.Value in protobuf */
+/* Gate `lonely.close` (every_kind.yaml:34:9): pub, kinds.Value in protobuf */
 scl_status every_kind_lonely_close_send(every_kind_lonely *self, const Kinds__Value *message, int64_t timeout_ns);
 
-/* Gate `lonely.ready` (every_kind.yaml:33:9): sub, kinds.Value in protobuf */
+/* Gate `lonely.ready` (every_kind.yaml:35:9): sub, kinds.Value in protobuf */
 scl_status every_kind_lonely_ready_recv(every_kind_lonely *self, Kinds__Value **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_lonely_ready_latest(every_kind_lonely *self, Kinds__Value **message);
 /* Frees a message that was received; NULL is allowed. */
 void every_kind_lonely_ready_free(Kinds__Value *message);
 
-/* Gate `lonely.name` (every_kind.yaml:34:9): req, kinds.Value -> part.Part in protobuf */
+/* Gate `lonely.name` (every_kind.yaml:36:9): req, kinds.Value -> part.Part in protobuf */
 /* Sends a request and waits for its reply. */
 scl_status every_kind_lonely_name_call(every_kind_lonely *self,
                                        const Kinds__Value *request,
@@ -263,7 +265,7 @@ scl_status every_kind_lonely_name_call(every_kind_lonely *self,
 /* Frees a message that was received; NULL is allowed. */
 void every_kind_lonely_name_free(Part__Part *message);
 
-/* Gate `lonely.component` (every_kind.yaml:35:9): pull, kinds.Value in protobuf */
+/* Gate `lonely.component` (every_kind.yaml:37:9): pull, kinds.Value in protobuf */
 scl_status every_kind_lonely_component_recv(every_kind_lonely *self, Kinds__Value **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status every_kind_lonely_component_latest(every_kind_lonely *self, Kinds__Value **message);
@@ -272,10 +274,10 @@ void every_kind_lonely_component_free(Kinds__Value *message);
 
 #define EVERY_KIND_LONELY_READY (UINT64_C(1) << 0)
 #define EVERY_KIND_LONELY_COMPONENT (UINT64_C(1) << 1)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells at which. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
 scl_status every_kind_lonely_wait(every_kind_lonely *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
-/* Component `empty` (every_kind.yaml:36:11) */
+/* Component `empty` (every_kind.yaml:38:11) */
 typedef struct every_kind_empty {
     scl_component *component;
 } every_kind_empty;

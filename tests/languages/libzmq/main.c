@@ -51,8 +51,10 @@ static void open_gate(void *context, char *argument) {
     zmq_socket_monitor(opened->socket, monitored, ZMQ_EVENT_DISCONNECTED);
     opened->monitor = zmq_socket(context, ZMQ_PAIR);
     zmq_connect(opened->monitor, monitored);
-    // No message goes to a peer that is not there.
-    zmq_setsockopt(opened->socket, ZMQ_IMMEDIATE, &on, sizeof on);
+    if (type == ZMQ_PUSH || type == ZMQ_REQ) {
+        // No message goes to a peer that is not there. A subscriber with this option would lose its subscription.
+        zmq_setsockopt(opened->socket, ZMQ_IMMEDIATE, &on, sizeof on);
+    }
     // What is queued when the program ends is still sent to a peer that is there.
     zmq_setsockopt(opened->socket, ZMQ_LINGER, &(int){1000}, sizeof(int));
     zmq_setsockopt(opened->socket, ZMQ_SNDHWM, &off, sizeof off);
@@ -178,13 +180,26 @@ static void follow(const command *given) {
     }
 }
 
+/* Waits for the next command. Meanwhile each socket is looked at now and then, because libzmq renews a subscription only
+ * in a call of its socket. */
+static void wait_for_command(void) {
+    zmq_pollitem_t input = {.fd = 0, .events = ZMQ_POLLIN};
+    while (zmq_poll(&input, 1, 10) == 0) {
+        for (int index = 0; index < gate_count; index++) {
+            int events;
+            zmq_getsockopt(gates[index].socket, ZMQ_EVENTS, &events, &(size_t){sizeof events});
+        }
+    }
+}
+
 int main(int count, char **arguments) {
     void *context = zmq_ctx_new();
     for (int index = 2; index < count; index++) {
         open_gate(context, arguments[index]);
     }
     say("open");
-    for (command given; next_command(&given);) {
+    command given;
+    for (wait_for_command(); next_command(&given); wait_for_command()) {
         follow(&given);
     }
     for (int index = 0; index < gate_count; index++) {

@@ -5,6 +5,7 @@ The commands are those of all programs in `languages`; a plain program has no co
 """
 
 import json
+import select
 import sys
 from pathlib import Path
 
@@ -27,7 +28,8 @@ def open_gate(name, gate):
     kind = "XPUB" if gate["zmq_socket_type"] == "PUB" else gate["zmq_socket_type"]
     socket = sockets[name] = context.socket(getattr(zmq, kind))
     monitors[name] = socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
-    socket.immediate = True  # No message goes to a peer that is not there.
+    # No message goes to a peer that is not there. A subscriber with this option would lose its subscription.
+    socket.immediate = kind in ("PUSH", "REQ")
     socket.linger = 1000  # What is queued when the program ends is still sent to a peer that is there.
     socket.sndhwm = socket.rcvhwm = 0
     if kind == "XPUB":
@@ -106,11 +108,23 @@ def follow(command, gate="", *numbers):
     return ranges([decode(gate, sockets[gate].recv()) for _ in range(numbers[0])])
 
 
+def commands():
+    while True:
+        # libzmq renews a subscription only in a call of its socket.
+        while not select.select([sys.stdin], [], [], 0.01)[0]:
+            for socket in sockets.values():
+                socket.get(zmq.EVENTS)
+        line = sys.stdin.readline()
+        if not line:
+            return
+        yield line
+
+
 with open(file, encoding="utf-8") as document:
     for name, gate in json.load(document)["components"][component]["gates"].items():
         open_gate(name, gate)
 print("open", flush=True)
-for line in sys.stdin:
+for line in commands():
     print(follow(*line.split()), flush=True)
 for socket in (*monitors.values(), *sockets.values()):
     socket.close()

@@ -84,6 +84,24 @@ fn an_uncaught_error_is_told() {
     }
 }
 
+/// The promise: what was sent before an uncaught error is handed over, or noted in the log.
+#[test]
+fn an_uncaught_error_loses_no_message_in_silence() {
+    let system = System::new();
+    let mut right = start_right(&system);
+    let mut left = start(&system, Build::Plain, "burst");
+    left.expect("ready");
+    right.pause();
+    left.tell("go");
+    let exit = left.wait_for_exit();
+    assert_eq!(exit.code(), 1, "{exit:?}");
+    for words in ["error: after a burst", "WARN", "`right.jobs_in`"] {
+        assert!(exit.text().contains(words), "`{words}`: {exit:?}");
+    }
+    right.resume();
+    right.ask("jobs 99", "0..100");
+}
+
 /// The promise: other exceptions, and the handler that the program has set, are left alone.
 #[test]
 fn exceptions_of_the_program_end_it_as_usual() {

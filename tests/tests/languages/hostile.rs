@@ -1,6 +1,6 @@
 //! Bytes that are no message, from plain programs.
 
-use super::program::{PLAIN, Program, SCL};
+use super::program::{Language, PLAIN, Program, SCL};
 use scl_tests::System;
 
 /// The promise: what cannot be decoded is reported and counted, and the next message arrives.
@@ -11,23 +11,32 @@ fn an_undecodable_message_is_reported_and_the_next_one_arrives() {
             let system = System::new();
             let mut left = Program::start(&system, left, "left");
             let mut right = Program::start(&system, right, "right");
-            left.ask("ready 60000", "ready");
-            for (sends, takes) in [("pub_protobuf", "sub_protobuf"), ("push_protobuf", "pull_protobuf")] {
-                left.ask(&format!("garbage {sends}"), "sent");
-                left.ask(&format!("send {sends} 5 6"), "sent");
-                right.tell(&format!("take {takes} 2"));
-                right.expect("undecodable");
-                right.expect("5..6");
-                right.expect_account(takes, "0 2 1");
+            left.ask("ready 30000", "ready");
+            for format in decoded(right.language) {
+                for (sends, takes) in [("pub", "sub"), ("push", "pull")] {
+                    left.ask(&format!("garbage {sends}_{format}"), "sent");
+                    left.ask(&format!("send {sends}_{format} 5 6"), "sent");
+                    right.tell(&format!("take {takes}_{format} 2"));
+                    right.expect("undecodable");
+                    right.expect("5..6");
+                    right.expect_account(&format!("{takes}_{format}"), "0 2 1");
+                }
             }
             // Its sender gets no reply.
-            left.ask("garbage req_protobuf", "sent");
-            right.tell("serve rep_protobuf 1");
-            right.expect("undecodable");
-            right.expect("");
-            right.expect_account("rep_protobuf", "0 1 1");
+            for format in decoded(right.language) {
+                left.ask(&format!("garbage req_{format}"), "sent");
+                right.tell(&format!("serve rep_{format} 1"));
+                right.expect("undecodable");
+                right.expect("");
+                right.expect_account(&format!("rep_{format}"), "0 1 1");
+            }
             left.kill();
             right.end();
         }
     }
+}
+
+/// The formats that a language decodes. In C, JSON is text that the program reads itself.
+fn decoded(language: Language) -> &'static [&'static str] {
+    if language == Language::C { &["protobuf"] } else { &["protobuf", "json"] }
 }

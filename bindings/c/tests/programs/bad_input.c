@@ -53,6 +53,16 @@ static void plans(void) {
 
 static void options(void) {
     scl_component *component;
+    /* First, because real-time settings are read once. */
+    setenv("SCL_LOG", "loud", 1);
+    EXPECT(open_program(plan_path, NULL, &component), SCL_ENVIRONMENT, "`SCL_LOG=loud` is not understood");
+    setenv("SCL_LOG", "off", 1);
+    setenv("SCL_STOP_WITHIN", "soon", 1);
+    EXPECT(open_program(plan_path, NULL, &component), SCL_ENVIRONMENT, "`SCL_STOP_WITHIN=soon` is not understood");
+    unsetenv("SCL_STOP_WITHIN");
+    setenv("SCL_SCHED", "round", 1);
+    EXPECT(open_program(plan_path, NULL, &component), SCL_ENVIRONMENT, "`SCL_SCHED=round` is not understood");
+    unsetenv("SCL_SCHED");
     EXPECT(open_program(plan_path, "{\"sistem\": \"x\"}", &component), SCL_ARGUMENT, "unknown field `sistem`");
     EXPECT(open_program(plan_path, "{\"transport\": \"udp\"}", &component), SCL_ARGUMENT, "unknown variant `udp`");
     EXPECT(open_program(plan_path, "{\"signals\": 1}", &component), SCL_ARGUMENT, "expected a boolean");
@@ -62,12 +72,6 @@ static void options(void) {
     EXPECT(open_program(plan_path, "{\"runtime_dir\": \"/dev/null\"}", &component), SCL_FOLDER, "not a folder");
     EXPECT(open_program(plan_path, "{\"system\": \"../x\"}", &component), SCL_FOLDER, "cannot be the name of a system");
     ASSERT(component == NULL);
-    setenv("SCL_LOG", "loud", 1);
-    EXPECT(open_program(plan_path, NULL, &component), SCL_ENVIRONMENT, "`SCL_LOG=loud` is not understood");
-    setenv("SCL_LOG", "off", 1);
-    setenv("SCL_STOP_WITHIN", "soon", 1);
-    EXPECT(open_program(plan_path, NULL, &component), SCL_ENVIRONMENT, "`SCL_STOP_WITHIN=soon` is not understood");
-    unsetenv("SCL_STOP_WITHIN");
 }
 
 static void nulls(scl_component *component) {

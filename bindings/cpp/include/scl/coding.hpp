@@ -35,13 +35,15 @@ scl_status encode(const sent_t<T>& message, const std::string& gate, Use&& use) 
     return status;
 }
 
-/// Decodes a message that a gate received, by `Codec<T, Format>::decode(bytes)`.
-template <class T, class Format, class Source> T decode(Source&& bytes, const std::string& gate) {
+/// Decodes a message that a gate received, by `Codec<T, Format>::decode(bytes)`. If that fails, the gate counts it.
+template <class T, class Format, class Source> T decode(Source&& bytes, scl_gate* handle, const std::string& gate) {
     try {
         return Codec<T, Format>::decode(bytes());
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
+        // Its own text does not say what the codec found.
+        scl_undecodable(handle, "message");
         throw DecodeError("gate `" + gate + "` received an undecodable message: " + error.what());
     }
 }

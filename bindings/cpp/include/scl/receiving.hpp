@@ -84,7 +84,7 @@ template <class T, class Format> class ReceivingGate : public Gate {
 
     scl_status take(std::optional<T>& message, scl_status status, scl_message* received) const {
         if (status == SCL_OK) {
-            message.emplace(decode<T, Format>([&] { return Bytes(received); }, name()));
+            message.emplace(decode<T, Format>([&] { return Bytes(received); }, handle(), name()));
         }
         return status == SCL_NOTHING || status == SCL_TIMEOUT ? SCL_OK : status;
     }

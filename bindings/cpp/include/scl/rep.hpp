@@ -64,13 +64,13 @@ template <class A, class B, class Format = Native> class Request {
 
     using Handle = std::unique_ptr<scl_request, Free>;
 
-    Request(Handle handle, const std::string& gate)
-        : handle_(std::move(handle)), message_(decode(handle_.get(), gate)), gate_(gate) {}
+    Request(Handle handle, scl_gate* receiver, const std::string& gate)
+        : handle_(std::move(handle)), message_(decode(handle_.get(), receiver, gate)), gate_(gate) {}
 
-    static A decode(scl_request* request, const std::string& gate) {
+    static A decode(scl_request* request, scl_gate* receiver, const std::string& gate) {
         std::size_t size = 0;
         const void* data = scl_request_data(request, &size);
-        return detail::decode<A, Format>([&] { return Bytes::borrowed(data, size); }, gate);
+        return detail::decode<A, Format>([&] { return Bytes::borrowed(data, size); }, receiver, gate);
     }
 
     void require_unanswered() const {
@@ -148,7 +148,7 @@ template <class A, class B, class Format = Native> class Rep : public Gate {
         scl_request* taken = nullptr;
         scl_status status = scl_take_request(handle(), limit.nanoseconds(), &taken);
         if (status == SCL_OK) {
-            request = Request(typename Request::Handle(taken), name());
+            request = Request(typename Request::Handle(taken), handle(), name());
         }
         return status == SCL_NOTHING || status == SCL_TIMEOUT ? SCL_OK : status;
     }

@@ -58,7 +58,7 @@ template <class A, class B, class Format = Native> class Req : public Gate {
             return scl_call(handle(), data, size, limit.nanoseconds(), &received);
         });
         if (status == SCL_OK) {
-            reply.emplace(detail::decode<B, Format>([&] { return Bytes(received); }, name()));
+            reply.emplace(detail::decode<B, Format>([&] { return Bytes(received); }, handle(), name()));
         }
         return status == SCL_NOTHING ? SCL_TIMEOUT : status;
     }

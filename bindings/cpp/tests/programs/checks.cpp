@@ -336,6 +336,12 @@ static void bytes_are_taken_from_anything() {
     both.left.delete_.send(first);
     CHECK(both.right.class_.latest().has_value() || both.right.class_.recv().to_string() == "moved");
 
+    std::string memory = "borrowed";
+    scl::Bytes borrowed = scl::Bytes::borrowed(memory.data(), memory.size());
+    scl::Bytes kept = std::move(borrowed);
+    memory = "replaced";
+    CHECK(kept.text() == "borrowed" && borrowed.empty());
+
     std::thread serve([&] {
         for (auto& request : both.right.answer_bytes) {
             request.reply(*request);

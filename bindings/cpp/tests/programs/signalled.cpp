@@ -73,6 +73,14 @@ static void play(const std::string& task) {
     } else if (task == "ready_never") {
         left.ready();
         left.values_in.recv();
+    } else if (task == "burst") {
+        left.ready(std::chrono::seconds(30));
+        say("ready");
+        support::Command().read();
+        for (std::uint64_t value = 0; value < 100; ++value) {
+            left.jobs.send(number(value));
+        }
+        throw scl::Timeout("after a burst");
     } else if (task == "other_exception") {
         throw std::logic_error("not of SCL");
     } else if (task == "handled") {

@@ -558,6 +558,7 @@ if TYPE_CHECKING:
         a_uint64: _builtins.int
 
         a_bool: _builtins.bool
+        """ "On" or "off" """
 
         a_string: _builtins.str
 
@@ -704,6 +705,11 @@ if TYPE_CHECKING:
 
     @_final
     class Job(_Message):
+        """First line.
+        - indented \\ backslash
+          deeper
+        """
+
         number: _builtins.int
 
         def __init__(self, *, number: _builtins.int | None = None) -> None: ...
