@@ -188,6 +188,23 @@ def test_a_handler_that_uses_gates_does_not_deadlock(system: System) -> None:
     assert program.end()[0] == 0
 
 
+def test_a_handler_that_fails_is_told_and_the_next_record_goes_on(system: System) -> None:
+    program = system.python("""
+        import logging
+
+        class Fails(logging.Handler):
+            def emit(self, record):
+                raise ValueError(f"failed on {record.levelname}")
+
+        logging.getLogger("scl").addHandler(Fails())
+        for _ in range(2):
+            with scl.open(SIX, "source") as source:
+                source.readings.send(source.readings.type())
+    """)
+    code, errors = program.end()
+    assert code == 0 and errors.count("ValueError: failed on WARNING") == 2, errors
+
+
 def _wait_for(caplog: pytest.LogCaptureFixture, text: str) -> None:
     while text not in caplog.text:
         scl._logging.drain()

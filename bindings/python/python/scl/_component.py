@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import keyword
 import os
 import time
@@ -78,6 +77,8 @@ class Component:
 
     async def ready_async(self, timeout: float | None = None) -> None:
         """`ready` for asyncio."""
+        import asyncio
+
         ends = None if timeout is None else time.monotonic() + timeout
         while True:
             # In steps, so that little is left behind by a task that is cancelled.
@@ -128,6 +129,8 @@ class Component:
     async def __aexit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
+        import asyncio
+
         await asyncio.to_thread(_process.close, self._native, quietly=error is not None)
 
     if not TYPE_CHECKING:

@@ -9,6 +9,7 @@ import logging
 import os
 import sys
 import threading
+import traceback
 
 from scl import _native
 from scl._errors import OpenError
@@ -60,7 +61,11 @@ def _hand_over(timeout: float) -> None:
     for level, module, text in records:
         logger = logging.getLogger(module.replace("::", "."))
         if logger.isEnabledFor(level):
-            logger.log(level, "%s", text)
+            try:
+                logger.log(level, "%s", text)
+            except Exception:  # noqa: BLE001
+                # A handler of the program failed. Later records go on.
+                traceback.print_exc()
     if dropped:
         _log.warning("%d log records were dropped", dropped)
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-import asyncio
 import weakref
 from collections.abc import Callable
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from scl import _native
+
+# Imported where it is used: that takes longer than all else, and most programs do without.
+if TYPE_CHECKING:
+    import asyncio
 
 R = TypeVar("R")
 
@@ -24,6 +27,8 @@ class Waiters:
 
     async def changed(self) -> None:
         """Waits until the next event. The gate was polled before, without an `await` in between."""
+        import asyncio
+
         loop = asyncio.get_running_loop()
         event = loop.create_future()
         self._waiting.add(event)
@@ -52,6 +57,8 @@ class Loops:
 
     def here(self) -> Waiters:
         """Those of the running event loop."""
+        import asyncio
+
         loop = asyncio.get_running_loop()
         waiters = self._waiters.get(loop)
         if waiters is None:
@@ -68,6 +75,8 @@ class Loops:
 
         Cancel safe: what a poll has taken is returned without an `await` in between.
         """
+        import asyncio
+
         waiters = self.here()
         found = poll(waiters.readiness)
         if found is not None:
