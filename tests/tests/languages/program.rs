@@ -158,6 +158,8 @@ static GENERATED: LazyLock<PathBuf> = LazyLock::new(|| {
     let files =
         targets.map(|target| generate(&system, target).unwrap_or_else(|clashes| panic!("{clashes:?}"))).concat();
     let texts: Vec<_> = files.iter().map(|file| &file.text).collect();
+    require("protoc", &["--version"]);
+    require("protoc-c", &["--version"]);
     cached(OsStr::new("matrix"), &loaded.files_read, &texts, |folder| {
         fs::create_dir_all(folder).expect("a folder");
         for file in &files {
@@ -171,8 +173,18 @@ static GENERATED: LazyLock<PathBuf> = LazyLock::new(|| {
     })
 });
 
+/// Asserts that what a program needs is installed.
+#[track_caller]
+fn require(command: &str, arguments: &[&str]) {
+    let found = Command::new(command).args(arguments).output().is_ok_and(|output| output.status.success());
+    let advice =
+        "on Debian: apt-get install pkg-config protobuf-compiler protobuf-c-compiler libprotobuf-c-dev libzmq3-dev";
+    assert!(found, "`{command} {}` fails; {advice}", arguments.join(" "));
+}
+
 /// A program in C: `main.c` of a folder with generated sources.
 fn compiled(folder: &str, sources: &[&str], options: &[&str]) -> PathBuf {
+    require("pkg-config", &["--exists", "libprotobuf-c", "libzmq"]);
     let main = languages().join(folder).join("main.c");
     let inputs = [main.clone(), languages().join("common.h"), GENERATED.clone(), include()];
     cached(OsStr::new(&format!("matrix-{folder}")), &inputs, &options, |path| {
