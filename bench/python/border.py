@@ -34,9 +34,7 @@ def best(call: Callable[[], object], calls: int = 2000, rounds: int = 200) -> fl
     return found
 
 
-def pair(
-    library: str, send: Callable[[], object], receive: Callable[[], object]
-) -> None:
+def pair(library: str, send: Callable[[], object], receive: Callable[[], object]) -> None:
     """Shows the medians of single calls: SCL writes some messages of a burst together, and those wait."""
     sent, received = [], []
     for _ in range(20_000):
@@ -124,12 +122,8 @@ def cold_starts(folder: str) -> None:
             subprocess.run([sys.executable, "-c", program], env=environment, check=True)
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             times.append(time.perf_counter() - began)
-            processor.append(
-                after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-            )
-        print(
-            f"{what:60} {min(times) * 1e3:9.1f} ms, {min(processor) * 1e3:5.1f} ms of processor time"
-        )
+            processor.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        print(f"{what:60} {min(times) * 1e3:9.1f} ms, {min(processor) * 1e3:5.1f} ms of processor time")
 
 
 with tempfile.TemporaryDirectory(prefix="scl") as folder:
