@@ -14,7 +14,7 @@ pub struct File {
     pub text: String,
 }
 
-/// What [`write`] did.
+/// What [`write()`] did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// The file is new, or had another content.

@@ -56,6 +56,9 @@
 //! | [`Req`] | `call`, `call_within` | `call_blocking`, `call_timeout` | |
 //! | [`Rep`] | `recv`, then [`Request::reply`] | `recv_blocking`, `recv_timeout` | `try_recv` |
 //!
+//! [`ReceivingGate::poll_ready`] tells whether a gate has something without taking it; [`untyped`] waits for several gates at
+//! once and has a file descriptor for event loops.
+//!
 //! Programs may start in any order, restart, and be killed: messages wait in the sending program, up to the receiving
 //! gate's `queue`, and connections come back by themselves.
 //!

@@ -212,7 +212,10 @@ impl ComponentState {
 
     /// Lets [`end_calls`](Self::end_calls) wake the calls that wait at an end.
     pub(crate) fn register_calls(&self, calls: Weak<dyn WakeCall>) {
-        lock(&self.waiting_calls).push(calls);
+        let mut waiting = lock(&self.waiting_calls);
+        // Those of descriptors that are gone; gates of a component are never more than it has.
+        waiting.retain(|calls| calls.strong_count() > 0);
+        waiting.push(calls);
     }
 
     /// Ends all waiting calls of the gates with [`BlockingError::Closed`], and refuses later ones.

@@ -2,7 +2,8 @@
 
 use scl::{
     BlockingError, CallError, Error, GateStats, NotFlushed, NotReady, OpenError, OpenOptions, PeerStats, Pub, Pull,
-    Push, RecvError, RecvTimeoutError, Rep, ReplyError, Req, Request, SendError, Sub, TrySendError,
+    Push, RecvError, RecvTimeoutError, Rep, ReplyError, Req, Request, SendError, SendTimeoutError, Sub, TrySendError,
+    untyped,
 };
 use std::time::Duration;
 
@@ -21,7 +22,8 @@ fn everything_of_a_component_is_send_and_sync() {
     assert_send_sync::<(Req<u32, String>, Rep<u32, String>, Request<u32, String>)>();
     assert_send_sync::<(OpenOptions, GateStats, PeerStats)>();
     assert_send_sync::<(OpenError, BlockingError, SendError, TrySendError, RecvError, RecvTimeoutError)>();
-    assert_send_sync::<(CallError, ReplyError, NotReady, NotFlushed, Error)>();
+    assert_send_sync::<(CallError, ReplyError, NotReady, NotFlushed, Error, SendTimeoutError)>();
+    assert_send_sync::<(untyped::Component, untyped::Gate, untyped::Closer, untyped::Readiness, untyped::WaitError)>();
 }
 
 #[tokio::test]
@@ -36,6 +38,7 @@ async fn every_waiting_call_can_be_awaited_in_a_spawned_task() {
     assert_send(&sensor.calibrate.recv());
     assert_send(&controller.sensor.recv());
     assert_send(&controller.calibrate.call(&7));
+    assert_send(&controller.calibrate.call_within(&7, Duration::ZERO));
     assert_send(&controller.close(Duration::ZERO));
     assert_send(&scl::stop_requested());
 }

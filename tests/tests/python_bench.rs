@@ -32,7 +32,7 @@ fn delays_are_measured() {
 fn the_programs_are_typed_and_formatted() {
     for arguments in [
         &["-m", "mypy", "--strict", "bench/python"][..],
-        &["-m", "ruff", "format", "--check", "--no-cache", "--line-length", "120", "bench/python"],
+        &["-m", "ruff", "format", "--check", "--no-cache", "bench/python"],
     ] {
         let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
         let output = Command::new(python_with_scl()).args(arguments).current_dir(root).output().expect("Python");

@@ -16,129 +16,129 @@ namespace scl_generated {
 inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "every-kind","components": [{"name": "left",
 "declared_at": "every_kind.yaml:5:11","schema": "ma7xgrncj6we35cmeede3c7b2b","gates": [{
 "name": "values","kind": "pub","payload": {"message": "kinds.Value"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:10:9","endpoint": null,"tap": "left.values.tap",
+"declared_at": "every_kind.yaml:12:9","endpoint": null,"tap": "left.values.tap",
 "contract": "iwlze4dk","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
 "peer_gate": "values","endpoint": "left.values--right-side.values.iwlze4dk","contract": "iwlze4dk",
 "required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "class",
 "kind": "push","payload": {"message": "kinds.GPSFix.Inner_part"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:11:9","endpoint": null,"tap": null,"contract": "baol5fbn",
+"declared_at": "every_kind.yaml:13:9","endpoint": null,"tap": null,"contract": "baol5fbn",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "right-side","peer_gate": "from",
 "endpoint": "right-side.from.baol5fbn","contract": "baol5fbn","required": true,"queue": 100,
 "when_full": "drop_oldest","max_size": 67108864}]},{"name": "int","kind": "req","payload": {
 "request": "kinds.Value","reply": "part.Part"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:12:9","endpoint": null,"tap": null,"contract": "2uxfcrjj",
+"declared_at": "every_kind.yaml:14:9","endpoint": null,"tap": null,"contract": "2uxfcrjj",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "right-side","peer_gate": "answer",
 "endpoint": "right-side.answer.2uxfcrjj","contract": "2uxfcrjj","required": true,"queue": 100,
 "when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_out","kind": "pub","payload": null,
-"codec": "raw","declared_at": "every_kind.yaml:13:9","endpoint": null,"tap": "left.raw_out.tap",
+"codec": "raw","declared_at": "every_kind.yaml:15:9","endpoint": null,"tap": "left.raw_out.tap",
 "contract": "rqhnei4n","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
 "peer_gate": "rawIn","endpoint": "left.raw_out--right-side.rawIn.rqhnei4n","contract": "rqhnei4n",
 "required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{
 "name": "raw_jobs","kind": "push","payload": null,"codec": "raw",
-"declared_at": "every_kind.yaml:14:9","endpoint": null,"tap": null,"contract": "djajuayx",
+"declared_at": "every_kind.yaml:16:9","endpoint": null,"tap": null,"contract": "djajuayx",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "right-side","peer_gate": "raw_jobs",
 "endpoint": "right-side.raw_jobs.djajuayx","contract": "djajuayx","required": true,"queue": 100,
 "when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_question","kind": "req",
-"payload": null,"codec": "raw","declared_at": "every_kind.yaml:15:9","endpoint": null,"tap": null,
+"payload": null,"codec": "raw","declared_at": "every_kind.yaml:17:9","endpoint": null,"tap": null,
 "contract": "rynbne7t","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
 "peer_gate": "raw_answer","endpoint": "right-side.raw_answer.rynbne7t","contract": "rynbne7t",
 "required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{
 "name": "json_question","kind": "req","payload": {"request": "kinds.Value","reply": "part.Part"},
-"codec": "json","declared_at": "every_kind.yaml:16:9","endpoint": null,"tap": null,
+"codec": "json","declared_at": "every_kind.yaml:18:9","endpoint": null,"tap": null,
 "contract": "h2hanz43","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
 "peer_gate": "json_answer","endpoint": "right-side.json_answer.h2hanz43","contract": "h2hanz43",
 "required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "packed",
 "kind": "push","payload": {"message": "camera.Image"},"codec": "cbor",
-"declared_at": "every_kind.yaml:17:9","endpoint": null,"tap": null,"contract": "tjmyglsc",
+"declared_at": "every_kind.yaml:19:9","endpoint": null,"tap": null,"contract": "tjmyglsc",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "right-side","peer_gate": "packed",
 "endpoint": "right-side.packed.tjmyglsc","contract": "tjmyglsc","required": true,"queue": 100,
 "when_full": "drop_oldest","max_size": 67108864}]},{"name": "trees","kind": "push","payload": {
-"message": "kinds.Tree"},"codec": "protobuf","declared_at": "every_kind.yaml:18:9","endpoint": null,
+"message": "kinds.Tree"},"codec": "protobuf","declared_at": "every_kind.yaml:20:9","endpoint": null,
 "tap": null,"contract": "mgd2eiso","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
 "peer_gate": "trees","endpoint": "right-side.trees.mgd2eiso","contract": "mgd2eiso",
 "required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{
-"name": "right-side","declared_at": "every_kind.yaml:19:11","schema": "ma7xgrncj6we35cmeede3c7b2b",
+"name": "right-side","declared_at": "every_kind.yaml:21:11","schema": "ma7xgrncj6we35cmeede3c7b2b",
 "gates": [{"name": "values","kind": "sub","payload": {"message": "kinds.Value"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:21:9","endpoint": null,"tap": null,"contract": "iwlze4dk",
+"declared_at": "every_kind.yaml:23:9","endpoint": null,"tap": null,"contract": "iwlze4dk",
 "max_size": 67108864,"queue": 1,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "left","peer_gate": "values",
 "endpoint": "left.values--right-side.values.iwlze4dk","contract": "iwlze4dk","required": true,
 "queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "from","kind": "pull",
 "payload": {"message": "kinds.GPSFix.Inner_part"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:22:9","endpoint": "right-side.from.baol5fbn",
+"declared_at": "every_kind.yaml:24:9","endpoint": "right-side.from.baol5fbn",
 "tap": "right-side.from.tap","contract": "baol5fbn","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
 "peer_component": "left","peer_gate": "class","endpoint": "right-side.from.baol5fbn",
 "contract": "baol5fbn","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 }]},{"name": "answer","kind": "rep","payload": {"request": "kinds.Value","reply": "part.Part"},
-"codec": "protobuf","declared_at": "every_kind.yaml:23:9","endpoint": "right-side.answer.2uxfcrjj",
+"codec": "protobuf","declared_at": "every_kind.yaml:25:9","endpoint": "right-side.answer.2uxfcrjj",
 "tap": "right-side.answer.tap","contract": "2uxfcrjj","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
 "peer_component": "left","peer_gate": "int","endpoint": "right-side.answer.2uxfcrjj",
 "contract": "2uxfcrjj","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 }]},{"name": "rawIn","kind": "sub","payload": null,"codec": "raw",
-"declared_at": "every_kind.yaml:24:9","endpoint": null,"tap": null,"contract": "rqhnei4n",
+"declared_at": "every_kind.yaml:26:9","endpoint": null,"tap": null,"contract": "rqhnei4n",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "left","peer_gate": "raw_out",
 "endpoint": "left.raw_out--right-side.rawIn.rqhnei4n","contract": "rqhnei4n","required": true,
 "queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_jobs","kind": "pull",
-"payload": null,"codec": "raw","declared_at": "every_kind.yaml:25:9",
+"payload": null,"codec": "raw","declared_at": "every_kind.yaml:27:9",
 "endpoint": "right-side.raw_jobs.djajuayx","tap": "right-side.raw_jobs.tap","contract": "djajuayx",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": [{"peer_component": "left","peer_gate": "raw_jobs",
 "endpoint": "right-side.raw_jobs.djajuayx","contract": "djajuayx","required": true,"queue": 100,
 "when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_answer","kind": "rep",
-"payload": null,"codec": "raw","declared_at": "every_kind.yaml:26:9",
+"payload": null,"codec": "raw","declared_at": "every_kind.yaml:28:9",
 "endpoint": "right-side.raw_answer.rynbne7t","tap": "right-side.raw_answer.tap",
 "contract": "rynbne7t","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "left",
 "peer_gate": "raw_question","endpoint": "right-side.raw_answer.rynbne7t","contract": "rynbne7t",
 "required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{
 "name": "json_answer","kind": "rep","payload": {"request": "kinds.Value","reply": "part.Part"},
-"codec": "json","declared_at": "every_kind.yaml:27:9","endpoint": "right-side.json_answer.h2hanz43",
+"codec": "json","declared_at": "every_kind.yaml:29:9","endpoint": "right-side.json_answer.h2hanz43",
 "tap": "right-side.json_answer.tap","contract": "h2hanz43","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
 "peer_component": "left","peer_gate": "json_question","endpoint": "right-side.json_answer.h2hanz43",
 "contract": "h2hanz43","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 }]},{"name": "packed","kind": "pull","payload": {"message": "camera.Image"},"codec": "cbor",
-"declared_at": "every_kind.yaml:28:9","endpoint": "right-side.packed.tjmyglsc",
+"declared_at": "every_kind.yaml:30:9","endpoint": "right-side.packed.tjmyglsc",
 "tap": "right-side.packed.tap","contract": "tjmyglsc","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
 "peer_component": "left","peer_gate": "packed","endpoint": "right-side.packed.tjmyglsc",
 "contract": "tjmyglsc","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 }]},{"name": "trees","kind": "pull","payload": {"message": "kinds.Tree"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:29:9","endpoint": "right-side.trees.mgd2eiso",
+"declared_at": "every_kind.yaml:31:9","endpoint": "right-side.trees.mgd2eiso",
 "tap": "right-side.trees.tap","contract": "mgd2eiso","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
 "peer_component": "left","peer_gate": "trees","endpoint": "right-side.trees.mgd2eiso",
 "contract": "mgd2eiso","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]}]},{"name": "lonely","declared_at": "every_kind.yaml:30:11",
+}]}]},{"name": "lonely","declared_at": "every_kind.yaml:32:11",
 "schema": "ma7xgrncj6we35cmeede3c7b2b","gates": [{"name": "close","kind": "pub","payload": {
-"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:32:9",
+"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:34:9",
 "endpoint": null,"tap": "lonely.close.tap","contract": "iwlze4dk","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": []},{
 "name": "ready","kind": "sub","payload": {"message": "kinds.Value"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:33:9","endpoint": null,"tap": null,"contract": "iwlze4dk",
+"declared_at": "every_kind.yaml:35:9","endpoint": null,"tap": null,"contract": "iwlze4dk",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": []},{"name": "name","kind": "req","payload": {
 "request": "kinds.Value","reply": "part.Part"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:34:9","endpoint": null,"tap": null,"contract": "2uxfcrjj",
+"declared_at": "every_kind.yaml:36:9","endpoint": null,"tap": null,"contract": "2uxfcrjj",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": []},{"name": "component","kind": "pull","payload": {
-"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:35:9",
+"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:37:9",
 "endpoint": "lonely.component.ve27wo5r","tap": "lonely.component.tap","contract": "ve27wo5r",
 "max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
 "timeout_ns": 1000000000,"connections": []}]},{"name": "empty",
-"declared_at": "every_kind.yaml:36:11","schema": null,"gates": []}],"schemas": {
+"declared_at": "every_kind.yaml:38:11","schema": null,"gates": []}],"schemas": {
 "ma7xgrncj6we35cmeede3c7b2b": "Ct0BChBwYXJ0cy9wYXJ0LnByb3RvEgRwYXJ0IroBCgRQYXJ0EiYKBXN0YXRlGAEgASgOMhAucGFydC5QYXJ0LlN0YXRlUgVzdGF0ZRIuCgZjb3VudHMYAiADKAsyFi5wYXJ0LlBhcnQuQ291bnRzRW50cnlSBmNvdW50cxo5CgtDb3VudHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIUCgV2YWx1ZRgCIAEoBVIFdmFsdWU6AjgBIh8KBVN0YXRlEgsKB1VOS05PV04QABIJCgVTT1VORBABYgZwcm90bzMK7QMKEGV2ZXJ5X2tpbmQucHJvdG8SBWtpbmRzGhBwYXJ0cy9wYXJ0LnByb3RvImkKBVZhbHVlEhYKBm51bWJlchgBIAEoA1IGbnVtYmVyEhIKBG5hbWUYAiABKAlSBG5hbWUSEgoEZGF0YRgDIAEoDFIEZGF0YRIgCgVwYXJ0cxgEIAMoCzIKLnBhcnQuUGFydFIFcGFydHMiYgoGR1BTRml4Ei4KBWlubmVyGAEgASgLMhgua2luZHMuR1BTRml4LklubmVyX3BhcnRSBWlubmVyGigKCklubmVyX3BhcnQSGgoIbGF0aXR1ZGUYASABKAFSCGxhdGl0dWRlIugBCgRUcmVlEicKCGJyYW5jaGVzGAEgAygLMgsua2luZHMuVHJlZVIIYnJhbmNoZXMSLAoFbmFtZWQYAiADKAsyFi5raW5kcy5UcmVlLk5hbWVkRW50cnlSBW5hbWVkEhQKBXNtYWxsGAMgASgHUgVzbWFsbBIUCgVsYXJnZRgEIAEoBlIFbGFyZ2USFgoGbnVtYmVyGAUgASgFUgZudW1iZXIaRQoKTmFtZWRFbnRyeRIQCgNrZXkYASABKAlSA2tleRIhCgV2YWx1ZRgCIAEoCzILLmtpbmRzLlRyZWVSBXZhbHVlOgI4AWIGcHJvdG8z"
 }}
 )plan";
@@ -146,7 +146,9 @@ inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "every
 } // namespace scl_generated
 
 /// Sends first. */ int x; /*
-/// "Quotes", \n, ?? and ünïcode stay text.
+/// "Quotes", \n, ?? and ünïcode stay text. ?? /
+/// This line ends with a backslash.
+/// """ and so does the last one:
 struct Left : ::scl::Component {
     /// Opens the component. Throws `scl::Taken` if it is already running.
     explicit Left(const ::scl::Options& options = {})

@@ -95,6 +95,26 @@ fn the_descriptor_is_readable_as_long_as_a_gate_has_something() {
     });
 }
 
+/// More messages than the gate's queue takes in: the others wait in the connection and in the publisher.
+#[test]
+fn the_descriptor_stays_readable_while_messages_wait_outside_the_queue() {
+    on_each_medium(|options| {
+        let (mut sensor, mut controller) = open(options);
+        let (mut sub, mut publish) =
+            (controller.subscriber("sensor").unwrap(), sensor.publisher("measurements").unwrap());
+        let readiness = controller.readiness().unwrap();
+        let mut sent = 0;
+        while publish.try_send(&bytes(&i32::to_string(&sent))).is_ok() {
+            sent += 1;
+        }
+        for number in 0..sent {
+            wait(&readiness);
+            assert_eq!(sub.try_recv().unwrap().unwrap(), number.to_string());
+        }
+        assert!(!is_readable(&readiness));
+    });
+}
+
 #[test]
 fn requests_make_the_descriptor_readable() {
     on_each_medium(|options| {
@@ -115,6 +135,21 @@ fn requests_make_the_descriptor_readable() {
             let echo = request.message().clone();
             request.reply(&echo).unwrap();
         }
+        asking.join().unwrap();
+    });
+}
+
+#[test]
+fn a_replier_that_is_gone_has_no_request() {
+    on_each_medium(|options| {
+        let (mut sensor, mut controller) = open(options);
+        let rep = sensor.replier("calibrate").unwrap();
+        let mut req = controller.requester("calibrate").unwrap();
+        let readiness = sensor.readiness().unwrap();
+        let asking = thread::spawn(move || req.call_timeout(&bytes("7"), Duration::from_millis(50)).unwrap_err());
+        wait(&readiness);
+        drop(rep);
+        assert!(!is_readable(&readiness));
         asking.join().unwrap();
     });
 }

@@ -109,6 +109,9 @@ fn exceptions_of_the_program_end_it_as_usual() {
     let exit = run(&system, Build::Plain, "other_exception").wait_for_exit();
     assert_eq!(exit.code(), 128 + 6, "{exit:?}");
     assert!(exit.text().contains("not of SCL"), "{exit:?}");
+    let exit = run(&system, Build::Plain, "own_handler").wait_for_exit();
+    assert_eq!(exit.code(), 7, "{exit:?}");
+    assert!(exit.text().contains("the handler of the program"), "{exit:?}");
 }
 
 fn start(system: &System, build: Build, task: &str) -> Process {

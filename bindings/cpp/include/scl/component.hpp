@@ -8,6 +8,7 @@
 #include <scl/open_components.hpp>
 #include <scl/options.hpp>
 #include <scl/time.hpp>
+#include <scl/uncaught.hpp>
 
 #include <chrono>
 #include <string>

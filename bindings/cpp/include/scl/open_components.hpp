@@ -1,20 +1,13 @@
-/// The components that are open, and what closes them when an exception of SCL is not caught.
+/// The components that are open, so that the end of the program can close them.
 #pragma once
 
 #include <scl.h>
-#include <scl/error.hpp>
 #include <scl/log.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <mutex>
 #include <vector>
-
-#include <unistd.h>
 
 namespace scl::detail {
 
@@ -56,54 +49,6 @@ class OpenComponents {
   private:
     std::mutex mutex_;
     std::vector<scl_component*> components_;
-};
-
-/// Ends the program as an error that a Rust program returns from `main`: after a stop request with exit code 0, else
-/// with a message and exit code 1, and only when the messages that were sent are flushed.
-class UncaughtErrors {
-  public:
-    static void handle() {
-        static UncaughtErrors installed;
-    }
-
-  private:
-    UncaughtErrors() : previous_(std::set_terminate(terminate)) { before() = previous_; }
-
-    static std::terminate_handler& before() noexcept {
-        static std::terminate_handler handler = nullptr;
-        return handler;
-    }
-
-    static void terminate() {
-        if (std::current_exception() != nullptr) {
-            try {
-                throw;
-            } catch (const Stopped&) {
-                end(EXIT_SUCCESS);
-            } catch (const Error& error) {
-                std::fprintf(stderr, "error: %s\n", error.what());
-                end(EXIT_FAILURE);
-            } catch (...) {
-                // Not ours.
-            }
-        }
-        if (before() != nullptr) {
-            before()();
-        }
-        std::abort();
-    }
-
-    [[noreturn]] static void end(int code) {
-        static std::atomic_flag ending = ATOMIC_FLAG_INIT;
-        while (ending.test_and_set()) {
-            // Another thread already ends the program, which only one may do.
-            ::pause();
-        }
-        OpenComponents::instance().close_all();
-        std::exit(code);
-    }
-
-    std::terminate_handler previous_;
 };
 
 } // namespace scl::detail

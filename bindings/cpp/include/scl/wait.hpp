@@ -34,6 +34,12 @@ template <class... Gates> std::bitset<sizeof...(Gates)> wait(TimeLimit limit, co
     return ready;
 }
 
+/// `wait` as long as it takes.
+template <class... Gates, std::enable_if_t<(std::is_base_of_v<Gate, Gates> && ...), int> = 0>
+std::bitset<sizeof...(Gates)> wait(const Gates&... gates) {
+    return wait(TimeLimit::none(), gates...);
+}
+
 /// `wait` that reports errors as codes.
 template <class... Gates>
 std::bitset<sizeof...(Gates)> wait(TimeLimit limit, std::error_code& error, const Gates&... gates) {

@@ -285,6 +285,7 @@ static void undecodable_messages_are_told_and_skipped() {
     CHECK(!both.right.numbers.recv(code) && code == scl::Errc::decode);
     CHECK(contains(scl::last_error(), {"`right.numbers`", "undecodable"}));
     CHECK(both.right.numbers.recv(code)->value() == 5 && !code);
+    CHECK(contains(both.right.numbers.stats(), {R"("rejected":2,)"}));
 
     scl::Pub<scl::Bytes> text(both.left, "text");
     text.send("{\"text\": 5");
@@ -448,7 +449,8 @@ static void an_exception_of_the_program_loses_no_request_in_silence() {
 static void several_gates_are_awaited_together() {
     Both both;
     both.left.numbers.send(number(1));
-    auto ready = scl::wait(60s, both.right.jobs, both.right.numbers, both.right.answer);
+    auto ready = scl::wait(both.right.jobs, both.right.numbers, both.right.answer);
+    CHECK(ready == scl::wait(60s, both.right.jobs, both.right.numbers, both.right.answer));
     CHECK(ready.to_ulong() == 2);
     CHECK(both.right.numbers.try_recv()->value() == 1);
     std::error_code error;

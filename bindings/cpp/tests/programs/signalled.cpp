@@ -5,6 +5,9 @@
 
 #include <poll.h>
 
+#include <cstdlib>
+#include <exception>
+#include <stdexcept>
 #include <thread>
 
 using support::say;
@@ -23,6 +26,12 @@ struct Guard {
 };
 
 static void play(const std::string& task) {
+    if (task == "own_handler") {
+        std::set_terminate([] {
+            say("the handler of the program");
+            std::_Exit(7);
+        });
+    }
     twins::Left left;
     Guard guard;
     if (task == "handled") {
@@ -81,7 +90,7 @@ static void play(const std::string& task) {
             left.jobs.send(number(value));
         }
         throw scl::Timeout("after a burst");
-    } else if (task == "other_exception") {
+    } else if (task == "other_exception" || task == "own_handler") {
         throw std::logic_error("not of SCL");
     } else if (task == "handled") {
         for (std::uint64_t value = 0; !scl::stop_requested(); ++value) {
