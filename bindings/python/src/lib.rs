@@ -31,7 +31,7 @@ mod _native {
     #[pymodule_export]
     use super::gate::Gate;
     #[pymodule_export]
-    use super::logging::{log_hold, log_level, log_next, log_release, log_start};
+    use super::logging::{log_hold, log_level, log_release, log_start, log_take, log_wait};
     #[pymodule_export]
     use super::pending_call::PendingCall;
     #[pymodule_export]

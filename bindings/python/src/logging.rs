@@ -34,6 +34,12 @@ struct Records {
     dropped: u64,
 }
 
+impl Queue {
+    fn lock(&self) -> MutexGuard<'_, Records> {
+        self.records.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 /// A level of Python's `logging`, the module of SCL, the text.
 type Record = (u8, &'static str, String);
 
@@ -57,7 +63,7 @@ thread_local! {
 /// Locks the queue before a fork: a thread that held the lock would not exist in the child.
 #[pyfunction]
 pub(crate) fn log_hold(py: Python<'_>) {
-    py.detach(|| HELD.set(Some(QUEUE.records.lock().unwrap_or_else(PoisonError::into_inner))));
+    py.detach(|| HELD.set(Some(QUEUE.lock())));
 }
 
 /// Unlocks the queue after a fork, in both processes.
@@ -66,19 +72,23 @@ pub(crate) fn log_release() {
     HELD.set(None);
 }
 
-/// Waits for records, no longer than some seconds, and takes all.
+/// Waits for records, no longer than some seconds.
 #[pyfunction]
-pub(crate) fn log_next(py: Python<'_>, timeout: f64) -> (Vec<Record>, u64) {
+pub(crate) fn log_wait(py: Python<'_>, timeout: f64) {
     let timeout = Duration::try_from_secs_f64(timeout).unwrap_or_default();
     py.detach(|| {
-        let records = QUEUE.records.lock().unwrap_or_else(PoisonError::into_inner);
         let is_empty = |records: &mut Records| records.waiting.is_empty();
-        let waited = QUEUE.added.wait_timeout_while(records, timeout, is_empty);
-        let (mut records, _) = waited.unwrap_or_else(PoisonError::into_inner);
-        let taken = (records.waiting.drain(..).collect(), std::mem::take(&mut records.dropped));
-        drop(records);
+        drop(QUEUE.added.wait_timeout_while(QUEUE.lock(), timeout, is_empty));
         stay_if_exiting();
-        taken
+    });
+}
+
+/// Takes all records, and the number of those that were dropped.
+#[pyfunction]
+pub(crate) fn log_take(py: Python<'_>) -> (Vec<Record>, u64) {
+    py.detach(|| {
+        let mut records = QUEUE.lock();
+        (records.waiting.drain(..).collect(), std::mem::take(&mut records.dropped))
     })
 }
 
@@ -109,7 +119,7 @@ impl<S: Subscriber> Layer<S> for ToQueue {
         let mut text = Text::default();
         event.record(&mut text);
         let record = (rank(event.metadata().level()), event.metadata().target(), text.message + &text.fields);
-        let mut records = QUEUE.records.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut records = QUEUE.lock();
         if records.waiting.len() < CAPACITY {
             records.waiting.push_back(record);
         } else {

@@ -20,6 +20,7 @@ _REFRESH = 1.0
 
 _log = logging.getLogger("scl")
 _lock = threading.Lock()
+_handing_over = threading.Lock()
 _started = False
 
 
@@ -39,25 +40,36 @@ def start() -> None:
 
 def restart() -> None:
     """Forgets the thread, which a forked child does not have."""
-    global _lock, _started
-    _lock = threading.Lock()
+    global _handing_over, _lock, _started
+    _handing_over, _lock = threading.Lock(), threading.Lock()
     _started = False
 
 
 def drain() -> None:
     """Forwards what is left, at the end of the program."""
     if _started:
-        _hand_over(0.0)
+        _hand_over()
 
 
 def _forward() -> None:
     while True:
-        _hand_over(_REFRESH)
+        _native.log_wait(_REFRESH)
+        _hand_over()
         _native.log_level(_level())
 
 
-def _hand_over(timeout: float) -> None:
-    records, dropped = _native.log_next(timeout)
+def _hand_over() -> None:
+    # The end of the program waits for records that the thread has taken, but not for a handler that never returns.
+    locked = _handing_over.acquire(timeout=_REFRESH)
+    try:
+        _hand_over_now()
+    finally:
+        if locked:
+            _handing_over.release()
+
+
+def _hand_over_now() -> None:
+    records, dropped = _native.log_take()
     for level, module, text in records:
         logger = logging.getLogger(module.replace("::", "."))
         if logger.isEnabledFor(level):
