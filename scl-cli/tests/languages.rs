@@ -89,7 +89,13 @@ impl Example {
         loop {
             let Some(line) = run.next_line() else { panic!("{arguments:?} ends: {}", run.finish().2) };
             match line.split_once(" | ").unwrap() {
-                ("sensor        ", says) => speeds.push(says.to_owned()),
+                ("sensor        ", says) => {
+                    speeds.push(says.to_owned());
+                    assert!(
+                        speeds.len() < 1000,
+                        "{arguments:?}: the sensor runs, but the user interface gets no events"
+                    );
+                }
                 ("actuator      ", says) => {
                     let throttle = says.strip_prefix("throttle ").unwrap();
                     let value: f64 = throttle.parse().unwrap();
