@@ -21,7 +21,7 @@ mod unreadable;
 
 pub use request::{LookedIn, Request};
 #[cfg(feature = "protobuf")]
-pub use schemas::Descriptors;
+pub use schemas::{Descriptors, files_for};
 pub use schemas::{Outline, Schemas};
 
 use scl_topology::check::{Facts, check};

@@ -20,7 +20,7 @@ mod switched_off;
 #[cfg(feature = "protobuf")]
 pub(crate) use compile::compile;
 #[cfg(feature = "protobuf")]
-pub use descriptors::Descriptors;
+pub use descriptors::{Descriptors, files_for};
 pub use outline::Outline;
 #[cfg(not(feature = "protobuf"))]
 pub(crate) use switched_off::compile;

@@ -22,6 +22,18 @@ impl GateKind {
     pub const ALL: [GateKind; 6] =
         [GateKind::Pub, GateKind::Sub, GateKind::Req, GateKind::Rep, GateKind::Push, GateKind::Pull];
 
+    /// What a gate of this kind does, for its documentation: `publishes rover.Measurement to controller.sensor`.
+    pub fn sentence(self, message: &str, peers: &str) -> String {
+        match self {
+            GateKind::Pub => format!("publishes {message} to {peers}"),
+            GateKind::Sub => format!("subscribes to {message} from {peers}"),
+            GateKind::Req => format!("requests {message} from {peers}"),
+            GateKind::Rep => format!("replies {message} to {peers}"),
+            GateKind::Push => format!("pushes {message} to {peers}"),
+            GateKind::Pull => format!("pulls {message} from {peers}"),
+        }
+    }
+
     /// The word in topology files and plans.
     pub const fn word(self) -> &'static str {
         match self {

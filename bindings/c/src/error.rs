@@ -1,6 +1,7 @@
 //! Failures: a status and a text, which the thread keeps until its next failure.
 
 use crate::status::*;
+use scl::host::text_with_causes;
 use scl::runtime_dir::RuntimeDirError;
 use scl::untyped::{GateError, WaitError};
 use scl::{
@@ -51,14 +52,7 @@ impl Failure {
 
     /// An error with its causes.
     pub(crate) fn of(status: scl_status, error: &(dyn Error + 'static)) -> Self {
-        let mut text = error.to_string();
-        let mut cause = error.source();
-        while let Some(error) = cause {
-            text.push_str(": ");
-            text.push_str(&error.to_string());
-            cause = error.source();
-        }
-        Self::new(status, text)
+        Self::new(status, text_with_causes(error))
     }
 
     /// Keeps the text for `scl_error` and returns the status.

@@ -1,6 +1,6 @@
 //! A component, opened from its plan.
 
-use crate::failure::{Failure, no_panic, text_of};
+use crate::failure::{Failure, no_panic};
 use crate::gate::Gate;
 use crate::limit::Limit;
 use crate::plan::Plan;
@@ -11,6 +11,7 @@ use crate::wait_any::wait_any;
 use crate::waiting::{LOOK, wait};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use scl::host::text_with_causes;
 use scl::untyped;
 use scl::{Medium, NotReady, OpenOptions};
 use std::path::PathBuf;
@@ -47,7 +48,7 @@ impl Component {
                 let mut opened = untyped::Component::open_blocking_with(plan, options)?;
                 let gates = plan.gates.iter().map(|gate| opened.gate(&gate.name));
                 let gates = gates.collect::<Result<Vec<_>, _>>();
-                Ok((gates.map_err(|error| Failure::new("OpenError", text_of(&error)))?, opened))
+                Ok((gates.map_err(|error| Failure::new("OpenError", text_with_causes(&error)))?, opened))
             })
         });
         let (gates, opened) = opened?;

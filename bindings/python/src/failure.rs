@@ -3,6 +3,7 @@
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
+use scl::host::text_with_causes;
 use scl::{
     BlockingError, CallError, NotFlushed, NotReady, RecvError, RecvTimeoutError, ReplyError, SendError,
     SendTimeoutError, TrySendError,
@@ -36,20 +37,8 @@ impl Failure {
     }
 
     fn of(class: &'static str, error: &dyn std::error::Error) -> Self {
-        Self::new(class, text_of(error))
+        Self::new(class, text_with_causes(error))
     }
-}
-
-/// An error and its causes in one line.
-pub(crate) fn text_of(error: &dyn std::error::Error) -> String {
-    let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(error) = cause {
-        text.push_str(": ");
-        text.push_str(&error.to_string());
-        cause = error.source();
-    }
-    text
 }
 
 /// Turns a panic into an exception: none may cross the border.

@@ -1,9 +1,10 @@
 //! The plans of a system: from their JSON text, or from a topology file that is checked when the program starts, with the
 //! words of `scl check`.
 
-use crate::failure::{Failure, no_panic, text_of};
+use crate::failure::{Failure, no_panic};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use scl::host::text_with_causes;
 use scl::plan::SystemPlan;
 use scl::untyped::GateError;
 use scl_loader::{Request, load};
@@ -26,7 +27,7 @@ impl Plan {
     /// Reads plans in the format of `scl plan`.
     #[new]
     fn new(json: &str) -> PyResult<Self> {
-        let plan = SystemPlan::from_json(json).map_err(|error| Failure::new("PlanError", text_of(&error)))?;
+        let plan = SystemPlan::from_json(json).map_err(|error| Failure::new("PlanError", text_with_causes(&error)))?;
         Ok(Self { plan })
     }
 
@@ -74,7 +75,7 @@ impl Plan {
 
 impl Plan {
     pub(crate) fn component(&self, name: &str) -> Result<&scl::plan::Plan, Failure> {
-        self.plan.component(name).map_err(|error| Failure::new("UnknownComponent", text_of(&error)))
+        self.plan.component(name).map_err(|error| Failure::new("UnknownComponent", text_with_causes(&error)))
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::comment;
 use crate::system::{Component, Gate, System};
 use crate::writer::Writer;
-use scl_plan::{GateKind, GateOptions, Payload, Place};
+use scl_plan::{GateOptions, Payload, Place};
 
 /// Writes a docstring.
 pub(super) fn write(text: &str, out: &mut Writer) {
@@ -68,14 +68,7 @@ fn sentence(gate: &Gate) -> String {
     let peers = gate.plan.connections.iter().map(|it| format!("`{}.{}`", it.peer_component, it.peer_gate));
     let peers: Vec<String> = peers.collect();
     let peers = if peers.is_empty() { "no peer".to_owned() } else { peers.join(", ") };
-    match gate.plan.kind {
-        GateKind::Pub => format!("publishes {message} to {peers}"),
-        GateKind::Sub => format!("subscribes to {message} from {peers}"),
-        GateKind::Req => format!("requests {message} from {peers}"),
-        GateKind::Rep => format!("replies {message} to {peers}"),
-        GateKind::Push => format!("pushes {message} to {peers}"),
-        GateKind::Pull => format!("pulls {message} from {peers}"),
-    }
+    gate.plan.kind.sentence(&message, &peers)
 }
 
 /// The options that differ from their defaults.

@@ -1,7 +1,8 @@
 //! The schema files that the plan of a system contains, with their comments.
 
 use crate::system::System;
-use prost_types::{DescriptorProto, FileDescriptorProto};
+use prost_types::FileDescriptorProto;
+use scl_loader::files_for;
 use std::collections::{BTreeSet, HashMap};
 
 /// The path of a declaration inside its file, as in `google.protobuf.SourceCodeInfo`.
@@ -33,14 +34,7 @@ impl<'s> Schema<'s> {
         let gates = system.components.iter().flat_map(|component| &component.gates);
         let used: BTreeSet<&str> =
             gates.flat_map(|gate| &gate.types).filter(|it| it.in_schemas).map(|it| it.dotted.as_str()).collect();
-        let mut needed = BTreeSet::new();
-        let mut open: Vec<_> = descriptors.file.iter().filter(|file| declares_any(file, &used)).collect();
-        while let Some(file) = open.pop() {
-            if needed.insert(file.name()) {
-                open.extend(descriptors.file.iter().filter(|it| file.dependency.iter().any(|name| name == it.name())));
-            }
-        }
-        let files = descriptors.file.iter().filter(|file| needed.contains(file.name()));
+        let files = files_for(&descriptors.file, &used);
         Self { files: files.map(SchemaFile::of).collect() }
     }
 
@@ -88,16 +82,4 @@ impl<'s> SchemaFile<'s> {
 fn plain(comment: &str) -> String {
     let lines = comment.lines().map(|line| line.strip_prefix(' ').unwrap_or(line).trim_end());
     lines.collect::<Vec<_>>().join("\n").trim().to_owned()
-}
-
-fn declares_any(file: &FileDescriptorProto, messages: &BTreeSet<&str>) -> bool {
-    file.message_type.iter().any(|message| declares(message, file.package(), messages))
-}
-
-fn declares(message: &DescriptorProto, outer: &str, wanted: &BTreeSet<&str>) -> bool {
-    let name = match outer {
-        "" => message.name().to_owned(),
-        _ => format!("{outer}.{}", message.name()),
-    };
-    wanted.contains(name.as_str()) || message.nested_type.iter().any(|nested| declares(nested, &name, wanted))
 }

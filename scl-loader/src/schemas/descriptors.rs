@@ -21,18 +21,24 @@ impl Schemas {
     ///
     /// The same schemas and messages always give the same bytes.
     pub fn descriptors_of(&self, messages: &BTreeSet<&str>) -> Option<Descriptors> {
-        let all = &self.file_descriptor_set().file;
-        let declaring = all.iter().filter(|file| declares_any(file, messages));
-        let needed = with_imports(all, declaring);
-        if needed.is_empty() {
+        let files = files_for(&self.file_descriptor_set().file, messages);
+        let file: Vec<_> = files.map(|file| FileDescriptorProto { source_code_info: None, ..file.clone() }).collect();
+        if file.is_empty() {
             return None;
         }
-        // Filtering keeps the compiler's order, in which imports come first.
-        let files = all.iter().filter(|file| needed.contains(file.name()));
-        let file = files.map(|file| FileDescriptorProto { source_code_info: None, ..file.clone() }).collect();
         let bytes = FileDescriptorSet { file }.encode_to_vec();
         Some(Descriptors { hash: fingerprint::long(&bytes), bytes })
     }
+}
+
+/// The files among `all` that declare these messages, with all that they import, each after those that it imports if that
+/// is the order of `all`.
+pub fn files_for<'a>(
+    all: &'a [FileDescriptorProto],
+    messages: &BTreeSet<&str>,
+) -> impl Iterator<Item = &'a FileDescriptorProto> + use<'a> {
+    let needed = with_imports(all, all.iter().filter(|file| declares_any(file, messages)));
+    all.iter().filter(move |file| needed.contains(file.name()))
 }
 
 fn declares_any(file: &FileDescriptorProto, messages: &BTreeSet<&str>) -> bool {

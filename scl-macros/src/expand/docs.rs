@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use scl_topology::grammar::OPTIONS;
-use scl_topology::topology::{Codec, Component, Gate, GateId, GateKind, Payload, Topology};
+use scl_topology::topology::{Codec, Component, Gate, GateId, Payload, Topology};
 
 /// The documentation of a struct: the component's `doc`, its gates as a table, and where it is declared.
 pub(super) fn of_component(context: &Context<'_>, topology: &Topology, component: &Component) -> String {
@@ -41,14 +41,7 @@ fn sentence(gate: &Gate, peers: &str) -> String {
         Payload::Message(name) => format!("`{}`", name.dotted()),
         Payload::Exchange { request, reply } => format!("`{}` -> `{}`", request.dotted(), reply.dotted()),
     };
-    match gate.kind() {
-        GateKind::Pub => format!("publishes {message} to {peers}"),
-        GateKind::Sub => format!("subscribes to {message} from {peers}"),
-        GateKind::Req => format!("requests {message} from {peers}"),
-        GateKind::Rep => format!("replies {message} to {peers}"),
-        GateKind::Push => format!("pushes {message} to {peers}"),
-        GateKind::Pull => format!("pulls {message} from {peers}"),
-    }
+    gate.kind().sentence(&message, peers)
 }
 
 fn peers(topology: &Topology, id: GateId) -> String {
