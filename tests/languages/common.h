@@ -34,7 +34,9 @@ static inline bool next_command(command *next) {
     return true;
 }
 
-static inline bool is(const command *given, int word, const char *text) { return strcmp(given->words[word], text) == 0; }
+static inline bool is(const command *given, int word, const char *text) {
+    return strcmp(given->words[word], text) == 0;
+}
 
 static inline uint64_t number_of(const command *given, int word) { return strtoull(given->words[word], NULL, 10); }
 
@@ -81,8 +83,8 @@ static inline size_t text_of(uint64_t number, char text[LONGEST]) {
 
 /* A message as canonical protobuf JSON, which has 64-bit numbers as strings. */
 static inline size_t json_of(uint64_t number, char json[LONGEST]) {
-    return (size_t)snprintf(json, LONGEST, "{\"number\":\"%" PRIu64 "\",\"text\":\"sample %" PRIu64 " \xc3\xbc\"}", number,
-                            number);
+    const char *format = "{\"number\":\"%" PRIu64 "\",\"text\":\"sample %" PRIu64 " \xc3\xbc\"}";
+    return (size_t)snprintf(json, LONGEST, format, number, number);
 }
 
 /* The number in a text, or in the JSON of a message, whatever its white space. False if it is neither. */

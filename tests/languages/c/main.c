@@ -1,5 +1,5 @@
-/* Plays `left` or `right` of `topologies/matrix/matrix.yaml`: `matrix COMPONENT`, or, with the plan of another topology,
- * `matrix COMPONENT PLAN_FILE`. The commands are those of all programs in `languages`. */
+/* Plays `left` or `right` of `topologies/matrix/matrix.yaml`: `matrix COMPONENT`, or, with the plan of another
+ * topology, `matrix COMPONENT PLAN_FILE`. The commands are those of all programs in `languages`. */
 #include "../common.h"
 #include "matrix_scl.h"
 

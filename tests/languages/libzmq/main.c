@@ -180,8 +180,8 @@ static void follow(const command *given) {
     }
 }
 
-/* Waits for the next command. Meanwhile each socket is looked at now and then, because libzmq renews a subscription only
- * in a call of its socket. */
+/* Waits for the next command. Meanwhile each socket is looked at now and then, because libzmq renews a subscription
+ * only in a call of its socket. */
 static void wait_for_command(void) {
     zmq_pollitem_t input = {.fd = 0, .events = ZMQ_POLLIN};
     while (zmq_poll(&input, 1, 10) == 0) {

@@ -1,5 +1,5 @@
-"""Plays `left` or `right` of `topologies/matrix/matrix.yaml` with the generated module: `main.py COMPONENT`, or, with the
-plan of another topology, `main.py COMPONENT PLAN_FILE`. The commands are those of all programs in `languages`.
+"""Plays `left` or `right` of `topologies/matrix/matrix.yaml` with the generated module: `main.py COMPONENT`, or, with
+the plan of another topology, `main.py COMPONENT PLAN_FILE`. The commands are those of all programs in `languages`.
 """
 
 import sys
