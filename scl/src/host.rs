@@ -16,7 +16,9 @@
 use crate::component;
 use crate::environment;
 use crate::error::{OpenError, Result};
+use crate::sync::lock;
 use crate::{log, stop};
+use std::sync::Mutex;
 use std::time::Duration;
 
 pub use crate::stop::StopSignal;
@@ -53,12 +55,18 @@ pub fn watch_signals() -> Result<()> {
 
 /// Applies the real-time settings `SCL_SCHED` and `SCL_CPU` to the calling thread and to those that it starts from now on,
 /// and logs a warning for what the operating system refuses. To be called after [`watch_signals`], whose thread must run
-/// while a thread with these settings computes.
+/// while a thread with these settings computes. Further calls do nothing.
 ///
 /// # Errors
 /// [`OpenError::Environment`] if a setting is not understood.
 pub fn apply_real_time() -> Result<(), OpenError> {
-    component::apply_real_time(&environment::of_process)
+    static APPLIED: Mutex<bool> = Mutex::new(false);
+    let mut applied = lock(&APPLIED);
+    if !*applied {
+        component::apply_real_time(&environment::of_process)?;
+        *applied = true;
+    }
+    Ok(())
 }
 
 /// How long a program may take to end after a stop request: `SCL_STOP_WITHIN`, or 3 s.

@@ -10,7 +10,7 @@ use scl::host;
 use scl::plan::{SystemPlan, nearest};
 use scl::untyped::{Closer, Component, GateError, Readiness};
 use std::ffi::{c_char, c_void};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError, RwLock};
+use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 /// A component, opened by this process.
 #[allow(non_camel_case_types)]
@@ -144,13 +144,7 @@ fn set_up(options: &Options) -> Result<(), Failure> {
     if options.signals() {
         host::watch_signals()?;
     }
-    static REAL_TIME: Mutex<bool> = Mutex::new(false);
-    let mut is_set = REAL_TIME.lock().unwrap_or_else(PoisonError::into_inner);
-    if !*is_set {
-        host::apply_real_time()?;
-        *is_set = true;
-    }
-    Ok(())
+    Ok(host::apply_real_time()?)
 }
 
 fn close(handle: usize, wait: Wait) -> Result<(), Failure> {

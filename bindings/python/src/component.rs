@@ -11,7 +11,7 @@ use crate::wait_any::wait_any;
 use crate::waiting::{LOOK, wait};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use scl::host::text_with_causes;
+use scl::host::{self, text_with_causes};
 use scl::untyped;
 use scl::{Medium, NotReady, OpenOptions};
 use std::path::PathBuf;
@@ -45,6 +45,7 @@ impl Component {
         let plan = plan.component(component)?;
         let opened = py.detach(|| {
             no_panic(|| {
+                host::apply_real_time()?;
                 let mut opened = untyped::Component::open_blocking_with(plan, options)?;
                 let gates = plan.gates.iter().map(|gate| opened.gate(&gate.name));
                 let gates = gates.collect::<Result<Vec<_>, _>>();

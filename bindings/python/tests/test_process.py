@@ -2,6 +2,7 @@
 
 import gc
 import logging
+import os
 
 import pytest
 import scl
@@ -208,3 +209,19 @@ def test_a_handler_that_fails_is_told_and_the_next_record_goes_on(system: System
 def _wait_for(caplog: pytest.LogCaptureFixture, text: str) -> None:
     while text not in caplog.text:
         scl._logging.drain()
+
+
+def test_real_time_settings_are_applied_with_the_first_component(system: System) -> None:
+    core = min(os.sched_getaffinity(0))
+    script = """
+        import os
+        scl.open(SIX, "sink")
+        print(os.sched_getaffinity(0), flush=True)
+    """
+    pinned = system.python(script, SCL_CPU=str(core))
+    pinned.expect(f"{{{core}}}")
+    assert pinned.end() == (0, "")
+    code, errors = system.python(script, SCL_SCHED="fast").end()
+    assert code == 1
+    assert "OpenError" in errors
+    assert "`SCL_SCHED=fast`" in errors
