@@ -51,13 +51,15 @@ fn a_signal_is_passed_on_and_a_clean_stop_is_success() {
         let stopping =
             format!("trap 'echo got {word}; exit 0' {word}; echo ready; tail -f /dev/null >/dev/null & wait");
         let system = System::of(&[("sensor", &stopping)]);
-        let mut run = system.start(&NO_END_OF_GRACE);
-        run.wait_for_line("sensor | ready");
-        run.signal(signal);
-        run.wait_for_line(&format!("sensor | got {word}"));
-        let (status, _, err) = run.finish();
-        assert!(err.contains(&format!("scl: stopping on SIG{word}; once more kills at once\n")), "{err}");
-        assert_eq!(status.code(), Some(0), "{err}");
+        // A shell that starts it in the background ignores SIGINT, and `nohup` SIGHUP.
+        for mut run in [system.start(&NO_END_OF_GRACE), system.start_ignoring_signals(&NO_END_OF_GRACE)] {
+            run.wait_for_line("sensor | ready");
+            run.signal(signal);
+            run.wait_for_line(&format!("sensor | got {word}"));
+            let (status, _, err) = run.finish();
+            assert!(err.contains(&format!("scl: stopping on SIG{word}; once more kills at once\n")), "{err}");
+            assert_eq!(status.code(), Some(0), "{err}");
+        }
     }
 }
 

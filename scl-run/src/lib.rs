@@ -70,6 +70,7 @@ pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<boo
     let builds = plan.builds.iter().map(Build::label);
     let names = builds.chain(plan.components.iter().map(|component| component.name.as_str()));
     let output = Arc::new(Output::new(names.map(str::to_owned).collect()));
+    handle_stop_signals().map_err(|error| vec![Problem::new(format!("cannot handle signals: {error}"))])?;
     // Before the first thread, which inherits it: a thread that does not block them would end the process.
     let blocked = stop_signals().thread_block();
     blocked.map_err(|error| vec![Problem::new(format!("cannot block signals: {error}"))])?;
@@ -77,6 +78,15 @@ pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<boo
     let ended = run_plan(&plan, options, &output, &reports);
     reports.finish(options.grace);
     ended
+}
+
+/// Programs inherit which signals are ignored, but not which are handled. A shell that starts `scl run` in the background
+/// ignores SIGINT, and the programs could not be stopped by it. The flags are never read: the signals are blocked.
+fn handle_stop_signals() -> io::Result<()> {
+    for signal in &stop_signals() {
+        signal_hook::flag::register(signal as i32, Arc::default())?;
+    }
+    Ok(())
 }
 
 fn run_plan(plan: &RunPlan, options: &Options, output: &Arc<Output>, reports: &Reports) -> Result<bool, Vec<Problem>> {

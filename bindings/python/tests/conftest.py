@@ -20,6 +20,9 @@ import scl
 
 TOPOLOGIES = Path(__file__).parents[3] / "tests" / "topologies"
 SIX = TOPOLOGIES / "six_kinds.yaml"
+# A shell that starts the tests in the background ignores SIGINT, and the programs under test would inherit that.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 HANG_LIMIT = 60.0
 """How long a test waits for an expected event, in seconds. Only a test that would hang otherwise ever reaches it."""
 

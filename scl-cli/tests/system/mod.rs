@@ -68,13 +68,21 @@ impl System {
         self.start_with(arguments, |_| {})
     }
 
+    /// Starts the system as a shell does that ignores what asks it to stop.
+    pub(crate) fn start_ignoring_signals(&self, arguments: &[&str]) -> Started {
+        let script = "trap '' INT TERM HUP; exec \"$0\" run \"$@\"";
+        let scl = self.scl(&[]);
+        let mut command = Command::new("/bin/sh");
+        command.args(["-c", script]).arg(scl.get_program()).args(arguments);
+        command.current_dir(self.folder.path()).stdin(Stdio::null());
+        Started::spawn(&mut command)
+    }
+
     /// Starts the system in another environment.
     pub(crate) fn start_with(&self, arguments: &[&str], prepare: impl Fn(&mut Command)) -> Started {
         let mut command = self.scl(&[&["run"], arguments].concat());
         prepare(&mut command);
-        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        let lines = BufReader::new(process.stdout.take().unwrap());
-        Started { process, lines }
+        Started::spawn(&mut command)
     }
 }
 
@@ -85,6 +93,12 @@ pub(crate) struct Started {
 }
 
 impl Started {
+    fn spawn(command: &mut Command) -> Self {
+        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let lines = BufReader::new(process.stdout.take().unwrap());
+        Self { process, lines }
+    }
+
     /// Reads standard output up to this line.
     pub(crate) fn wait_for_line(&mut self, expected: &str) {
         self.wait_until(expected, |line| line == expected);
