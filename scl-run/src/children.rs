@@ -75,7 +75,7 @@ impl Running {
         let (out, err) = (process.stdout.take(), process.stderr.take());
         let running = Self { process, group, started };
         guard.watch(group)?;
-        // Whoever reads our standard output wants the components' alone.
+        // Standard output has only what the components print.
         let out_stream = if role == Role::Build { Stream::Err } else { Stream::Out };
         watch_stream(index, out_stream, out, output, events);
         watch_stream(index, Stream::Err, err, output, events);

@@ -62,7 +62,7 @@ class Bytes {
         data_ = static_cast<const unsigned char*>(scl_message_data(message_, &size_));
     }
 
-    /// The bytes of a request, which somebody else owns. Whoever keeps them moves them, and that makes a copy.
+    /// The bytes of a request, borrowed from it. Moving them makes a copy, so that they can be kept.
     static Bytes borrowed(const void* data, std::size_t size) noexcept {
         return Bytes(static_cast<const unsigned char*>(data), size);
     }
