@@ -45,12 +45,8 @@ impl<T> Incoming<T> {
         let (state, gate) = (Arc::clone(&self.state), self.name);
         let blocking = |source| RecvError::Blocking { gate, source };
         state.may_block().map_err(blocking)?;
-        if let Some(within) = state.direct_wait() {
-            let arrived = self.inbox.lock().wait(within);
-            if let Some(arrived) = arrived {
-                state.take_turn();
-                return self.decode(arrived);
-            }
+        if let Some(arrived) = self.wait_directly(Duration::MAX) {
+            return self.decode(arrived);
         }
         state.block_on(self.recv()).map_err(blocking)?
     }
@@ -60,12 +56,8 @@ impl<T> Incoming<T> {
         let blocking = |source| RecvTimeoutError::Recv(RecvError::Blocking { gate, source });
         state.may_block().map_err(blocking)?;
         let started = Instant::now();
-        if let Some(within) = state.direct_wait() {
-            let arrived = self.inbox.lock().wait(within.min(timeout));
-            if let Some(arrived) = arrived {
-                state.take_turn();
-                return Ok(self.decode(arrived)?);
-            }
+        if let Some(arrived) = self.wait_directly(timeout) {
+            return Ok(self.decode(arrived)?);
         }
         let left = timeout.saturating_sub(started.elapsed());
         match state.block_on_for(left, self.recv()).map_err(blocking)? {
@@ -75,6 +67,15 @@ impl<T> Incoming<T> {
                 Err(RecvTimeoutError::Timeout { gate, peers, waited: timeout, reason })
             }
         }
+    }
+
+    /// Waits for a message on the calling thread, without the runtime, where that is possible: for a short time, and no
+    /// longer than `limit`.
+    fn wait_directly(&self, limit: Duration) -> Option<Arrived> {
+        let within = self.state.direct_wait()?.min(limit);
+        let arrived = self.inbox.lock().wait(within)?;
+        self.state.take_turn();
+        Some(arrived)
     }
 
     /// The next item of a stream, which may be dropped without notice.
