@@ -93,7 +93,7 @@ fn manifest(workspace: &Path) -> String {
     let scl = workspace.join("scl");
     format!(
         "[package]\nname = \"quickstart-copy\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[workspace]\n\n[dependencies]\n\
-         scl = {{ path = {scl:?} }}\ntokio = {{ version = \"1\", features = [\"macros\"] }}\n"
+         scl = {{ package = \"scl-gates\", path = {scl:?} }}\ntokio = {{ version = \"1\", features = [\"macros\"] }}\n"
     )
 }
 

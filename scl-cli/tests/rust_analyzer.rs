@@ -61,7 +61,7 @@ fn shown(topology: &str) -> Shown {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let manifest = format!(
         "[package]\nname = \"edited\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[workspace]\n\n[dependencies]\n\
-         scl = {{ path = {:?} }}\n",
+         scl = {{ package = \"scl-gates\", path = {:?} }}\n",
         workspace.join("scl")
     );
     let system = System::of_files(&[("Cargo.toml", &manifest), ("topology.yaml", topology), ("src/main.rs", PROGRAM)]);
