@@ -2,13 +2,13 @@
 
 mod limits;
 
-use crate::print::{print_err, print_out};
 use clap::{Args, Subcommand, ValueEnum};
 use limits::{MESSAGES, REPETITIONS, STARTS, parse_seconds, within};
 use scl_bench::{
     CodecsOptions, Cores, DelayOptions, FanoutOptions, FreshOptions, OpenOptions, RateOptions, Report, RestartOptions,
     RoundtripOptions,
 };
+use scl_terminal::{print_err, print_out};
 use std::process::ExitCode;
 use std::time::Duration;
 

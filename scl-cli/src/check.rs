@@ -7,10 +7,10 @@ mod report;
 mod watch;
 
 use crate::load::{MaxSize, STDIN};
-use crate::print::print_err;
 use checked::{Checked, check_file};
 use clap::{Args, ValueEnum};
 use deny::{Deny, parse_deny};
+use scl_terminal::print_err;
 use std::path::PathBuf;
 use std::process::ExitCode;
 

@@ -1,8 +1,8 @@
 //! `scl completions`: words that a shell offers after `scl`.
 
-use crate::print::print_out;
 use clap::{Args, Command};
 use clap_complete::{Shell, generate};
+use scl_terminal::print_out;
 use std::process::ExitCode;
 
 /// Print a script with which a shell completes the commands and options of `scl`.

@@ -8,13 +8,13 @@ mod report;
 mod together;
 
 use crate::load::{MaxSize, STDIN, load_file, show_errors};
-use crate::print::{print_err, print_out};
 use change::find_changes;
 use clap::{Args, ValueEnum};
 use messages::find_message_changes;
 use rebuild::find_rebuilds;
 use report::{report_json, report_text};
 use scl_plan::SystemPlan;
+use scl_terminal::{print_err, print_out};
 use scl_topology::topology::Topology;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

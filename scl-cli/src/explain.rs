@@ -1,7 +1,7 @@
 //! `scl explain`: what a code of the checker or a word of the topology file means.
 
-use crate::print::{print_err, print_out};
 use clap::Args;
+use scl_terminal::{print_err, print_out};
 use scl_topology::catalogue::{self, ALL};
 use scl_topology::grammar::{self, Entry};
 use scl_topology::rule::{Rule, Severity};

@@ -1,10 +1,10 @@
 //! `scl generate`: code and configuration for other languages.
 
 use crate::load::{MaxSize, load_file, show_diagnostics};
-use crate::print::{print_err, print_out};
 use clap::{Args, ValueEnum};
 use scl_generate::{Component, File, Format, Outcome, OutputError, System, Target, is_current, write};
 use scl_plan::SystemPlan;
+use scl_terminal::{print_err, print_out};
 use scl_topology::diagnostic::Severity;
 use std::error::Error;
 use std::path::{Path, PathBuf};

@@ -5,10 +5,10 @@ mod edge;
 mod mermaid;
 
 use crate::load::{MaxSize, load_file, show_errors};
-use crate::print::print_out;
 use clap::{Args, ValueEnum};
 use dot::draw_dot;
 use mermaid::draw_mermaid;
+use scl_terminal::print_out;
 use std::path::PathBuf;
 use std::process::ExitCode;
 

@@ -1,9 +1,9 @@
 //! Topology files from disk or standard input, for every command, and their problems on standard error.
 
-use crate::print::print_err;
 use anstream::{AutoStream, ColorChoice};
 use clap::Args;
 use scl_loader::{Loaded, Request, load, load_bytes};
+use scl_terminal::print_err;
 use scl_topology::diagnostic::{Diagnostic, Severity, render, render_styled};
 use scl_topology::external::UNREADABLE_FILE;
 use scl_topology::size;

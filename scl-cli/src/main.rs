@@ -6,15 +6,12 @@ mod bench;
 mod check;
 mod completions;
 mod diff;
-#[cfg(any(feature = "bench", feature = "run"))]
-mod duration;
 mod explain;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
 mod load;
 mod plan;
-mod print;
 #[cfg(feature = "run")]
 mod run;
 mod schema;

@@ -1,9 +1,9 @@
 //! `scl plan`: the plans of a system's components as JSON.
 
 use crate::load::{MaxSize, load_file, show_errors};
-use crate::print::{print_err, print_out};
 use clap::Args;
 use scl_plan::SystemPlan;
+use scl_terminal::{print_err, print_out};
 use std::path::PathBuf;
 use std::process::ExitCode;
 

@@ -1,9 +1,9 @@
 //! `scl run`: builds and starts the program of every component, shows what they print, and stops them together.
 
-use crate::duration::parse_duration;
 use crate::load::{MaxSize, load_file, show_errors};
-use crate::print::print_err;
 use clap::Args;
+use scl_terminal::parse_duration;
+use scl_terminal::print_err;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -6,10 +6,10 @@ mod names;
 mod shape;
 
 use crate::load::{MaxSize, load_file, show_errors};
-use crate::print::print_out;
 use clap::Args;
 use file::file_schema;
 use names::Names;
+use scl_terminal::print_out;
 use std::path::PathBuf;
 use std::process::ExitCode;
 

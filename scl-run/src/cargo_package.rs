@@ -1,6 +1,6 @@
 //! Builds the cargo package of a system and finds its programs.
 
-use super::problem::Problem;
+use scl_terminal::Problem;
 use serde::Deserialize;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};

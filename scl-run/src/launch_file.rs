@@ -11,9 +11,9 @@ mod reader;
 pub(crate) use entry::LaunchComponent;
 
 use super::launch_text::LaunchText;
-use super::problem::Problem;
 use profile::Profile;
 use reader::Reader;
+use scl_terminal::Problem;
 use serde_yaml::Value;
 
 /// A launch file that shows most keys, for help texts.

@@ -1,6 +1,6 @@
 //! Positions in a launch file. The YAML library reports none for values, so keys are looked up in the text.
 
-use super::problem::Problem;
+use scl_terminal::Problem;
 use serde_yaml::Error;
 
 /// The text of a launch file, and the path by which messages name it.

@@ -7,9 +7,9 @@
 //! - One `scl __guard` holds the read end of a pipe whose write end only `scl run` holds. When the pipe ends, it kills
 //!   the whole process group of each component, including the processes that the programs have started.
 
-use super::problem::print_err;
 use nix::sys::signal::{SigSet, Signal, killpg};
 use nix::unistd::Pid;
+use scl_terminal::print_err;
 use std::ffi::OsString;
 use std::io::{self, BufRead, Write};
 use std::os::unix::process::CommandExt;

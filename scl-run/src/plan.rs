@@ -3,9 +3,9 @@
 use super::Options;
 use super::cargo_package::{BuiltProgram, build_package};
 use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile};
-use super::problem::{Problem, print_err, quoted_list};
 use super::program::{Build, Component, Program};
 use super::selection::Selection;
+use scl_terminal::{Problem, print_err, quoted_list};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 

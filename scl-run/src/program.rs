@@ -1,6 +1,6 @@
 //! The programs of a run: what makes them, and what runs the components.
 
-use super::problem::{Problem, quoted_list};
+use scl_terminal::{Problem, quoted_list};
 use std::ffi::{OsStr, OsString};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};

@@ -2,7 +2,7 @@
 
 use super::Options;
 use super::launch_file::LaunchComponent;
-use super::problem::{Problem, closest_name, quoted_list};
+use scl_terminal::{Problem, closest_name, quoted_list};
 
 /// A choice of components.
 #[derive(Debug)]

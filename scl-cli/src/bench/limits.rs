@@ -1,6 +1,6 @@
 //! The values that the options of `scl bench` accept. An error says what to write instead.
 
-use crate::duration::parse_duration;
+use scl_terminal::parse_duration;
 use std::ops::RangeInclusive;
 use std::time::Duration;
 

@@ -6,8 +6,8 @@
 use super::checked::Checked;
 use super::report::report;
 use super::{COULD_NOT_RUN, CheckArguments, check_files, worst_code};
-use crate::print::print_err;
 use nix::sys::signal::{SigSet, Signal};
+use scl_terminal::print_err;
 use std::io;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};

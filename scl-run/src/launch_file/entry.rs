@@ -1,8 +1,8 @@
 //! What a launch file says about one component, in `components` or in a profile.
 
-use super::super::problem::{Problem, closest_name, quoted_list};
 use super::keys;
 use super::reader::{KeyPath, Reader, scalar_text, shown};
+use scl_terminal::{Problem, closest_name, quoted_list};
 use serde_yaml::{Mapping, Value};
 
 /// A component and the program that runs it.

@@ -1,7 +1,7 @@
 //! `environment`: variables for programs.
 
-use super::super::problem::Problem;
 use super::reader::{KeyPath, Reader, scalar_text, shown};
+use scl_terminal::Problem;
 use serde_yaml::Value;
 
 impl Reader<'_> {

@@ -1,9 +1,9 @@
 //! `profiles`: other programs for the same components.
 
-use super::super::problem::{Problem, closest_name, quoted_list};
 use super::LaunchFile;
 use super::entry::{Entry, LaunchComponent, joined};
 use super::reader::{Reader, shown};
+use scl_terminal::{Problem, closest_name, quoted_list};
 use serde_yaml::Value;
 
 /// A named set of entries that replace or change those of `components`.

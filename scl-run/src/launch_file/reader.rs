@@ -1,8 +1,8 @@
 //! What all parts of a launch file are read with: the collected problems, the check of keys, texts of values.
 
 use super::super::launch_text::LaunchText;
-use super::super::problem::{Problem, closest_name, quoted_list};
 use super::keys::Key;
+use scl_terminal::{Problem, closest_name, quoted_list};
 use serde_yaml::{Mapping, Value};
 
 /// Walks the values and collects the problems; every `read_*` continues after a mistake.

@@ -1,8 +1,8 @@
 //! What becomes of good launch files, and that no text at all is too bad. The words are tested with the real command.
 
-use super::super::problem::Problem;
 use super::keys::{self, Key};
 use super::{EXAMPLE, LaunchComponent, LaunchDocument, LaunchFile};
+use scl_terminal::Problem;
 
 fn parse_launch_file(text: &str, known: Option<&[String]>) -> Result<LaunchFile, Vec<Problem>> {
     LaunchDocument::parse("launch.yaml", text).map_err(|problem| vec![problem])?.read(known)

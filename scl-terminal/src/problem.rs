@@ -1,7 +1,6 @@
-//! Why a system cannot be started: worded like the checker's diagnostics, for files that the checker does not read.
+//! What is wrong and what to do, worded like the checker's diagnostics, for everything that the checker does not read.
 
 use std::fmt;
-use std::io::Write;
 
 /// One problem: what is wrong, where, and the way out.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -14,24 +13,24 @@ pub struct Problem {
 
 impl Problem {
     /// A problem with its headline: lower case, no full stop, names in backticks.
-    pub(crate) fn new(message: impl Into<String>) -> Self {
+    pub fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), place: None, helps: Vec::new(), notes: Vec::new() }
     }
 
     /// Says where: `launch.yaml:3:5`.
-    pub(crate) fn at(mut self, place: impl Into<String>) -> Self {
+    pub fn at(mut self, place: impl Into<String>) -> Self {
         self.place = Some(place.into());
         self
     }
 
     /// Adds a way out.
-    pub(crate) fn help(mut self, text: impl Into<String>) -> Self {
+    pub fn help(mut self, text: impl Into<String>) -> Self {
         self.helps.push(text.into());
         self
     }
 
     /// Adds the rule, or the valid names.
-    pub(crate) fn note(mut self, text: impl Into<String>) -> Self {
+    pub fn note(mut self, text: impl Into<String>) -> Self {
         self.notes.push(text.into());
         self
     }
@@ -54,20 +53,15 @@ impl fmt::Display for Problem {
 }
 
 /// The one of `names` that `wrong` probably means, if one is close enough.
-pub(crate) fn closest_name<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn closest_name<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wrong = wrong.to_lowercase();
     let limit = (wrong.chars().count() / 3).max(1);
     let distance = |name: &str| strsim::damerau_levenshtein(&wrong, &name.to_lowercase());
     names.into_iter().map(|name| (distance(name), name)).filter(|(far, _)| *far <= limit).min().map(|(_, name)| name)
 }
 
-/// Writes to standard error. Unlike `eprint!`, it does not panic when the reader has gone.
-pub(crate) fn print_err(text: &str) {
-    let _ = std::io::stderr().lock().write_all(text.as_bytes());
-}
-
 /// `` `a`, `b`, `c` ``
-pub(crate) fn quoted_list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+pub fn quoted_list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 

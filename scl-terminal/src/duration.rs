@@ -9,7 +9,7 @@ const UNITS: [(&str, f64); 5] = [("us", 1e-6), ("ms", 1e-3), ("s", 1.0), ("min",
 /// # Errors
 ///
 /// A text for the user when the number or the unit is missing, unknown, negative or too large.
-pub(crate) fn parse_duration(text: &str) -> Result<Duration, String> {
+pub fn parse_duration(text: &str) -> Result<Duration, String> {
     let unit_start = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
     let (number, unit) = text.split_at(unit_start);
     let number: f64 = number.trim().parse().map_err(|_| format!("expected a number and a unit, like `{EXAMPLE}`"))?;

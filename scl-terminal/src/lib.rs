@@ -1,0 +1,10 @@
+//! What all parts of the command line share: problems and how they are worded, output, values of options.
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+mod duration;
+mod print;
+mod problem;
+
+pub use duration::parse_duration;
+pub use print::{print_err, print_out};
+pub use problem::{Problem, closest_name, quoted_list};
