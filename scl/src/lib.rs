@@ -87,6 +87,7 @@ mod component;
 pub mod conformance;
 mod environment;
 mod error;
+mod figures;
 mod gate;
 pub mod host;
 mod log;
