@@ -1,7 +1,7 @@
 //! How often a gate sends: rate, periods and jitter from the sender's time stamps, and what the observer missed.
 
 use crate::distribution::{Distribution, Spread};
-use crate::ObservedKind;
+use scl::tap::ObservedKind;
 use std::collections::VecDeque;
 
 /// Counts the frames at the tap of one gate.
@@ -178,7 +178,12 @@ impl Totals {
 
     fn figures(&self) -> RateFigures {
         let rate = (self.duration_ns > 0).then(|| self.sent as f64 * 1e9 / self.duration_ns as f64);
-        RateFigures { messages: self.messages, rate, period: self.periods.spread(), lost: self.lost.max(0).unsigned_abs() }
+        RateFigures {
+            messages: self.messages,
+            rate,
+            period: self.periods.spread(),
+            lost: self.lost.max(0).unsigned_abs(),
+        }
     }
 
     fn clear(&mut self) {
@@ -209,7 +214,7 @@ impl Window {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ObservedKind::{Message, Reply, Request};
+    use ObservedKind::{Message, Reply, Request};
 
     const MS: u64 = 1_000_000;
 
@@ -247,7 +252,11 @@ mod tests {
             ("late messages were not missed", &[(0, 0), (2, 20), (1, 10), (3, 30)], "4 100.0 - 0"),
             ("late before the first", &[(5, 0), (3, 1)], "2 - - 1"),
             ("a clock that is set back", &[(0, 100), (1, 50), (2, 60)], "3 100.0 10..10 0"),
-            ("the last number of all", &[(u64::MAX - 1, 0), (u64::MAX, 10), (0, 20)], "3 100.0 10..10 9223372036854775807"),
+            (
+                "the last number of all",
+                &[(u64::MAX - 1, 0), (u64::MAX, 10), (0, 20)],
+                "3 100.0 10..10 9223372036854775807",
+            ),
         ];
         for (what, frames, expected) in cases {
             let [interval, total] = figures(None, &messages(frames));
@@ -266,7 +275,8 @@ mod tests {
 
     #[test]
     fn requests_are_counted_and_their_replies_are_not() {
-        let frames = [(Request, 0, 0), (Reply, 1, 4), (Request, 2, 10), (Request, 3, 30), (Reply, 4, 31), (Reply, 5, 32)];
+        let frames =
+            [(Request, 0, 0), (Reply, 1, 4), (Request, 2, 10), (Request, 3, 30), (Reply, 4, 31), (Reply, 5, 32)];
         assert_eq!(shown(&figures(None, &frames.map(Some))[1]), "3 66.7 10..20 0");
         let with_gap = [(Request, 0, 0), (Reply, 1, 4), (Request, 5, 100), (Reply, 6, 101), (Request, 7, 110)];
         assert_eq!(shown(&figures(None, &with_gap.map(Some))[1]), "3 100.0 10..10 3");
