@@ -30,12 +30,6 @@ mod system;
 mod taps;
 mod woken;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ObservedKind {
-    Message,
-    Request,
-    Reply,
-}
 pub use bandwidth::{BandwidthFigures, BandwidthMeter};
 pub use component::Component;
 pub use delay::{DelayFigures, DelayMeter};

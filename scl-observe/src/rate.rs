@@ -1,7 +1,7 @@
 //! How often a gate sends: rate, periods and jitter from the sender's time stamps, and what the observer missed.
 
-use crate::ObservedKind;
 use crate::distribution::{Distribution, Spread};
+use scl::tap::ObservedKind;
 use std::collections::VecDeque;
 
 /// Counts the frames at the tap of one gate.
@@ -214,7 +214,7 @@ impl Window {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ObservedKind::{Message, Reply, Request};
+    use ObservedKind::{Message, Reply, Request};
 
     const MS: u64 = 1_000_000;
 
