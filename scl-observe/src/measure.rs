@@ -178,7 +178,7 @@ impl Meter for BandwidthMeter {
     type Figures = crate::BandwidthFigures;
 
     fn observe(&mut self, seen: &Observation) {
-        self.observe(seen.payload.len(), seen.sent_ns);
+        self.observe(seen.kind, seen.payload.len(), seen.sent_ns);
     }
 
     fn interrupt(&mut self) {
