@@ -11,6 +11,8 @@ mod completions;
 mod delay;
 mod diff;
 mod explain;
+#[cfg(any(feature = "observe", feature = "run"))]
+mod format;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
@@ -19,6 +21,7 @@ mod hz;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
+mod observed;
 mod plan;
 #[cfg(feature = "observe")]
 mod quantity;
