@@ -1,11 +1,12 @@
 //! One recording on disk: an MCAP file that is readable at any moment up to its last flush.
 
 use super::disk_room::DiskRoom;
-use super::gate::{Gate, Message};
+use super::gate::{Message, NewChannel, channels};
 use crate::format::{GateTotals, PROFILE, Part, Totals};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
+use scl_observe::ObservedGate;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -117,16 +118,16 @@ impl RecordingFile {
     }
 
     /// Adds the channels of a gate, unless the file has them already.
-    pub(crate) fn add_gate(&mut self, number: usize, gate: &Gate) -> Result<(), WriteError> {
-        for (part, encoding, metadata) in gate.channels() {
+    pub(crate) fn add_gate(&mut self, number: usize, gate: &ObservedGate) -> Result<(), WriteError> {
+        for NewChannel { part, topic, encoding, metadata } in channels(gate) {
             // The record and its copy in the index.
+            let texts: usize = metadata.iter().map(|(key, value)| key.len() + value.len()).sum();
             let size =
-                (encoding.schema.len() + encoding.schema_name.len() + 2 * metadata.len()) as u64 + INDEX_PER_CHANNEL;
+                (encoding.schema.len() + encoding.schema_name.len() + topic.len() + texts) as u64 + INDEX_PER_CHANNEL;
             self.ensure_room(2 * size)?;
             self.index += size;
             self.pending += size;
             let schema = self.writer.add_schema(encoding.schema_name, encoding.schema_encoding, &encoding.schema)?;
-            let topic = gate.topic(part).to_string();
             let channel = self.writer.add_channel(schema, &topic, &encoding.message, &metadata)?;
             self.channels.insert((number, part), channel);
         }

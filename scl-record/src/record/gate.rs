@@ -1,23 +1,10 @@
-//! A gate that is recorded, and its messages on their way to the file.
+//! A gate's channels, and its messages on their way to the file.
 
 use crate::format::{ChannelMetadata, Encoding, Part, Topic};
 use bytes::Bytes;
+use scl_observe::ObservedGate;
 use scl_plan::{GateKind, Payload};
 use std::collections::BTreeMap;
-
-/// What the file says about a gate.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Gate {
-    pub(crate) component: String,
-    pub(crate) gate: String,
-    pub(crate) kind: GateKind,
-    pub(crate) payload: Payload,
-    pub(crate) codec: String,
-    pub(crate) contract: String,
-    pub(crate) peers: Vec<String>,
-    /// Serialized `FileDescriptorSet`.
-    pub(crate) descriptors: Option<Bytes>,
-}
 
 /// One message, request or reply.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,36 +28,40 @@ impl Message {
     }
 }
 
-impl Gate {
-    /// As on the command line: `sensor.measurements`.
-    pub(crate) fn name(&self) -> String {
-        format!("{}.{}", self.component, self.gate)
-    }
-
-    pub(crate) fn topic(&self, part: Part) -> Topic {
-        Topic { component: self.component.clone(), gate: self.gate.clone(), part }
-    }
-
-    /// The channels of the gate: one, or two for requests and replies.
-    pub(crate) fn channels(&self) -> Vec<(Part, Encoding<'_>, BTreeMap<String, String>)> {
-        let channel = |part, type_name: Option<&String>| {
-            let encoding = Encoding::new(&self.codec, type_name.map(String::as_str), self.descriptors.as_deref());
-            let metadata = ChannelMetadata {
-                kind: self.kind,
-                type_name: type_name.cloned(),
-                codec: self.codec.clone(),
-                contract: self.contract.clone(),
-                peers: self.peers.clone(),
-            };
-            (part, encoding, metadata.to_map())
-        };
-        match (&self.payload, self.kind) {
-            (Payload::Exchange { request, reply }, _) => {
-                vec![channel(Part::Request, Some(request)), channel(Part::Reply, Some(reply))]
-            }
-            (Payload::Bytes, GateKind::Rep) => vec![channel(Part::Request, None), channel(Part::Reply, None)],
-            (Payload::Bytes, _) => vec![channel(Part::Message, None)],
-            (Payload::Message(name), _) => vec![channel(Part::Message, Some(name))],
+/// The channels of a gate: one, or two for requests and replies.
+pub(crate) fn channels(gate: &ObservedGate) -> Vec<NewChannel<'_>> {
+    let parts = match (&gate.payload, gate.kind) {
+        (Payload::Exchange { request, reply }, _) => {
+            vec![(Part::Request, Some(request)), (Part::Reply, Some(reply))]
         }
+        (Payload::Bytes, GateKind::Rep) => vec![(Part::Request, None), (Part::Reply, None)],
+        (Payload::Bytes, _) => vec![(Part::Message, None)],
+        (Payload::Message(name), _) => vec![(Part::Message, Some(name))],
+    };
+    parts.into_iter().map(|(part, type_name)| channel(gate, part, type_name.map(String::as_str))).collect()
+}
+
+/// A channel as the file describes it.
+pub(crate) struct NewChannel<'a> {
+    pub(crate) part: Part,
+    pub(crate) topic: String,
+    pub(crate) encoding: Encoding<'a>,
+    pub(crate) metadata: BTreeMap<String, String>,
+}
+
+fn channel<'a>(gate: &'a ObservedGate, part: Part, type_name: Option<&'a str>) -> NewChannel<'a> {
+    let metadata = ChannelMetadata {
+        kind: gate.kind,
+        type_name: type_name.map(str::to_owned),
+        codec: gate.codec.clone(),
+        contract: gate.contract.clone(),
+        peers: gate.peers.clone(),
+    };
+    let topic = Topic { component: gate.component.clone(), gate: gate.gate.clone(), part };
+    NewChannel {
+        part,
+        topic: topic.to_string(),
+        encoding: Encoding::new(&gate.codec, type_name, gate.schema.as_deref()),
+        metadata: metadata.to_map(),
     }
 }
