@@ -7,10 +7,14 @@ mod check;
 mod completions;
 mod diff;
 mod explain;
+#[cfg(any(feature = "observe", feature = "run"))]
+mod format;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
 mod load;
+#[cfg(feature = "observe")]
+mod observed;
 mod plan;
 #[cfg(feature = "run")]
 mod run;
