@@ -1,2 +1,7 @@
 //! Recording, replay and comparison of systems, in MCAP files.
+//!
+//! [`format`] says what a recording contains; the writer side makes such files, the reader side reads them.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
+
+pub mod format;
+pub mod record;
