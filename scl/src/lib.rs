@@ -102,6 +102,8 @@ pub mod spec;
 mod state;
 mod stop;
 mod sync;
+#[cfg(feature = "zeromq")]
+pub mod tap;
 pub mod time;
 pub mod transport;
 pub mod untyped;
