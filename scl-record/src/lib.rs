@@ -4,3 +4,6 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod format;
+pub mod recording;
+#[cfg(test)]
+mod testing;

@@ -80,7 +80,8 @@ impl Recording {
     /// Messages recorded and lost per gate, as far as the files say so: one that was cut off does not.
     pub fn totals(&self) -> BTreeMap<String, GateTotals> {
         let mut sum = BTreeMap::<String, GateTotals>::new();
-        for (gate, totals) in self.files.iter().filter_map(|(_, overview)| overview.totals()).flat_map(|one| one.gates) {
+        for (gate, totals) in self.files.iter().filter_map(|(_, overview)| overview.totals()).flat_map(|one| one.gates)
+        {
             let gate = sum.entry(gate).or_default();
             gate.recorded += totals.recorded;
             gate.lost += totals.lost;

@@ -52,7 +52,8 @@ impl Records {
             let help = "the recorder was stopped before it wrote anything, or the disk was full";
             return Err(Problem::new(format!("the recording `{place}` is empty")).help(help));
         }
-        let mut records = Self { path: path.to_owned(), file: BufReader::new(file), offset: 0, unread: 0, size: metadata.len() };
+        let mut records =
+            Self { path: path.to_owned(), file: BufReader::new(file), offset: 0, unread: 0, size: metadata.len() };
         let mut magic = Vec::new();
         records.file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut magic).map_err(unreadable)?;
         if !MAGIC.starts_with(&magic) {
@@ -88,11 +89,6 @@ impl Records {
         let read = self.file.by_ref().take(self.unread.min(limit)).read_to_end(&mut content);
         self.unread -= read.map_err(|error| unreadable(&self.path, &error))? as u64;
         Ok(content)
-    }
-
-    /// Returns true if everything was read.
-    pub(super) fn is_at_end(&self) -> bool {
-        self.offset >= self.size
     }
 
     pub(super) fn path(&self) -> &Path {
