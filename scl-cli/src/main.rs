@@ -12,6 +12,8 @@ mod generate;
 mod graph;
 mod load;
 mod plan;
+#[cfg(feature = "record")]
+mod replay;
 #[cfg(feature = "run")]
 mod run;
 mod schema;
@@ -43,6 +45,8 @@ enum Command {
     Generate(generate::GenerateArguments),
     Graph(graph::GraphArguments),
     Plan(plan::PlanArguments),
+    #[cfg(feature = "record")]
+    Replay(replay::ReplayArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
@@ -68,6 +72,8 @@ fn main() -> ExitCode {
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
+        #[cfg(feature = "record")]
+        Command::Replay(arguments) => replay::replay(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

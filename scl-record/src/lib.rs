@@ -4,6 +4,8 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod format;
+pub mod progress;
 pub mod recording;
+pub mod replay;
 #[cfg(test)]
 mod testing;

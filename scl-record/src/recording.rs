@@ -12,6 +12,7 @@ mod overview;
 mod records;
 
 pub use channel::RecordedChannel;
+pub(crate) use channel::type_and_codec;
 pub use files::find_files;
 pub use messages::{Messages, RecordedMessage};
 pub use overview::Attachment;

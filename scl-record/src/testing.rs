@@ -61,6 +61,11 @@ impl Recorder {
         self
     }
 
+    pub(crate) fn restart_numbers(mut self) -> Self {
+        self.sequence = 0;
+        self
+    }
+
     pub(crate) fn end_chunk(mut self) -> Self {
         self.writer.flush().unwrap();
         self
