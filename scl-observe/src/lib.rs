@@ -17,16 +17,24 @@
 //! ```
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod bandwidth;
 mod component;
+mod delay;
+mod distribution;
 mod find;
 mod folder_changes;
 mod gate;
 mod lookup;
+mod rate;
 mod system;
 mod taps;
 mod woken;
 
+pub use bandwidth::{BandwidthFigures, BandwidthMeter};
 pub use component::Component;
+pub use delay::{DelayFigures, DelayMeter};
+pub use distribution::Spread;
 pub use gate::{ObservedGate, Tap};
+pub use rate::{RateFigures, RateMeter};
 pub use system::System;
 pub use taps::{Taps, TapsEvent};

@@ -105,7 +105,7 @@ mod tests {
         let wakers = [woken.add(0), woken.add(1), woken.add(2)];
         let mut taken = || std::iter::from_fn(|| woken.take(&task)).collect::<Vec<_>>();
         assert_eq!(taken(), [0, 1, 2], "each is polled at first");
-        assert_eq!(taken(), []);
+        assert_eq!(taken(), Vec::<usize>::new());
         for index in [2, 0, 2, 2] {
             wakers[index].wake_by_ref();
         }
