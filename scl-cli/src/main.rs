@@ -25,6 +25,8 @@ mod observed;
 mod plan;
 #[cfg(feature = "observe")]
 mod quantity;
+#[cfg(feature = "record")]
+mod replay;
 #[cfg(feature = "run")]
 mod run;
 mod schema;
@@ -62,6 +64,8 @@ enum Command {
     #[cfg(feature = "observe")]
     Hz(hz::HzArguments),
     Plan(plan::PlanArguments),
+    #[cfg(feature = "record")]
+    Replay(replay::ReplayArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
@@ -93,6 +97,8 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Hz(arguments) => hz::hz(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
+        #[cfg(feature = "record")]
+        Command::Replay(arguments) => replay::replay(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

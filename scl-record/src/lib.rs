@@ -4,4 +4,9 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod format;
+pub mod progress;
 pub mod record;
+pub mod recording;
+pub mod replay;
+#[cfg(test)]
+mod testing;

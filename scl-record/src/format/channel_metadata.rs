@@ -33,6 +33,13 @@ impl ChannelMetadata {
         map
     }
 
+    /// The keys that a map lacks, for messages: `` `kind`, `codec` ``.
+    pub fn missing(map: &BTreeMap<String, String>) -> String {
+        let missing: Vec<_> =
+            [KIND, CODEC, CONTRACT, PEERS].into_iter().filter(|key| !map.contains_key(*key)).collect();
+        if missing.is_empty() { format!("known `{KIND}`") } else { scl_terminal::quoted_list(missing) }
+    }
+
     /// Reads the map; `None` if a key is missing or the kind unknown.
     pub fn from_map(map: &BTreeMap<String, String>) -> Option<Self> {
         Some(Self {
