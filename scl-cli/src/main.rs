@@ -11,6 +11,8 @@ mod explain;
 mod generate;
 mod graph;
 mod load;
+#[cfg(feature = "new")]
+mod new;
 mod plan;
 #[cfg(feature = "run")]
 mod run;
@@ -42,6 +44,8 @@ enum Command {
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments),
     Graph(graph::GraphArguments),
+    #[cfg(feature = "new")]
+    New(new::NewArguments),
     Plan(plan::PlanArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
@@ -67,6 +71,8 @@ fn main() -> ExitCode {
         #[cfg(feature = "generate")]
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
+        #[cfg(feature = "new")]
+        Command::New(arguments) => new::new(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
