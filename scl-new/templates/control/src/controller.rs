@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use tokio::time::timeout;
 
-use crate::{Controller, rover};
+use crate::Controller;
+use crate::rover::{Event, Setpoint, Status};
 
 /// The motors stop if no measurement arrives for this long.
 pub const SENSOR_TIMEOUT: Duration = Duration::from_millis(500);
@@ -22,7 +23,7 @@ pub async fn run(mut c: Controller) -> scl::Result<()> {
                     Ok(measured) => (target_speed - measured?.speed).clamp(-1.0, 1.0),
                     Err(_elapsed) => 0.0,
                 };
-                c.setpoints.send(&rover::Setpoint { throttle }).await?;
+                c.setpoints.send(&Setpoint { throttle }).await?;
             }
             command = c.commands.recv() => {
                 let command = command?;
@@ -30,7 +31,7 @@ pub async fn run(mut c: Controller) -> scl::Result<()> {
                 if status.accepted {
                     target_speed = command.target_speed;
                     let text = format!("target is now {target_speed:.1} m/s");
-                    c.events.send(&rover::Event { text }).await?;
+                    c.events.send(&Event { text }).await?;
                 }
                 // A caller that has been stopped no longer waits for the reply.
                 let _gone = command.reply(&status);
@@ -40,8 +41,11 @@ pub async fn run(mut c: Controller) -> scl::Result<()> {
 }
 
 /// The reply to a command.
-fn check(target_speed: f64) -> rover::Status {
+fn check(target_speed: f64) -> Status {
     let accepted = (0.0..=MAX_SPEED).contains(&target_speed);
-    let reason = if accepted { String::new() } else { format!("not within 0 and {MAX_SPEED} m/s") };
-    rover::Status { accepted, reason }
+    let mut reason = String::new();
+    if !accepted {
+        reason = format!("not between 0 and {MAX_SPEED} m/s");
+    }
+    Status { accepted, reason }
 }

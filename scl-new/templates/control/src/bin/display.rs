@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use scl::CallError;
 
-use rover_system::{Display, rover};
+use rover_system::Display;
+use rover_system::rover::Command;
 
 #[scl::main]
 async fn main(mut display: Display) -> scl::Result<()> {
@@ -25,16 +26,13 @@ async fn main(mut display: Display) -> scl::Result<()> {
 
 /// Asks the controller for a speed and shows its reply.
 async fn ask(display: &mut Display, target_speed: f64) -> scl::Result<()> {
-    let status = match display.commands.call(&rover::Command { target_speed }).await {
-        Ok(status) => status,
+    let answer = match display.commands.call(&Command { target_speed }).await {
+        Ok(status) if status.accepted => "accepted".to_owned(),
+        Ok(status) => status.reason,
         // The controller is not running, or is being restarted.
-        Err(CallError::Timeout { .. } | CallError::PeerLost { .. }) => {
-            println!("asked for {target_speed:.1} m/s: no answer");
-            return Ok(());
-        }
+        Err(CallError::Timeout { .. } | CallError::PeerLost { .. }) => "no answer".to_owned(),
         Err(error) => return Err(error.into()),
     };
-    let answer = if status.accepted { "accepted" } else { &status.reason };
     println!("asked for {target_speed:.1} m/s: {answer}");
     Ok(())
 }

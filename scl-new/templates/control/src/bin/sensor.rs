@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use rover_system::{Sensor, rover};
+use rover_system::Sensor;
+use rover_system::rover::Measurement;
 
 #[scl::main]
 async fn main(mut sensor: Sensor) -> scl::Result<()> {
@@ -11,7 +12,7 @@ async fn main(mut sensor: Sensor) -> scl::Result<()> {
         tick.tick().await?;
         let speed = 1.0 + f64::from(step).sin();
         println!("speed {speed:.2} m/s");
-        sensor.measurements.send(&rover::Measurement { speed }).await?;
+        sensor.measurements.send(&Measurement { speed }).await?;
     }
     Ok(())
 }

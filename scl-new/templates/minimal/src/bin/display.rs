@@ -1,5 +1,7 @@
 //! Shows each measurement.
 
+use rover::Measurement;
+
 scl::topology!("topology.yaml");
 
 #[scl::main]
@@ -9,7 +11,7 @@ fn main(mut display: Display) -> scl::Result<()> {
     }
 }
 
-fn line(measurement: &rover::Measurement) -> String {
+fn line(measurement: &Measurement) -> String {
     format!("speed {:.2} m/s", measurement.speed)
 }
 
@@ -20,7 +22,8 @@ mod tests {
     #[test]
     fn a_measurement_becomes_a_line() {
         let (mut display, mut peer) = Display::test_blocking().expect("opened");
-        peer.sensor.send_blocking(&rover::Measurement { speed: 1.5 }).expect("sent");
+        let sent = Measurement { speed: 1.5 };
+        peer.sensor.send_blocking(&sent).expect("sent");
         let measurement = display.sensor.recv_blocking().expect("received");
         assert_eq!(line(&measurement), "speed 1.50 m/s");
     }
