@@ -22,6 +22,8 @@ mod load;
 #[cfg(feature = "observe")]
 mod measure;
 mod observed;
+#[cfg(feature = "new")]
+mod new;
 mod plan;
 #[cfg(feature = "observe")]
 mod quantity;
@@ -63,6 +65,8 @@ enum Command {
     Graph(graph::GraphArguments),
     #[cfg(feature = "observe")]
     Hz(hz::HzArguments),
+    #[cfg(feature = "new")]
+    New(new::NewArguments),
     Plan(plan::PlanArguments),
     #[cfg(feature = "record")]
     Replay(replay::ReplayArguments),
@@ -96,6 +100,8 @@ fn main() -> ExitCode {
         Command::Graph(arguments) => graph::graph(&arguments),
         #[cfg(feature = "observe")]
         Command::Hz(arguments) => hz::hz(&arguments),
+        #[cfg(feature = "new")]
+        Command::New(arguments) => new::new(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
         #[cfg(feature = "record")]
         Command::Replay(arguments) => replay::replay(&arguments),
