@@ -87,6 +87,8 @@ mod component;
 pub mod conformance;
 mod environment;
 mod error;
+#[doc(hidden)]
+pub mod examine;
 mod figures;
 mod gate;
 pub mod host;
