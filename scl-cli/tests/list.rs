@@ -56,7 +56,8 @@ fn without_a_running_system_the_way_out_is_shown() {
 
 #[test]
 fn a_stopped_system_is_found_by_its_name_or_its_topology() {
-    let mut rover = Rover::start_with(&["sensor"], |_| {});
+    let mut rover = Rover::stopped();
+    rover.play_alone("sensor");
     rover.stop("sensor");
     for arguments in [&["list"][..], &["list", "--system", "rover"]] {
         assert!(rover.text(arguments).starts_with("rover: 1 stopped\n"), "{arguments:?}");
@@ -65,18 +66,20 @@ fn a_stopped_system_is_found_by_its_name_or_its_topology() {
     assert!(error.contains("error: there is no system `rovr`\n  = help: did you mean `rover`?"), "{error}");
 }
 
-/// A table with single spaces, process numbers as `N`, ages as `AGE` and test programs as `tests`.
+/// A table with single spaces, and with process numbers as `PID`, ages as `AGE` and test programs as `tests`.
 fn shown(rover: &Rover, arguments: &[&str]) -> String {
     let text = rover.text(arguments);
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    let word = |word: &str| match word {
-        _ if word.starts_with("tests-") => "tests".to_owned(),
-        _ if word.parse::<u32>().is_ok() => "N".to_owned(),
-        _ => word.to_owned(),
-    };
-    let line = |line: &str| {
-        let words: Vec<String> = line.split_whitespace().map(word).collect();
-        words.join(" ") + "\n"
-    };
-    text.lines().filter(|it| !it.is_empty()).map(line).collect()
+    let lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+    let shown = lines.map(|words| match &words[..] {
+        [component, state @ .., pid, number, unit, program] if program.starts_with("tests-") => {
+            pid.parse::<u32>().unwrap();
+            number.parse::<f64>().unwrap();
+            assert!(["s", "min"].contains(unit), "{text}");
+            format!("{component} {} PID AGE tests\n", state.join(" "))
+        }
+        [component, "dead", _, program] if program.starts_with("tests-") => format!("{component} dead PID tests\n"),
+        words => words.join(" ") + "\n",
+    });
+    shown.collect()
 }
