@@ -11,12 +11,13 @@ fn components_and_their_states_are_listed() {
     rover.stop("logger");
     expect![[r#"
         rover: 2 running, 1 dead, 2 stopped
+
         COMPONENT STATE PID FOR PROGRAM
         actuator stopped
-        controller running N AGE tests
+        controller running PID AGE tests
         logger stopped
-        sensor not ready N AGE tests
-        user_interface dead N tests
+        sensor running PID AGE tests
+        user_interface dead PID tests
     "#]]
     .assert_eq(&shown(&rover, &["list"]));
 }
