@@ -6,11 +6,14 @@ mod bench;
 #[cfg(feature = "observe")]
 mod bw;
 mod check;
+#[cfg(feature = "observe")]
+mod complete_gates;
 mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
 mod explain;
+mod external;
 #[cfg(any(feature = "observe", feature = "run"))]
 mod format;
 #[cfg(feature = "generate")]
@@ -18,12 +21,17 @@ mod generate;
 mod graph;
 #[cfg(feature = "observe")]
 mod hz;
+#[cfg(feature = "observe")]
+mod info;
+#[cfg(feature = "observe")]
+mod list;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
-mod observed;
 #[cfg(feature = "new")]
 mod new;
+#[cfg(feature = "observe")]
+mod observed;
 mod plan;
 #[cfg(feature = "observe")]
 mod quantity;
@@ -34,12 +42,15 @@ mod run;
 mod schema;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Check, draw and run systems made of components that talk through typed gates.
 #[derive(Parser)]
 #[command(name = "scl", version, arg_required_else_help = true)]
-#[command(after_help = "Exit code: 0 fine (or only warnings), 1 errors or a failed component, 2 could not run.")]
+#[command(after_help = "Exit code: 0 fine (or only warnings), 1 errors or a failed component, 2 could not run.
+
+`scl x` runs the program `scl-x` from PATH if there is no command `x`.")]
 struct CommandLine {
     #[command(subcommand)]
     command: Command,
@@ -55,6 +66,9 @@ enum Command {
     #[cfg(feature = "observe")]
     Bw(bw::BwArguments),
     Check(check::CheckArguments),
+    #[cfg(feature = "observe")]
+    #[command(name = complete_gates::COMMAND, hide = true)]
+    CompleteGates(complete_gates::CompleteGatesArguments),
     Completions(completions::CompletionsArguments),
     #[cfg(feature = "observe")]
     Delay(delay::DelayArguments),
@@ -65,6 +79,10 @@ enum Command {
     Graph(graph::GraphArguments),
     #[cfg(feature = "observe")]
     Hz(hz::HzArguments),
+    #[cfg(feature = "observe")]
+    Info(info::InfoArguments),
+    #[cfg(feature = "observe")]
+    List(list::ListArguments),
     #[cfg(feature = "new")]
     New(new::NewArguments),
     Plan(plan::PlanArguments),
@@ -79,6 +97,9 @@ enum Command {
     #[cfg(feature = "run")]
     #[command(name = run::GUARD_WORD, hide = true)]
     Guard,
+    /// A program `scl-x` of the user's, as `scl x`.
+    #[command(external_subcommand)]
+    External(Vec<OsString>),
 }
 
 fn main() -> ExitCode {
@@ -90,6 +111,8 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Bw(arguments) => bw::bw(&arguments),
         Command::Check(arguments) => check::check(&arguments),
+        #[cfg(feature = "observe")]
+        Command::CompleteGates(arguments) => complete_gates::complete_gates(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         #[cfg(feature = "observe")]
         Command::Delay(arguments) => delay::delay(&arguments),
@@ -100,6 +123,10 @@ fn main() -> ExitCode {
         Command::Graph(arguments) => graph::graph(&arguments),
         #[cfg(feature = "observe")]
         Command::Hz(arguments) => hz::hz(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Info(arguments) => info::info(&arguments),
+        #[cfg(feature = "observe")]
+        Command::List(arguments) => list::list(&arguments),
         #[cfg(feature = "new")]
         Command::New(arguments) => new::new(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
@@ -112,5 +139,6 @@ fn main() -> ExitCode {
         Command::Start(arguments) => run::start_component(&arguments),
         #[cfg(feature = "run")]
         Command::Guard => run::keep_watch(),
+        Command::External(words) => external::run_external(&words, &CommandLine::command()),
     }
 }
