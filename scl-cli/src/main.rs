@@ -7,10 +7,18 @@ mod check;
 mod completions;
 mod diff;
 mod explain;
+#[cfg(any(feature = "observe", feature = "run"))]
+mod format;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
+#[cfg(feature = "observe")]
+mod info;
+#[cfg(feature = "observe")]
+mod list;
 mod load;
+#[cfg(feature = "observe")]
+mod observed;
 mod plan;
 #[cfg(feature = "run")]
 mod run;
@@ -42,6 +50,10 @@ enum Command {
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments),
     Graph(graph::GraphArguments),
+    #[cfg(feature = "observe")]
+    Info(info::InfoArguments),
+    #[cfg(feature = "observe")]
+    List(list::ListArguments),
     Plan(plan::PlanArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
@@ -67,6 +79,10 @@ fn main() -> ExitCode {
         #[cfg(feature = "generate")]
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Info(arguments) => info::info(&arguments),
+        #[cfg(feature = "observe")]
+        Command::List(arguments) => list::list(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
