@@ -3,8 +3,12 @@
 
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "observe")]
+mod bw;
 mod check;
 mod completions;
+#[cfg(feature = "observe")]
+mod delay;
 mod diff;
 mod explain;
 #[cfg(any(feature = "observe", feature = "run"))]
@@ -13,13 +17,23 @@ mod format;
 mod generate;
 mod graph;
 #[cfg(feature = "observe")]
+mod hz;
+#[cfg(feature = "observe")]
 mod info;
 #[cfg(feature = "observe")]
 mod list;
 mod load;
 #[cfg(feature = "observe")]
+mod measure;
+#[cfg(feature = "observe")]
 mod observed;
+#[cfg(feature = "new")]
+mod new;
 mod plan;
+#[cfg(feature = "observe")]
+mod quantity;
+#[cfg(feature = "record")]
+mod replay;
 #[cfg(feature = "run")]
 mod run;
 mod schema;
@@ -43,18 +57,28 @@ enum Command {
     #[cfg(feature = "bench")]
     #[command(name = bench::WORKER_COMMAND, hide = true)]
     BenchWorker(bench::WorkerArguments),
+    #[cfg(feature = "observe")]
+    Bw(bw::BwArguments),
     Check(check::CheckArguments),
     Completions(completions::CompletionsArguments),
+    #[cfg(feature = "observe")]
+    Delay(delay::DelayArguments),
     Diff(diff::DiffArguments),
     Explain(explain::ExplainArguments),
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments),
     Graph(graph::GraphArguments),
     #[cfg(feature = "observe")]
+    Hz(hz::HzArguments),
+    #[cfg(feature = "observe")]
     Info(info::InfoArguments),
     #[cfg(feature = "observe")]
     List(list::ListArguments),
+    #[cfg(feature = "new")]
+    New(new::NewArguments),
     Plan(plan::PlanArguments),
+    #[cfg(feature = "record")]
+    Replay(replay::ReplayArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
@@ -72,8 +96,12 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => bench::bench(&arguments),
         #[cfg(feature = "bench")]
         Command::BenchWorker(arguments) => bench::run_worker(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Bw(arguments) => bw::bw(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
+        #[cfg(feature = "observe")]
+        Command::Delay(arguments) => delay::delay(&arguments),
         Command::Diff(arguments) => diff::diff(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         #[cfg(feature = "generate")]
@@ -82,8 +110,14 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Info(arguments) => info::info(&arguments),
         #[cfg(feature = "observe")]
+        Command::Hz(arguments) => hz::hz(&arguments),
+        #[cfg(feature = "observe")]
         Command::List(arguments) => list::list(&arguments),
+        #[cfg(feature = "new")]
+        Command::New(arguments) => new::new(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
+        #[cfg(feature = "record")]
+        Command::Replay(arguments) => replay::replay(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

@@ -1,6 +1,8 @@
 //! The integration tests of the command line, in one binary.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[cfg(feature = "observe")]
+mod bandwidth;
 #[cfg(feature = "bench")]
 mod bench;
 mod check;
@@ -9,6 +11,8 @@ mod check_formats;
 mod check_inputs;
 mod check_watch;
 mod completions;
+#[cfg(feature = "observe")]
+mod delay;
 mod diff;
 mod editor;
 mod explain;
@@ -19,6 +23,7 @@ mod graph;
 mod info;
 #[cfg(feature = "observe")]
 mod json;
+mod hz;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
 #[cfg(feature = "observe")]
@@ -44,3 +49,5 @@ mod run_stop;
 mod rust_analyzer;
 mod schema;
 mod system;
+#[cfg(feature = "observe")]
+mod ticker;
