@@ -28,6 +28,8 @@ mod list;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
+#[cfg(feature = "observe")]
+mod observed;
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]
@@ -125,6 +127,8 @@ fn main() -> ExitCode {
         Command::Hz(arguments) => hz::hz(&arguments),
         #[cfg(feature = "observe")]
         Command::Info(arguments) => info::info(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Hz(arguments) => hz::hz(&arguments),
         #[cfg(feature = "observe")]
         Command::List(arguments) => list::list(&arguments),
         #[cfg(feature = "new")]
