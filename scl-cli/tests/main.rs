@@ -1,6 +1,8 @@
 //! The integration tests of the command line, in one binary.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[cfg(feature = "observe")]
+mod bandwidth;
 #[cfg(feature = "bench")]
 mod bench;
 mod check;
@@ -9,18 +11,24 @@ mod check_formats;
 mod check_inputs;
 mod check_watch;
 mod completions;
+#[cfg(feature = "observe")]
+mod delay;
 mod diff;
 mod editor;
 mod explain;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
+#[cfg(feature = "observe")]
+mod hz;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
 mod lsp;
 mod plan;
 #[cfg(feature = "run")]
 mod quickstart;
+#[cfg(feature = "observe")]
+mod rover;
 #[cfg(feature = "run")]
 mod run_build;
 #[cfg(feature = "run")]
@@ -36,3 +44,5 @@ mod run_stop;
 mod rust_analyzer;
 mod schema;
 mod system;
+#[cfg(feature = "observe")]
+mod ticker;

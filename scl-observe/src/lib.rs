@@ -1,2 +1,43 @@
-//! What runs in a system: components, gates, figures, and the messages at their taps.
+//! What runs in a system: components and gates as their programs announce them, their figures, and the messages at their
+//! taps. Everything here only reads; no program is delayed, restarted or asked to cooperate.
+//!
+//! ```no_run
+//! use scl_observe::{System, Taps, TapsEvent};
+//!
+//! # async fn example() -> Result<(), scl_terminal::Problem> {
+//! let system = System::find(None)?; // the one that runs
+//! let gate = system.gate("sensor.measurements")?;
+//! let mut taps = Taps::open(&system, vec![gate]);
+//! loop {
+//!     if let TapsEvent::Event { gate, event } = taps.next().await {
+//!         println!("{}: {event:?}", taps.gates()[gate].name());
+//!     }
+//! }
+//! # }
+//! ```
 #![cfg_attr(test, allow(clippy::unwrap_used))]
+
+mod bandwidth;
+mod component;
+mod delay;
+mod distribution;
+mod find;
+mod folder_changes;
+mod gate;
+mod lookup;
+mod measure;
+mod rate;
+mod silence;
+mod system;
+mod taps;
+mod woken;
+
+pub use bandwidth::{BandwidthFigures, BandwidthMeter};
+pub use component::Component;
+pub use delay::{DelayFigures, DelayMeter};
+pub use distribution::Spread;
+pub use gate::{ObservedGate, Tap};
+pub use measure::{GateReport, Measurement, Meter, at_taps};
+pub use rate::{RateFigures, RateMeter};
+pub use system::System;
+pub use taps::{Taps, TapsEvent};

@@ -42,6 +42,11 @@ pub(crate) fn apply_real_time(variables: Variables<'_>) -> Result<(), OpenError>
     Ok(())
 }
 
+/// Reads the real-time settings without applying them.
+pub(crate) fn check_real_time(variables: Variables<'_>) -> Result<(), OpenError> {
+    realtime::Settings::read(variables).map(drop)
+}
+
 /// Opens a component on the tokio runtime of the caller.
 #[doc(hidden)]
 pub async fn open<C: Component>(options: OpenOptions) -> Result<C, OpenError> {

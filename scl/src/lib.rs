@@ -87,6 +87,8 @@ mod component;
 pub mod conformance;
 mod environment;
 mod error;
+#[doc(hidden)]
+pub mod examine;
 mod gate;
 pub mod host;
 mod log;
@@ -102,6 +104,8 @@ pub mod spec;
 mod state;
 mod stop;
 mod sync;
+#[cfg(feature = "zeromq")]
+pub mod tap;
 pub mod time;
 pub mod transport;
 pub mod untyped;

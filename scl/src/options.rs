@@ -90,6 +90,17 @@ impl OpenOptions {
         self.medium_from(&environment::of_process)
     }
 
+    /// Checks the variables that take the place of unset options.
+    ///
+    /// # Errors
+    /// [`OpenError::Environment`] if one of them would be refused.
+    pub(crate) fn check(variables: Variables<'_>) -> Result<(), OpenError> {
+        Self::new()
+            .system_name_from(variables, "")
+            .map(drop)
+            .and_then(|()| Self::new().medium_from(variables).map(drop))
+    }
+
     fn system_name_from(&self, variables: Variables<'_>, topology: &str) -> Result<String, OpenError> {
         if let Some(name) = self.system.as_ref().filter(|name| !name.is_empty()) {
             return Ok(name.clone());

@@ -8,6 +8,7 @@
 //!     <component>.<gate>.<contract>              the socket of a `rep` or `pull` gate
 //!     <component>.<gate>.tap                     the socket where tools observe a gate
 //!     <endpoint>.tcp                             `127.0.0.1:<port>`, in place of a socket
+//!     <component>.stats                              what it has done lately, see ComponentStats
 //!     <hash>.schema                              the protobuf messages that a program was built with
 //! ```
 //!
@@ -51,6 +52,7 @@ mod folder_watch;
 mod foreign_text;
 mod held_locks;
 mod lock;
+mod look;
 #[cfg(feature = "protobuf")]
 mod messages;
 mod owned_path;
@@ -58,6 +60,7 @@ mod peer_check;
 mod restored;
 mod schema;
 mod small_file;
+mod stats;
 mod temp_entry;
 
 pub use announcement::{AnnouncedEndpoint, Announcement};
@@ -69,11 +72,13 @@ pub(crate) use find::{Address, find};
 pub use folder::{RuntimeDir, SystemDir};
 pub(crate) use folder_watch::{FolderWatch, QUIET};
 pub(crate) use lock::ComponentLock;
+pub use look::ComponentState;
 pub(crate) use owned_path::OwnedPath;
 pub(crate) use peer_check::{check_peer, explain_missing};
 #[cfg(feature = "zeromq")]
 pub(crate) use restored::Seen;
 pub(crate) use schema::publish_schema;
+pub use stats::{ComponentStats, ConnectionFigures, GateFigures};
 
 /// The longest path of a Unix socket in bytes, without its terminating zero.
 const SOCKET_PATH_LIMIT: usize = 107;

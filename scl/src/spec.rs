@@ -1,5 +1,7 @@
 //! The plan of a component as constants, which is how `topology!` puts it into a program.
 
+mod plan;
+
 pub use scl_plan::{GateKind, GateOptions, WhenFull};
 
 /// A component: its name and its gates.

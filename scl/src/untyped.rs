@@ -48,6 +48,7 @@ pub use closer::Closer;
 pub use driver::Driver;
 pub use error::{GateError, WaitError};
 pub use gate::Gate;
+pub(crate) use intern::intern;
 pub use readiness::Readiness;
 
 use crate::component::{Opener, only_failures, wait_for_peers};
@@ -103,7 +104,7 @@ impl Component {
     /// # Errors
     /// Those of `open`.
     pub async fn open_with(plan: &Plan, options: OpenOptions) -> Result<Self, OpenError> {
-        let spec = intern::intern(plan)?;
+        let spec = intern(plan)?;
         if Handle::try_current().is_err() {
             return Err(OpenError::NoRuntime { component: spec.name });
         }
@@ -124,7 +125,7 @@ impl Component {
     /// # Errors
     /// Those of `open_blocking`.
     pub fn open_blocking_with(plan: &Plan, options: OpenOptions) -> Result<Self, OpenError> {
-        let spec = intern::intern(plan)?;
+        let spec = intern(plan)?;
         let runtime = OwnedRuntime::start(spec.name)?;
         let _entered = runtime.enter();
         Self::assemble(spec, &options, Some(Arc::clone(&runtime)))

@@ -5,6 +5,7 @@ use super::error::RuntimeDirError;
 use super::owned_path::OwnedPath;
 use super::small_file::{read_file, write_temp};
 use crate::spec::{ComponentSpec, GateSpec};
+use scl_plan::Plan;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
@@ -12,8 +13,8 @@ use std::time::{Duration, SystemTime};
 /// The format's version. It grows when readers have to know; new keys alone do not need that.
 const VERSION: u32 = 1;
 
-/// Far more than any component announces.
-const LIMIT: u64 = 1 << 20;
+/// More than a gate with ten thousand connections announces.
+const LIMIT: u64 = 16 << 20;
 
 /// What a running component says about itself in `<component>.json`.
 ///
@@ -37,6 +38,9 @@ pub struct Announcement {
     pub schema: Option<String>,
     /// All endpoints of all its gates, in file order.
     pub endpoints: Vec<AnnouncedEndpoint>,
+    /// The component's plan, without its [`schema`](scl_plan::Plan::schema), whose hash is in `schema` above. `None` if
+    /// the component was built with a release that did not announce it, or with another version of the format.
+    pub plan: Option<Plan>,
 }
 
 /// One endpoint of a gate, and what it was built for.
@@ -72,6 +76,7 @@ impl Announcement {
             program: std::env::current_exe().unwrap_or_default(),
             schema: None,
             endpoints: Vec::new(),
+            plan: None,
         }
     }
 
@@ -80,6 +85,7 @@ impl Announcement {
         Self {
             schema: spec.schema.map(|schema| schema.hash.to_owned()),
             endpoints: spec.gates.iter().flat_map(endpoints).collect(),
+            plan: Some(spec.plan()),
             ..Self::of_this_process(spec.name)
         }
     }
@@ -113,6 +119,7 @@ impl Announcement {
             "program": self.program.to_string_lossy(),
             "schema": self.schema,
             "endpoints": self.endpoints.iter().map(AnnouncedEndpoint::to_json).collect::<Vec<_>>(),
+            "plan": self.plan.as_ref().and_then(plan_to_json),
         })
     }
 
@@ -127,6 +134,9 @@ impl Announcement {
             program: text(json, "program")?.into(),
             schema: text(json, "schema"),
             endpoints: endpoints.collect::<Option<_>>()?,
+            plan: Some(&json["plan"])
+                .filter(|plan| plan.is_object())
+                .and_then(|plan| Plan::from_json(&plan.to_string()).ok()),
         })
     }
 }
@@ -182,6 +192,11 @@ fn endpoints(gate: &GateSpec) -> Vec<AnnouncedEndpoint> {
         endpoints.push(AnnouncedEndpoint { tap: true, ..endpoint(gate.tap, gate.contract, Vec::new()) });
     }
     endpoints
+}
+
+/// The plan as `docs/plan.md` describes it; its messages are in a file of their own.
+fn plan_to_json(plan: &Plan) -> Option<Value> {
+    serde_json::from_str(&Plan { schema: None, ..plan.clone() }.to_json()).ok()
 }
 
 fn text(json: &Value, key: &str) -> Option<String> {

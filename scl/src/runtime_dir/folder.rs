@@ -17,7 +17,7 @@ use std::task::{Context, Poll};
 use std::time::SystemTime;
 
 /// The endings of SCL's own files. An endpoint with one of them would replace such a file.
-const RESERVED: [&str; 4] = [".lock", ".json", ".tcp", ".schema"];
+const RESERVED: [&str; 5] = [".lock", ".json", ".tcp", ".schema", ".stats"];
 
 /// The runtime folder, which contains a folder for each system. It is verified to be safe from other users.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -51,6 +51,23 @@ impl RuntimeDir {
     /// [`RuntimeDirError`] if the folder cannot be created or is not safe. The next candidate is not tried then,
     /// because components that fall back to different folders would never find each other.
     pub fn locate(env: &dyn Fn(&str) -> Option<OsString>) -> Result<Self, RuntimeDirError> {
+        let dir = Self::choose(env)?;
+        dir.create()?;
+        Ok(dir)
+    }
+
+    /// Finds and verifies the runtime folder as [`locate`](Self::locate) does, but creates nothing: `None` if it does not
+    /// exist.
+    ///
+    /// # Errors
+    ///
+    /// [`RuntimeDirError`] if the folder is not safe or cannot be examined.
+    pub fn existing(env: &dyn Fn(&str) -> Option<OsString>) -> Result<Option<Self>, RuntimeDirError> {
+        let dir = Self::choose(env)?;
+        Ok(verify_existing(&dir.path, dir.origin == Origin::Variable)?.then_some(dir))
+    }
+
+    fn choose(env: &dyn Fn(&str) -> Option<OsString>) -> Result<Self, RuntimeDirError> {
         let variable = |name| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
         let absolute = |name| variable(name).filter(|path| path.is_absolute());
         let (path, origin) = if let Some(path) = variable("SCL_RUNTIME_DIR") {
@@ -65,9 +82,7 @@ impl RuntimeDir {
             let temporary = absolute("TMPDIR").unwrap_or_else(|| "/tmp".into());
             (temporary.join(format!("scl-{}", own_user())), Origin::Default)
         };
-        let dir = Self { path, origin };
-        dir.create()?;
-        Ok(dir)
+        Ok(Self { path, origin })
     }
 
     /// Its path.
@@ -81,6 +96,19 @@ impl RuntimeDir {
     ///
     /// [`RuntimeDirError`] if the name cannot be the name of a folder, or the folder cannot be created or is not safe.
     pub fn system(&self, name: &str) -> Result<SystemDir, RuntimeDirError> {
+        let dir = self.system_dir(name)?;
+        dir.create()?;
+        remove_stale_entries(&dir.path, SystemTime::now());
+        Ok(dir)
+    }
+
+    /// The folder of a system, verified, if it exists.
+    pub(super) fn open_system(&self, name: &str) -> Result<Option<SystemDir>, RuntimeDirError> {
+        let dir = self.system_dir(name)?;
+        Ok(verify_existing(&dir.path, false)?.then_some(dir))
+    }
+
+    fn system_dir(&self, name: &str) -> Result<SystemDir, RuntimeDirError> {
         let path = self.path.join(plain("a system", name)?);
         let shared = Shared {
             runtime_dir: self.clone(),
@@ -88,10 +116,7 @@ impl RuntimeDir {
             #[cfg(feature = "protobuf")]
             compared: Compared::default(),
         };
-        let dir = SystemDir { path, shared: Arc::new(shared) };
-        dir.create()?;
-        remove_stale_entries(&dir.path, SystemTime::now());
-        Ok(dir)
+        Ok(SystemDir { path, shared: Arc::new(shared) })
     }
 
     fn create(&self) -> Result<(), RuntimeDirError> {
@@ -197,6 +222,14 @@ fn create_folder(path: &Path, parents: bool) -> Result<(), RuntimeDirError> {
     }
 }
 
+/// Verifies a folder. Returns false if it does not exist.
+fn verify_existing(path: &Path, others_may_read: bool) -> Result<bool, RuntimeDirError> {
+    match fs::symlink_metadata(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        _ => verify_folder(path, others_may_read).map(|()| true),
+    }
+}
+
 /// Verifying once is enough: other users cannot change a folder that is ours and not writable for them, in a parent
 /// that is ours too, or sticky as folders for temporary files are.
 fn verify_folder(path: &Path, others_may_read: bool) -> Result<(), RuntimeDirError> {
@@ -238,9 +271,10 @@ fn own_user() -> u32 {
 /// A name that stays inside its folder and differs from temporary names, which start with a full stop. Shortened names
 /// of connections contain `~`.
 fn plain<'n>(what: &'static str, name: &'n str) -> Result<&'n str, RuntimeDirError> {
+    if is_plain(name) { Ok(name) } else { Err(RuntimeDirError::BadName { what, name: name.to_owned() }) }
+}
+
+pub(super) fn is_plain(name: &str) -> bool {
     let fits = |c: char| c.is_ascii_alphanumeric() || "_-.~".contains(c);
-    if name.is_empty() || name.starts_with('.') || !name.chars().all(fits) {
-        return Err(RuntimeDirError::BadName { what, name: name.to_owned() });
-    }
-    Ok(name)
+    !name.is_empty() && !name.starts_with('.') && name.chars().all(fits)
 }

@@ -1,12 +1,10 @@
 //! Comparing the protobuf messages of this program with those of a peer, by their schema files.
 
 use super::SystemDir;
+use super::schema::SCHEMA_LIMIT;
 use super::small_file::read_file;
 use crate::spec::{ComponentSpec, GateSpec};
 use scl_shape::{Difference, Encoding};
-
-/// Maximum size of a schema file in bytes.
-const LIMIT: u64 = 16 << 20;
 
 /// Compares the messages of a gate with those of its peer, which announced the hash `theirs`.
 ///
@@ -46,7 +44,7 @@ fn compare_files(
 ) -> Result<Result<(), Difference>, String> {
     let path = dir.schema_file(theirs).map_err(|_bad_name| "it announces a schema with an invalid name")?;
     let cannot_read = |error: &dyn std::fmt::Display| format!("cannot read `{}`: {error}", path.display());
-    let theirs = read_file(&path, LIMIT).map_err(|error| cannot_read(&error))?;
+    let theirs = read_file(&path, SCHEMA_LIMIT).map_err(|error| cannot_read(&error))?;
     let theirs = scl_shape::decode(&theirs).map_err(|error| cannot_read(&error))?;
     let ours = scl_shape::decode(ours).map_err(|error| format!("cannot read its own schema: {error}"))?;
     Ok(scl_shape::compare(payload, encoding, &ours, &theirs))

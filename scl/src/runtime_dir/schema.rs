@@ -6,6 +6,9 @@ use super::small_file::write_temp;
 use crate::spec::Schema;
 use std::fs;
 
+/// Maximum size of a schema file that is read, in bytes.
+pub(super) const SCHEMA_LIMIT: u64 = 16 << 20;
+
 /// Writes the descriptors of a component's messages, with mode 0600, unless the file exists.
 ///
 /// Programs with the same messages share the file, so none of them removes it.

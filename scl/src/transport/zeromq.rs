@@ -29,6 +29,7 @@ mod request;
 mod stream;
 mod subscribe;
 mod tap;
+mod tap_reader;
 mod tcp_user;
 #[cfg(test)]
 mod tests;
@@ -44,6 +45,7 @@ use std::sync::Arc;
 pub use zmtp::decode_for_fuzzing;
 
 pub use crate::medium::Medium;
+pub(crate) use tap_reader::TapReader;
 
 /// The transport between programs.
 pub struct ZeroMq {

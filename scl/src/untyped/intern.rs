@@ -29,7 +29,7 @@ static INTERNED: LazyLock<Mutex<Interned>> = LazyLock::new(Mutex::default);
 ///
 /// # Errors
 /// [`OpenError::Plan`] if the plan contradicts itself, [`OpenError::TooManyPlans`] if there is no room for it.
-pub(super) fn intern(plan: &Plan) -> Result<&'static ComponentSpec, OpenError> {
+pub(crate) fn intern(plan: &Plan) -> Result<&'static ComponentSpec, OpenError> {
     let wrong = |source| OpenError::Plan { component: plan.component.clone(), source: Box::new(source) };
     plan.validate().map_err(wrong)?;
     intern_below(LIMIT, &mut lock(&INTERNED), plan)

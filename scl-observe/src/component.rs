@@ -1,0 +1,62 @@
+//! A component of a system: whether it runs, what it announces, and its figures.
+
+use scl::runtime_dir::{Announcement, ComponentState, ComponentStats, SystemDir};
+use scl_plan::{GatePlan, Plan};
+use std::time::{Duration, SystemTime};
+
+/// How many periods a running component may miss before its figures count as old: a busy machine delays a write now and
+/// then.
+const MISSED_PERIODS: u32 = 4;
+
+/// The shortest age at which figures count as old.
+const SHORTEST_SILENCE: Duration = Duration::from_secs(2);
+
+/// A component of a system.
+#[derive(Debug, Clone)]
+pub struct Component {
+    /// Its name.
+    pub name: String,
+    /// Whether it runs.
+    pub state: ComponentState,
+    /// What it announced when it started, if it runs or was killed.
+    pub announcement: Option<Announcement>,
+    /// Its latest figures; `None` if it writes none (`SCL_STATS=off`).
+    pub stats: Option<ComponentStats>,
+}
+
+impl Component {
+    pub(crate) fn read(dir: &SystemDir, name: &str) -> Self {
+        let state = dir.state(name);
+        let announcement = Announcement::read(dir, name);
+        let stats = ComponentStats::read(dir, name);
+        Self { name: name.to_owned(), state, announcement, stats }
+    }
+
+    /// A component of which only its peers know.
+    pub(crate) fn stopped(name: &str) -> Self {
+        Self { name: name.to_owned(), state: ComponentState::Stopped, announcement: None, stats: None }
+    }
+
+    /// Whether a process runs it.
+    pub fn is_running(&self) -> bool {
+        matches!(self.state, ComponentState::Running(_))
+    }
+
+    /// Its plan, if it runs or was killed.
+    pub fn plan(&self) -> Option<&Plan> {
+        self.announcement.as_ref()?.plan.as_ref()
+    }
+
+    /// Its gates, in the order of the topology file.
+    pub fn gates(&self) -> &[GatePlan] {
+        self.plan().map_or(&[], |plan| &plan.gates)
+    }
+
+    /// For how long a running component has not written its figures, if that is so long that it hangs: its runtime does
+    /// not run, or the process is stopped.
+    pub fn silent_for(&self, now: SystemTime) -> Option<Duration> {
+        let stats = self.stats.as_ref().filter(|_| self.is_running())?;
+        let age = now.duration_since(stats.written).ok()?;
+        (age > SHORTEST_SILENCE.max(stats.period * MISSED_PERIODS)).then_some(age)
+    }
+}

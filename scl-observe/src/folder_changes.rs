@@ -1,0 +1,35 @@
+//! Notices that files appeared in a folder, were replaced or removed, by one `stat` now and then.
+
+use std::fs;
+use std::os::unix::fs::MetadataExt;
+use std::path::PathBuf;
+use std::time::{Duration, SystemTime};
+
+/// Longer than two ticks of the clock with which file systems mark changes: after a change that is younger, another one
+/// may follow under the same time.
+const SAME_TIME: Duration = Duration::from_millis(50);
+
+/// Watches a folder, which may be missing, removed and created again.
+#[derive(Debug)]
+pub(crate) struct FolderChanges {
+    folder: PathBuf,
+    /// Inode and time of the last change, unless that is too young to tell the next one.
+    seen: Option<(u64, SystemTime)>,
+    is_first: bool,
+}
+
+impl FolderChanges {
+    pub(crate) fn new(folder: PathBuf) -> Self {
+        Self { folder, seen: None, is_first: true }
+    }
+
+    /// Returns true if the folder may have changed since the last call; at the first call, always.
+    pub(crate) fn look(&mut self) -> bool {
+        let found = fs::metadata(&self.folder).ok();
+        let now = found.as_ref().and_then(|found| Some((found.ino(), found.modified().ok()?)));
+        let is_young = now.is_some_and(|(_, changed)| changed.elapsed().is_ok_and(|age| age < SAME_TIME));
+        let changed = std::mem::take(&mut self.is_first) || now != self.seen;
+        self.seen = now.filter(|_| !is_young);
+        changed
+    }
+}

@@ -1,0 +1,102 @@
+//! One system's folder, opened for reading.
+
+use crate::component::Component;
+use crate::find::find_system;
+use crate::gate::{ObservedGate, own_tap};
+use crate::lookup;
+use scl::bytes::Bytes;
+use scl::runtime_dir::SystemDir;
+use scl_terminal::Problem;
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::path::Path;
+
+/// A system, running or stopped. Each call reads anew what runs now.
+#[derive(Debug, Clone)]
+pub struct System {
+    name: String,
+    dir: SystemDir,
+}
+
+impl System {
+    /// Finds a system: the one with this name, else `$SCL_SYSTEM`, else the only one that runs, else that of
+    /// `topology.yaml` in the working folder.
+    ///
+    /// # Errors
+    /// The system does not exist, none or several run, or the runtime folder cannot be used. The text lists the running
+    /// systems.
+    pub fn find(name: Option<&str>) -> Result<Self, Problem> {
+        Self::find_with(name, &|variable| std::env::var_os(variable), Path::new("."))
+    }
+
+    /// [`find`](Self::find) with another environment and working folder.
+    ///
+    /// # Errors
+    /// Those of `find`.
+    pub fn find_with(
+        name: Option<&str>,
+        variables: &dyn Fn(&str) -> Option<OsString>,
+        folder: &Path,
+    ) -> Result<Self, Problem> {
+        find_system(name, variables, folder).map(|(name, dir)| Self { name, dir })
+    }
+
+    /// Its folder.
+    pub fn dir(&self) -> &SystemDir {
+        &self.dir
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// All components that run, were killed, or ran before, and the peers that they name, sorted by name.
+    pub fn components(&self) -> Vec<Component> {
+        let names = self.dir.components().unwrap_or_default();
+        let mut components: Vec<Component> = names.iter().map(|name| Component::read(&self.dir, name)).collect();
+        let gates = components.iter().flat_map(Component::gates);
+        let peers = gates.flat_map(|gate| &gate.connections).map(|connection| connection.peer_component.clone());
+        let unknown: BTreeSet<String> = peers.filter(|peer| !names.contains(peer)).collect();
+        components.extend(unknown.iter().map(|name| Component::stopped(name)));
+        components.sort_by(|one, other| one.name.cmp(&other.name));
+        components
+    }
+
+    /// A component by its name.
+    ///
+    /// # Errors
+    /// There is none; the text suggests the closest.
+    pub fn component(&self, name: &str) -> Result<Component, Problem> {
+        let components = self.components();
+        lookup::component(self, &components, name).cloned()
+    }
+
+    /// A gate by its name, `component.gate`, with the taps where its messages are seen.
+    ///
+    /// # Errors
+    /// There is no such component or gate; the component does not run; for a `sub`, `req` or `push` gate, none of its
+    /// peers runs.
+    pub fn gate(&self, name: &str) -> Result<ObservedGate, Problem> {
+        lookup::gate(self, name)
+    }
+
+    /// All gates of running components that have a tap of their own: `pub`, `rep` and `pull`.
+    pub fn gates(&self) -> Vec<ObservedGate> {
+        let components = self.components();
+        components.iter().filter(|component| component.is_running()).flat_map(|it| self.gates_of(it)).collect()
+    }
+
+    fn gates_of(&self, component: &Component) -> Vec<ObservedGate> {
+        let schema = self.schema_of(component);
+        let gate = |plan| {
+            Some(ObservedGate::new(&component.name, plan, schema.clone(), vec![own_tap(&component.name, plan)?]))
+        };
+        component.gates().iter().filter_map(gate).collect()
+    }
+
+    /// The protobuf messages that a component's program was built with.
+    pub(crate) fn schema_of(&self, component: &Component) -> Option<Bytes> {
+        self.dir.schema(component.announcement.as_ref()?.schema.as_deref()?)
+    }
+}

@@ -1,0 +1,163 @@
+//! Several taps as one stream of events.
+
+use crate::folder_changes::FolderChanges;
+use crate::gate::ObservedGate;
+use crate::system::System;
+use crate::woken::Woken;
+use scl::tap::{Observer, TapEvent};
+use std::collections::VecDeque;
+use std::fmt;
+use std::future::poll_fn;
+use std::task::{Context, Poll, Waker};
+use std::time::Duration;
+use tokio::time::{Interval, MissedTickBehavior, interval};
+
+/// How often the folder is examined for components that started: one `stat`, and all announcements are read only after
+/// a change. A component takes longer than this from its announcement to its first message in most programs.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// The taps of some gates, or of all that there are, as one stream.
+///
+/// A component that stops and starts again is connected to again; what passes meanwhile is not seen. Gates are numbered
+/// in the order of [`gates`](Self::gates), which only grows.
+pub struct Taps {
+    gates: Vec<ObservedGate>,
+    observers: Vec<Watched>,
+    woken: Woken,
+    started: VecDeque<ObservedGate>,
+    following: Option<Following>,
+}
+
+/// What happened at one of the taps.
+#[derive(Debug)]
+pub enum TapsEvent {
+    /// A gate was added: its number is one more than that of the gate before. Only from [`Taps::follow_all`], and before
+    /// the first event of the gate.
+    ///
+    /// A gate that starts again with another type, codec or schema is added once more, and the one before becomes silent.
+    Started(ObservedGate),
+    /// An event at a tap of a gate.
+    Event {
+        /// The gate's number.
+        gate: usize,
+        /// What happened.
+        event: TapEvent,
+    },
+}
+
+/// One observer, and the gate for which it is.
+struct Watched {
+    gate: usize,
+    /// `None` if the gate was replaced by another.
+    observer: Option<Observer>,
+    waker: Waker,
+}
+
+/// What is needed to notice components that start later.
+struct Following {
+    system: System,
+    filter: Box<dyn Fn(&ObservedGate) -> bool + Send>,
+    changes: FolderChanges,
+    due: Interval,
+}
+
+impl Taps {
+    /// Observes these gates at all their taps. Must be called inside a tokio runtime, as must [`next`](Self::next).
+    pub fn open(system: &System, gates: Vec<ObservedGate>) -> Self {
+        let mut taps = Self::empty(None);
+        gates.into_iter().for_each(|gate| taps.add(system, gate));
+        taps
+    }
+
+    /// Observes every gate with a tap for which `filter` returns true, also of components that start later. Each is
+    /// reported as [`TapsEvent::Started`] first.
+    ///
+    /// A component is noticed within a tenth of a second after its start, also after the runtime folder was removed and
+    /// created again. Must be called inside a tokio runtime, as must [`next`](Self::next).
+    pub fn follow_all(system: &System, filter: impl Fn(&ObservedGate) -> bool + Send + 'static) -> Self {
+        let mut due = interval(LOOK);
+        due.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        let changes = FolderChanges::new(system.dir().folder().to_owned());
+        let mut taps = Self::empty(Some(Following { system: system.clone(), filter: Box::new(filter), changes, due }));
+        taps.look();
+        taps
+    }
+
+    /// The gates, by number.
+    pub fn gates(&self) -> &[ObservedGate] {
+        &self.gates
+    }
+
+    /// The next event. Without any gate, it waits until one is added, for [`open`](Self::open) forever.
+    ///
+    /// # Cancel safety
+    /// Cancel safe.
+    pub async fn next(&mut self) -> TapsEvent {
+        poll_fn(|cx| self.poll_next(cx)).await
+    }
+
+    /// [`next`](Self::next) as a poll function.
+    pub fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<TapsEvent> {
+        while self.following.as_mut().is_some_and(|following| following.due.poll_tick(cx).is_ready()) {
+            self.look();
+        }
+        if let Some(gate) = self.started.pop_front() {
+            return Poll::Ready(TapsEvent::Started(gate));
+        }
+        while let Some(index) = self.woken.take(cx.waker()) {
+            let watched = &mut self.observers[index];
+            let Some(observer) = &mut watched.observer else { continue };
+            if let Poll::Ready(event) = observer.poll_next(&mut Context::from_waker(&watched.waker)) {
+                // It may have more; the others come first.
+                self.woken.put_back(index);
+                return Poll::Ready(TapsEvent::Event { gate: watched.gate, event });
+            }
+        }
+        Poll::Pending
+    }
+
+    fn empty(following: Option<Following>) -> Self {
+        Self { gates: Vec::new(), observers: Vec::new(), woken: Woken::default(), started: VecDeque::new(), following }
+    }
+
+    fn add(&mut self, system: &System, gate: ObservedGate) {
+        for tap in &gate.taps {
+            let waker = self.woken.add(self.observers.len());
+            let observer = Some(Observer::open(system.dir(), &tap.socket));
+            self.observers.push(Watched { gate: self.gates.len(), observer, waker });
+        }
+        self.gates.push(gate);
+    }
+
+    /// Adds the gates that are new since the last look, if anything changed.
+    fn look(&mut self) {
+        let Some(following) = &mut self.following else { return };
+        if !following.changes.look() {
+            return;
+        }
+        let system = following.system.clone();
+        let wanted: Vec<ObservedGate> = system.gates().into_iter().filter(|gate| (following.filter)(gate)).collect();
+        for gate in wanted {
+            let known =
+                self.gates.iter().rposition(|known| (&known.component, &known.gate) == (&gate.component, &gate.gate));
+            match known {
+                Some(number) if self.gates[number].carries_the_same(&gate) => continue,
+                Some(number) => self.close(number),
+                None => {}
+            }
+            self.started.push_back(gate.clone());
+            self.add(&system, gate);
+        }
+    }
+
+    /// Ends the observers of a gate that was replaced: their sockets may have the same names as the new ones.
+    fn close(&mut self, gate: usize) {
+        self.observers.iter_mut().filter(|watched| watched.gate == gate).for_each(|watched| watched.observer = None);
+    }
+}
+
+impl fmt::Debug for Taps {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Taps").field("gates", &self.gates).field("follows", &self.following.is_some()).finish()
+    }
+}

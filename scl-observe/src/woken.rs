@@ -1,0 +1,117 @@
+//! Which of many futures were woken, so that one event does not cost a poll of all of them.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::task::{Wake, Waker};
+
+/// The futures that were woken and not polled since, each once, in the order of their wake-ups.
+#[derive(Debug, Default)]
+pub(crate) struct Woken {
+    shared: Arc<Shared>,
+}
+
+#[derive(Debug, Default)]
+struct Shared {
+    state: Mutex<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    queue: VecDeque<usize>,
+    queued: Vec<bool>,
+    task: Option<Waker>,
+}
+
+struct Member {
+    index: usize,
+    shared: Arc<Shared>,
+}
+
+impl Woken {
+    /// The waker of the future with this number, which counts as woken now.
+    pub(crate) fn add(&self, index: usize) -> Waker {
+        self.shared.push(index);
+        Arc::new(Member { index, shared: Arc::clone(&self.shared) }).into()
+    }
+
+    /// Takes the next woken future; if there is none, `task` is woken when there is.
+    pub(crate) fn take(&self, task: &Waker) -> Option<usize> {
+        let mut state = self.shared.lock();
+        let next = state.queue.pop_front();
+        match next {
+            Some(index) => state.queued[index] = false,
+            None if state.task.as_ref().is_some_and(|known| known.will_wake(task)) => {}
+            None => state.task = Some(task.clone()),
+        }
+        next
+    }
+
+    /// Puts a future that is not done yet at the end of the queue.
+    pub(crate) fn put_back(&self, index: usize) {
+        self.shared.push(index);
+    }
+}
+
+impl Shared {
+    fn push(&self, index: usize) {
+        let mut state = self.lock();
+        if state.queued.len() <= index {
+            state.queued.resize(index + 1, false);
+        }
+        if std::mem::replace(&mut state.queued[index], true) {
+            return;
+        }
+        state.queue.push_back(index);
+        let task = state.task.take();
+        drop(state);
+        if let Some(task) = task {
+            task.wake();
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Wake for Member {
+    fn wake(self: Arc<Self>) {
+        self.shared.push(self.index);
+    }
+
+    fn wake_by_ref(self: &Arc<Self>) {
+        self.shared.push(self.index);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[derive(Default)]
+    struct Counted(AtomicUsize);
+
+    impl Wake for Counted {
+        fn wake(self: Arc<Self>) {
+            self.0.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    #[test]
+    fn each_woken_future_is_taken_once_and_in_order() {
+        let (woken, counted) = (Woken::default(), Arc::new(Counted::default()));
+        let task = Waker::from(Arc::clone(&counted));
+        let wakers = [woken.add(0), woken.add(1), woken.add(2)];
+        let mut taken = || std::iter::from_fn(|| woken.take(&task)).collect::<Vec<_>>();
+        assert_eq!(taken(), [0, 1, 2], "each is polled at first");
+        assert_eq!(taken(), Vec::<usize>::new());
+        for index in [2, 0, 2, 2] {
+            wakers[index].wake_by_ref();
+        }
+        assert_eq!(taken(), [2, 0]);
+        assert_eq!(counted.0.load(Ordering::Relaxed), 1, "the task is woken once for all that follow");
+        woken.put_back(1);
+        assert_eq!(taken(), [1]);
+    }
+}

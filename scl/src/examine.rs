@@ -1,0 +1,57 @@
+//! For `scl doctor`: the checks that a component makes when it is opened and when it connects, without opening one.
+
+use crate::component;
+use crate::environment::Variables;
+use crate::error::OpenError;
+use crate::log::Level;
+use crate::options::OpenOptions;
+use crate::plan::{Plan, Schema};
+use crate::runtime_dir::{Announcement, SystemDir, check_peer};
+use crate::{stop, untyped};
+use std::sync::Arc;
+
+/// The environment variables that components read.
+pub const VARIABLES: [&str; 8] = [
+    "SCL_CPU",
+    "SCL_LOG",
+    "SCL_RUNTIME_DIR",
+    "SCL_SCHED",
+    "SCL_STATS",
+    "SCL_STOP_WITHIN",
+    "SCL_SYSTEM",
+    "SCL_TRANSPORT",
+];
+
+/// What components refuse of the values of environment variables. The runtime folder is checked where it is opened.
+pub fn wrong_variables(variables: Variables<'_>) -> Vec<OpenError> {
+    let checks = [
+        Level::read(variables).err(),
+        stop::grace_period(variables).err(),
+        component::check_real_time(variables).err(),
+        OpenOptions::check(variables).err(),
+    ];
+    checks.into_iter().flatten().collect()
+}
+
+/// Why ends of connections of a running component do not connect to their running peers: each gate, and what differs.
+///
+/// The texts call the component "this program". Only the ends that connect are checked (`sub`, `req` and `push`), as when
+/// they run. Each different plan is kept in memory until the process ends.
+///
+/// # Errors
+/// [`OpenError`] if the announced plan contradicts itself.
+pub fn incompatible_peers(dir: &SystemDir, announcement: &Announcement) -> Result<Vec<(String, String)>, OpenError> {
+    let Some(plan) = &announcement.plan else { return Ok(Vec::new()) };
+    let schema = announcement
+        .schema
+        .as_ref()
+        .and_then(|hash| Some(Schema { hash: hash.clone(), descriptors: Arc::from(&dir.schema(hash)?[..]) }));
+    let spec = untyped::intern(&Plan { schema, ..plan.clone() })?;
+    let connecting = spec.gates.iter().filter(|gate| gate.tap.is_empty());
+    let links = connecting.flat_map(|gate| gate.links.iter().map(move |link| (gate, link)));
+    let checked = links.filter_map(|(gate, link)| {
+        let difference = check_peer(dir, spec, gate, link).err()?;
+        Some((format!("{}.{}", spec.name, gate.name), difference))
+    });
+    Ok(checked.collect())
+}

@@ -1,0 +1,102 @@
+//! Looking at what runs, for tools: nothing here creates, changes or removes a file.
+
+use super::error::{Holder, RuntimeDirError};
+use super::folder::{RuntimeDir, SystemDir, is_plain};
+use super::lock::ComponentLock;
+use super::schema::SCHEMA_LIMIT;
+use super::small_file::read_file;
+use bytes::Bytes;
+use std::collections::BTreeSet;
+use std::fs::{self, DirEntry};
+use std::io;
+
+/// Whether a component runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ComponentState {
+    /// A process runs it: it holds the component's lock.
+    Running(Holder),
+    /// No process runs it, and the last one left its announcement behind: it was killed or has crashed.
+    Dead,
+    /// No process runs it; the last one, if there was one, has closed it.
+    Stopped,
+}
+
+impl RuntimeDir {
+    /// The names of the systems whose folders are here, sorted. Whether anything of a system runs,
+    /// [`SystemDir::state`] says of each component.
+    ///
+    /// # Errors
+    ///
+    /// The folder cannot be read.
+    pub fn systems(&self) -> io::Result<Vec<String>> {
+        // Not through a link, whose target may belong to anybody.
+        names(fs::read_dir(self.path())?, |entry, name| is_folder(entry).then(|| name.to_owned()))
+    }
+
+    /// The folder of a system, verified as [`system`](Self::system) does, or `None` if there is none. Creates nothing and
+    /// removes nothing.
+    ///
+    /// # Errors
+    ///
+    /// [`RuntimeDirError`] if the name cannot be the name of a folder, or the folder is not safe.
+    pub fn existing_system(&self, name: &str) -> Result<Option<SystemDir>, RuntimeDirError> {
+        self.open_system(name)
+    }
+}
+
+impl SystemDir {
+    /// The names of the components that run or once ran in this folder, sorted.
+    ///
+    /// # Errors
+    ///
+    /// The folder cannot be read, for example because it was removed.
+    pub fn components(&self) -> io::Result<Vec<String>> {
+        names(fs::read_dir(self.folder())?, |entry, name| {
+            let component = name.strip_suffix(".lock").or_else(|| name.strip_suffix(".json"))?;
+            is_file(entry).then(|| component.to_owned())
+        })
+    }
+
+    /// Whether a component runs. One that is not known here counts as stopped.
+    ///
+    /// A component that hangs is running: what it has done lately is in its [`ComponentStats`](super::ComponentStats).
+    pub fn state(&self, component: &str) -> ComponentState {
+        let holder = || ComponentLock::holder(self, component).map(ComponentState::Running);
+        let left_announcement = || {
+            let path = self.file_of(component, ".json").ok()?;
+            fs::symlink_metadata(path).is_ok_and(|found| found.is_file()).then_some(ComponentState::Dead)
+        };
+        holder().unwrap_or_else(|| {
+            // A component that starts at this moment takes its lock before it announces itself.
+            left_announcement().map_or(ComponentState::Stopped, |dead| holder().unwrap_or(dead))
+        })
+    }
+
+    /// The protobuf messages that a program was built with, by the hash in its
+    /// [`Announcement::schema`](super::Announcement::schema): a serialized `google.protobuf.FileDescriptorSet`. `None` if
+    /// there is no such file or it is longer than 16 MiB. The bytes are not checked.
+    pub fn schema(&self, hash: &str) -> Option<Bytes> {
+        read_file(&self.schema_file(hash).ok()?, SCHEMA_LIMIT).ok().map(Bytes::from)
+    }
+}
+
+/// The names that `pick` finds in a folder, each once and sorted. Entries that vanish meanwhile, and names that SCL never
+/// gives, are passed over.
+fn names(entries: fs::ReadDir, pick: impl Fn(&DirEntry, &str) -> Option<String>) -> io::Result<Vec<String>> {
+    let mut found = BTreeSet::new();
+    for entry in entries {
+        let entry = entry?;
+        let name = entry.file_name();
+        found.extend(name.to_str().filter(|name| is_plain(name)).and_then(|name| pick(&entry, name)));
+    }
+    found.remove("");
+    Ok(found.into_iter().collect())
+}
+
+fn is_file(entry: &DirEntry) -> bool {
+    entry.file_type().is_ok_and(|kind| kind.is_file())
+}
+
+fn is_folder(entry: &DirEntry) -> bool {
+    entry.file_type().is_ok_and(|kind| kind.is_dir())
+}

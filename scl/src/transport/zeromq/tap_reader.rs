@@ -1,0 +1,99 @@
+//! The observing end of a tap: a SUB socket that reads messages of two frames.
+
+use super::connection::{Closed, Connection};
+use super::dialler::Dialler;
+use super::zmtp::{Item, Message, SUBSCRIBE_ALL, SclReady, SocketType, bodies};
+use crate::runtime_dir::SystemDir;
+use crate::tap::{Observation, ObservedKind, TapEvent};
+use crate::transport::Endpoint;
+use bytes::Bytes;
+use rustix::time::{ClockId, clock_gettime};
+use std::sync::Arc;
+use std::task::{Context, Poll, ready};
+
+/// The longest message that is read: the largest `max_size` of a gate. Memory is reserved as bytes arrive.
+const MAX_SIZE: usize = 1 << 30;
+/// Length of the second frame.
+const META: usize = 32;
+
+pub(crate) struct TapReader {
+    dialler: Dialler,
+    tap: Option<Connection>,
+    rejected: u64,
+}
+
+impl TapReader {
+    /// Called inside a runtime.
+    pub(crate) fn open(dir: &Arc<SystemDir>, endpoint: String) -> Self {
+        let endpoint = Endpoint { max_size: MAX_SIZE, ..Endpoint::new(endpoint) };
+        Self { dialler: Dialler::new(dir, &endpoint, SocketType::Sub, SclReady::default()), tap: None, rejected: 0 }
+    }
+
+    pub(crate) fn endpoint(&self) -> &str {
+        &self.dialler.endpoint().name
+    }
+
+    pub(crate) fn rejected(&self) -> u64 {
+        self.rejected
+    }
+
+    pub(crate) fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<TapEvent> {
+        let Some(tap) = &mut self.tap else {
+            let (mut connection, _ready) = ready!(self.dialler.poll_connected(cx));
+            // Not earlier: libzmq closes a connection on which this arrives together with READY.
+            let _reported_by_reading = connection.write(SUBSCRIBE_ALL);
+            self.tap = Some(connection);
+            return Poll::Ready(TapEvent::Connected);
+        };
+        match ready!(poll_observed(tap, &mut self.rejected, cx)) {
+            Ok(observed) => Poll::Ready(TapEvent::Observed(observed)),
+            Err(error) => {
+                tracing::debug!(endpoint = %self.dialler.endpoint().name, %error, "lost the tap");
+                self.tap = None;
+                Poll::Ready(TapEvent::Disconnected)
+            }
+        }
+    }
+}
+
+fn poll_observed(tap: &mut Connection, rejected: &mut u64, cx: &mut Context<'_>) -> Poll<Result<Observation, Closed>> {
+    loop {
+        if !tap.is_written() {
+            tap.flush(cx)?;
+        }
+        if let Item::Message(message) = ready!(tap.poll_item(cx))? {
+            match decode(&message) {
+                Some(observed) => return Poll::Ready(Ok(observed)),
+                None => *rejected += 1,
+            }
+        }
+    }
+}
+
+/// Returns `None` for anything but a payload and what `GateTap` says about it.
+fn decode(message: &Message) -> Option<Observation> {
+    let mut frames = bodies(&message.envelope);
+    let (payload, None) = (frames.next()?, frames.next()) else { return None };
+    let meta: &[u8; META] = message.body[..].try_into().ok()?;
+    let (numbers, rest) = meta.as_chunks::<8>();
+    let [sequence, sent_ns, call_id, kind] = numbers else { return None };
+    debug_assert!(rest.is_empty());
+    Some(Observation {
+        payload: if payload.is_empty() { Bytes::new() } else { message.envelope.slice_ref(payload) },
+        sequence: u64::from_le_bytes(*sequence),
+        sent_ns: u64::from_le_bytes(*sent_ns),
+        received_ns: now_ns(),
+        call_id: u64::from_le_bytes(*call_id),
+        kind: match kind[0] {
+            0 => ObservedKind::Message,
+            1 => ObservedKind::Request,
+            2 => ObservedKind::Reply,
+            _ => return None,
+        },
+    })
+}
+
+fn now_ns() -> u64 {
+    let now = clock_gettime(ClockId::Realtime);
+    now.tv_sec.unsigned_abs() * 1_000_000_000 + now.tv_nsec.unsigned_abs()
+}
