@@ -21,17 +21,23 @@ mod hz;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
-mod observed;
 #[cfg(feature = "new")]
 mod new;
+mod observed;
 mod plan;
 #[cfg(feature = "observe")]
 mod quantity;
 #[cfg(feature = "record")]
 mod replay;
 #[cfg(feature = "run")]
+mod request;
+#[cfg(feature = "run")]
+mod restart;
+#[cfg(feature = "run")]
 mod run;
 mod schema;
+#[cfg(feature = "run")]
+mod stop;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
@@ -71,6 +77,8 @@ enum Command {
     #[cfg(feature = "record")]
     Replay(replay::ReplayArguments),
     #[cfg(feature = "run")]
+    Restart(restart::RestartArguments),
+    #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
     #[cfg(feature = "run")]
@@ -79,6 +87,8 @@ enum Command {
     #[cfg(feature = "run")]
     #[command(name = run::GUARD_WORD, hide = true)]
     Guard,
+    #[cfg(feature = "run")]
+    Stop(stop::StopArguments),
 }
 
 fn main() -> ExitCode {
@@ -106,11 +116,15 @@ fn main() -> ExitCode {
         #[cfg(feature = "record")]
         Command::Replay(arguments) => replay::replay(&arguments),
         #[cfg(feature = "run")]
+        Command::Restart(arguments) => restart::restart(&arguments),
+        #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
         #[cfg(feature = "run")]
         Command::Start(arguments) => run::start_component(&arguments),
         #[cfg(feature = "run")]
         Command::Guard => run::keep_watch(),
+        #[cfg(feature = "run")]
+        Command::Stop(arguments) => stop::stop(&arguments),
     }
 }

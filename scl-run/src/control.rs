@@ -4,9 +4,11 @@
 //! [`Request`] as a line of JSON and reads one [`Response`] as a line of JSON, which comes when the request is done. A
 //! line may have up to 64 KiB and must arrive within two seconds.
 
+mod ask;
 mod client;
 mod protocol;
 
+pub use ask::{Wish, ask};
 pub use client::{ControlledRun, find_runs};
 pub use protocol::{Command, ComponentReport, Request, Response, VERSION};
 

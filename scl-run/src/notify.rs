@@ -9,6 +9,7 @@ use super::own_file::OwnFile;
 use nix::unistd::{Pid, getpgid};
 use rustix::cmsg_space;
 use rustix::net::{RecvAncillaryBuffer, RecvAncillaryMessage, RecvFlags, ReturnFlags, recvmsg, sockopt};
+use scl_terminal::escape;
 use std::io::{self, IoSliceMut};
 use std::mem::MaybeUninit;
 use std::os::unix::net::UnixDatagram;
@@ -97,7 +98,9 @@ fn notice(line: &str) -> Option<Notice> {
         ("READY", "1") => Some(Notice::Ready),
         ("STOPPING", "1") => Some(Notice::Stopping),
         ("WATCHDOG", "1") => Some(Notice::Alive),
-        ("STATUS", text) => Some(Notice::Status(text.chars().take(LONGEST_STATUS).collect())),
+        ("STATUS", text) => {
+            Some(Notice::Status(escape(&text.chars().take(LONGEST_STATUS).collect::<String>()).into_owned()))
+        }
         _ => None,
     }
 }
