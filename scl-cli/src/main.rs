@@ -33,6 +33,8 @@ mod observed;
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]
+#[cfg(feature = "new")]
+mod new;
 mod observed;
 mod plan;
 #[cfg(feature = "observe")]
@@ -40,8 +42,14 @@ mod quantity;
 #[cfg(feature = "record")]
 mod replay;
 #[cfg(feature = "run")]
+mod request;
+#[cfg(feature = "run")]
+mod restart;
+#[cfg(feature = "run")]
 mod run;
 mod schema;
+#[cfg(feature = "run")]
+mod stop;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
@@ -91,6 +99,8 @@ enum Command {
     #[cfg(feature = "record")]
     Replay(replay::ReplayArguments),
     #[cfg(feature = "run")]
+    Restart(restart::RestartArguments),
+    #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
     #[cfg(feature = "run")]
@@ -102,6 +112,8 @@ enum Command {
     /// A program `scl-x` of the user's, as `scl x`.
     #[command(external_subcommand)]
     External(Vec<OsString>),
+    #[cfg(feature = "run")]
+    Stop(stop::StopArguments),
 }
 
 fn main() -> ExitCode {
@@ -137,6 +149,8 @@ fn main() -> ExitCode {
         #[cfg(feature = "record")]
         Command::Replay(arguments) => replay::replay(&arguments),
         #[cfg(feature = "run")]
+        Command::Restart(arguments) => restart::restart(&arguments),
+        #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
         #[cfg(feature = "run")]
@@ -144,5 +158,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "run")]
         Command::Guard => run::keep_watch(),
         Command::External(words) => external::run_external(&words, &CommandLine::command()),
+        #[cfg(feature = "run")]
+        Command::Stop(arguments) => stop::stop(&arguments),
     }
 }
