@@ -21,6 +21,7 @@ mod hz;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
+#[cfg(feature = "observe")]
 mod observed;
 mod plan;
 #[cfg(feature = "observe")]
@@ -28,6 +29,8 @@ mod quantity;
 #[cfg(feature = "run")]
 mod run;
 mod schema;
+#[cfg(feature = "observe")]
+mod top;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
@@ -71,6 +74,8 @@ enum Command {
     #[cfg(feature = "run")]
     #[command(name = run::GUARD_WORD, hide = true)]
     Guard,
+    #[cfg(feature = "observe")]
+    Top(top::TopArguments),
 }
 
 fn main() -> ExitCode {
@@ -100,5 +105,7 @@ fn main() -> ExitCode {
         Command::Start(arguments) => run::start_component(&arguments),
         #[cfg(feature = "run")]
         Command::Guard => run::keep_watch(),
+        #[cfg(feature = "observe")]
+        Command::Top(arguments) => top::top(&arguments),
     }
 }
