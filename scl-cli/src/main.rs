@@ -23,9 +23,13 @@ mod load;
 mod measure;
 #[cfg(feature = "observe")]
 mod observed;
+#[cfg(feature = "new")]
+mod new;
 mod plan;
 #[cfg(feature = "observe")]
 mod quantity;
+#[cfg(feature = "record")]
+mod replay;
 #[cfg(feature = "run")]
 mod run;
 mod schema;
@@ -64,7 +68,11 @@ enum Command {
     Graph(graph::GraphArguments),
     #[cfg(feature = "observe")]
     Hz(hz::HzArguments),
+    #[cfg(feature = "new")]
+    New(new::NewArguments),
     Plan(plan::PlanArguments),
+    #[cfg(feature = "record")]
+    Replay(replay::ReplayArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
@@ -97,7 +105,11 @@ fn main() -> ExitCode {
         Command::Graph(arguments) => graph::graph(&arguments),
         #[cfg(feature = "observe")]
         Command::Hz(arguments) => hz::hz(&arguments),
+        #[cfg(feature = "new")]
+        Command::New(arguments) => new::new(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
+        #[cfg(feature = "record")]
+        Command::Replay(arguments) => replay::replay(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
