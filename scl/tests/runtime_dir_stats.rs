@@ -1,0 +1,1 @@
+//! Stats files: read while they are written, after a crash, and when they are garbage.
