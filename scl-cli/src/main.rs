@@ -10,6 +10,8 @@ mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
+#[cfg(feature = "observe")]
+mod doctor;
 mod explain;
 #[cfg(any(feature = "observe", feature = "run"))]
 mod format;
@@ -21,10 +23,10 @@ mod hz;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
-#[cfg(feature = "observe")]
-mod observed;
 #[cfg(feature = "new")]
 mod new;
+#[cfg(feature = "observe")]
+mod observed;
 mod plan;
 #[cfg(feature = "observe")]
 mod quantity;
@@ -62,6 +64,8 @@ enum Command {
     #[cfg(feature = "observe")]
     Delay(delay::DelayArguments),
     Diff(diff::DiffArguments),
+    #[cfg(feature = "observe")]
+    Doctor(doctor::DoctorArguments),
     Explain(explain::ExplainArguments),
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments),
@@ -99,6 +103,8 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Delay(arguments) => delay::delay(&arguments),
         Command::Diff(arguments) => diff::diff(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Doctor(arguments) => doctor::doctor(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         #[cfg(feature = "generate")]
         Command::Generate(arguments) => generate::generate(&arguments),

@@ -3,7 +3,7 @@
 
 use crate::process::ProcessFigures;
 use crate::{Component, System};
-use scl::runtime_dir::{ComponentState, ComponentStats, GateFigures, Holder};
+use scl::runtime_dir::{ComponentState, ComponentStats, GateFigures};
 use scl_plan::{GateKind, GatePlan};
 use std::collections::HashMap;
 use std::time::{Duration, Instant, SystemTime};
@@ -175,11 +175,7 @@ fn component_row(
     now: Instant,
     time: SystemTime,
 ) -> (ComponentRow, ProcessorTime) {
-    let pid = match component.state {
-        ComponentState::Running(Holder::Process(pid)) => Some(pid),
-        ComponentState::Running(Holder::ThisProcess) => Some(std::process::id()),
-        _ => None,
-    };
+    let pid = component.process_id();
     let process = pid.and_then(ProcessFigures::read);
     let measured = pid.zip(process).map(|(pid, process)| (pid, now, process.processor_time));
     let processor = measured.zip(before.and_then(|before| before.processor)).and_then(|(after, before)| {

@@ -124,7 +124,7 @@ fn draw_details(frame: &mut Frame<'_>, area: Rect, gate: &GateRow, view: &View) 
         };
         let figures = gate.figures.as_ref().and_then(|it| it.connections.get(index));
         let figures = figures.map_or(String::new(), |it| {
-            format!("  waiting {}  taken {}  dropped {}  lost {}", it.waiting, it.taken, it.dropped, it.lost)
+            format!("  taken {}  not yet {}  dropped {}  lost {}", it.taken, it.waiting, it.dropped, it.lost)
         });
         let peer = format!("  {}  ", escape(&connection.peer));
         Line::from(vec![Span::raw(peer), Span::styled(word, coloured(colour, view.colours)), Span::raw(figures)])
