@@ -12,6 +12,8 @@ mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
+#[cfg(feature = "observe")]
+mod doctor;
 mod explain;
 mod external;
 #[cfg(any(feature = "observe", feature = "run"))]
@@ -35,6 +37,9 @@ mod new;
 #[cfg(feature = "observe")]
 #[cfg(feature = "new")]
 mod new;
+#[cfg(feature = "new")]
+mod new;
+#[cfg(feature = "observe")]
 mod observed;
 mod plan;
 #[cfg(feature = "observe")]
@@ -50,6 +55,8 @@ mod run;
 mod schema;
 #[cfg(feature = "run")]
 mod stop;
+#[cfg(feature = "observe")]
+mod top;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
@@ -83,6 +90,8 @@ enum Command {
     #[cfg(feature = "observe")]
     Delay(delay::DelayArguments),
     Diff(diff::DiffArguments),
+    #[cfg(feature = "observe")]
+    Doctor(doctor::DoctorArguments),
     Explain(explain::ExplainArguments),
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments),
@@ -114,6 +123,8 @@ enum Command {
     External(Vec<OsString>),
     #[cfg(feature = "run")]
     Stop(stop::StopArguments),
+    #[cfg(feature = "observe")]
+    Top(top::TopArguments),
 }
 
 fn main() -> ExitCode {
@@ -131,6 +142,8 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Delay(arguments) => delay::delay(&arguments),
         Command::Diff(arguments) => diff::diff(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Doctor(arguments) => doctor::doctor(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         #[cfg(feature = "generate")]
         Command::Generate(arguments) => generate::generate(&arguments),
@@ -160,5 +173,7 @@ fn main() -> ExitCode {
         Command::External(words) => external::run_external(&words, &CommandLine::command()),
         #[cfg(feature = "run")]
         Command::Stop(arguments) => stop::stop(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Top(arguments) => top::top(&arguments),
     }
 }
