@@ -28,9 +28,13 @@ mod list;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
+#[cfg(feature = "observe")]
+mod observed;
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]
+#[cfg(feature = "new")]
+mod new;
 mod observed;
 mod plan;
 #[cfg(feature = "observe")]
@@ -38,8 +42,14 @@ mod quantity;
 #[cfg(feature = "record")]
 mod replay;
 #[cfg(feature = "run")]
+mod request;
+#[cfg(feature = "run")]
+mod restart;
+#[cfg(feature = "run")]
 mod run;
 mod schema;
+#[cfg(feature = "run")]
+mod stop;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
@@ -89,6 +99,8 @@ enum Command {
     #[cfg(feature = "record")]
     Replay(replay::ReplayArguments),
     #[cfg(feature = "run")]
+    Restart(restart::RestartArguments),
+    #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
     #[cfg(feature = "run")]
@@ -100,6 +112,8 @@ enum Command {
     /// A program `scl-x` of the user's, as `scl x`.
     #[command(external_subcommand)]
     External(Vec<OsString>),
+    #[cfg(feature = "run")]
+    Stop(stop::StopArguments),
 }
 
 fn main() -> ExitCode {
@@ -126,12 +140,16 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Info(arguments) => info::info(&arguments),
         #[cfg(feature = "observe")]
+        Command::Hz(arguments) => hz::hz(&arguments),
+        #[cfg(feature = "observe")]
         Command::List(arguments) => list::list(&arguments),
         #[cfg(feature = "new")]
         Command::New(arguments) => new::new(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
         #[cfg(feature = "record")]
         Command::Replay(arguments) => replay::replay(&arguments),
+        #[cfg(feature = "run")]
+        Command::Restart(arguments) => restart::restart(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
@@ -140,5 +158,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "run")]
         Command::Guard => run::keep_watch(),
         Command::External(words) => external::run_external(&words, &CommandLine::command()),
+        #[cfg(feature = "run")]
+        Command::Stop(arguments) => stop::stop(&arguments),
     }
 }

@@ -88,7 +88,7 @@ pub struct GateFigures {
     pub rejected: u64,
     /// Bytes of the messages sent or received.
     pub bytes: u64,
-    /// Messages that wait in the program.
+    /// Messages that wait in the program's queues.
     pub waiting: u64,
     /// Peers connected.
     pub peers: u64,
@@ -98,18 +98,20 @@ pub struct GateFigures {
     pub connections: Vec<ConnectionFigures>,
 }
 
-/// One connection of a gate: for a sending gate, the counts of [`PeerStats`](crate::PeerStats).
+/// One connection of a gate.
+///
+/// At a `pub` or `push` gate, the number of messages sent is `taken + waiting + dropped + lost`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ConnectionFigures {
     /// Whether the peer is connected. A `pull` or `rep` gate cannot tell its peers apart: true if it has as many as the
     /// plan says.
     pub connected: bool,
-    /// Messages that wait for the peer in the queue, or are on their way; at a `req` gate, a call that is under way. 0 at
-    /// a gate that receives, whose messages wait in one queue.
+    /// Messages that wait for the peer in the queue; at a `req` gate, a call that is under way. 0 at a gate that receives,
+    /// whose messages wait in one queue.
     pub waiting: u64,
-    /// Messages that the peer has taken; at a gate that receives, messages received from this peer, or 0 if that is not
-    /// known because several peers share an endpoint.
+    /// Messages that were given to the peer, the last of which may still be on their way. At a gate that receives:
+    /// messages received from this peer, or 0 if that is not known because several peers share an endpoint.
     pub taken: u64,
     /// Messages dropped because the queue was full.
     pub dropped: u64,
