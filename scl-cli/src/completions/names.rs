@@ -30,9 +30,13 @@ pub(super) fn add_names(shell: Shell, command_line: &Command, script: String) ->
 /// The arguments whose values are called GATE or COMPONENT in the help.
 fn places(command_line: &Command) -> Vec<Place> {
     let place = |command: &Command, argument: &Arg| {
-        let values: Vec<&str> =
-            argument.get_value_names().unwrap_or_default().iter().map(|name| name.as_str()).collect();
-        let is_called = |word| values.iter().any(|value| value.split(['|', ',', '.']).any(|part| part == word));
+        // An argument without a name for its value is called like its field.
+        let called = argument.get_value_names().map(|names| names.iter().map(|name| name.to_string()).collect());
+        let called: Vec<String> = called.unwrap_or_else(|| vec![argument.get_id().as_str().to_uppercase()]);
+        let is_called = |word| {
+            let words = called.iter().flat_map(|name| name.split(['|', ',', '.']));
+            words.into_iter().any(|part| part.trim_end_matches('S') == word)
+        };
         let option = argument.get_long().map(|long| format!("--{long}"));
         let (gates, components) = (is_called("GATE"), is_called("COMPONENT"));
         (gates || components).then(|| Place { command: command.get_name().to_owned(), option, gates, components })

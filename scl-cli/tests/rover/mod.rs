@@ -66,7 +66,9 @@ impl Rover {
 
     /// Starts one component and waits until it sends; its peers need not run.
     pub(crate) fn play_alone(&mut self, component: &str) {
-        self.play(&[component], |command| drop(command.env(player::ALONE, "1")));
+        self.play(&[component], |command| {
+            command.env(player::ALONE, "1");
+        });
     }
 
     /// Starts components and waits until they are ready, so all their required peers must run.
@@ -101,11 +103,6 @@ impl Rover {
     /// A file in the system's folder, which is the working folder of [`scl`](Self::scl).
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.files.path(name)
-    }
-
-    /// Adds a file there.
-    pub(crate) fn write(&self, name: &str, text: &str) {
-        self.files.write(name, text);
     }
 
     /// The runtime folder.
@@ -144,6 +141,16 @@ impl Rover {
     pub(crate) fn json(&self, arguments: &[&str]) -> Value {
         let text = self.text(arguments);
         serde_json::from_str(&text).unwrap_or_else(|error| panic!("{arguments:?}: {error}\n{text}"))
+    }
+
+    /// Repeats a query until `found` returns something.
+    pub(crate) fn wait_for<T>(&self, arguments: &[&str], found: impl Fn(&Value) -> Option<T>) -> T {
+        let arguments = [arguments, &["--format", "json"]].concat();
+        loop {
+            if let Some(found) = found(&self.json(&arguments)) {
+                return found;
+            }
+        }
     }
 
     fn spawn(&self, component: &str, prepare: &impl Fn(&mut Command)) -> Playing {
