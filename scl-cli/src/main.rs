@@ -25,6 +25,10 @@ mod observed;
 mod plan;
 #[cfg(feature = "observe")]
 mod quantity;
+#[cfg(feature = "record")]
+mod record;
+#[cfg(feature = "record")]
+mod recover;
 #[cfg(feature = "run")]
 mod run;
 mod schema;
@@ -62,6 +66,10 @@ enum Command {
     #[cfg(feature = "observe")]
     Hz(hz::HzArguments),
     Plan(plan::PlanArguments),
+    #[cfg(feature = "record")]
+    Record(record::RecordArguments),
+    #[cfg(feature = "record")]
+    Recover(recover::RecoverArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
@@ -93,6 +101,10 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Hz(arguments) => hz::hz(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
+        #[cfg(feature = "record")]
+        Command::Record(arguments) => record::record(&arguments),
+        #[cfg(feature = "record")]
+        Command::Recover(arguments) => recover::recover(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
