@@ -36,6 +36,8 @@ mod lsp;
 mod plan;
 #[cfg(feature = "run")]
 mod quickstart;
+#[cfg(feature = "record")]
+mod record;
 #[cfg(feature = "observe")]
 mod rover;
 #[cfg(feature = "run")]

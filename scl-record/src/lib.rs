@@ -7,6 +7,7 @@ pub mod format;
 pub mod progress;
 pub mod record;
 pub mod recording;
+pub mod recover;
 pub mod replay;
 #[cfg(test)]
 mod testing;
