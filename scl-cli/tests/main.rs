@@ -43,13 +43,21 @@ mod rover;
 #[cfg(feature = "run")]
 mod run_build;
 #[cfg(feature = "run")]
+mod run_control;
+#[cfg(feature = "run")]
 mod run_mistakes;
 #[cfg(feature = "run")]
 mod run_output;
 #[cfg(feature = "run")]
 mod run_package;
 #[cfg(feature = "run")]
+mod run_placement;
+#[cfg(feature = "run")]
 mod run_profiles;
+#[cfg(feature = "run")]
+mod run_ready;
+#[cfg(feature = "run")]
+mod run_restart;
 #[cfg(feature = "run")]
 mod run_stop;
 mod rust_analyzer;
