@@ -14,6 +14,8 @@ mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
+#[cfg(feature = "observe")]
+mod doctor;
 mod editor;
 mod explain;
 #[cfg(feature = "generate")]
@@ -46,3 +48,5 @@ mod schema;
 mod system;
 #[cfg(feature = "observe")]
 mod ticker;
+#[cfg(feature = "observe")]
+mod top;
