@@ -16,6 +16,8 @@ mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
+#[cfg(feature = "observe")]
+mod doctor;
 mod editor;
 mod explain;
 mod external;
@@ -65,3 +67,5 @@ mod schema;
 mod system;
 #[cfg(feature = "observe")]
 mod ticker;
+#[cfg(feature = "observe")]
+mod top;
