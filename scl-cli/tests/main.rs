@@ -21,6 +21,8 @@ mod lsp;
 mod plan;
 #[cfg(feature = "run")]
 mod quickstart;
+#[cfg(feature = "record")]
+mod replay;
 #[cfg(feature = "observe")]
 mod rover;
 #[cfg(feature = "run")]

@@ -7,5 +7,6 @@ pub mod format;
 pub mod progress;
 pub mod recording;
 pub mod replay;
-#[cfg(test)]
-mod testing;
+#[cfg(any(test, feature = "testing"))]
+#[doc(hidden)]
+pub mod testing;
