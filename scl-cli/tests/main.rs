@@ -40,6 +40,7 @@ mod plan;
 mod quickstart;
 #[cfg(feature = "record")]
 mod record;
+mod replay;
 #[cfg(feature = "observe")]
 mod rover;
 #[cfg(feature = "run")]

@@ -9,5 +9,6 @@ pub mod record;
 pub mod recording;
 pub mod recover;
 pub mod replay;
-#[cfg(test)]
-mod testing;
+#[cfg(any(test, feature = "testing"))]
+#[doc(hidden)]
+pub mod testing;
