@@ -18,6 +18,8 @@ mod graph;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
 mod lsp;
+#[cfg(feature = "new")]
+mod new;
 mod plan;
 #[cfg(feature = "run")]
 mod quickstart;
