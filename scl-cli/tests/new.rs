@@ -61,6 +61,7 @@ fn names_that_cannot_be_used_write_nothing() {
         ("a/b", "error: `a/b` is a path, not a name\n"),
         ("..", "error: [SCL030"),
         ("_", "error: `_` has no letter\n"),
+        ("null", "error: a project cannot be called `null`\n  = help: for example `my_null`\n"),
         ("type", "error: a project cannot be called `type`\n"),
         ("Self", "error: a project cannot be called `Self`\n"),
         ("test", "error: a project cannot be called `test`\n"),
