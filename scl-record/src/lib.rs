@@ -1,2 +1,12 @@
 //! Recording, replay and comparison of systems, in MCAP files.
+//!
+//! [`format`] says what a recording contains; the writer side makes such files, the reader side reads them.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
+
+pub mod format;
+pub mod progress;
+pub mod record;
+pub mod recording;
+pub mod replay;
+#[cfg(test)]
+mod testing;

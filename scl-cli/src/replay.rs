@@ -1,0 +1,137 @@
+//! `scl replay`: plays recorded components in a running system.
+
+use crate::load::{MaxSize, load_file, show_errors};
+use clap::{Args, ValueEnum};
+use scl_record::progress::Progress;
+use scl_record::recording::{Recording, find_files};
+use scl_record::replay::{Rate, ReplayOptions, ReplayReport, replay as play};
+use scl_terminal::{Problem, parse_duration, print_err, print_out};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// Exit code: nothing could be replayed.
+const COULD_NOT_REPLAY: u8 = 2;
+
+/// Play recorded components in a running system.
+///
+/// Sends what the played components have sent, at the recorded distances in time; their repliers answer as recorded. Peers
+/// cannot tell them from the real programs. Without `--as`, plays all recorded components that are not running.
+///
+/// What a gate receives is recorded without its sender, so a component that is one of several pushers or requesters of a
+/// gate is replayed only together with the others.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl replay flight.mcap --as sensor           the recorded sensor, for the programs that run
+  scl replay flight.mcap --as sensor,gps --rate 2
+  scl replay flight.mcap --rate max            as fast as the peers take it; nothing is dropped
+  scl replay flight.mcap --start 10s --end 40s --loop
+  scl replay flight_*.mcap                     all parts of a split recording
+
+Did yesterday's flight change the controller's outputs? In CI, while the new controller runs:
+  scl record controller.actuator -o new.mcap &
+  scl replay flight.mcap --as sensor,user_interface
+  kill -INT %1; wait
+  scl compare flight.mcap new.mcap --gate controller.actuator --within 1e-6
+
+Exit code: 0 replayed or stopped, 1 with `--rate max` a peer has not taken everything, 2 could not replay.")]
+pub(crate) struct ReplayArguments {
+    /// The recording, or all of its parts; `flight.mcap` also finds the parts `flight_1.mcap`, ...
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Play these components.
+    #[arg(long = "as", value_name = "COMPONENT,...", value_delimiter = ',')]
+    components: Vec<String>,
+    /// How many times as fast, for example 0.5 or 2; `max`: as fast as the peers take it.
+    #[arg(long, value_name = "FACTOR|max", default_value = "1", value_parser = parse_rate)]
+    rate: Rate,
+    /// Begin at this time of the recording.
+    #[arg(long, value_name = "TIME", default_value = "0s", value_parser = parse_duration)]
+    start: Duration,
+    /// End at this time of the recording.
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    end: Option<Duration>,
+    /// Begin again at the end, until Ctrl-C.
+    #[arg(long = "loop")]
+    repeat: bool,
+    /// Replay these gates only.
+    #[arg(long, value_name = "GATE,...", value_delimiter = ',')]
+    only: Vec<String>,
+    /// The name of the system [default: $SCL_SYSTEM, else the recorded one].
+    #[arg(long, value_name = "NAME")]
+    system: Option<String>,
+    /// How long to wait for the peers of the played components; `0s`: do not wait.
+    #[arg(long, value_name = "TIME", default_value = "10s", value_parser = parse_duration)]
+    ready: Duration,
+    /// Play the components of this topology file, not as they were recorded.
+    #[arg(long, value_name = "FILE")]
+    topology: Option<PathBuf>,
+    /// How to print what was replayed.
+    #[arg(long, value_name = "FORMAT", default_value = "text")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+/// The body of `scl replay`.
+pub(crate) fn replay(arguments: &ReplayArguments) -> ExitCode {
+    let plan = match &arguments.topology {
+        None => None,
+        Some(file) => {
+            let loaded = load_file(file, MaxSize::default());
+            let Some(plan) = loaded.system_plan() else {
+                show_errors(&loaded);
+                return ExitCode::from(COULD_NOT_REPLAY);
+            };
+            Some(plan)
+        }
+    };
+    let options = ReplayOptions {
+        components: arguments.components.clone(),
+        only: arguments.only.clone(),
+        rate: arguments.rate,
+        start: arguments.start,
+        end: arguments.end,
+        repeat: arguments.repeat,
+        system: arguments.system.clone(),
+        ready_within: arguments.ready,
+        plan,
+    };
+    match run(&arguments.files, &options) {
+        Ok(report) => {
+            print_out(&match arguments.format {
+                Format::Text => report.to_text(),
+                Format::Json => format!("{}\n", report.to_json()),
+            });
+            let is_incomplete = options.rate == Rate::Max && !report.was_stopped && !report.not_taken.is_empty();
+            if is_incomplete { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+        }
+        Err(problem) => {
+            print_err(&problem.to_string());
+            ExitCode::from(COULD_NOT_REPLAY)
+        }
+    }
+}
+
+fn run(files: &[PathBuf], options: &ReplayOptions) -> Result<ReplayReport, Problem> {
+    let recording = Recording::open(&find_files(files)?)?;
+    recording.notes().iter().for_each(|note| print_err(&format!("note: {note}\n")));
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
+    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")))?;
+    let progress = Progress::new("replaying", recording.duration());
+    runtime.block_on(play(&recording, options, &|position| progress.set(position)))
+}
+
+fn parse_rate(text: &str) -> Result<Rate, String> {
+    if text == "max" {
+        return Ok(Rate::Max);
+    }
+    let factor: Option<f64> = text.strip_suffix('x').unwrap_or(text).parse().ok();
+    let factor = factor.filter(|factor| factor.is_finite() && *factor > 0.0);
+    factor.map(Rate::Times).ok_or_else(|| "expected a factor above 0, like `0.5` or `2`, or `max`".to_owned())
+}

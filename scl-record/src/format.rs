@@ -1,0 +1,51 @@
+//! What a recording contains: names, encodings and numbers on which the writer and the readers agree.
+//!
+//! A recording is an MCAP file with the profile [`PROFILE`]. Times are nanoseconds since 1970 (`CLOCK_REALTIME`):
+//! `publish_time` is when the gate sent or received the message, `log_time` is when the recorder received it. Messages stand
+//! in the order of arrival at the recorder, so `log_time` of one gate never decreases unless the clock was set back.
+
+mod channel_metadata;
+mod encoding;
+mod topic;
+mod totals;
+
+pub use channel_metadata::ChannelMetadata;
+pub use encoding::Encoding;
+pub use topic::{Part, Topic};
+pub use totals::{GateTotals, Totals};
+
+/// Profile in the header of the file.
+pub const PROFILE: &str = "scl";
+
+/// Attachment: the plans of the system's components that were known, a [`scl_plan::SystemPlan`] as JSON. If components
+/// started later, the file has several attachments with this name; the last one is complete.
+pub const PLAN: &str = "plan.json";
+
+/// Attachment: the topology file, if it was found.
+pub const TOPOLOGY: &str = "topology.yaml";
+
+/// Attachment: the launch file, if it was found.
+pub const LAUNCH: &str = "launch.yaml";
+
+/// Number of a message in the file: the lower 32 bits of the tap's number, so it continues with 0 after
+/// 4,294,967,295. For requests and replies the lower 32 bits of the call id: a reply belongs to the last request of the
+/// same gate before it that has the same number.
+pub fn sequence(part: Part, tap_sequence: u64, call_id: u64) -> u32 {
+    let number = match part {
+        Part::Message => tap_sequence,
+        Part::Request | Part::Reply => call_id,
+    };
+    number as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sequences_wrap_and_pair_requests_with_replies() {
+        assert_eq!(sequence(Part::Message, u64::from(u32::MAX) + 3, 9), 2);
+        assert_eq!(sequence(Part::Request, 5, 9), 9);
+        assert_eq!(sequence(Part::Reply, 6, 9), 9);
+    }
+}

@@ -1,0 +1,130 @@
+//! Reading recordings: one file or several in a row, from start to end, in bounded memory.
+//!
+//! A file is read linearly and needs no index, so one that was cut off at any byte gives everything before that byte, and a
+//! note. [`Recording::open`] walks over the file without reading its messages, to learn what it must know beforehand: the
+//! plan, the duration, the totals.
+
+mod channel;
+mod chunk;
+mod files;
+mod messages;
+mod overview;
+mod records;
+
+pub use channel::RecordedChannel;
+pub(crate) use channel::type_and_codec;
+pub use files::find_files;
+pub use messages::{Messages, RecordedMessage};
+pub use overview::Attachment;
+
+use crate::format::{GateTotals, PLAN, Totals};
+use overview::Overview;
+use scl_plan::SystemPlan;
+use scl_terminal::Problem;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// A recording: the files that one `scl record` wrote, in order.
+#[derive(Debug)]
+pub struct Recording {
+    files: Vec<(PathBuf, Overview)>,
+}
+
+impl Recording {
+    /// Opens the files of one recording, which are read one after the other.
+    ///
+    /// # Errors
+    /// A file cannot be read, is empty, is not an MCAP file or was not recorded by SCL.
+    pub fn open(files: &[PathBuf]) -> Result<Self, Problem> {
+        let files = files.iter().map(|path| Ok((path.clone(), Overview::read(path)?)));
+        let mut files: Vec<_> = files.collect::<Result<_, Problem>>()?;
+        // Parts that a shell has sorted by name (`part10` before `part2`) are put in order.
+        if files.iter().all(|(_, overview)| overview.times.is_some()) {
+            files.sort_by_key(|(_, overview)| overview.times);
+        }
+        Ok(Self { files })
+    }
+
+    /// The messages, in the order of the files.
+    pub fn messages(&self) -> Messages {
+        Messages::new(self.paths().map(Path::to_owned).collect())
+    }
+
+    /// The plans of the components that were recorded; `None` if the recording has none.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn plan(&self) -> Result<Option<SystemPlan>, Problem> {
+        let Some((path, plan)) = self.attachment(PLAN) else { return Ok(None) };
+        let text = std::str::from_utf8(&plan.data).map_err(|error| error.to_string());
+        let plan = text.and_then(|text| SystemPlan::from_json(text).map_err(|error| error.to_string()));
+        let unreadable = |reason| {
+            Problem::new(format!("the plan in the recording cannot be read: {reason}"))
+                .at(path.display().to_string())
+                .help("name the topology file with `--topology`")
+        };
+        plan.map(Some).map_err(unreadable)
+    }
+
+    /// Wall-clock times of the first and the last message in nanoseconds, and thereby how long the recording is.
+    pub fn times(&self) -> Option<(u64, u64)> {
+        let times = || self.files.iter().filter_map(|(_, overview)| overview.times);
+        Some((times().map(|(first, _)| first).min()?, times().map(|(_, last)| last).max()?))
+    }
+
+    /// The time between the first and the last message.
+    pub fn duration(&self) -> Duration {
+        self.times().map_or(Duration::ZERO, |(first, last)| Duration::from_nanos(last - first))
+    }
+
+    /// Messages recorded and lost per gate, as far as the files say so: one that was cut off does not.
+    pub fn totals(&self) -> BTreeMap<String, GateTotals> {
+        let mut sum = BTreeMap::<String, GateTotals>::new();
+        for (gate, totals) in self.files.iter().filter_map(|(_, overview)| overview.totals()).flat_map(|one| one.gates)
+        {
+            let gate = sum.entry(gate).or_default();
+            gate.recorded += totals.recorded;
+            gate.lost += totals.lost;
+        }
+        sum
+    }
+
+    /// What a reader of the messages should know: files that were cut off, messages that the recorder lost.
+    pub fn notes(&self) -> Vec<String> {
+        let cut = self.files.iter().filter_map(|(path, overview)| {
+            let ending = overview.ending.as_deref()?;
+            Some(format!("`{}` {ending}; reading what is there", path.display()))
+        });
+        let lost = self.totals().into_iter().filter(|(_, totals)| totals.lost > 0);
+        let lost = lost.map(|(gate, totals)| format!("the recorder lost {} messages of `{gate}`", totals.lost));
+        cut.chain(lost).collect()
+    }
+
+    /// Its files, in order.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.files.iter().map(|(path, _)| path.as_path())
+    }
+
+    /// For messages: the name of the first file.
+    pub fn name(&self) -> String {
+        self.paths().next().map(|path| path.display().to_string()).unwrap_or_default()
+    }
+
+    fn attachment(&self, name: &str) -> Option<(&Path, &Attachment)> {
+        let files = self.files.iter().rev();
+        let mut found = files.flat_map(|(path, overview)| {
+            overview.attachments.iter().rev().map(move |attachment| (path.as_path(), attachment))
+        });
+        found.find(|(_, attachment)| attachment.name == name)
+    }
+}
+
+impl Overview {
+    fn totals(&self) -> Option<Totals> {
+        Totals::from_map(self.metadata.get(Totals::NAME)?)
+    }
+}
+
+#[cfg(test)]
+mod tests;

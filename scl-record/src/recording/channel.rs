@@ -1,0 +1,56 @@
+//! A channel of a recording: one gate, or one direction of a `rep` gate.
+
+use crate::format::{ChannelMetadata, Topic};
+use bytes::Bytes;
+use mcap::records::Channel;
+use scl_terminal::escape;
+
+/// What a recording says about the messages of one topic.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RecordedChannel {
+    pub topic: Topic,
+    pub metadata: ChannelMetadata,
+    /// How the type is described: `protobuf`, `jsonschema` or empty.
+    pub schema_encoding: String,
+    /// With `protobuf`, a serialized `FileDescriptorSet`.
+    pub schema: Bytes,
+}
+
+/// A schema of a file.
+#[derive(Debug, Clone, Default)]
+pub(super) struct RecordedSchema {
+    pub(super) encoding: String,
+    pub(super) data: Bytes,
+}
+
+impl RecordedChannel {
+    /// Reads a channel's record.
+    ///
+    /// # Errors
+    /// What is missing in a channel that SCL did not write.
+    pub(super) fn new(channel: &Channel, schema: RecordedSchema) -> Result<Self, String> {
+        let name = escape(&channel.topic);
+        let topic = Topic::parse(&channel.topic)
+            .ok_or_else(|| format!("topic `{name}` was not recorded by SCL: it is not `/<component>/<gate>`"))?;
+        let metadata = ChannelMetadata::from_map(&channel.metadata).ok_or_else(|| {
+            let missing = ChannelMetadata::missing(&channel.metadata);
+            format!("topic `{name}` was not recorded by SCL: its metadata has no {missing}")
+        })?;
+        Ok(Self { topic, metadata, schema_encoding: schema.encoding, schema: schema.data })
+    }
+
+    /// The serialized `FileDescriptorSet` of the messages, if the recording has one.
+    pub fn descriptors(&self) -> Option<&[u8]> {
+        (self.schema_encoding == "protobuf").then_some(&*self.schema)
+    }
+
+    /// The type and the codec, for messages: `` `rover.Measurement` (protobuf) ``.
+    pub fn type_and_codec(&self) -> String {
+        type_and_codec(self.metadata.type_name.as_deref(), &self.metadata.codec)
+    }
+}
+
+/// For messages: `` `rover.Measurement` (protobuf) ``.
+pub(crate) fn type_and_codec(type_name: Option<&str>, codec: &str) -> String {
+    format!("`{}` ({})", escape(type_name.unwrap_or("bytes")), escape(codec))
+}

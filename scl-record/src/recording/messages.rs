@@ -1,0 +1,171 @@
+//! The messages of a recording, one by one.
+
+use super::channel::{RecordedChannel, RecordedSchema};
+use super::chunk;
+use super::records::{RecordHeader, Records};
+use bytes::Bytes;
+use mcap::McapError;
+use mcap::records::{MessageHeader, Record, op};
+use scl_terminal::{Problem, escape};
+use std::collections::{HashMap, VecDeque};
+use std::path::PathBuf;
+
+/// One message, request or reply.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RecordedMessage {
+    /// Index in [`Messages::channels`].
+    pub channel: usize,
+    /// See [`crate::format::sequence`].
+    pub sequence: u32,
+    /// When the gate sent it, in nanoseconds since 1970.
+    pub sent_ns: u64,
+    /// When the recorder received it.
+    pub received_ns: u64,
+    pub payload: Bytes,
+}
+
+/// Reads the messages of a recording in the order of its files. Keeps no more than one chunk in memory.
+#[derive(Debug)]
+pub struct Messages {
+    files: VecDeque<PathBuf>,
+    records: Option<Records>,
+    /// Of the current file, by its ids.
+    schemas: HashMap<u16, RecordedSchema>,
+    channel_ids: HashMap<u16, usize>,
+    channels: Vec<RecordedChannel>,
+    ready: VecDeque<RecordedMessage>,
+}
+
+/// Why a record cannot be used.
+enum Fault {
+    /// Other records may be sound.
+    Damaged(String),
+    /// SCL did not write it.
+    Unusable(String),
+}
+
+impl Messages {
+    pub(super) fn new(files: VecDeque<PathBuf>) -> Self {
+        let (schemas, channel_ids) = Default::default();
+        Self { files, records: None, schemas, channel_ids, channels: Vec::new(), ready: VecDeque::new() }
+    }
+
+    /// The next message; `None` at the end.
+    ///
+    /// # Errors
+    /// A file cannot be read, is damaged, or was not recorded by SCL.
+    pub fn next(&mut self) -> Result<Option<RecordedMessage>, Problem> {
+        loop {
+            if let Some(message) = self.ready.pop_front() {
+                return Ok(Some(message));
+            }
+            let Some(mut records) = self.records.take() else {
+                let Some(path) = self.files.pop_front() else { return Ok(None) };
+                self.schemas.clear();
+                self.channel_ids.clear();
+                self.records = Some(Records::open(&path)?);
+                continue;
+            };
+            if let Some(header) = records.next()?
+                && header.opcode != op::DATA_END
+            {
+                self.read_record(&mut records, header)?;
+                self.records = Some(records);
+            }
+        }
+    }
+
+    /// The channels seen so far.
+    pub fn channels(&self) -> &[RecordedChannel] {
+        &self.channels
+    }
+
+    fn read_record(&mut self, records: &mut Records, header: RecordHeader) -> Result<(), Problem> {
+        if !matches!(header.opcode, op::CHUNK | op::SCHEMA | op::CHANNEL | op::MESSAGE) {
+            return Ok(());
+        }
+        let mut taken = Ok(());
+        if header.opcode != op::CHUNK {
+            if header.is_cut {
+                return Ok(());
+            }
+            let content = records.content(u64::MAX)?;
+            taken = chunk::parse(header.opcode, &content)
+                .ok_or_else(|| Fault::damaged("unreadable record"))
+                .and_then(|record| self.take(record));
+        } else if header.is_cut {
+            for record in chunk::read_cut(&records.content(u64::MAX)?) {
+                taken = taken.and_then(|()| self.take(record));
+            }
+        } else {
+            let content = records.content(u64::MAX)?;
+            let read = chunk::read(&content, |record| {
+                if taken.is_ok() {
+                    taken = self.take(record);
+                }
+            });
+            taken = taken.and_then(|()| read.map_err(Fault::from));
+        }
+        taken.map_err(|fault| fault.at(records, header))
+    }
+
+    fn take(&mut self, record: Record<'_>) -> Result<(), Fault> {
+        match record {
+            Record::Schema { header, data } => {
+                let schema = RecordedSchema { encoding: header.encoding, data: Bytes::copy_from_slice(&data) };
+                self.schemas.insert(header.id, schema);
+            }
+            Record::Channel(channel) => {
+                let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+                let recorded = RecordedChannel::new(&channel, schema).map_err(Fault::Unusable)?;
+                // All files of a recording repeat the channels.
+                let known = self.channels.iter().position(|known| *known == recorded);
+                let index = known.unwrap_or_else(|| {
+                    self.channels.push(recorded);
+                    self.channels.len() - 1
+                });
+                self.channel_ids.insert(channel.id, index);
+            }
+            Record::Message { header, data } => {
+                let MessageHeader { channel_id, sequence, log_time, publish_time } = header;
+                let known = self.channel_ids.get(&channel_id);
+                let channel = *known.ok_or_else(|| Fault::damaged("a message belongs to no channel"))?;
+                let payload = Bytes::copy_from_slice(&data);
+                let message =
+                    RecordedMessage { channel, sequence, sent_ns: publish_time, received_ns: log_time, payload };
+                self.ready.push_back(message);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+impl From<McapError> for Fault {
+    fn from(error: McapError) -> Self {
+        match error {
+            McapError::UnsupportedCompression(name) => {
+                let name = escape(&name);
+                Self::Unusable(format!("its chunks are compressed with `{name}`; scl reads lz4"))
+            }
+            McapError::BadChunkCrc { .. } => Self::damaged("a chunk has a wrong checksum"),
+            error => Self::damaged(error),
+        }
+    }
+}
+
+impl Fault {
+    fn damaged(reason: impl std::fmt::Display) -> Self {
+        Self::Damaged(format!("the recording is damaged: {reason}"))
+    }
+
+    fn at(self, records: &Records, header: RecordHeader) -> Problem {
+        match self {
+            Self::Unusable(reason) => records.problem(header.offset, reason),
+            Self::Damaged(reason) => {
+                let help = format!("`scl recover {}` writes what is sound into a new file", records.path().display());
+                records.problem(header.offset, reason).help(help)
+            }
+        }
+    }
+}

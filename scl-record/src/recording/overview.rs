@@ -1,0 +1,120 @@
+//! What a file says about itself, learned without reading its messages.
+
+use super::chunk;
+use super::records::Records;
+use crate::format::PROFILE;
+use bytes::Bytes;
+use mcap::records::{Record, op};
+use scl_terminal::{Problem, escape};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The beginning of a chunk, which has the times of its messages.
+const CHUNK_TIMES: u64 = 16;
+
+/// A file that was recorded beside the messages.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Attachment {
+    pub name: String,
+    pub data: Bytes,
+}
+
+/// What a file says about itself.
+#[derive(Debug, Default)]
+pub(super) struct Overview {
+    pub(super) attachments: Vec<Attachment>,
+    /// By name.
+    pub(super) metadata: BTreeMap<String, BTreeMap<String, String>>,
+    /// `log_time` of the first and the last message.
+    pub(super) times: Option<(u64, u64)>,
+    /// How the file ends, if it is not complete: `ends in the middle of a record`.
+    pub(super) ending: Option<String>,
+}
+
+impl Overview {
+    /// Walks over a file.
+    ///
+    /// # Errors
+    /// It cannot be read, is empty, is not an MCAP file, or was not recorded by SCL.
+    pub(super) fn read(path: &Path) -> Result<Self, Problem> {
+        let mut records = Records::open(path)?;
+        let mut overview = Self::default();
+        let mut is_complete = false;
+        while let Some(header) = records.next()? {
+            if header.is_cut {
+                if header.opcode == op::CHUNK {
+                    overview.add_cut_chunk(&mut records)?;
+                }
+                overview.ending = Some(format!("ends in the middle of a record, at byte {}", header.offset));
+                return Ok(overview);
+            }
+            match header.opcode {
+                op::CHUNK => overview.add_times(&records.content(CHUNK_TIMES)?),
+                op::HEADER | op::ATTACHMENT | op::METADATA | op::MESSAGE => {
+                    let content = records.content(u64::MAX)?;
+                    let damaged = || records.problem(header.offset, "the recording is damaged: unreadable record");
+                    overview.add(path, chunk::parse(header.opcode, &content).ok_or_else(damaged)?)?;
+                }
+                op::DATA_END => {
+                    is_complete = true;
+                    break;
+                }
+                _ => {}
+            }
+        }
+        if !is_complete {
+            overview.ending = Some("was not closed: its recorder was killed or is still running".to_owned());
+        }
+        Ok(overview)
+    }
+
+    fn add(&mut self, path: &Path, record: Record<'_>) -> Result<(), Problem> {
+        match record {
+            Record::Header(header) => check_profile(path, &header.profile)?,
+            Record::Attachment { header, data, .. } => {
+                self.attachments.push(Attachment { name: header.name, data: data.into_owned().into() });
+            }
+            Record::Metadata(metadata) => {
+                self.metadata.insert(metadata.name, metadata.metadata);
+            }
+            Record::Message { header, .. } => self.add_time(header.log_time),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn add_times(&mut self, content: &[u8]) {
+        let times = content.first_chunk::<8>().zip(content.get(8..).and_then(<[u8]>::first_chunk::<8>));
+        // A chunk without messages has zeros.
+        if let Some((first, last)) = times.map(|(first, last)| (u64::from_le_bytes(*first), u64::from_le_bytes(*last)))
+            && last > 0
+        {
+            self.add_time(first);
+            self.add_time(last);
+        }
+    }
+
+    /// Of a chunk that is not complete, what can be read of it counts.
+    fn add_cut_chunk(&mut self, records: &mut Records) -> Result<(), Problem> {
+        for record in chunk::read_cut(&records.content(u64::MAX)?) {
+            if let Record::Message { header, .. } = record {
+                self.add_time(header.log_time);
+            }
+        }
+        Ok(())
+    }
+
+    fn add_time(&mut self, time: u64) {
+        let (first, last) = self.times.unwrap_or((time, time));
+        self.times = Some((first.min(time), last.max(time)));
+    }
+}
+
+/// An empty profile may be left by tools that copy recordings.
+fn check_profile(path: &Path, profile: &str) -> Result<(), Problem> {
+    if [PROFILE, ""].contains(&profile) {
+        return Ok(());
+    }
+    let message = format!("`{}` was not recorded by SCL: its profile is `{}`", path.display(), escape(profile));
+    Err(Problem::new(message).help("make recordings with `scl record`"))
+}

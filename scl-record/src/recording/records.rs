@@ -1,0 +1,130 @@
+//! The records of an MCAP file: an opcode, a length and that many bytes, one after the other.
+
+use mcap::MAGIC;
+use scl_terminal::Problem;
+use std::fs::File;
+use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+/// Opcode and length.
+const HEADER: u64 = 1 + 8;
+/// What is skipped without seeking: it is in the buffer, most likely.
+const NEAR: u64 = 64 << 10;
+
+/// Goes over the records of a file without knowing what they mean.
+#[derive(Debug)]
+pub(super) struct Records {
+    path: PathBuf,
+    file: BufReader<File>,
+    /// Where the next record begins.
+    offset: u64,
+    /// Of the current record: bytes that were not read yet.
+    unread: u64,
+    size: u64,
+}
+
+/// The beginning of a record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct RecordHeader {
+    pub(super) opcode: u8,
+    /// Where the record begins in the file.
+    pub(super) offset: u64,
+    /// Length of its content that the file has.
+    pub(super) length: u64,
+    /// Whether the file ends before the record does.
+    pub(super) is_cut: bool,
+}
+
+impl Records {
+    /// Opens a file and reads its first bytes.
+    ///
+    /// # Errors
+    /// It cannot be read, is empty, or is not an MCAP file.
+    pub(super) fn open(path: &Path) -> Result<Self, Problem> {
+        let unreadable = |error| unreadable(path, &error);
+        let file = File::open(path).map_err(unreadable)?;
+        let metadata = file.metadata().map_err(unreadable)?;
+        let place = path.display().to_string();
+        if !metadata.is_file() {
+            return Err(Problem::new(format!("`{place}` is not a file")).help("name a file written by `scl record`"));
+        }
+        if metadata.len() == 0 {
+            let help = "the recorder was stopped before it wrote anything, or the disk was full";
+            return Err(Problem::new(format!("the recording `{place}` is empty")).help(help));
+        }
+        let mut records =
+            Self { path: path.to_owned(), file: BufReader::new(file), offset: 0, unread: 0, size: metadata.len() };
+        let mut magic = Vec::new();
+        records.file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut magic).map_err(unreadable)?;
+        if !MAGIC.starts_with(&magic) {
+            let help = "recordings are MCAP files, written by `scl record`";
+            return Err(Problem::new(format!("`{place}` is not a recording")).help(help));
+        }
+        records.offset = magic.len() as u64;
+        Ok(records)
+    }
+
+    /// The next record; `None` at the end of the file.
+    pub(super) fn next(&mut self) -> Result<Option<RecordHeader>, Problem> {
+        self.skip()?;
+        let left = self.size.saturating_sub(self.offset);
+        let mut header = [0; HEADER as usize];
+        if left < HEADER || self.read_exact(&mut header)?.is_none() {
+            let cut = (left > 0).then_some(RecordHeader { opcode: 0, offset: self.offset, length: 0, is_cut: true });
+            self.offset = self.size;
+            return Ok(cut);
+        }
+        let [opcode, length @ ..] = header;
+        let (announced, available) = (u64::from_le_bytes(length), left - HEADER);
+        let length = announced.min(available);
+        let record = RecordHeader { opcode, offset: self.offset, length, is_cut: announced > available };
+        self.offset += HEADER + length;
+        self.unread = length;
+        Ok(Some(record))
+    }
+
+    /// Reads the content of the current record, or its first `limit` bytes.
+    pub(super) fn content(&mut self, limit: u64) -> Result<Vec<u8>, Problem> {
+        let mut content = Vec::new();
+        let read = self.file.by_ref().take(self.unread.min(limit)).read_to_end(&mut content);
+        self.unread -= read.map_err(|error| unreadable(&self.path, &error))? as u64;
+        Ok(content)
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// A problem in this file at this byte.
+    pub(super) fn problem(&self, offset: u64, message: impl Into<String>) -> Problem {
+        Problem::new(message).at(format!("{}, byte {offset}", self.path.display()))
+    }
+
+    fn skip(&mut self) -> Result<(), Problem> {
+        let unread = std::mem::take(&mut self.unread);
+        let distance = i64::try_from(unread).unwrap_or(i64::MAX);
+        let skipped = match unread {
+            0 => Ok(()),
+            1..NEAR => self.file.seek_relative(distance),
+            _ => self.file.seek(SeekFrom::Current(distance)).map(drop),
+        };
+        skipped.map_err(|error| unreadable(&self.path, &error))
+    }
+
+    /// `None` if the file has become shorter.
+    fn read_exact(&mut self, buffer: &mut [u8]) -> Result<Option<()>, Problem> {
+        match self.file.read_exact(buffer) {
+            Ok(()) => Ok(Some(())),
+            Err(error) if error.kind() == ErrorKind::UnexpectedEof => Ok(None),
+            Err(error) => Err(unreadable(&self.path, &error)),
+        }
+    }
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> Problem {
+    let problem = Problem::new(format!("cannot read `{}`: {error}", path.display()));
+    match error.kind() {
+        ErrorKind::NotFound => problem.help("name a file written by `scl record`"),
+        _ => problem,
+    }
+}

@@ -1,0 +1,280 @@
+//! The played components: their gates send what was recorded, answer requests and take what others send them.
+
+use super::ReplayOptions;
+use super::answers::Answers;
+use super::cast::{Cast, problem_of};
+use super::report::{AnswerReport, NotTaken};
+use bytes::Bytes;
+use scl::untyped::{Component, Gate};
+use scl::{CallError, OpenOptions, PeerStats, Pub, Push, Rep, Req, SendError};
+use scl_plan::{Plan, WhenFull};
+use scl_terminal::Problem;
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+use tokio::sync::{mpsc, oneshot};
+use tokio::task::JoinHandle;
+
+/// How many requests may wait for their turn at a gate, which has one at a time on its way.
+const WAITING_REQUESTS: usize = 1024;
+/// How long running peers may take for what was sent, at the end of a replay that is not lossless.
+const LINGER: Duration = Duration::from_secs(2);
+/// The same after a stop request.
+const SHORT_LINGER: Duration = Duration::from_millis(300);
+/// A lossless replay waits for slow peers, however long they need.
+const NO_LIMIT: Duration = Duration::from_secs(30 * 86_400);
+
+/// A component and one of its gates.
+pub(super) type GateId = (String, String);
+
+/// The played components and their gates.
+pub(super) struct Players {
+    components: Vec<Component>,
+    senders: HashMap<GateId, SendingGate>,
+    answering: Vec<(String, Arc<AnswerCounts>)>,
+    /// Tasks of requesters, which end by themselves, and of receiving gates, which do not.
+    calling: Vec<JoinHandle<()>>,
+    receiving: Vec<JoinHandle<()>>,
+    is_lossless: bool,
+}
+
+/// A gate that sends what was recorded.
+enum SendingGate {
+    Pub(Pub<Bytes>),
+    Push(Push<Bytes>),
+    Req { queue: mpsc::Sender<Call>, replies: Arc<AtomicU64> },
+}
+
+/// A request for the task of its gate.
+struct Call {
+    request: Bytes,
+    /// Told when it was answered, or will not be.
+    done: Option<oneshot::Sender<()>>,
+}
+
+#[derive(Default)]
+struct AnswerCounts {
+    answered: AtomicU64,
+    unanswered: AtomicU64,
+}
+
+impl Players {
+    /// Opens the components.
+    ///
+    /// # Errors
+    /// A component is running, or the runtime folder cannot be used.
+    pub(super) async fn open(
+        cast: &Cast,
+        options: &ReplayOptions,
+        mut answers: HashMap<GateId, Answers>,
+    ) -> Result<Self, Problem> {
+        let is_lossless = options.rate.is_max();
+        let mut players = Self {
+            components: Vec::new(),
+            senders: HashMap::new(),
+            answering: Vec::new(),
+            calling: Vec::new(),
+            receiving: Vec::new(),
+            is_lossless,
+        };
+        for plan in &cast.played {
+            let plan = if is_lossless { lossless(plan) } else { plan.clone() };
+            let opened = Component::open_with(&plan, OpenOptions::new().system(&cast.system)).await;
+            let mut component = opened.map_err(|error| problem_of(&error))?;
+            for gate in &plan.gates {
+                let id = (plan.component.clone(), gate.name.clone());
+                let gate = component.gate(&gate.name).map_err(|error| problem_of(&error))?;
+                players.take(id, gate, &mut answers);
+            }
+            players.components.push(component);
+        }
+        Ok(players)
+    }
+
+    /// Waits until the required peers of all components are connected.
+    ///
+    /// # Errors
+    /// The peers that are missing after `timeout`.
+    pub(super) async fn ready(&self, timeout: Duration) -> Result<(), Problem> {
+        for component in &self.components {
+            component.ready(timeout).await.map_err(|error| {
+                problem_of(&error)
+                    .help("start the peers first, play them as well (`--as`), or do not wait: `--ready 0s`")
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Sends a message, or a request, for which a lossless replay waits until it is answered.
+    ///
+    /// # Errors
+    /// The message is too long for a peer.
+    ///
+    /// # Cancel safety
+    /// The message is sent or not.
+    pub(super) async fn send(&mut self, gate: &GateId, message: &Bytes) -> Result<(), Problem> {
+        let sent = match self.senders.get_mut(gate) {
+            Some(SendingGate::Pub(gate)) => gate.send(message).await,
+            Some(SendingGate::Push(gate)) => gate.send(message).await,
+            Some(SendingGate::Req { queue, .. }) => {
+                let (done, answered) = oneshot::channel();
+                let call = Call { request: message.clone(), done: Some(done) };
+                // The task does not end before its queue does.
+                let _sent = queue.send(call).await;
+                if self.is_lossless {
+                    let _answered = answered.await;
+                }
+                Ok(())
+            }
+            None => Ok(()),
+        };
+        sent.map_err(|error: SendError| problem_of(&error))
+    }
+
+    /// By requesting gate (`user_interface.commands`), the number of replies that it has received; it goes on counting.
+    pub(super) fn replies(&self) -> HashMap<String, Arc<AtomicU64>> {
+        let replies = self.senders.iter().filter_map(|((component, gate), sender)| match sender {
+            SendingGate::Req { replies, .. } => Some((format!("{component}.{gate}"), Arc::clone(replies))),
+            _ => None,
+        });
+        replies.collect()
+    }
+
+    /// Hands over what is left and closes the components. Returns what peers have not taken, and what was answered.
+    pub(super) async fn close(mut self, was_stopped: bool) -> (Vec<NotTaken>, Vec<AnswerReport>) {
+        let mut not_taken = self.dropped();
+        self.senders.clear();
+        for task in self.calling {
+            if was_stopped {
+                task.abort();
+            }
+            let _ended = task.await;
+        }
+        // After the requests, which a played replier may have to answer.
+        self.receiving.iter().for_each(JoinHandle::abort);
+        for task in self.receiving {
+            let _ended = task.await;
+        }
+        let timeout = match (was_stopped, self.is_lossless) {
+            (true, _) => SHORT_LINGER,
+            (false, true) => NO_LIMIT,
+            (false, false) => LINGER,
+        };
+        for component in self.components {
+            if let Err(left) = component.close(timeout).await {
+                not_taken.extend(left.peers.iter().map(|left| NotTaken {
+                    gate: left.gate.to_string(),
+                    peer: left.peer.to_string().trim_matches('`').to_owned(),
+                    messages: left.messages,
+                    reason: if left.running { "it did not take them in time" } else { "it is not running" },
+                }));
+            }
+        }
+        let answers = self.answering.into_iter().map(|(gate, counts)| AnswerReport {
+            gate,
+            answered: counts.answered.load(Ordering::Relaxed),
+            unanswered: counts.unanswered.load(Ordering::Relaxed),
+        });
+        (not_taken, answers.collect())
+    }
+
+    fn take(&mut self, id: GateId, gate: Gate, answers: &mut HashMap<GateId, Answers>) {
+        match gate {
+            Gate::Pub(gate) => {
+                self.senders.insert(id, SendingGate::Pub(gate));
+            }
+            Gate::Push(gate) => {
+                self.senders.insert(id, SendingGate::Push(gate));
+            }
+            Gate::Req(gate) => {
+                let (queue, calls) = mpsc::channel(WAITING_REQUESTS);
+                let replies = Arc::default();
+                self.calling.push(tokio::spawn(call(gate, calls, Arc::clone(&replies))));
+                self.senders.insert(id, SendingGate::Req { queue, replies });
+            }
+            Gate::Rep(gate) => {
+                let counts = Arc::default();
+                let answers = answers.remove(&id).unwrap_or_default();
+                self.receiving.push(tokio::spawn(answer(gate, answers, Arc::clone(&counts))));
+                self.answering.push((format!("{}.{}", id.0, id.1), counts));
+            }
+            // What a played component receives was recorded too, where it was sent.
+            Gate::Sub(mut gate) => {
+                self.receiving.push(tokio::spawn(async move { while gate.recv().await.is_ok() {} }));
+            }
+            Gate::Pull(mut gate) => {
+                self.receiving.push(tokio::spawn(async move { while gate.recv().await.is_ok() {} }));
+            }
+            _ => {}
+        }
+    }
+
+    fn dropped(&self) -> Vec<NotTaken> {
+        let mut dropped = Vec::new();
+        for ((component, gate), sender) in &self.senders {
+            let peers = match sender {
+                SendingGate::Pub(gate) => gate.peer_stats(),
+                SendingGate::Push(gate) => gate.peer_stats(),
+                SendingGate::Req { .. } => Vec::new(),
+            };
+            for PeerStats { peer, dropped_oldest, dropped_newest, lost, .. } in peers {
+                let full = (dropped_oldest + dropped_newest, "its queue was full");
+                for (messages, reason) in [full, (lost, "it disconnected")] {
+                    if messages > 0 {
+                        dropped.push(NotTaken {
+                            gate: format!("{component}.{gate}"),
+                            peer: peer.clone(),
+                            messages,
+                            reason,
+                        });
+                    }
+                }
+            }
+        }
+        dropped.sort_by(|one, other| (&one.gate, &one.peer).cmp(&(&other.gate, &other.peer)));
+        dropped
+    }
+}
+
+/// The plan of a component whose sending gates wait for slow peers instead of dropping messages.
+fn lossless(plan: &Plan) -> Plan {
+    let mut plan = plan.clone();
+    for gate in &mut plan.gates {
+        gate.options.backpressure = true;
+        gate.connections.iter_mut().for_each(|connection| connection.when_full = WhenFull::Wait);
+    }
+    plan
+}
+
+/// Makes the recorded calls, one after the other.
+async fn call(mut gate: Req<Bytes, Bytes>, mut calls: mpsc::Receiver<Call>, replies: Arc<AtomicU64>) {
+    while let Some(Call { request, done }) = calls.recv().await {
+        match gate.call(&request).await {
+            Ok(_) => {
+                replies.fetch_add(1, Ordering::Relaxed);
+            }
+            Err(CallError::Blocking { .. }) => return,
+            // Sent and not answered, as the counts say.
+            Err(_) => {}
+        }
+        if let Some(done) = done {
+            let _waits_no_more = done.send(());
+        }
+    }
+}
+
+/// Answers requests with what was recorded.
+async fn answer(mut gate: Rep<Bytes, Bytes>, mut answers: Answers, counts: Arc<AnswerCounts>) {
+    while let Ok(request) = gate.recv().await {
+        let count = match answers.answer(request.message()) {
+            Some(reply) => match request.reply(&reply) {
+                Ok(()) => &counts.answered,
+                // The requester has gone.
+                Err(_) => continue,
+            },
+            None => &counts.unanswered,
+        };
+        count.fetch_add(1, Ordering::Relaxed);
+    }
+}

@@ -1,0 +1,77 @@
+//! Which gate sends what a channel has recorded.
+
+use super::cast::Cast;
+use crate::format::Part;
+use crate::recording::{RecordedChannel, type_and_codec};
+use scl_plan::{GatePlan, Payload, SystemPlan};
+use scl_terminal::{Problem, closest_name};
+
+/// What becomes of the messages of a channel.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Route {
+    /// A played gate sends them.
+    Send { component: String, gate: String },
+    /// They are the replies of a played or a running replier.
+    Reply,
+    /// They are not sent, for this reason.
+    Skip(String),
+}
+
+/// Finds the gate that sent the messages of a channel.
+///
+/// A tap records what a gate publishes, pulls or is asked. Pushers and requesters are found by the plan: if a gate has
+/// several, a recording does not say which of them sent a message, so they can only be played together.
+///
+/// # Errors
+/// The recorded contract is not that of the plan, or the plan has no such gate.
+pub(super) fn route(plan: &SystemPlan, cast: &Cast, channel: &RecordedChannel) -> Result<Route, Problem> {
+    let topic = &channel.topic;
+    let Some(component) = plan.components.iter().find(|plan| plan.component == topic.component) else {
+        return Ok(Route::Skip(format!("the topology has no component `{}`", topic.component)));
+    };
+    let Some(gate) = component.gate(&topic.gate) else {
+        let problem = Problem::new(format!("`{}` was recorded, but the topology has no such gate", topic.gate_name()));
+        return Err(match closest_name(&topic.gate, component.gates.iter().map(|gate| gate.name.as_str())) {
+            Some(close) => problem.help(format!("was it renamed to `{}.{close}`?", topic.component)),
+            None => problem.help("use the topology of the recording: leave out `--topology`"),
+        });
+    };
+    check_contract(channel, gate)?;
+    if topic.part == Part::Reply {
+        return Ok(Route::Reply);
+    }
+    if gate.kind == scl_plan::GateKind::Pub {
+        return Ok(match cast.plays(&component.component) {
+            true => Route::Send { component: component.component.clone(), gate: gate.name.clone() },
+            false => Route::Skip(cast.why_not(&component.component)),
+        });
+    }
+    let absent = gate.connections.iter().find(|connection| !cast.plays(&connection.peer_component));
+    Ok(match (gate.connections.first(), absent) {
+        (None, _) => Route::Skip("no gate is connected to it".to_owned()),
+        (Some(first), None) => Route::Send { component: first.peer_component.clone(), gate: first.peer_gate.clone() },
+        (Some(_), Some(absent)) if gate.connections.len() == 1 => Route::Skip(cast.why_not(&absent.peer_component)),
+        (Some(_), Some(absent)) => {
+            let sender = if topic.part == Part::Request { "requesters" } else { "pushers" };
+            let why = cast.why_not(&absent.peer_component);
+            Route::Skip(format!("it has several {sender}, which are not told apart, and {why}"))
+        }
+    })
+}
+
+fn check_contract(channel: &RecordedChannel, gate: &GatePlan) -> Result<(), Problem> {
+    if channel.metadata.contract == gate.contract {
+        return Ok(());
+    }
+    let type_name = match (&gate.payload, channel.topic.part) {
+        (Payload::Bytes, _) => None,
+        (Payload::Message(name), _) => Some(name.as_str()),
+        (Payload::Exchange { request, .. }, Part::Request) => Some(request.as_str()),
+        (Payload::Exchange { reply, .. }, _) => Some(reply.as_str()),
+    };
+    let planned = type_and_codec(type_name, &gate.codec);
+    let recorded = channel.type_and_codec();
+    let name = channel.topic.gate_name();
+    let problem = Problem::new(format!("`{name}` was recorded as {recorded}, but the topology declares {planned}"));
+    Err(problem.help("use the topology of the recording: leave out `--topology`"))
+}

@@ -1,0 +1,173 @@
+//! The messages of a recording in the order in which they were sent, read ahead by a thread.
+
+use crate::recording::{RecordedChannel, RecordedMessage, Recording};
+use scl_terminal::Problem;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::ops::Range;
+use tokio::sync::mpsc;
+
+/// Messages arrive at the recorder in almost the order in which they were sent. This is how late one may be, in
+/// nanoseconds, to be put in its place.
+const WINDOW: u64 = 200_000_000;
+/// The most messages and bytes that are held to be put in order.
+const MOST_MESSAGES: usize = 4096;
+const MOST_BYTES: usize = 16 << 20;
+/// How much is given to the player at once.
+const BATCH_MESSAGES: usize = 256;
+const BATCH_BYTES: usize = 256 << 10;
+/// How many of those are read ahead.
+const AHEAD: usize = 4;
+
+/// A part of the timeline.
+#[derive(Debug, Default)]
+pub(super) struct Batch {
+    /// Channels that were not in a batch before.
+    pub(super) channels: Vec<RecordedChannel>,
+    pub(super) messages: Vec<Timed>,
+}
+
+/// A message and its time.
+#[derive(Debug)]
+pub(super) struct Timed {
+    /// Nanoseconds since 1970. Never less than that of the message before, of the same channel.
+    pub(super) time: u64,
+    pub(super) message: RecordedMessage,
+}
+
+/// The parts of a timeline; the last one is empty.
+pub(super) type Batches = mpsc::Receiver<Result<Batch, Problem>>;
+
+/// Reads the messages that were sent in a span of time. Ends early when the receiver is dropped.
+pub(super) fn read(recording: &Recording, span: Range<u64>) -> Batches {
+    let (sender, receiver) = mpsc::channel(AHEAD);
+    let mut timeline = Timeline::new(recording, span);
+    std::thread::spawn(move || {
+        loop {
+            let batch = timeline.next_batch();
+            let is_last = batch.as_ref().map_or(true, |batch| batch.messages.is_empty());
+            if sender.blocking_send(batch).is_err() || is_last {
+                return;
+            }
+        }
+    });
+    receiver
+}
+
+struct Timeline {
+    messages: crate::recording::Messages,
+    span: Range<u64>,
+    held: BinaryHeap<Reverse<Held>>,
+    held_bytes: usize,
+    /// Number of messages read, and the latest time at which the recorder received one.
+    read: u64,
+    received: u64,
+    /// Of each channel, the time of its latest message.
+    latest: Vec<u64>,
+    channels_given: usize,
+    is_at_end: bool,
+}
+
+/// Ordered by time, then by place in the file.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Held {
+    time: u64,
+    number: u64,
+    message: Unordered,
+}
+
+#[derive(Debug)]
+struct Unordered(RecordedMessage);
+
+impl Timeline {
+    fn new(recording: &Recording, span: Range<u64>) -> Self {
+        Self {
+            messages: recording.messages(),
+            span,
+            held: BinaryHeap::new(),
+            held_bytes: 0,
+            read: 0,
+            received: 0,
+            latest: Vec::new(),
+            channels_given: 0,
+            is_at_end: false,
+        }
+    }
+
+    /// Empty at the end.
+    fn next_batch(&mut self) -> Result<Batch, Problem> {
+        let mut batch = Batch::default();
+        let mut bytes = 0;
+        while batch.messages.len() < BATCH_MESSAGES && bytes < BATCH_BYTES {
+            let Some(timed) = self.next()? else { break };
+            if timed.time >= self.span.end {
+                self.is_at_end = true;
+                self.held.clear();
+                break;
+            }
+            if timed.time >= self.span.start {
+                bytes += timed.message.payload.len();
+                batch.messages.push(timed);
+            }
+        }
+        let channels = self.messages.channels();
+        batch.channels = channels[self.channels_given..].to_vec();
+        self.channels_given = channels.len();
+        Ok(batch)
+    }
+
+    fn next(&mut self) -> Result<Option<Timed>, Problem> {
+        while !self.is_at_end && !self.is_first_in_place() {
+            match self.messages.next()? {
+                Some(message) => self.hold(message),
+                None => self.is_at_end = true,
+            }
+        }
+        let first =
+            self.held.pop().map(|Reverse(Held { time, message: Unordered(message), .. })| Timed { time, message });
+        self.held_bytes -= first.as_ref().map_or(0, |first| first.message.payload.len());
+        Ok(first)
+    }
+
+    fn hold(&mut self, message: RecordedMessage) {
+        if self.latest.len() <= message.channel {
+            self.latest.resize(message.channel + 1, 0);
+        }
+        // A clock that was set back must not change the order of a gate's messages.
+        let latest = &mut self.latest[message.channel];
+        let time = message.sent_ns.max(*latest);
+        *latest = time;
+        self.received = self.received.max(message.received_ns);
+        self.held_bytes += message.payload.len();
+        self.read += 1;
+        self.held.push(Reverse(Held { time, number: self.read, message: Unordered(message) }));
+    }
+
+    /// Returns true if no message with an earlier time is expected.
+    fn is_first_in_place(&self) -> bool {
+        let is_full = self.held.len() >= MOST_MESSAGES || self.held_bytes >= MOST_BYTES;
+        let is_old = |Reverse(first): &Reverse<Held>| first.time.saturating_add(WINDOW) < self.received;
+        self.held.peek().is_some_and(|first| is_full || is_old(first))
+    }
+}
+
+/// The messages themselves have no order.
+impl PartialEq for Unordered {
+    fn eq(&self, _other: &Self) -> bool {
+        true
+    }
+}
+
+impl Eq for Unordered {}
+
+impl PartialOrd for Unordered {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Unordered {
+    fn cmp(&self, _other: &Self) -> std::cmp::Ordering {
+        std::cmp::Ordering::Equal
+    }
+}

@@ -1,0 +1,120 @@
+//! Recordings for tests: what the recorder writes, made without a system.
+
+use crate::format::{ChannelMetadata, Encoding, PLAN, PROFILE, Part, Topic, Totals};
+use mcap::records::{MessageHeader, Metadata};
+use mcap::{Attachment, Compression, WriteOptions, Writer};
+use scl_plan::{GateKind, SystemPlan};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+/// One message: topic, milliseconds since the beginning, payload.
+pub(crate) type Sample<'a> = (&'a str, u64, &'a str);
+
+/// Milliseconds since 1970 at the beginning of all recordings.
+pub(crate) const BEGINNING: u64 = 1_700_000_000_000;
+
+/// A recording in memory.
+pub(crate) struct Recorder {
+    writer: Writer<Cursor<Vec<u8>>>,
+    channels: BTreeMap<String, u16>,
+    sequence: u32,
+}
+
+impl Recorder {
+    pub(crate) fn new() -> Self {
+        Self::with_profile(PROFILE)
+    }
+
+    pub(crate) fn with_profile(profile: &str) -> Self {
+        let options = WriteOptions::new()
+            .profile(profile)
+            .compression(Some(Compression::Lz4))
+            .chunk_size(Some(1 << 20))
+            .disable_seeking(true);
+        let writer = options.create(Cursor::new(Vec::new())).unwrap();
+        Self { writer, channels: BTreeMap::new(), sequence: 0 }
+    }
+
+    pub(crate) fn attach_plan(mut self, plan: &SystemPlan) -> Self {
+        let data = plan.to_json().into_bytes();
+        let (name, media_type) = (PLAN.to_owned(), "application/json".to_owned());
+        self.writer
+            .attach(&Attachment { log_time: 0, create_time: 0, name, media_type, data: Cow::Owned(data) })
+            .unwrap();
+        self
+    }
+
+    /// Messages of JSON.
+    pub(crate) fn messages(mut self, samples: &[Sample<'_>]) -> Self {
+        for &(topic, at, payload) in samples {
+            let channel_id = self.channel(topic, "json", "rover.Measurement");
+            self.write(channel_id, at, payload.as_bytes());
+        }
+        self
+    }
+
+    pub(crate) fn message_of_type(mut self, (topic, at, payload): Sample<'_>, codec: &str, type_name: &str) -> Self {
+        let channel_id = self.channel(topic, codec, type_name);
+        self.write(channel_id, at, payload.as_bytes());
+        self
+    }
+
+    pub(crate) fn restart_numbers(mut self) -> Self {
+        self.sequence = 0;
+        self
+    }
+
+    pub(crate) fn end_chunk(mut self) -> Self {
+        self.writer.flush().unwrap();
+        self
+    }
+
+    pub(crate) fn totals(mut self, totals: &Totals) -> Self {
+        let name = Totals::NAME.to_owned();
+        self.writer.write_metadata(&Metadata { name, metadata: totals.to_map() }).unwrap();
+        self
+    }
+
+    pub(crate) fn finish(mut self) -> Vec<u8> {
+        self.writer.finish().unwrap();
+        self.writer.into_inner().into_inner()
+    }
+
+    pub(crate) fn write_to(self, folder: &Path, name: &str) -> PathBuf {
+        write_file(folder, name, &self.finish())
+    }
+
+    fn channel(&mut self, topic: &str, codec: &str, type_name: &str) -> u16 {
+        if let Some(id) = self.channels.get(topic) {
+            return *id;
+        }
+        let parsed = Topic::parse(topic).unwrap();
+        let metadata = ChannelMetadata {
+            kind: if parsed.part == Part::Message { GateKind::Pub } else { GateKind::Rep },
+            type_name: Some(type_name.to_owned()),
+            codec: codec.to_owned(),
+            contract: "aaaaaaaa".to_owned(),
+            peers: Vec::new(),
+        };
+        let encoding = Encoding::new(codec, Some(type_name), None);
+        let schema = self.writer.add_schema(encoding.schema_name, encoding.schema_encoding, &encoding.schema).unwrap();
+        let id = self.writer.add_channel(schema, topic, &encoding.message, &metadata.to_map()).unwrap();
+        self.channels.insert(topic.to_owned(), id);
+        id
+    }
+
+    fn write(&mut self, channel_id: u16, at: u64, payload: &[u8]) {
+        let time = (BEGINNING + at) * 1_000_000;
+        let header = MessageHeader { channel_id, sequence: self.sequence, log_time: time + 1, publish_time: time };
+        self.sequence += 1;
+        self.writer.write_to_known_channel(&header, payload).unwrap();
+    }
+}
+
+pub(crate) fn write_file(folder: &Path, name: &str, content: &[u8]) -> PathBuf {
+    let path = folder.join(name);
+    std::fs::write(&path, content).unwrap();
+    path
+}

@@ -1,0 +1,1 @@
+//! Types for the tests of this crate.
