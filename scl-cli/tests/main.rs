@@ -10,19 +10,28 @@ mod check_fix;
 mod check_formats;
 mod check_inputs;
 mod check_watch;
+#[cfg(feature = "observe")]
+mod complete_names;
 mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
 mod editor;
 mod explain;
+mod external;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
 #[cfg(feature = "observe")]
 mod hz;
+#[cfg(feature = "observe")]
+mod info;
+#[cfg(feature = "observe")]
+mod json;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
+#[cfg(feature = "observe")]
+mod list;
 mod lsp;
 #[cfg(feature = "new")]
 mod new;

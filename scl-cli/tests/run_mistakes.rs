@@ -23,16 +23,16 @@ fn unknown_keys_get_a_suggestion_and_the_list() {
             error: unknown key `transprt` in a launch file
              --> launch.yaml:1:1
               = help: did you mean `transport`?
-              = note: the keys are `build`, `components`, `environment`, `profiles`, `topology`, `transport`
+              = note: the keys are `build`, `components`, `defaults`, `environment`, `profiles`, `topology`, `transport`
 
             error: unknown key `comand` in component `sensor`
              --> launch.yaml:4:25
               = help: did you mean `command`?
-              = note: the keys are `build`, `command`, `environment`, `folder`
+              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `environment`, `essential`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
             error: unknown key `colour` in component `b`
              --> launch.yaml:5:20
-              = note: the keys are `build`, `command`, `environment`, `folder`
+              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `environment`, `essential`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
         "#]],
     );
@@ -41,7 +41,7 @@ fn unknown_keys_get_a_suggestion_and_the_list() {
 #[test]
 fn a_missing_or_empty_command_is_shown_how_to_write() {
     check(
-        "components:\n  a: {folder: .}\n  b:\n    command: []\n  c: ./run\n  d: {comand: ls}\n  e: {command: ['']}\n",
+        "components:\n  a: {working_directory: .}\n  b:\n    command: []\n  c: ./run\n  d: {comand: ls}\n  e: {command: ['']}\n",
         &expect![[r#"
             error: component `a` has no usable `command`
              --> launch.yaml:2:3
@@ -58,7 +58,7 @@ fn a_missing_or_empty_command_is_shown_how_to_write() {
             error: unknown key `comand` in component `d`
              --> launch.yaml:6:7
               = help: did you mean `command`?
-              = note: the keys are `build`, `command`, `environment`, `folder`
+              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `environment`, `essential`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
             error: component `e` has no usable `command`
              --> launch.yaml:7:7
@@ -71,20 +71,20 @@ fn a_missing_or_empty_command_is_shown_how_to_write() {
 #[test]
 fn values_of_the_wrong_kind_are_named() {
     check(
-        "transport: udp\nenvironment: [A]\ncomponents:\n  a: {command: ls, folder: 3, environment: {A: [1], B: , 'C=': x}}\n  1: {command: ls}\n",
+        "transport: udp\nenvironment: [A]\ncomponents:\n  a: {command: ls, working_directory: 3, environment: {A: [1], B: , 'C=': x}}\n  1: {command: ls}\n",
         &expect![[r#"
             error: the variable `A` is a text, not a list
-             --> launch.yaml:4:45
+             --> launch.yaml:4:56
               = help: write `A: "..."`
 
             error: the variable `B` is a text, not nothing
-             --> launch.yaml:4:53
+             --> launch.yaml:4:64
               = help: write `B: "..."`
 
             error: `C=` is not the name of an environment variable
-             --> launch.yaml:4:31
+             --> launch.yaml:4:42
 
-            error: `folder` is a path, not `3`
+            error: `working_directory` is a path, not `3`
              --> launch.yaml:4:20
 
             error: the name of a component is a word, not `1`
@@ -150,7 +150,7 @@ fn a_key_given_twice_is_named() {
 #[test]
 fn programs_that_are_not_there_are_found_before_the_start() {
     check(
-        "components:\n  a: {command: [no-such-program]}\n  b: {command: [./b]}\n  c: {command: [./launch.yaml]}\n  d: {command: ls, folder: d}\n",
+        "components:\n  a: {command: [no-such-program]}\n  b: {command: [./b]}\n  c: {command: [./launch.yaml]}\n  d: {command: ls, working_directory: d}\n",
         &expect![[r#"
             error: the program `no-such-program` of component `a` is not in the search path
               = help: install it, or write its path: `./no-such-program` is looked up in the component's folder
@@ -185,7 +185,7 @@ components:
   b: {command: ls, build: {make: all}}
 build: 3
 profiles:
-  python: {a: {comand: ls}, c: {folder: .}, b: ls}
+  python: {a: {comand: ls}, c: {working_directory: .}, b: ls}
   sim: [a]
   2: {}
 ",
@@ -205,14 +205,14 @@ profiles:
             error: unknown key `comand` in component `a`
              --> launch.yaml:6:16
               = help: did you mean `command`?
-              = note: the keys are `build`, `command`, `environment`, `folder`
+              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `environment`, `essential`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
             error: component `c` has no usable `command`
              --> launch.yaml:6:29
               = help: write `command: ./c` or `command: [./c, --verbose]`
 
             error: the entry of component `b` is not a mapping
-             --> launch.yaml:6:45
+             --> launch.yaml:6:56
               = help: write `b: {command: ls}`
 
             error: profile `sim` is not a mapping from components to commands

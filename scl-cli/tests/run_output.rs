@@ -48,6 +48,7 @@ fn a_failed_component_is_named_with_its_code() {
         &expect![[""]],
         &expect![[r#"
             sensor  ended with exit code 7 after N s
+            scl: component `sensor` failed: ended with exit code 7
         "#]],
     );
 }
@@ -60,6 +61,7 @@ fn a_crash_is_named_with_its_signal() {
         &expect![[""]],
         &expect![[r#"
             sensor  killed by signal 11 (SIGSEGV) after N s
+            scl: component `sensor` failed: killed by signal 11 (SIGSEGV)
         "#]],
     );
 }
@@ -115,7 +117,7 @@ components:
   sensor:
     command: 'echo $A $B $SCL_TRANSPORT $(basename $PWD) ${SCL_SYSTEM-unset}'
     environment: {B: 0.5}
-    folder: below
+    working_directory: below
 ",
         ),
         ("below/file", ""),

@@ -68,6 +68,7 @@ impl System {
         for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
             command.env_remove(name);
         }
+        command.env("SCL_RUNTIME_DIR", self.path("runtime"));
         command
     }
 
@@ -88,6 +89,7 @@ impl System {
         let mut command = Command::new("/bin/sh");
         command.args(["-c", script]).arg(scl.get_program()).args(arguments);
         command.current_dir(self.folder.path()).stdin(Stdio::null());
+        command.env("SCL_RUNTIME_DIR", self.path("runtime"));
         Started::spawn(&mut command)
     }
 
