@@ -19,11 +19,11 @@ mod explain;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
+mod hz;
 #[cfg(feature = "observe")]
 mod info;
 #[cfg(feature = "observe")]
 mod json;
-mod hz;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
 #[cfg(feature = "observe")]

@@ -28,6 +28,7 @@ mod json;
 mod lookup;
 mod measure;
 mod peer;
+mod plan_of;
 mod rate;
 mod silence;
 mod system;
