@@ -10,23 +10,37 @@ mod check_fix;
 mod check_formats;
 mod check_inputs;
 mod check_watch;
+#[cfg(feature = "observe")]
+mod complete_names;
 mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
+#[cfg(feature = "observe")]
+mod doctor;
 mod editor;
 mod explain;
+mod external;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
 #[cfg(feature = "observe")]
 mod hz;
+#[cfg(feature = "observe")]
+mod info;
+#[cfg(feature = "observe")]
+mod json;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
+#[cfg(feature = "observe")]
+mod list;
 mod lsp;
 mod plan;
 #[cfg(feature = "run")]
 mod quickstart;
+#[cfg(feature = "record")]
+mod record;
+mod replay;
 #[cfg(feature = "observe")]
 mod rover;
 #[cfg(feature = "run")]
@@ -54,3 +68,5 @@ mod schema;
 mod system;
 #[cfg(feature = "observe")]
 mod ticker;
+#[cfg(feature = "observe")]
+mod top;
