@@ -34,6 +34,7 @@ mod six_kinds;
 mod sizes;
 mod strangers;
 mod subscribers;
+mod systemd;
 mod taps;
 mod threads;
 mod unit;
