@@ -86,7 +86,7 @@ fn replies_have_the_numbers_of_their_requests() {
 #[test]
 fn a_file_says_everything_about_its_gates() {
     let rover = Rover::start();
-    rover.write("launch.yaml", "components: {}\n");
+    std::fs::write(rover.path("launch.yaml"), "components: {}\n").unwrap();
     let recorder = Recorder::start(&rover, 6, &["--format", "json"]);
     let file = rover.path("flight.mcap");
     wait_until("every gate has sent", || counts(&file).len() == 7);
