@@ -35,6 +35,8 @@ mod languages;
 #[cfg(feature = "observe")]
 mod list;
 mod lsp;
+#[cfg(feature = "new")]
+mod new;
 mod plan;
 #[cfg(feature = "run")]
 mod quickstart;

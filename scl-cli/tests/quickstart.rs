@@ -1,13 +1,14 @@
 //! The first thing that anybody sees: the quick start builds, talks and stops; its file alone, when damaged and mended,
 //! is noticed by cargo. All of it without protoc.
 
-use crate::system::System;
+use crate::system::{System, build_folder, lock_programs};
 use std::os::unix::fs::PermissionsExt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 #[test]
 fn the_quick_start_builds_talks_stops_and_notices_its_file() {
+    let _programs = lock_programs();
     let quickstart = Copied::new();
     quickstart.talks_and_stops();
 
@@ -102,9 +103,4 @@ fn manifest(workspace: &Path) -> String {
         "[package]\nname = \"quickstart-copy\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[workspace]\n\n[dependencies]\n\
          scl = {{ package = \"scl-gates\", path = {scl:?} }}\ntokio = {{ version = \"1\", features = [\"macros\"] }}\n"
     )
-}
-
-/// The folder that the tests themselves were built into, so that little has to be built again.
-fn build_folder() -> PathBuf {
-    Path::new(env!("CARGO_BIN_EXE_scl")).ancestors().nth(2).unwrap().to_owned()
 }
