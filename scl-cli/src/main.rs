@@ -3,17 +3,34 @@
 
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "observe")]
+mod bw;
 mod check;
 mod completions;
+#[cfg(feature = "observe")]
+mod delay;
 mod diff;
 mod explain;
+#[cfg(any(feature = "observe", feature = "run"))]
+mod format;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
+#[cfg(feature = "observe")]
+mod hz;
 mod load;
+#[cfg(feature = "observe")]
+mod measure;
+mod observed;
 mod plan;
 #[cfg(feature = "record")]
 mod replay;
+#[cfg(feature = "observe")]
+mod quantity;
+#[cfg(feature = "record")]
+mod record;
+#[cfg(feature = "record")]
+mod recover;
 #[cfg(feature = "run")]
 mod run;
 mod schema;
@@ -37,16 +54,25 @@ enum Command {
     #[cfg(feature = "bench")]
     #[command(name = bench::WORKER_COMMAND, hide = true)]
     BenchWorker(bench::WorkerArguments),
+    #[cfg(feature = "observe")]
+    Bw(bw::BwArguments),
     Check(check::CheckArguments),
     Completions(completions::CompletionsArguments),
+    #[cfg(feature = "observe")]
+    Delay(delay::DelayArguments),
     Diff(diff::DiffArguments),
     Explain(explain::ExplainArguments),
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments),
     Graph(graph::GraphArguments),
+    #[cfg(feature = "observe")]
+    Hz(hz::HzArguments),
     Plan(plan::PlanArguments),
     #[cfg(feature = "record")]
     Replay(replay::ReplayArguments),
+    Record(record::RecordArguments),
+    #[cfg(feature = "record")]
+    Recover(recover::RecoverArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
@@ -64,16 +90,25 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => bench::bench(&arguments),
         #[cfg(feature = "bench")]
         Command::BenchWorker(arguments) => bench::run_worker(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Bw(arguments) => bw::bw(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
+        #[cfg(feature = "observe")]
+        Command::Delay(arguments) => delay::delay(&arguments),
         Command::Diff(arguments) => diff::diff(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         #[cfg(feature = "generate")]
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Hz(arguments) => hz::hz(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
         #[cfg(feature = "record")]
         Command::Replay(arguments) => replay::replay(&arguments),
+        Command::Record(arguments) => record::record(&arguments),
+        #[cfg(feature = "record")]
+        Command::Recover(arguments) => recover::recover(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

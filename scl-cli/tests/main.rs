@@ -1,6 +1,8 @@
 //! The integration tests of the command line, in one binary.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[cfg(feature = "observe")]
+mod bandwidth;
 #[cfg(feature = "bench")]
 mod bench;
 mod check;
@@ -9,12 +11,16 @@ mod check_formats;
 mod check_inputs;
 mod check_watch;
 mod completions;
+#[cfg(feature = "observe")]
+mod delay;
 mod diff;
 mod editor;
 mod explain;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
+#[cfg(feature = "observe")]
+mod hz;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
 mod lsp;
@@ -23,6 +29,7 @@ mod plan;
 mod quickstart;
 #[cfg(feature = "record")]
 mod replay;
+mod record;
 #[cfg(feature = "observe")]
 mod rover;
 #[cfg(feature = "run")]
@@ -40,3 +47,5 @@ mod run_stop;
 mod rust_analyzer;
 mod schema;
 mod system;
+#[cfg(feature = "observe")]
+mod ticker;

@@ -1,5 +1,7 @@
 //! How many bytes a gate sends: bytes per second and the sizes of its messages.
 
+use scl::tap::ObservedKind;
+
 /// Counts the bytes of the messages of one gate.
 #[derive(Debug, Default)]
 pub struct BandwidthMeter {
@@ -33,11 +35,14 @@ struct Bytes {
 }
 
 impl BandwidthMeter {
-    /// Counts a message by its size in bytes and the time when it was sent.
-    pub fn observe(&mut self, size: usize, sent_ns: u64) {
+    /// Counts a message by its size in bytes and the time when it was sent. A reply belongs to the time before it.
+    pub fn observe(&mut self, kind: ObservedKind, size: usize, sent_ns: u64) {
         let size = size as u64;
-        let duration_ns = self.previous_ns.and_then(|previous| sent_ns.checked_sub(previous));
-        self.previous_ns = Some(sent_ns);
+        let duration_ns = match kind {
+            // The few microseconds from a request to its reply say nothing about bytes per second.
+            ObservedKind::Reply => self.previous_ns.map(|_| 0),
+            _ => self.previous_ns.replace(sent_ns).and_then(|previous| sent_ns.checked_sub(previous)),
+        };
         self.interval.add(size, duration_ns);
         self.total.add(size, duration_ns);
     }
@@ -84,21 +89,31 @@ impl Bytes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ObservedKind::{Message, Reply, Request};
 
     #[test]
     fn bytes_are_counted_per_second_of_the_sender() {
         let mut meter = BandwidthMeter::default();
         let none = BandwidthFigures { messages: 0, bytes: 0, per_second: None, size: None };
         assert_eq!(meter.take_interval(), none);
-        meter.observe(1000, 0);
-        meter.observe(10, 500_000_000);
-        meter.observe(40, 1_000_000_000);
+        meter.observe(Message, 1000, 0);
+        meter.observe(Message, 10, 500_000_000);
+        meter.observe(Message, 40, 1_000_000_000);
         let expected =
             BandwidthFigures { messages: 3, bytes: 1050, per_second: Some(50.0), size: Some((10, 350.0, 1000)) };
         assert_eq!(meter.take_interval(), expected);
         meter.interrupt();
-        meter.observe(0, 9_000_000_000);
+        meter.observe(Message, 0, 9_000_000_000);
         assert_eq!(meter.take_interval(), BandwidthFigures { messages: 1, size: Some((0, 0.0, 0)), ..none });
         assert_eq!((meter.total().messages, meter.total().per_second), (4, Some(50.0)));
+    }
+
+    #[test]
+    fn replies_add_bytes_and_no_time() {
+        let mut meter = BandwidthMeter::default();
+        for (kind, size, ms) in [(Reply, 1, 0), (Request, 7, 1), (Reply, 5, 2), (Request, 7, 1001), (Reply, 5, 1002)] {
+            meter.observe(kind, size, ms * 1_000_000);
+        }
+        assert_eq!(meter.total().per_second, Some(17.0));
     }
 }

@@ -5,7 +5,9 @@
 
 pub mod format;
 pub mod progress;
+pub mod record;
 pub mod recording;
+pub mod recover;
 pub mod replay;
 #[cfg(any(test, feature = "testing"))]
 #[doc(hidden)]

@@ -32,6 +32,25 @@ pub fn escape_bytes(bytes: &[u8]) -> String {
     shown
 }
 
+/// Escapes what `serde_json` leaves as it is in JSON text and a terminal would obey, with JSON's own escapes, so that the
+/// value stays the same.
+pub fn escape_json(json: &str) -> Cow<'_, str> {
+    // Line breaks between values are no part of a string; inside of one, they are escaped already.
+    let is_unsafe = |c: char| c != '\n' && is_unsafe(c);
+    if !json.contains(is_unsafe) {
+        return Cow::Borrowed(json);
+    }
+    let mut shown = String::with_capacity(json.len() + 16);
+    for c in json.chars() {
+        match is_unsafe(c) {
+            // All of them are in the first plane of Unicode.
+            true => shown.push_str(&format!("\\u{:04x}", u32::from(c))),
+            false => shown.push(c),
+        }
+    }
+    Cow::Owned(shown)
+}
+
 /// Control characters, and those of Unicode that change the direction of text (UAX 9) or break lines: they can make text
 /// look like another one (CVE-2021-42574).
 fn is_unsafe(c: char) -> bool {
@@ -58,6 +77,15 @@ mod tests {
         ] {
             assert_eq!(escape(text), expected);
         }
+    }
+
+    #[test]
+    fn json_keeps_its_value() {
+        let text = "a \u{7f} \u{9b} \u{202e} \n \u{1b} é";
+        let json = format!("{{\n  \"text\": {}\n}}\n", serde_json::to_string(text).unwrap());
+        let escaped = escape_json(&json);
+        assert_eq!(escaped, "{\n  \"text\": \"a \\u007f \\u009b \\u202e \\n \\u001b é\"\n}\n");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&escaped).unwrap()["text"], text);
     }
 
     #[test]

@@ -1,12 +1,18 @@
 //! What all parts of the command line share: problems and how they are worded, output, values of options.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod amount;
 mod duration;
 mod escape;
 mod print;
 mod problem;
+mod table;
+mod timestamp;
 
+pub use amount::{age_text, bytes_text, three_digits};
 pub use duration::parse_duration;
-pub use escape::{escape, escape_bytes};
+pub use escape::{escape, escape_bytes, escape_json};
 pub use print::{print_err, print_out};
 pub use problem::{Problem, closest_name, quoted_list};
+pub use table::{Align, Table, output_width, shorten};
+pub use timestamp::timestamp;

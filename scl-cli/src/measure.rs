@@ -1,0 +1,217 @@
+//! What `scl hz`, `scl delay` and `scl bw` share: a line for each gate and second, and a summary at the end.
+
+use clap::{Args, ValueEnum};
+use scl_observe::{GateReport, Measurement, Meter, System, at_taps};
+use scl_terminal::{Problem, parse_duration, print_err};
+use serde_json::{Map, Value, json};
+use std::io::{self, Write};
+use std::process::ExitCode;
+use std::time::Duration;
+use tokio::runtime::Builder;
+use tokio::signal::unix::{Signal, SignalKind, signal};
+use tokio::time::{Instant, MissedTickBehavior, interval_at, sleep};
+
+/// How often a line is printed, and how long `--once` measures.
+const INTERVAL: Duration = Duration::from_secs(1);
+
+/// After how many lines of a single gate the header is repeated.
+const PAGE: usize = 20;
+
+#[derive(Args)]
+pub(crate) struct MeasureArguments {
+    /// Measure for this long and end with a summary: `10s`. Without, until Ctrl-C.
+    #[arg(long = "for", value_name = "DURATION", value_parser = parse_duration)]
+    duration: Option<Duration>,
+    /// Print only the summary, of one second or of the duration of `--for`.
+    #[arg(long)]
+    once: bool,
+    /// The system; else `$SCL_SYSTEM`, else the one that runs.
+    #[arg(long, value_name = "NAME")]
+    system: Option<String>,
+    /// How the figures are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A table.
+    Text,
+    /// One JSON object a line.
+    Json,
+}
+
+/// How the figures of a meter are shown.
+pub(crate) trait Shown: Meter {
+    /// The headers of its columns, and their widths.
+    const COLUMNS: &'static [(&'static str, usize)];
+
+    /// The cells of a line; `None` without messages.
+    fn cells(figures: &Self::Figures) -> Option<Vec<String>>;
+
+    /// The same as JSON.
+    fn json(figures: &Self::Figures) -> Value;
+
+    /// What has to be said about the summary.
+    fn remark(_figures: &Self::Figures) -> Option<String> {
+        None
+    }
+}
+
+/// Measures these gates, or all if there are none, until the end that was asked for.
+pub(crate) fn measure<M: Shown + 'static>(
+    arguments: &MeasureArguments,
+    gates: &[String],
+    new_meter: impl Fn() -> M + 'static,
+) -> ExitCode {
+    let measured = Builder::new_current_thread()
+        .enable_all()
+        .build()
+        .map_err(|error| Problem::new(format!("cannot start: {error}")));
+    match measured.and_then(|runtime| runtime.block_on(run(arguments, gates, new_meter))) {
+        Ok(exit_code) => exit_code,
+        Err(problem) => {
+            print_err(&problem.to_string());
+            ExitCode::from(2)
+        }
+    }
+}
+
+async fn run<M: Shown + 'static>(
+    arguments: &MeasureArguments,
+    gates: &[String],
+    new_meter: impl Fn() -> M + 'static,
+) -> Result<ExitCode, Problem> {
+    let mut stop = StopSignals::watch()?;
+    let system = System::find(arguments.system.as_deref())?;
+    let mut measurement = if gates.is_empty() {
+        Measurement::of_all(&system, new_meter)
+    } else {
+        let gates = gates.iter().map(|gate| system.gate(gate)).collect::<Result<Vec<_>, _>>()?;
+        for gate in gates.iter().filter(|gate| gate.taps.first().is_some_and(|tap| tap.component != gate.component)) {
+            let senders = at_taps(std::slice::from_ref(gate));
+            let senders: Vec<_> = senders.iter().map(|sender| format!("`{}`", sender.name())).collect();
+            print_err(&format!("note: `{}` receives from {}, measured there\n", gate.name(), senders.join(", ")));
+        }
+        Measurement::of(&system, &gates, new_meter)
+    };
+    let mut output = Output { format: arguments.format, several: gates.len() != 1, lines: 0 };
+    let deadline = arguments.duration.or(arguments.once.then_some(INTERVAL));
+    let until_deadline = async {
+        match deadline {
+            Some(duration) => sleep(duration).await,
+            None => std::future::pending().await,
+        }
+    };
+    tokio::pin!(until_deadline);
+    let mut ticks = interval_at(Instant::now() + INTERVAL, INTERVAL);
+    ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    let interrupted = loop {
+        tokio::select! {
+            () = measurement.run() => {}
+            () = stop.next() => break true,
+            () = &mut until_deadline => break false,
+            _ = ticks.tick(), if !arguments.once => {
+                let reports = measurement.take_interval();
+                if output.print::<M>(&reports, false).is_err() {
+                    // The reader has gone (`scl hz | head`).
+                    return Ok(ExitCode::SUCCESS);
+                }
+            }
+        }
+    };
+    let reports = measurement.total();
+    let _reader_has_gone = output.print::<M>(&reports, true);
+    let seen = reports.iter().any(|report| M::cells(&report.figures).is_some());
+    Ok(if seen || interrupted { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+struct StopSignals {
+    interrupt: Signal,
+    terminate: Signal,
+}
+
+impl StopSignals {
+    fn watch() -> Result<Self, Problem> {
+        let watch = |kind| signal(kind).map_err(|error| Problem::new(format!("cannot watch for signals: {error}")));
+        Ok(Self { interrupt: watch(SignalKind::interrupt())?, terminate: watch(SignalKind::terminate())? })
+    }
+
+    async fn next(&mut self) {
+        tokio::select! {
+            _ = self.interrupt.recv() => {}
+            _ = self.terminate.recv() => {}
+        }
+    }
+}
+
+struct Output {
+    format: Format,
+    /// Whether lines begin with the name of a gate.
+    several: bool,
+    /// Lines since the last header.
+    lines: usize,
+}
+
+impl Output {
+    fn print<M: Shown>(&mut self, reports: &[GateReport<M::Figures>], is_total: bool) -> io::Result<()> {
+        let text = match self.format {
+            Format::Json => reports.iter().map(|report| format!("{}\n", to_json::<M>(report, is_total))).collect(),
+            Format::Text => self.table::<M>(reports, is_total),
+        };
+        let mut out = io::stdout().lock();
+        out.write_all(text.as_bytes())?;
+        out.flush()
+    }
+
+    fn table<M: Shown>(&mut self, reports: &[GateReport<M::Figures>], is_total: bool) -> String {
+        let names =
+            if self.several || is_total { reports.iter().map(|report| report.gate.as_str()).collect() } else { vec![] };
+        let width = names.iter().map(|name| name.len()).max().map_or(0, |width| width.max("gate".len()));
+        let mut text = String::new();
+        if reports.is_empty() {
+            text.push_str("no gates\n");
+            return text;
+        }
+        if is_total {
+            text.push_str(if self.lines > 0 { "\nin total:\n" } else { "" });
+        }
+        if self.several || is_total || self.lines % PAGE == 0 {
+            if self.several && self.lines > 0 && !is_total {
+                text.push('\n');
+            }
+            let headers = M::COLUMNS.iter().map(|(header, _)| (*header).to_owned()).collect();
+            text.push_str(&line::<M>(width, "gate", headers));
+        }
+        self.lines += 1;
+        for report in reports {
+            let cells = M::cells(&report.figures).unwrap_or_else(|| vec![format!("  no messages ({})", report.state)]);
+            text.push_str(&line::<M>(width, &report.gate, cells));
+        }
+        if is_total {
+            let remarks = reports.iter().filter_map(|report| M::remark(&report.figures));
+            remarks.for_each(|remark| text.push_str(&format!("{remark}\n")));
+        }
+        text
+    }
+}
+
+/// A line of a table: the name, unless its column is missing, and right-aligned cells.
+fn line<M: Shown>(width: usize, name: &str, cells: Vec<String>) -> String {
+    let mut line = if width == 0 { String::new() } else { format!("{name:width$}") };
+    for (cell, (_, column)) in cells.iter().zip(M::COLUMNS) {
+        line.push_str(&format!(" {cell:>column$}"));
+    }
+    format!("{}\n", line.trim_end())
+}
+
+fn to_json<M: Shown>(report: &GateReport<M::Figures>, is_total: bool) -> Value {
+    let mut object = Map::new();
+    object.insert("gate".to_owned(), json!(report.gate));
+    object.insert("total".to_owned(), json!(is_total));
+    object.insert("state".to_owned(), json!(report.state));
+    if let Value::Object(figures) = M::json(&report.figures) {
+        object.extend(figures);
+    }
+    Value::Object(object)
+}

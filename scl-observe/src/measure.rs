@@ -1,0 +1,195 @@
+//! Measuring gates: what passes their taps goes to a meter for each gate.
+
+use crate::silence::describe_state;
+use crate::{BandwidthMeter, DelayMeter, ObservedGate, RateMeter, System, Tap, Taps, TapsEvent};
+use scl::tap::{Observation, TapEvent};
+use std::time::SystemTime;
+
+/// Collects figures of the messages of one gate.
+pub trait Meter {
+    /// What it has found out.
+    type Figures;
+    /// Counts a message, request or reply.
+    fn observe(&mut self, seen: &Observation);
+    /// The connection to the tap has ended: what comes next is not counted from what came before.
+    fn interrupt(&mut self);
+    /// The figures since the last call.
+    fn take_interval(&mut self) -> Self::Figures;
+    /// The figures of the whole time.
+    fn total(&self) -> Self::Figures;
+}
+
+/// Measures gates of a running system, each at a tap.
+pub struct Measurement<M> {
+    system: System,
+    taps: Taps,
+    new_meter: Box<dyn Fn() -> M>,
+    gates: Vec<Measured<M>>,
+    /// Which of `gates` the tap of a number belongs to: a gate that starts again with another type has a new number.
+    index_of: Vec<usize>,
+}
+
+struct Measured<M> {
+    tap: Tap,
+    meter: M,
+}
+
+/// The figures of one gate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GateReport<F> {
+    /// The gate, as `component.gate`.
+    pub gate: String,
+    /// What its meter has found out.
+    pub figures: F,
+    /// What its component does, for a gate without messages: `not running`.
+    pub state: String,
+}
+
+impl<M: Meter> Measurement<M> {
+    /// Measures these gates; those that receive are measured at their peers' taps, see [`at_taps`]. Must be called inside a
+    /// tokio runtime.
+    pub fn of(system: &System, gates: &[ObservedGate], new_meter: impl Fn() -> M + 'static) -> Self {
+        let gates = at_taps(gates);
+        let taps = Taps::open(system, gates.clone());
+        let mut measurement = Self::empty(system, taps, new_meter);
+        gates.into_iter().for_each(|gate| measurement.add(gate));
+        measurement
+    }
+
+    /// Measures all gates that have a tap, also those of components that start later. Must be called inside a tokio runtime.
+    pub fn of_all(system: &System, new_meter: impl Fn() -> M + 'static) -> Self {
+        let taps = Taps::follow_all(system, |_| true);
+        Self::empty(system, taps, new_meter)
+    }
+
+    /// Measures, forever.
+    ///
+    /// # Cancel safety
+    /// Cancel safe: what was counted stays.
+    pub async fn run(&mut self) {
+        loop {
+            match self.taps.next().await {
+                TapsEvent::Started(gate) => self.add(gate),
+                TapsEvent::Event { gate, event } => {
+                    let Some(measured) = self.index_of.get(gate).and_then(|index| self.gates.get_mut(*index)) else {
+                        continue;
+                    };
+                    match event {
+                        TapEvent::Observed(seen) => measured.meter.observe(&seen),
+                        TapEvent::Connected | TapEvent::Disconnected => measured.meter.interrupt(),
+                    }
+                }
+            }
+        }
+    }
+
+    /// The figures of each gate since the last call.
+    pub fn take_interval(&mut self) -> Vec<GateReport<M::Figures>> {
+        let states = self.states();
+        let figures = self.gates.iter_mut().map(|it| (&it.tap, it.meter.take_interval()));
+        figures.zip(states).map(report).collect()
+    }
+
+    /// The figures of each gate for the whole time.
+    pub fn total(&self) -> Vec<GateReport<M::Figures>> {
+        self.gates.iter().map(|it| (&it.tap, it.meter.total())).zip(self.states()).map(report).collect()
+    }
+
+    fn empty(system: &System, taps: Taps, new_meter: impl Fn() -> M + 'static) -> Self {
+        let (system, new_meter) = (system.clone(), Box::new(new_meter));
+        Self { system, taps, new_meter, gates: Vec::new(), index_of: Vec::new() }
+    }
+
+    /// What the component of each gate does.
+    fn states(&self) -> Vec<String> {
+        let (components, now) = (self.system.components(), SystemTime::now());
+        let component = |name: &str| components.iter().find(|component| component.name == name);
+        self.gates.iter().map(|it| describe_state(component(&it.tap.component), now)).collect()
+    }
+
+    fn add(&mut self, gate: ObservedGate) {
+        let is_known = |it: &Measured<M>| it.tap.component == gate.component && it.tap.gate == gate.gate;
+        let index = self.gates.iter().position(is_known).unwrap_or_else(|| {
+            let tap = Tap { component: gate.component, gate: gate.gate, socket: String::new() };
+            self.gates.push(Measured { tap, meter: (self.new_meter)() });
+            self.gates.len() - 1
+        });
+        self.index_of.push(index);
+    }
+}
+
+fn report<F>(((tap, figures), state): ((&Tap, F), String)) -> GateReport<F> {
+    GateReport { gate: format!("{}.{}", tap.component, tap.gate), figures, state }
+}
+
+/// Gates as their own taps: one that receives is replaced by the gates that send to it, each once.
+pub fn at_taps(gates: &[ObservedGate]) -> Vec<ObservedGate> {
+    let mut replaced: Vec<ObservedGate> = Vec::new();
+    for gate in gates {
+        for tap in &gate.taps {
+            if replaced.iter().all(|known| known.taps[0] != *tap) {
+                let (component, name) = (tap.component.clone(), tap.gate.clone());
+                replaced.push(ObservedGate { component, gate: name, taps: vec![tap.clone()], ..gate.clone() });
+            }
+        }
+    }
+    replaced
+}
+
+impl Meter for RateMeter {
+    type Figures = crate::RateFigures;
+
+    fn observe(&mut self, seen: &Observation) {
+        self.observe(seen.kind, seen.sequence, seen.sent_ns);
+    }
+
+    fn interrupt(&mut self) {
+        self.interrupt();
+    }
+
+    fn take_interval(&mut self) -> Self::Figures {
+        self.take_interval()
+    }
+
+    fn total(&self) -> Self::Figures {
+        self.total()
+    }
+}
+
+impl Meter for DelayMeter {
+    type Figures = crate::DelayFigures;
+
+    fn observe(&mut self, seen: &Observation) {
+        self.observe(seen.sent_ns, seen.received_ns);
+    }
+
+    fn interrupt(&mut self) {}
+
+    fn take_interval(&mut self) -> Self::Figures {
+        self.take_interval()
+    }
+
+    fn total(&self) -> Self::Figures {
+        self.total()
+    }
+}
+
+impl Meter for BandwidthMeter {
+    type Figures = crate::BandwidthFigures;
+
+    fn observe(&mut self, seen: &Observation) {
+        self.observe(seen.kind, seen.payload.len(), seen.sent_ns);
+    }
+
+    fn interrupt(&mut self) {
+        self.interrupt();
+    }
+
+    fn take_interval(&mut self) -> Self::Figures {
+        self.take_interval()
+    }
+
+    fn total(&self) -> Self::Figures {
+        self.total()
+    }
+}

@@ -1,0 +1,116 @@
+//! Recording: from the taps of a running system into MCAP files.
+//!
+//! One thread reads the taps ([`collector`]) and never waits for the disk; another one writes ([`storage`]). Between them is
+//! a queue with a limit in bytes. What finds no room there, or was dropped by a gate because the recorder read slowly, is
+//! counted as lost. The gates are not delayed in any case.
+
+mod collector;
+mod contents;
+mod continuous;
+mod disk_room;
+mod file;
+mod file_names;
+mod gate;
+mod losses;
+mod options;
+mod plans;
+mod queue;
+mod report;
+mod ring;
+mod selection;
+mod storage;
+mod trigger;
+
+pub use contents::AttachedFile;
+pub use continuous::Split;
+pub use file::WrittenFile;
+pub(crate) use file::options;
+pub use options::{Options, RingOptions};
+pub use report::Report;
+pub use trigger::trigger;
+
+use collector::{Collector, Signals};
+use contents::Contents;
+use continuous::Continuous;
+use file_names::{FileNames, Numbering};
+use options::Notes;
+use plans::Plans;
+use queue::queue;
+use ring::Ring;
+use scl_observe::{System, Taps};
+use scl_terminal::{Problem, escape};
+use selection::Selection;
+use std::sync::Arc;
+use std::thread;
+use std::time::Instant;
+use storage::{Outcome, Progress, Store, store};
+use tokio::sync::oneshot;
+use trigger::TriggerListener;
+
+/// Records until SIGINT, SIGTERM or SIGHUP, until the time is over, or until the disk is full.
+///
+/// # Errors
+/// A gate is unknown, or the first file cannot be created. If recording ends early, there is a report that says so.
+pub fn record(system: &System, options: &Options) -> Result<Report, Problem> {
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
+    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")))?;
+    runtime.block_on(record_async(system, options))
+}
+
+async fn record_async(system: &System, options: &Options) -> Result<Report, Problem> {
+    // First, so that an early signal ends a recording and not the process.
+    let signals = Signals::listen()?;
+    let notes = Notes::new();
+    let (selection, waiting) = Selection::new(system, &options.gates, &options.exclude)?;
+    let (plans, plan) = Plans::of(system);
+    let contents =
+        Contents { system: system.name().to_owned(), attached: options.attached.clone(), plan, gates: Vec::new() };
+    let (destination, trigger) = open_store(system, options, &contents, &notes)?;
+    waiting.iter().for_each(|note| notes.say(note));
+
+    let taps = Taps::follow_all(system, move |gate| selection.includes(gate));
+    let (sender, receiver) = queue(options.memory);
+    let progress = Arc::new(Progress::default());
+    let (stopped_sender, stopped) = oneshot::channel();
+    let storage = thread::Builder::new().name("storage".to_owned()).spawn({
+        let progress = Arc::clone(&progress);
+        move || store(destination, contents, &receiver, &progress, stopped_sender)
+    });
+    let storage = storage.map_err(|error| Problem::new(format!("cannot start a thread: {error}")))?;
+    let started = Instant::now();
+    Collector::new(system, taps, plans, sender, trigger, notes).run(signals, options.run_for, &progress, stopped).await;
+    let duration = started.elapsed();
+    let Outcome { files, deleted, totals, problem } =
+        storage.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+    Ok(Report { totals, duration, files, deleted, problem })
+}
+
+/// The first file, or the ring and where it is triggered.
+fn open_store(
+    system: &System,
+    options: &Options,
+    contents: &Contents,
+    notes: &Notes,
+) -> Result<(Store, Option<TriggerListener>), Problem> {
+    let is_split = options.split.bytes.is_some() || options.split.time.is_some();
+    let numbering = if is_split { Numbering::All } else { Numbering::FromSecond };
+    let names = FileNames::new(options.output.as_deref(), system.name(), numbering, options.overwrite)?;
+    let name = escape(system.name());
+    match options.ring {
+        None => {
+            let continuous = Continuous::start(names, options.split, options.sync, contents)?;
+            let path = continuous.path().map(|path| path.to_string_lossy().into_owned()).unwrap_or_default();
+            notes.say(&format!("recording `{name}` to `{}`; Ctrl-C stops", escape(&path)));
+            Ok((Store::Continuous(Box::new(continuous)), None))
+        }
+        Some(ring) => {
+            let trigger = TriggerListener::open(system)?;
+            let id = std::process::id();
+            notes.say(&format!(
+                "keeping the last {:?} of `{name}` in memory; `scl record --trigger` or SIGUSR1 to process {id} writes them",
+                ring.window
+            ));
+            Ok((Store::Ring(Ring::new(names, ring.window, options.memory, ring.save_at_end)), Some(trigger)))
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! From the taps into the queue: numbers the gates, counts losses, and reacts to signals and requests.
+
+use super::contents::now_ns;
+use super::gate::Message;
+use super::losses::Losses;
+use super::options::Notes;
+use super::plans::Plans;
+use super::queue::QueueSender;
+use super::storage::{Command, Progress, SaveAnswer};
+use super::trigger::{TriggerListener, answer};
+use crate::format::{Part, sequence};
+use crate::record::file::WrittenFile;
+use scl::tap::{Observation, ObservedKind, TapEvent};
+use scl_observe::{ObservedGate, System, Taps, TapsEvent};
+use scl_terminal::Problem;
+use std::path::PathBuf;
+use std::time::Duration;
+use tokio::signal::unix::{Signal, SignalKind, signal};
+use tokio::sync::oneshot;
+use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
+
+/// How often the figures on a terminal change.
+const SHOW: Duration = Duration::from_millis(500);
+
+/// At the end: how long nothing may arrive until nothing more is expected, and how long to look in any case.
+const ARRIVAL: Duration = Duration::from_millis(10);
+const LAST_LOOK: Duration = Duration::from_millis(200);
+
+/// The signals that concern a recorder.
+pub(crate) struct Signals {
+    stop: [Signal; 3],
+    save: Signal,
+}
+
+impl Signals {
+    /// Takes over SIGINT, SIGTERM, SIGHUP and SIGUSR1. Must be called inside a tokio runtime.
+    pub(crate) fn listen() -> Result<Self, Problem> {
+        let listen =
+            |kind| signal(kind).map_err(|error| Problem::new(format!("cannot install a signal handler: {error}")));
+        let stop = [listen(SignalKind::interrupt())?, listen(SignalKind::terminate())?, listen(SignalKind::hangup())?];
+        Ok(Self { stop, save: listen(SignalKind::user_defined1())? })
+    }
+
+    async fn stop(stop: &mut [Signal; 3]) {
+        let [interrupt, terminate, hangup] = stop;
+        tokio::select! {
+            _ = interrupt.recv() => {}
+            _ = terminate.recv() => {}
+            _ = hangup.recv() => {}
+        }
+    }
+}
+
+/// Collects messages until told to stop.
+pub(crate) struct Collector<'a> {
+    pub(crate) system: &'a System,
+    pub(crate) taps: Taps,
+    /// The queue to the storage.
+    pub(crate) queue: QueueSender<Command>,
+    /// Only with a ring.
+    pub(crate) trigger: Option<TriggerListener>,
+    pub(crate) notes: Notes,
+    losses: Vec<Losses>,
+    plans: Plans,
+    /// Gates that were running at the beginning and are not connected yet.
+    unconnected: usize,
+    initial: usize,
+}
+
+impl<'a> Collector<'a> {
+    pub(crate) fn new(
+        system: &'a System,
+        taps: Taps,
+        plans: Plans,
+        queue: QueueSender<Command>,
+        trigger: Option<TriggerListener>,
+        notes: Notes,
+    ) -> Self {
+        let initial = taps.gates().len();
+        Self { system, taps, queue, trigger, notes, losses: Vec::new(), plans, unconnected: initial, initial }
+    }
+
+    /// Collects until a signal, until `run_for` has passed, or until the storage stops. The queue ends with that.
+    pub(crate) async fn run(
+        mut self,
+        mut signals: Signals,
+        run_for: Option<Duration>,
+        progress: &Progress,
+        mut stopped: oneshot::Receiver<()>,
+    ) {
+        let end = async {
+            match run_for {
+                Some(time) => sleep(time).await,
+                None => std::future::pending().await,
+            }
+        };
+        tokio::pin!(end);
+        let mut show = interval(SHOW);
+        show.set_missed_tick_behavior(MissedTickBehavior::Skip);
+        if self.initial == 0 {
+            self.notes.say("no gate to record is running yet; waiting");
+        }
+        let is_stored = loop {
+            let Signals { stop, save } = &mut signals;
+            tokio::select! {
+                // Signals first: under load there always is a message.
+                biased;
+                () = Signals::stop(stop) => break true,
+                () = &mut end => break true,
+                _ = &mut stopped => break false,
+                _ = save.recv() => self.save_for_signal(),
+                Ok(stream) = accept(&self.trigger) => {
+                    let saved = self.save();
+                    tokio::spawn(async move { answer(stream, &result_of(saved).await).await });
+                }
+                _ = show.tick() => self.notes.show(progress),
+                event = self.taps.next() => self.handle(event),
+            }
+        };
+        if is_stored {
+            self.take_arrived().await;
+        }
+        for (gate, losses) in self.losses.iter_mut().enumerate() {
+            let lost = losses.take();
+            if lost > 0 {
+                self.queue.command(Command::Lost(gate, lost));
+            }
+        }
+        self.notes.clear();
+    }
+
+    /// Takes what was sent before now and is on its way.
+    async fn take_arrived(&mut self) {
+        let (now, deadline) = (now_ns(), Instant::now() + LAST_LOOK);
+        while Instant::now() < deadline
+            && let Ok(event) = timeout(ARRIVAL, self.taps.next()).await
+        {
+            match event {
+                TapsEvent::Event { event: TapEvent::Observed(observation), .. } if observation.sent_ns > now => {}
+                event => self.handle(event),
+            }
+        }
+    }
+
+    fn handle(&mut self, event: TapsEvent) {
+        match event {
+            TapsEvent::Started(gate) => self.start(gate),
+            TapsEvent::Event { gate, event: TapEvent::Observed(observation) } => self.observe(gate, observation),
+            TapsEvent::Event { gate, event: TapEvent::Connected } => self.connect(gate),
+            TapsEvent::Event { event: TapEvent::Disconnected, .. } => {}
+        }
+    }
+
+    fn start(&mut self, gate: ObservedGate) {
+        let is_initial = self.losses.len() < self.initial;
+        self.losses.push(if is_initial { Losses::running() } else { Losses::started() });
+        if !is_initial {
+            self.notes.say(&format!("`{}` has started", gate.name()));
+        }
+        self.queue.command(Command::Gate(gate));
+    }
+
+    fn connect(&mut self, gate: usize) {
+        // A component that starts again may have another plan.
+        if let Some(plan) = self.plans.update(self.system) {
+            self.queue.command(Command::Plan(plan));
+        }
+        if gate < self.initial && self.unconnected > 0 {
+            self.unconnected -= 1;
+            if self.unconnected == 0 {
+                self.notes.say(&format!("connected to {} gates", self.initial));
+            }
+        }
+    }
+
+    fn observe(&mut self, gate: usize, observation: Observation) {
+        let losses = &mut self.losses[gate];
+        losses.see(observation.sequence);
+        let lost_before = losses.take();
+        let part = match observation.kind {
+            ObservedKind::Message => Part::Message,
+            ObservedKind::Request => Part::Request,
+            ObservedKind::Reply => Part::Reply,
+        };
+        let message = Message {
+            gate,
+            part,
+            sequence: sequence(part, observation.sequence, observation.call_id),
+            sent_ns: observation.sent_ns,
+            received_ns: observation.received_ns,
+            lost_before,
+            payload: observation.payload,
+        };
+        if !self.queue.push(message) {
+            losses.add(lost_before + 1);
+        }
+    }
+
+    fn save(&self) -> oneshot::Receiver<Result<Option<WrittenFile>, Problem>> {
+        let (sender, saved): (SaveAnswer, _) = oneshot::channel();
+        self.queue.command(Command::Save(sender));
+        saved
+    }
+
+    fn save_for_signal(&self) {
+        let (saved, notes) = (self.save(), self.notes.clone());
+        let with_ring = self.trigger.is_some();
+        tokio::spawn(async move {
+            match result_of(saved).await {
+                Ok(path) if with_ring => notes.say(&format!("wrote `{}`", path.display())),
+                Ok(_) => {}
+                Err(text) => notes.say(&text),
+            }
+        });
+    }
+}
+
+async fn accept(trigger: &Option<TriggerListener>) -> std::io::Result<tokio::net::UnixStream> {
+    match trigger {
+        Some(trigger) => trigger.accept().await,
+        None => std::future::pending().await,
+    }
+}
+
+/// What has become of a request to write the ring.
+async fn result_of(saved: oneshot::Receiver<Result<Option<WrittenFile>, Problem>>) -> Result<PathBuf, String> {
+    match saved.await {
+        Ok(Ok(written)) => {
+            let path = written.map(|file| file.path).unwrap_or_default();
+            Ok(std::path::absolute(&path).unwrap_or(path))
+        }
+        Ok(Err(problem)) => Err(problem.to_string().trim_start_matches("error: ").trim_end().to_owned()),
+        Err(_) => Err("the recorder has stopped".to_owned()),
+    }
+}

@@ -1,0 +1,66 @@
+//! What every file of a recording begins with, so that each is complete in itself.
+
+use super::file::{RecordingFile, WriteError};
+use crate::format::PLAN;
+use bytes::Bytes;
+use scl_observe::ObservedGate;
+use std::fs::{self, File};
+use std::path::PathBuf;
+use std::time::{Duration, SystemTime};
+
+/// A file that is added to recordings, for example the topology.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AttachedFile {
+    /// Its name in the recording, see [`crate::format`].
+    pub name: &'static str,
+    /// Its content.
+    pub data: Vec<u8>,
+}
+
+/// What is known of the system: grows while it is recorded.
+#[derive(Debug)]
+pub(crate) struct Contents {
+    pub(crate) system: String,
+    pub(crate) attached: Vec<AttachedFile>,
+    /// The plans of all components that were seen, as JSON.
+    pub(crate) plan: Bytes,
+    /// The gates by their numbers.
+    pub(crate) gates: Vec<ObservedGate>,
+}
+
+impl Contents {
+    /// Starts a recording with everything that is known. If there is no room even for that, the file is removed.
+    pub(crate) fn start_file(&self, path: PathBuf, file: File) -> Result<RecordingFile, WriteError> {
+        self.begin(path.clone(), file).inspect_err(|_| {
+            // Never a device or pipe.
+            if path.is_file() {
+                let _removed = fs::remove_file(&path);
+            }
+        })
+    }
+
+    fn begin(&self, path: PathBuf, file: File) -> Result<RecordingFile, WriteError> {
+        let mut recording = RecordingFile::start(path, file, &self.system)?;
+        for attached in &self.attached {
+            recording.attach(attached.name, "application/yaml", &attached.data, now_ns())?;
+        }
+        attach_plan(&mut recording, &self.plan)?;
+        for (number, gate) in self.gates.iter().enumerate() {
+            recording.add_gate(number, gate)?;
+        }
+        // From now on, readers can open it.
+        recording.flush()?;
+        Ok(recording)
+    }
+}
+
+/// Adds the plans to a recording; the last ones in a file count.
+pub(crate) fn attach_plan(recording: &mut RecordingFile, plan: &[u8]) -> Result<(), WriteError> {
+    recording.attach(PLAN, "application/json", plan, now_ns())
+}
+
+/// `CLOCK_REALTIME`, as at the taps.
+pub(crate) fn now_ns() -> u64 {
+    let elapsed = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or(Duration::ZERO);
+    u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX)
+}

@@ -1,0 +1,194 @@
+//! Recording into one file, or into one after the other.
+
+use super::contents::{Contents, attach_plan};
+use super::file::{RecordingFile, WriteError, WrittenFile};
+use super::file_names::FileNames;
+use super::gate::Message;
+use super::storage::problem_of;
+use scl_terminal::Problem;
+use std::collections::VecDeque;
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// A crash of the recorder loses at most one second: this, and the time until the queue is examined again.
+const FLUSH: Duration = Duration::from_millis(800);
+
+/// How a recording is distributed over files.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Split {
+    /// A file ends when it has about this size.
+    pub bytes: Option<u64>,
+    /// A file ends after this time.
+    pub time: Option<Duration>,
+    /// Number of files to keep; older ones of this run are deleted.
+    pub keep: Option<usize>,
+}
+
+/// Writes messages into the current file.
+pub(crate) struct Continuous {
+    names: FileNames,
+    split: Split,
+    sync: Option<Duration>,
+    /// `None` after a failure.
+    file: Option<RecordingFile>,
+    started: Instant,
+    flushed: Instant,
+    synced: Instant,
+    finished: VecDeque<WrittenFile>,
+    finished_bytes: u64,
+    deleted: usize,
+}
+
+impl Continuous {
+    /// Starts the first file. `sync` is how often everything is forced to the disk.
+    pub(crate) fn start(
+        names: FileNames,
+        split: Split,
+        sync: Option<Duration>,
+        contents: &Contents,
+    ) -> Result<Self, Problem> {
+        let now = Instant::now();
+        let mut continuous = Self {
+            names,
+            split,
+            sync,
+            file: None,
+            started: now,
+            flushed: now,
+            synced: now,
+            finished: VecDeque::new(),
+            finished_bytes: 0,
+            deleted: 0,
+        };
+        continuous.start_file(contents)?;
+        Ok(continuous)
+    }
+
+    /// The current file.
+    pub(crate) fn path(&self) -> Option<&Path> {
+        self.file.as_ref().map(RecordingFile::path)
+    }
+
+    /// Bytes of all files so far.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.finished_bytes + self.file.as_ref().map_or(0, RecordingFile::size)
+    }
+
+    pub(crate) fn write(&mut self, message: Message, contents: &Contents) -> Result<(), Problem> {
+        if message.lost_before > 0 {
+            self.count_lost(message.gate, message.lost_before);
+        }
+        self.with_file(|file| file.write(&message))?;
+        let size = self.file.as_ref().map_or(0, RecordingFile::size);
+        if self.split.bytes.is_some_and(|limit| size >= limit) { self.next_file(contents) } else { Ok(()) }
+    }
+
+    pub(crate) fn add_last_gate(&mut self, contents: &Contents) -> Result<(), Problem> {
+        let Some((gate, before)) = contents.gates.split_last() else { return Ok(()) };
+        self.with_file(|file| file.add_gate(before.len(), gate))
+    }
+
+    pub(crate) fn attach_plan(&mut self, contents: &Contents) -> Result<(), Problem> {
+        self.with_file(|file| attach_plan(file, &contents.plan))
+    }
+
+    pub(crate) fn count_lost(&mut self, gate: usize, lost: u64) {
+        if let Some(file) = &mut self.file {
+            file.count_lost(gate, lost);
+        }
+    }
+
+    pub(crate) fn flush(&mut self) -> Result<(), Problem> {
+        self.flushed = Instant::now();
+        self.with_file(RecordingFile::flush)
+    }
+
+    /// What is due by now: flush, sync, the next file.
+    pub(crate) fn keep_up(&mut self, contents: &Contents) -> Result<(), Problem> {
+        if self.flushed.elapsed() >= FLUSH {
+            self.flush()?;
+        }
+        if self.sync.is_some_and(|period| self.synced.elapsed() >= period) {
+            self.flush()?;
+            self.with_file(|file| Ok(file.sync().map_err(mcap::McapError::from)?))?;
+            self.synced = Instant::now();
+        }
+        if self.split.time.is_some_and(|limit| self.started.elapsed() >= limit) {
+            self.next_file(contents)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Completes the current file: the files, the number of deleted ones, and what went wrong.
+    pub(crate) fn finish(mut self) -> (Vec<WrittenFile>, usize, Option<Problem>) {
+        let problem = self.finish_file().err();
+        (self.finished.into(), self.deleted, problem)
+    }
+
+    fn next_file(&mut self, contents: &Contents) -> Result<(), Problem> {
+        self.finish_file()?;
+        self.start_file(contents)?;
+        while self.split.keep.is_some_and(|keep| self.finished.len() >= keep) {
+            let Some(oldest) = self.finished.pop_front() else { break };
+            // Somebody may have moved it away; then there is nothing to delete.
+            if fs::remove_file(&oldest.path).is_ok() {
+                self.deleted += 1;
+            }
+        }
+        Ok(())
+    }
+
+    fn start_file(&mut self, contents: &Contents) -> Result<(), Problem> {
+        let (path, file) = self.names.create_next()?;
+        let started = contents.start_file(path.clone(), file).map_err(|error| problem_of(&error, &path))?;
+        self.file = Some(started);
+        (self.started, self.flushed) = (Instant::now(), Instant::now());
+        Ok(())
+    }
+
+    /// Does something with the file. If there is no room, the file is completed; if it cannot be written, it is ended.
+    fn with_file(&mut self, action: impl FnOnce(&mut RecordingFile) -> Result<(), WriteError>) -> Result<(), Problem> {
+        let Some(file) = &mut self.file else { return Ok(()) };
+        let Err(error) = action(file) else { return Ok(()) };
+        let problem = problem_of(&error, file.path());
+        match error {
+            WriteError::Full(_) => self.finish_file()?,
+            WriteError::Failed(_) => self.abandon_file(),
+        }
+        Err(problem)
+    }
+
+    fn finish_file(&mut self) -> Result<(), Problem> {
+        let Some(file) = &mut self.file else { return Ok(()) };
+        let finished = file.flush().and_then(|()| file.finish());
+        match finished {
+            Ok(written) => {
+                if self.sync.is_some() {
+                    // What cannot be synced here is not lost for readers, only less safe.
+                    let _synced = file.sync();
+                }
+                self.file = None;
+                self.add_finished(written);
+                Ok(())
+            }
+            Err(error) => {
+                let problem = problem_of(&error, file.path());
+                self.abandon_file();
+                Err(problem)
+            }
+        }
+    }
+
+    fn abandon_file(&mut self) {
+        if let Some(file) = self.file.take() {
+            self.add_finished(file.abandon());
+        }
+    }
+
+    fn add_finished(&mut self, written: WrittenFile) {
+        self.finished_bytes += written.bytes;
+        self.finished.push_back(written);
+    }
+}

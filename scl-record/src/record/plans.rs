@@ -1,0 +1,45 @@
+//! The plans of all components that were seen running, as one document.
+
+use bytes::Bytes;
+use scl_observe::System;
+use scl_plan::{Plan, SystemPlan};
+use std::collections::BTreeMap;
+
+/// Grows while components start.
+#[derive(Debug)]
+pub(crate) struct Plans {
+    by_component: BTreeMap<String, Plan>,
+}
+
+impl Plans {
+    /// The plans of now, and their text.
+    pub(crate) fn of(system: &System) -> (Self, Bytes) {
+        let mut plans = Self { by_component: BTreeMap::new() };
+        plans.read(system);
+        let text = plans.text(system);
+        (plans, text)
+    }
+
+    /// Reads them again; returns the text if something has changed.
+    pub(crate) fn update(&mut self, system: &System) -> Option<Bytes> {
+        self.read(system).then(|| self.text(system))
+    }
+
+    fn read(&mut self, system: &System) -> bool {
+        let mut changed = false;
+        for component in system.components() {
+            if let Some(plan) = component.plan()
+                && self.by_component.get(&component.name) != Some(plan)
+            {
+                self.by_component.insert(component.name.clone(), plan.clone());
+                changed = true;
+            }
+        }
+        changed
+    }
+
+    fn text(&self, system: &System) -> Bytes {
+        let components = self.by_component.values().cloned().collect();
+        SystemPlan { system: system.name().to_owned(), components }.to_json().into()
+    }
+}
