@@ -1,9 +1,9 @@
 //! `scl bw`: how many bytes gates send.
 
 use crate::measure::{MeasureArguments, Shown, measure};
-use crate::quantity::bytes;
 use clap::Args;
 use scl_observe::{BandwidthFigures, BandwidthMeter};
+use scl_terminal::bytes_text;
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
@@ -33,17 +33,17 @@ pub(crate) fn bw(arguments: &BwArguments) -> ExitCode {
 
 impl Shown for BandwidthMeter {
     const COLUMNS: &'static [(&'static str, usize)] =
-        &[("bandwidth", 10), ("messages", 9), ("bytes", 9), ("min", 8), ("mean", 8), ("max", 8)];
+        &[("BANDWIDTH", 10), ("MESSAGES", 8), ("TOTAL", 8), ("MIN", 8), ("MEAN", 8), ("MAX", 8)];
 
     fn cells(figures: &BandwidthFigures) -> Option<Vec<String>> {
         let (min, mean, max) = figures.size?;
         Some(vec![
-            figures.per_second.map_or("-".to_owned(), |rate| format!("{}/s", bytes(rate))),
+            figures.per_second.map_or("-".to_owned(), |rate| format!("{}/s", bytes_text(rate))),
             figures.messages.to_string(),
-            bytes(figures.bytes as f64),
-            bytes(min as f64),
-            bytes(mean),
-            bytes(max as f64),
+            bytes_text(figures.bytes as f64),
+            bytes_text(min as f64),
+            bytes_text(mean),
+            bytes_text(max as f64),
         ])
     }
 

@@ -35,7 +35,7 @@ pub(crate) fn delay(arguments: &DelayArguments) -> ExitCode {
 
 impl Shown for DelayMeter {
     const COLUMNS: &'static [(&'static str, usize)] =
-        &[("messages", 9), ("min", 9), ("p50", 9), ("p99", 9), ("max", 9), ("mean", 9)];
+        &[("MESSAGES", 8), ("MIN", 7), ("P50", 7), ("P99", 7), ("MAX", 7), ("MEAN", 7)];
 
     fn cells(figures: &DelayFigures) -> Option<Vec<String>> {
         let spread = figures.delay.as_ref()?;

@@ -40,7 +40,7 @@ pub(crate) fn hz(arguments: &HzArguments) -> ExitCode {
 
 impl Shown for RateMeter {
     const COLUMNS: &'static [(&'static str, usize)] =
-        &[("rate", 9), ("min", 8), ("p50", 8), ("p99", 8), ("max", 8), ("jitter", 8), ("lost", 4)];
+        &[("RATE", 8), ("MIN", 7), ("P50", 7), ("P99", 7), ("MAX", 7), ("JITTER", 7), ("LOST", 4)];
 
     fn cells(figures: &RateFigures) -> Option<Vec<String>> {
         let RateFigures { messages, rate, period, lost } = figures;

@@ -5,11 +5,15 @@
 mod bench;
 #[cfg(feature = "observe")]
 mod bw;
+#[cfg(feature = "observe")]
+mod call;
 mod check;
 mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
+#[cfg(feature = "observe")]
+mod echo;
 mod explain;
 #[cfg(any(feature = "observe", feature = "run"))]
 mod format;
@@ -18,13 +22,24 @@ mod generate;
 mod graph;
 #[cfg(feature = "observe")]
 mod hz;
+#[cfg(feature = "observe")]
+mod info;
+#[cfg(feature = "observe")]
+mod list;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
+#[cfg(feature = "new")]
+mod new;
+#[cfg(feature = "observe")]
 mod observed;
 mod plan;
 #[cfg(feature = "record")]
 mod replay;
+#[cfg(feature = "observe")]
+mod play;
+#[cfg(feature = "observe")]
+mod publish;
 #[cfg(feature = "observe")]
 mod quantity;
 #[cfg(feature = "record")]
@@ -56,18 +71,31 @@ enum Command {
     BenchWorker(bench::WorkerArguments),
     #[cfg(feature = "observe")]
     Bw(bw::BwArguments),
+    #[cfg(feature = "observe")]
+    Call(call::CallArguments),
     Check(check::CheckArguments),
     Completions(completions::CompletionsArguments),
     #[cfg(feature = "observe")]
     Delay(delay::DelayArguments),
     Diff(diff::DiffArguments),
+    #[cfg(feature = "observe")]
+    Echo(echo::EchoArguments),
     Explain(explain::ExplainArguments),
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments),
     Graph(graph::GraphArguments),
     #[cfg(feature = "observe")]
     Hz(hz::HzArguments),
+    #[cfg(feature = "observe")]
+    Info(info::InfoArguments),
+    #[cfg(feature = "observe")]
+    List(list::ListArguments),
+    #[cfg(feature = "new")]
+    New(new::NewArguments),
     Plan(plan::PlanArguments),
+    #[cfg(feature = "observe")]
+    #[command(name = "pub")]
+    Publish(publish::PubArguments),
     #[cfg(feature = "record")]
     Replay(replay::ReplayArguments),
     Record(record::RecordArguments),
@@ -92,18 +120,30 @@ fn main() -> ExitCode {
         Command::BenchWorker(arguments) => bench::run_worker(&arguments),
         #[cfg(feature = "observe")]
         Command::Bw(arguments) => bw::bw(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Call(arguments) => call::call(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         #[cfg(feature = "observe")]
         Command::Delay(arguments) => delay::delay(&arguments),
         Command::Diff(arguments) => diff::diff(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Echo(arguments) => echo::echo(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         #[cfg(feature = "generate")]
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::Graph(arguments) => graph::graph(&arguments),
         #[cfg(feature = "observe")]
+        Command::Info(arguments) => info::info(&arguments),
+        #[cfg(feature = "observe")]
         Command::Hz(arguments) => hz::hz(&arguments),
+        #[cfg(feature = "observe")]
+        Command::List(arguments) => list::list(&arguments),
+        #[cfg(feature = "new")]
+        Command::New(arguments) => new::new(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Publish(arguments) => publish::publish(&arguments),
         #[cfg(feature = "record")]
         Command::Replay(arguments) => replay::replay(&arguments),
         Command::Record(arguments) => record::record(&arguments),

@@ -1,8 +1,10 @@
 //! What `scl hz`, `scl delay` and `scl bw` share: a line for each gate and second, and a summary at the end.
 
-use clap::{Args, ValueEnum};
-use scl_observe::{GateReport, Measurement, Meter, System, at_taps};
-use scl_terminal::{Problem, parse_duration, print_err};
+use crate::format::FormatArgument;
+use crate::observed::{SystemArgument, exit_code};
+use clap::Args;
+use scl_observe::{GateReport, Measurement, Meter, ObservedGate, at_taps};
+use scl_terminal::{Problem, escape_json, output_width, parse_duration, print_err, quoted_list, shorten};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -17,6 +19,12 @@ const INTERVAL: Duration = Duration::from_secs(1);
 /// After how many lines of a single gate the header is repeated.
 const PAGE: usize = 20;
 
+/// Between two columns.
+const GAP: &str = "  ";
+
+/// A shortened name keeps at least this width.
+const SHORTEST_NAME: usize = 8;
+
 #[derive(Args)]
 pub(crate) struct MeasureArguments {
     /// Measure for this long and end with a summary: `10s`. Without, until Ctrl-C.
@@ -25,20 +33,10 @@ pub(crate) struct MeasureArguments {
     /// Print only the summary, of one second or of the duration of `--for`.
     #[arg(long)]
     once: bool,
-    /// The system; else `$SCL_SYSTEM`, else the one that runs.
-    #[arg(long, value_name = "NAME")]
-    system: Option<String>,
-    /// How the figures are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// A table.
-    Text,
-    /// One JSON object a line.
-    Json,
+    #[command(flatten)]
+    system: SystemArgument,
+    #[command(flatten)]
+    format: FormatArgument,
 }
 
 /// How the figures of a meter are shown.
@@ -64,17 +62,9 @@ pub(crate) fn measure<M: Shown + 'static>(
     gates: &[String],
     new_meter: impl Fn() -> M + 'static,
 ) -> ExitCode {
-    let measured = Builder::new_current_thread()
-        .enable_all()
-        .build()
-        .map_err(|error| Problem::new(format!("cannot start: {error}")));
-    match measured.and_then(|runtime| runtime.block_on(run(arguments, gates, new_meter))) {
-        Ok(exit_code) => exit_code,
-        Err(problem) => {
-            print_err(&problem.to_string());
-            ExitCode::from(2)
-        }
-    }
+    let runtime = Builder::new_current_thread().enable_all().build();
+    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")));
+    exit_code(runtime.and_then(|runtime| runtime.block_on(run(arguments, gates, new_meter))))
 }
 
 async fn run<M: Shown + 'static>(
@@ -83,19 +73,20 @@ async fn run<M: Shown + 'static>(
     new_meter: impl Fn() -> M + 'static,
 ) -> Result<ExitCode, Problem> {
     let mut stop = StopSignals::watch()?;
-    let system = System::find(arguments.system.as_deref())?;
+    let system = arguments.system.find()?;
     let mut measurement = if gates.is_empty() {
         Measurement::of_all(&system, new_meter)
     } else {
         let gates = gates.iter().map(|gate| system.gate(gate)).collect::<Result<Vec<_>, _>>()?;
         for gate in gates.iter().filter(|gate| gate.taps.first().is_some_and(|tap| tap.component != gate.component)) {
             let senders = at_taps(std::slice::from_ref(gate));
-            let senders: Vec<_> = senders.iter().map(|sender| format!("`{}`", sender.name())).collect();
-            print_err(&format!("note: `{}` receives from {}, measured there\n", gate.name(), senders.join(", ")));
+            let senders: Vec<_> = senders.iter().map(ObservedGate::name).collect();
+            let senders = quoted_list(senders.iter().map(String::as_str));
+            print_err(&format!("note: `{}` is measured where its messages come from: {senders}\n", gate.name()));
         }
         Measurement::of(&system, &gates, new_meter)
     };
-    let mut output = Output { format: arguments.format, several: gates.len() != 1, lines: 0 };
+    let mut output = Output { is_json: arguments.format.is_json(), several: gates.len() != 1, lines: 0 };
     let deadline = arguments.duration.or(arguments.once.then_some(INTERVAL));
     let until_deadline = async {
         match deadline {
@@ -145,19 +136,22 @@ impl StopSignals {
     }
 }
 
+/// Prints tables, whose columns keep their widths from line to line.
 struct Output {
-    format: Format,
+    is_json: bool,
     /// Whether lines begin with the name of a gate.
     several: bool,
-    /// Lines since the last header.
+    /// Lines since the first header.
     lines: usize,
 }
 
 impl Output {
     fn print<M: Shown>(&mut self, reports: &[GateReport<M::Figures>], is_total: bool) -> io::Result<()> {
-        let text = match self.format {
-            Format::Json => reports.iter().map(|report| format!("{}\n", to_json::<M>(report, is_total))).collect(),
-            Format::Text => self.table::<M>(reports, is_total),
+        let text = if self.is_json {
+            let lines = reports.iter().map(|report| format!("{}\n", to_json::<M>(report, is_total)));
+            escape_json(&lines.collect::<String>()).into_owned()
+        } else {
+            self.table::<M>(reports, is_total)
         };
         let mut out = io::stdout().lock();
         out.write_all(text.as_bytes())?;
@@ -165,28 +159,25 @@ impl Output {
     }
 
     fn table<M: Shown>(&mut self, reports: &[GateReport<M::Figures>], is_total: bool) -> String {
-        let names =
-            if self.several || is_total { reports.iter().map(|report| report.gate.as_str()).collect() } else { vec![] };
-        let width = names.iter().map(|name| name.len()).max().map_or(0, |width| width.max("gate".len()));
-        let mut text = String::new();
         if reports.is_empty() {
-            text.push_str("no gates\n");
-            return text;
+            return "no gates\n".to_owned();
         }
-        if is_total {
-            text.push_str(if self.lines > 0 { "\nin total:\n" } else { "" });
+        let name_width = if self.several || is_total { name_width::<M>(reports) } else { 0 };
+        let mut text = String::new();
+        if self.lines > 0 && (self.several || is_total) {
+            text.push('\n');
         }
-        if self.several || is_total || self.lines % PAGE == 0 {
-            if self.several && self.lines > 0 && !is_total {
-                text.push('\n');
-            }
+        if self.lines > 0 && is_total {
+            text.push_str("in total:\n");
+        }
+        if self.several || is_total || self.lines.is_multiple_of(PAGE) {
             let headers = M::COLUMNS.iter().map(|(header, _)| (*header).to_owned()).collect();
-            text.push_str(&line::<M>(width, "gate", headers));
+            text.push_str(&line::<M>(name_width, "GATE", headers));
         }
         self.lines += 1;
         for report in reports {
-            let cells = M::cells(&report.figures).unwrap_or_else(|| vec![format!("  no messages ({})", report.state)]);
-            text.push_str(&line::<M>(width, &report.gate, cells));
+            let cells = M::cells(&report.figures).unwrap_or_else(|| vec![format!("no messages ({})", report.state)]);
+            text.push_str(&line::<M>(name_width, &report.gate, cells));
         }
         if is_total {
             let remarks = reports.iter().filter_map(|report| M::remark(&report.figures));
@@ -196,11 +187,19 @@ impl Output {
     }
 }
 
-/// A line of a table: the name, unless its column is missing, and right-aligned cells.
-fn line<M: Shown>(width: usize, name: &str, cells: Vec<String>) -> String {
-    let mut line = if width == 0 { String::new() } else { format!("{name:width$}") };
-    for (cell, (_, column)) in cells.iter().zip(M::COLUMNS) {
-        line.push_str(&format!(" {cell:>column$}"));
+/// The width of the column of names, which takes what the figures leave of the terminal, but at least some letters.
+fn name_width<M: Shown>(reports: &[GateReport<M::Figures>]) -> usize {
+    let longest = reports.iter().map(|report| report.gate.len()).max().unwrap_or(0).max("GATE".len());
+    let figures: usize = M::COLUMNS.iter().map(|(_, width)| GAP.len() + width).sum();
+    longest.min(output_width().saturating_sub(figures).max(SHORTEST_NAME))
+}
+
+/// A line of a table: the name, unless its column has no width, and right-aligned cells.
+fn line<M: Shown>(name_width: usize, name: &str, cells: Vec<String>) -> String {
+    let mut line = format!("{:name_width$}", shorten(name, name_width));
+    for (cell, (_, width)) in cells.iter().zip(M::COLUMNS) {
+        line.push_str(if line.is_empty() { "" } else { GAP });
+        line.push_str(&format!("{cell:>width$}"));
     }
     format!("{}\n", line.trim_end())
 }

@@ -67,16 +67,16 @@ fn a_table_lists_all_gates_of_the_system() {
         "sensor.position",
     ];
     assert_eq!(gates, expected);
-    assert!(text.lines().all(|line| line.len() <= 80), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
 }
 
-const HEADER: [&str; 8] = ["gate", "rate", "min", "p50", "p99", "max", "jitter", "lost"];
+const HEADER: [&str; 8] = ["GATE", "RATE", "MIN", "P50", "P99", "MAX", "JITTER", "LOST"];
 
 #[test]
 fn a_gate_that_receives_is_measured_at_its_senders() {
     let rover = Rover::start();
     let output = rover.scl(&["hz", "controller.sensor", "--once"]).output().unwrap();
-    let note = "note: `controller.sensor` receives from `sensor.measurements`, measured there\n";
+    let note = "note: `controller.sensor` is measured where its messages come from: `sensor.measurements`\n";
     assert_eq!(String::from_utf8(output.stderr).unwrap(), note);
     assert!(String::from_utf8(output.stdout).unwrap().contains("\nsensor.measurements "));
 }

@@ -19,10 +19,15 @@ mod explain;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
-#[cfg(feature = "observe")]
 mod hz;
+#[cfg(feature = "observe")]
+mod info;
+#[cfg(feature = "observe")]
+mod json;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
+#[cfg(feature = "observe")]
+mod list;
 mod lsp;
 mod plan;
 #[cfg(feature = "run")]

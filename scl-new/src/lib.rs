@@ -1,2 +1,68 @@
-//! Templates of new projects: what `scl new` writes.
+//! New projects, for `scl new`: templates of files, written all or none.
+//!
+//! The templates are the folders below `templates/`, kept inside the binary. They are valid as they are and made for a
+//! system `rover`; [`create`] puts in the name and where SCL is. A folder with a `Cargo.toml` would be left out when
+//! this crate is packaged, which is why that one file has another name.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
+#![deny(missing_docs)]
+
+mod dependency;
+mod name;
+mod template;
+mod write;
+
+pub use template::Template;
+
+use dependency::Dependency;
+use scl_terminal::Problem;
+use std::path::{Path, PathBuf};
+
+/// What to create.
+#[derive(Debug, Clone)]
+pub struct Project {
+    /// The name of the folder, the system and the cargo package.
+    pub name: String,
+    /// Which files.
+    pub template: Template,
+    /// Where SCL is, from the folder in which the project is created: its repository, or the crate `scl` in it. By
+    /// default the folder that this program was built from, if it is still there, else the package registry.
+    pub scl: Option<PathBuf>,
+}
+
+/// A created project.
+#[derive(Debug, Clone)]
+pub struct Created {
+    /// The paths of its files, from its folder.
+    pub files: Vec<String>,
+    /// What its `Cargo.toml` says about SCL: a path, or a version in the package registry.
+    pub scl: String,
+}
+
+/// Creates the project as a folder in `parent`.
+///
+/// # Errors
+///
+/// If the name cannot be used, something with that name exists, SCL is not where it should be, or the files cannot be
+/// written. Nothing is left behind then.
+pub fn create(parent: &Path, project: &Project) -> Result<Created, Problem> {
+    name::check(&project.name, project.template)?;
+    write::check_absent(parent, &project.name)?;
+    let dependency = match &project.scl {
+        Some(path) => Dependency::at(parent, path)?,
+        None => Dependency::of_this_program(),
+    };
+    let mut files = project.template.files(&project.name, &dependency, is_in_workspace(parent));
+    files.extend(dependency.lock_file().map(|text| ("Cargo.lock".to_owned(), text)));
+    write::write_all(parent, &project.name, &files)?;
+    Ok(Created { files: files.into_iter().map(|(path, _)| path).collect(), scl: dependency.to_string() })
+}
+
+/// Whether cargo would take a package in this folder for a member of the workspace around it.
+fn is_in_workspace(parent: &Path) -> bool {
+    let Ok(parent) = std::path::absolute(parent) else { return false };
+    let manifests = parent.ancestors().filter_map(|folder| std::fs::read_to_string(folder.join("Cargo.toml")).ok());
+    manifests.into_iter().any(|text| text.lines().any(|line| line.starts_with("[workspace")))
+}
+
+#[cfg(test)]
+mod tests;

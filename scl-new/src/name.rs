@@ -1,0 +1,83 @@
+//! Names of projects. They become names of systems, packages, modules and folders.
+
+use crate::Template;
+use scl_loader::{Request, load_bytes};
+use scl_terminal::{Problem, quoted_list};
+use scl_topology::diagnostic::{Diagnostic, Severity};
+use scl_topology::rust_name::is_keyword;
+
+/// Names of packages that cargo does not accept, or that hide a crate of the standard library.
+const OF_CARGO: [&str; 5] = ["alloc", "core", "proc_macro", "std", "test"];
+
+/// Crates that the programs name. A module of this name would hide them.
+const OF_DEPENDENCIES: [&str; 2] = ["scl", "tokio"];
+
+/// Types that the programs name. A module of this name would hide them.
+const OF_TYPES: [&str; 16] = [
+    "bool", "char", "f32", "f64", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8", "u16", "u32", "u64", "usize",
+];
+
+/// How code spells the name: the package of the messages, and the module that is made of it.
+pub(crate) fn code_name(name: &str) -> String {
+    name.replace('-', "_").to_ascii_lowercase()
+}
+
+/// Checks a name before anything is written.
+pub(crate) fn check(name: &str, template: Template) -> Result<(), Problem> {
+    let shown = name.escape_debug();
+    if name.contains('/') {
+        let last = name.trim_end_matches('/').rsplit('/').next().unwrap_or_default().escape_debug();
+        return Err(Problem::new(format!("`{shown}` is a path, not a name"))
+            .help(format!("change to the folder that is to contain the project, and run `scl new {last}` there")));
+    }
+    if name.is_empty() || name.chars().any(char::is_control) {
+        return Err(Problem::new(format!("`{shown}` cannot be a name")).help("write letters, digits and `_`"));
+    }
+    if let Some(found) = system_problem(name) {
+        return Err(found);
+    }
+    let code = code_name(name);
+    let reserved = |why: String| {
+        Err(Problem::new(format!("a project cannot be called `{name}`"))
+            .note(why)
+            .help(format!("for example `my_{code}`")))
+    };
+    if code.chars().all(|letter| letter == '_') {
+        return Err(Problem::new(format!("`{name}` has no letter")).help("write a word, for example `rover`"));
+    }
+    if is_keyword(&code) {
+        return reserved(format!(
+            "`{code}` is a keyword of Rust, and the messages of the project get a module of this name"
+        ));
+    }
+    if OF_CARGO.contains(&code.as_str()) {
+        return reserved(format!("the names {} are reserved by cargo and Rust", quoted_list(OF_CARGO)));
+    }
+    if OF_DEPENDENCIES.contains(&code.as_str()) {
+        return reserved(format!("the project depends on a crate called `{code}`"));
+    }
+    if OF_TYPES.contains(&code.as_str()) {
+        return reserved(format!("`{code}` is a type of Rust, which the module of the messages would hide"));
+    }
+    let programs = template.sources().iter().filter_map(|(path, _)| path.strip_prefix("src/bin/")?.strip_suffix(".rs"));
+    if programs.clone().any(|program| program == code) {
+        return reserved(format!("its components are called {}", quoted_list(programs)));
+    }
+    Ok(())
+}
+
+/// What the checker says about a system of this name.
+fn system_problem(name: &str) -> Option<Problem> {
+    let quoted = name.replace('\'', "''");
+    let text = format!("system: '{quoted}'\ncomponents:\n  - name: sensor\n    gates: []\n");
+    let found = load_bytes(&Request::new("topology.yaml"), text.into_bytes());
+    found.diagnostics.iter().find(|it| it.severity == Severity::Error).map(|it| as_problem(name, it))
+}
+
+/// The checker's words without the place, which is in no file.
+fn as_problem(name: &str, found: &Diagnostic) -> Problem {
+    let problem =
+        Problem::new(format!("[{}] {}", found.code(), found.message)).at(format!("`{}`", name.escape_debug()));
+    let problem = found.helps.iter().fold(problem, Problem::help);
+    found.all_notes().fold(problem, |problem, note| problem.note(note))
+}

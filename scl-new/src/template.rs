@@ -1,0 +1,105 @@
+//! The templates, and how their files become those of a project.
+
+use crate::dependency::Dependency;
+use crate::name::code_name;
+
+/// A set of files to begin with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Template {
+    /// Two programs and one connection, without async.
+    Minimal,
+    /// A sensor, a controller and a display, with commands, a launch file and tests.
+    Control,
+}
+
+/// The name that stands in the templates.
+const NAME: &str = "rover";
+
+/// The line of `Cargo.toml` that says where SCL is.
+const DEPENDENCY: &str = "scl = { package = \"scl-gates\", version = \"0.1.0\" }";
+
+/// The command of the CI file that installs `scl`, without options that do not depend on where SCL is.
+const INSTALL: &str = "cargo install scl-cli --version 0.1.0";
+
+/// The step of the CI file after which a path to SCL is explained.
+const CHECKOUT: &str = "      - uses: actions/checkout@v4\n";
+
+const NOTE_ON_PATH: &str = "      # Cargo.toml and the last steps name SCL by its path on the machine on which this project was made.\n      \
+                            # Here, check SCL out at that path, or name its git repository in their place.\n";
+
+const OWN_WORKSPACE: &str = "\n# This package is not a member of the workspace in the folders above.\n[workspace]\n";
+
+/// The path and the text of a file of a template.
+macro_rules! files {
+    ($template:literal: $($path:literal = $source:literal),+ $(,)?) => {
+        &[$(($path, include_str!(concat!("../templates/", $template, "/", $source)))),+]
+    };
+}
+
+const MINIMAL: &[(&str, &str)] = files!("minimal":
+    "Cargo.toml" = "Cargo.toml.template",
+    "topology.yaml" = "topology.yaml",
+    "rover.proto" = "rover.proto",
+    "src/bin/sensor.rs" = "src/bin/sensor.rs",
+    "src/bin/display.rs" = "src/bin/display.rs",
+    ".github/workflows/ci.yml" = ".github/workflows/ci.yml",
+    "README.md" = "README.md",
+    ".gitignore" = ".gitignore",
+);
+
+const CONTROL: &[(&str, &str)] = files!("control":
+    "Cargo.toml" = "Cargo.toml.template",
+    "topology.yaml" = "topology.yaml",
+    "rover.proto" = "rover.proto",
+    "src/lib.rs" = "src/lib.rs",
+    "src/controller.rs" = "src/controller.rs",
+    "src/bin/sensor.rs" = "src/bin/sensor.rs",
+    "src/bin/controller.rs" = "src/bin/controller.rs",
+    "src/bin/display.rs" = "src/bin/display.rs",
+    "tests/controller.rs" = "tests/controller.rs",
+    "launch.yaml" = "launch.yaml",
+    ".github/workflows/ci.yml" = ".github/workflows/ci.yml",
+    "README.md" = "README.md",
+    ".gitignore" = ".gitignore",
+);
+
+impl Template {
+    /// All templates.
+    pub const ALL: [Template; 2] = [Template::Minimal, Template::Control];
+
+    /// The paths and texts of the template's own files.
+    pub(crate) fn sources(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Template::Minimal => MINIMAL,
+            Template::Control => CONTROL,
+        }
+    }
+
+    /// The paths and texts of a project.
+    pub(crate) fn files(self, name: &str, scl: &Dependency, in_workspace: bool) -> Vec<(String, String)> {
+        let file = |&(path, text): &(&str, &str)| {
+            let mut text = text.replace(DEPENDENCY, &scl.manifest_line()).replace(INSTALL, &scl.install_command());
+            if scl.is_path() {
+                text = text.replace(CHECKOUT, &format!("{CHECKOUT}{NOTE_ON_PATH}"));
+            }
+            let mut text = with_name(&text, name);
+            if path == "Cargo.toml" && in_workspace {
+                text.push_str(OWN_WORKSPACE);
+            }
+            (path.replace(NAME, &code_name(name)), text)
+        };
+        self.sources().iter().map(file).collect()
+    }
+}
+
+/// Code cannot spell every name, so the words that are no code come first.
+fn with_name(text: &str, name: &str) -> String {
+    let with_whole_name = ["name = \"rover\"", "system: rover\n", "# rover\n"]
+        .iter()
+        .fold(text.to_owned(), |text, words| text.replace(words, &words.replace(NAME, &format!("\0{name}\0"))));
+    // Between zero bytes, names that contain `rover` stay as they are.
+    let parts = with_whole_name.split('\0').enumerate();
+    parts
+        .map(|(index, part)| if index % 2 == 0 { part.replace(NAME, &code_name(name)) } else { part.to_owned() })
+        .collect()
+}

@@ -1,0 +1,1 @@
+//! Names, files and problems of new projects.

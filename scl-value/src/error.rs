@@ -1,0 +1,109 @@
+//! Why a message is not read or written.
+
+use scl_terminal::Problem;
+use thiserror::Error;
+
+/// The messages of a type cannot be read or written.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum TypeError {
+    /// The codec is `protobuf`, and nothing describes the type.
+    #[error("nothing describes the protobuf message `{name}`: its program was built without `schemas:`")]
+    Undescribed {
+        /// The type.
+        name: String,
+    },
+    /// The codec is `protobuf`, and the descriptors do not contain the type.
+    #[error("the schema has no message `{name}`")]
+    Unknown {
+        /// The type.
+        name: String,
+    },
+    /// The descriptors cannot be read.
+    #[error("the schema cannot be read: {reason}")]
+    Schema {
+        /// Why.
+        reason: String,
+    },
+}
+
+/// A payload is not a message of the gate's type.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("this {length}-byte payload is not {expected}: {}{reason}", place(path, *offset))]
+#[non_exhaustive]
+pub struct DecodeError {
+    /// The length of the payload.
+    pub length: usize,
+    /// What it should be: `` a protobuf message `rover.Measurement` ``.
+    pub expected: String,
+    /// Where in the message; empty at the top, and where the codec does not say.
+    pub path: String,
+    /// The number of bytes before the mistake, where the codec says so.
+    pub offset: Option<usize>,
+    /// What is wrong.
+    pub reason: String,
+}
+
+fn place(path: &str, offset: Option<usize>) -> String {
+    match (path, offset) {
+        ("", None) => String::new(),
+        ("", Some(offset)) => format!("at byte {offset}: "),
+        (path, None) => format!("field `{path}`: "),
+        (path, Some(offset)) => format!("field `{path}` at byte {offset}: "),
+    }
+}
+
+/// A value cannot be written as a message of the type.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}{reason}", field(path))]
+#[non_exhaustive]
+pub struct EncodeError {
+    /// The field: `pose.joints[2]`; empty for the message itself.
+    pub path: String,
+    /// What is wrong with it.
+    pub reason: String,
+    /// What to do.
+    pub help: Option<String>,
+    /// What would be right.
+    pub note: Option<String>,
+}
+
+fn field(path: &str) -> String {
+    if path.is_empty() { String::new() } else { format!("field `{path}`: ") }
+}
+
+impl EncodeError {
+    pub(crate) fn new(reason: impl Into<String>) -> Self {
+        Self { path: String::new(), reason: reason.into(), help: None, note: None }
+    }
+
+    pub(crate) fn help(mut self, text: impl Into<String>) -> Self {
+        self.help = Some(text.into());
+        self
+    }
+
+    pub(crate) fn note(mut self, text: impl Into<String>) -> Self {
+        self.note = Some(text.into());
+        self
+    }
+
+    /// The error as one of what contains the value; `segment` is `field` or `[2]`.
+    pub(crate) fn below(mut self, segment: &str) -> Self {
+        let rest = if self.path.starts_with('[') || self.path.is_empty() { "" } else { "." };
+        self.path = format!("{segment}{rest}{}", self.path);
+        self
+    }
+}
+
+impl From<EncodeError> for Problem {
+    fn from(error: EncodeError) -> Self {
+        let mut problem = Problem::new(error.to_string());
+        if let Some(help) = error.help {
+            problem = problem.help(help);
+        }
+        if let Some(note) = error.note {
+            problem = problem.note(note);
+        }
+        problem
+    }
+}

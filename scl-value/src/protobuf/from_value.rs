@@ -1,0 +1,265 @@
+//! From values to messages of protobuf, with errors that name the field.
+
+use super::{UNKNOWN, well_known};
+use crate::error::EncodeError;
+use crate::value::{Value, key_text};
+use prost_reflect::{DynamicMessage, EnumDescriptor, FieldDescriptor, Kind, MapKey, MessageDescriptor, Value as Field};
+use scl_terminal::{closest_name, quoted_list};
+use std::collections::HashMap;
+
+/// Maximum number of names that an error lists.
+const LISTED: usize = 20;
+
+/// What happens to fields that the type does not have.
+pub(crate) enum Unknown {
+    /// An error: a user has written them.
+    Refuse,
+    /// Their names are collected: a newer program may have sent them.
+    Collect(Vec<String>),
+}
+
+/// The message that a value describes.
+pub(crate) fn from_value(
+    message: &MessageDescriptor,
+    value: &Value,
+    unknown: &mut Unknown,
+) -> Result<DynamicMessage, EncodeError> {
+    if let Some(read) = well_known::lengthen(message, value, unknown) {
+        return read;
+    }
+    let Value::Map(entries) = value else {
+        return Err(wrong(&format!("the fields of `{}`", message.full_name()), value).note(known_fields(message)));
+    };
+    let mut result = DynamicMessage::new(message.clone());
+    let mut given: Vec<FieldDescriptor> = Vec::new();
+    for (key, value) in entries {
+        let name = key_text(key);
+        if name == UNKNOWN {
+            continue;
+        }
+        let Some(field) = find_field(message, &name) else {
+            match unknown {
+                Unknown::Refuse => return Err(unknown_field(message, &name)),
+                Unknown::Collect(names) => names.push(name),
+            }
+            continue;
+        };
+        check_given(&field, &given)?;
+        let is_null = *value == Value::Null && !is_any_value(&field.kind());
+        if !is_null {
+            let read = read_field(&field, value, unknown).map_err(|error| error.below(&name))?;
+            result.set_field(&field, read);
+            given.push(field);
+        }
+    }
+    let is_missing = |field: &FieldDescriptor| field.is_required() && !given.contains(field);
+    match message.fields().find(is_missing) {
+        Some(field) => Err(EncodeError::new(format!("the required field `{}` is missing", field.name()))),
+        None => Ok(result),
+    }
+}
+
+/// A field by its name in the `.proto` file or in JSON.
+pub(super) fn find_field(message: &MessageDescriptor, name: &str) -> Option<FieldDescriptor> {
+    message.get_field_by_name(name).or_else(|| message.get_field_by_json_name(name))
+}
+
+/// `its fields: ...`
+pub(super) fn known_fields(message: &MessageDescriptor) -> String {
+    let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
+    match names.len() {
+        0 => "it has no fields".to_owned(),
+        1..=LISTED => format!("its fields: {}", quoted_list(names.iter().map(String::as_str))),
+        count => {
+            let first = quoted_list(names.iter().take(LISTED).map(String::as_str));
+            format!("its fields: {first} and {} more", count - LISTED)
+        }
+    }
+}
+
+fn unknown_field(message: &MessageDescriptor, name: &str) -> EncodeError {
+    let error = EncodeError::new(format!("message `{}` has no field `{name}`", message.full_name()));
+    let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
+    match closest_name(name, names.iter().map(String::as_str)) {
+        Some(near) => error.help(format!("did you mean `{near}`?")),
+        None => error,
+    }
+    .note(known_fields(message))
+}
+
+/// A field may be there once, and of a oneof only one.
+fn check_given(field: &FieldDescriptor, given: &[FieldDescriptor]) -> Result<(), EncodeError> {
+    if given.contains(field) {
+        return Err(EncodeError::new(format!("the field `{}` is there twice", field.name())));
+    }
+    let Some(oneof) = field.containing_oneof() else { return Ok(()) };
+    match given.iter().find(|other| other.containing_oneof().as_ref() == Some(&oneof)) {
+        None => Ok(()),
+        Some(other) => {
+            let (first, second) = (other.name(), field.name());
+            let reason = format!("the fields `{first}` and `{second}` exclude each other");
+            Err(EncodeError::new(reason).note(format!("they belong to the oneof `{}`", oneof.name())))
+        }
+    }
+}
+
+fn is_any_value(kind: &Kind) -> bool {
+    kind.as_message().is_some_and(|message| message.full_name() == "google.protobuf.Value")
+}
+
+fn read_field(field: &FieldDescriptor, value: &Value, unknown: &mut Unknown) -> Result<Field, EncodeError> {
+    let kind = field.kind();
+    if field.is_map() {
+        let (Value::Map(entries), Kind::Message(entry)) = (value, &kind) else {
+            return Err(wrong("a map", value));
+        };
+        let (key_kind, value_kind) = (entry.map_entry_key_field().kind(), entry.map_entry_value_field().kind());
+        let mut map = HashMap::new();
+        for (key, value) in entries {
+            let name = format!("[{}]", key_text(key));
+            let key = map_key(&key_kind, key).map_err(|error| error.below(&name))?;
+            let value = read_value(&value_kind, value, unknown).map_err(|error| error.below(&name))?;
+            if map.insert(key, value).is_some() {
+                return Err(EncodeError::new("the key is there twice").below(&name));
+            }
+        }
+        return Ok(Field::Map(map));
+    }
+    if field.is_list() {
+        let Value::List(items) = value else {
+            let hint = format!("write `{}: [...]`", field.name());
+            return Err(wrong("a list", value).help(hint));
+        };
+        let read = |(index, item)| read_value(&kind, item, unknown).map_err(|error| error.below(&format!("[{index}]")));
+        return Ok(Field::List(items.iter().enumerate().map(read).collect::<Result<_, _>>()?));
+    }
+    read_value(&kind, value, unknown)
+}
+
+fn read_value(kind: &Kind, value: &Value, unknown: &mut Unknown) -> Result<Field, EncodeError> {
+    Ok(match kind {
+        Kind::Message(message) => Field::Message(from_value(message, value, unknown)?),
+        Kind::Enum(descriptor) => Field::EnumNumber(enum_number(descriptor, value)?),
+        Kind::Bool => match value {
+            Value::Bool(flag) => Field::Bool(*flag),
+            other => return Err(wrong("true or false", other)),
+        },
+        Kind::String => match value {
+            Value::Text(text) => Field::String(text.clone()),
+            Value::Int(_) | Value::Uint(_) | Value::Float(_) | Value::Bool(_) => {
+                return Err(wrong("a text", value).help(format!("quote it: '{}'", key_text(value))));
+            }
+            other => return Err(wrong("a text", other)),
+        },
+        Kind::Bytes => match value {
+            Value::Bytes(bytes) => Field::Bytes(bytes.clone().into()),
+            Value::Text(text) => {
+                let decoded = crate::text::from_base64(text).map_err(|reason| {
+                    EncodeError::new(format!("expected bytes as base64: {}", reason.trim_end_matches('.')))
+                })?;
+                Field::Bytes(decoded.into())
+            }
+            other => return Err(wrong("bytes as base64", other)),
+        },
+        Kind::Double => Field::F64(float(value, "double")?),
+        Kind::Float => {
+            let number = float(value, "float")?;
+            let narrow = number as f32;
+            if number.is_finite() && narrow.is_infinite() {
+                return Err(EncodeError::new(format!("{number:e} is too large for a number of 32 bits (float)")));
+            }
+            Field::F32(narrow)
+        }
+        Kind::Int32 | Kind::Sint32 | Kind::Sfixed32 => Field::I32(integer(value, "int32", i32::MIN, i32::MAX)?),
+        Kind::Int64 | Kind::Sint64 | Kind::Sfixed64 => Field::I64(integer(value, "int64", i64::MIN, i64::MAX)?),
+        Kind::Uint32 | Kind::Fixed32 => Field::U32(integer(value, "uint32", u32::MIN, u32::MAX)?),
+        Kind::Uint64 | Kind::Fixed64 => Field::U64(integer(value, "uint64", u64::MIN, u64::MAX)?),
+    })
+}
+
+fn wrong(expected: &str, found: &Value) -> EncodeError {
+    EncodeError::new(format!("expected {expected}, found {}", told(found)))
+}
+
+/// A value for a message: short ones themselves, others by their kind.
+fn told(value: &Value) -> String {
+    const LONGEST: usize = 40;
+    match value {
+        Value::Text(text) if text.chars().count() <= LONGEST => format!("the text `{text}`"),
+        Value::Bool(_) | Value::Int(_) | Value::Uint(_) | Value::Float(_) => key_text(value),
+        other => other.kind().to_owned(),
+    }
+}
+
+fn float(value: &Value, word: &str) -> Result<f64, EncodeError> {
+    let number = match value {
+        Value::Float(number) => Some(*number),
+        Value::Int(number) => Some(*number as f64),
+        Value::Uint(number) => Some(*number as f64),
+        // As in protobuf's JSON.
+        Value::Text(text) => match text.as_str() {
+            "NaN" => Some(f64::NAN),
+            "Infinity" => Some(f64::INFINITY),
+            "-Infinity" => Some(f64::NEG_INFINITY),
+            text => text.parse().ok().filter(|number: &f64| number.is_finite()),
+        },
+        _ => None,
+    };
+    number.ok_or_else(|| wrong(&format!("a number ({word})"), value))
+}
+
+fn integer<N>(value: &Value, word: &str, least: N, most: N) -> Result<N, EncodeError>
+where
+    N: TryFrom<i128> + std::fmt::Display,
+{
+    let number = match value {
+        Value::Int(number) => Some(i128::from(*number)),
+        Value::Uint(number) => Some(i128::from(*number)),
+        Value::Float(number) if number.fract() == 0.0 && number.abs() < 2_f64.powi(64) => Some(*number as i128),
+        Value::Text(text) => text.parse().ok(),
+        _ => None,
+    };
+    let fitting = number.and_then(|number| N::try_from(number).ok());
+    fitting.ok_or_else(|| wrong(&format!("a whole number from {least} to {most} ({word})"), value))
+}
+
+fn enum_number(descriptor: &EnumDescriptor, value: &Value) -> Result<i32, EncodeError> {
+    match value {
+        Value::Text(name) => match descriptor.get_value_by_name(name) {
+            Some(value) => Ok(value.number()),
+            None => {
+                let names: Vec<String> = descriptor.values().map(|value| value.name().to_owned()).collect();
+                let error = EncodeError::new(format!("`{}` has no value `{name}`", descriptor.full_name()));
+                let error = match closest_name(name, names.iter().map(String::as_str)) {
+                    Some(near) => error.help(format!("did you mean `{near}`?")),
+                    None => error,
+                };
+                let listed = quoted_list(names.iter().take(LISTED).map(String::as_str));
+                Err(error.note(format!("its values: {listed}{}", if names.len() > LISTED { ", ..." } else { "" })))
+            }
+        },
+        Value::Int(_) | Value::Uint(_) | Value::Float(_) => integer(value, "int32", i32::MIN, i32::MAX),
+        other => Err(wrong(&format!("a value of `{}`", descriptor.full_name()), other)),
+    }
+}
+
+/// Keys are texts in JSON, whatever their type.
+fn map_key(kind: &Kind, key: &Value) -> Result<MapKey, EncodeError> {
+    let flag = match key {
+        Value::Bool(flag) => Some(*flag),
+        Value::Text(text) => text.parse().ok(),
+        _ => None,
+    };
+    match (kind, flag) {
+        (Kind::String, _) => Ok(MapKey::String(key_text(key))),
+        (Kind::Bool, Some(flag)) => Ok(MapKey::Bool(flag)),
+        (Kind::Bool, None) => Err(wrong("true or false", key)),
+        _ => match read_value(kind, key, &mut Unknown::Refuse)? {
+            Field::I32(number) => Ok(MapKey::I32(number)),
+            Field::I64(number) => Ok(MapKey::I64(number)),
+            Field::U32(number) => Ok(MapKey::U32(number)),
+            Field::U64(number) => Ok(MapKey::U64(number)),
+            _ => Err(wrong("a key", key)),
+        },
+    }
+}

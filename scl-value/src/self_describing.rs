@@ -1,0 +1,259 @@
+//! JSON, CBOR and MessagePack without a type: bytes that say themselves what they are.
+
+use crate::error::EncodeError;
+use crate::limits::{Budget, deeper};
+use crate::value::{Value, widen};
+use bytes::Bytes;
+use cbor4ii::core::dec::Read;
+use cbor4ii::core::utils::{BufWriter, SliceReader};
+use serde::de::{DeserializeSeed, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor};
+use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+use std::fmt;
+
+/// The key of the number of a MessagePack extension.
+const EXTENSION: &str = "@extension";
+/// The key of its bytes.
+const DATA: &str = "data";
+/// The name by which `rmp_serde` knows extensions.
+const EXTENSION_STRUCT: &str = rmp_serde::MSGPACK_EXT_STRUCT_NAME;
+
+/// Reads one value from any deserializer, within the limits.
+pub(crate) struct AnyValue<'b> {
+    budget: &'b Budget,
+    depth: usize,
+}
+
+impl<'b> AnyValue<'b> {
+    pub(crate) fn new(budget: &'b Budget) -> Self {
+        Self { budget, depth: 0 }
+    }
+
+    fn below(&self) -> Result<Self, crate::limits::Exceeded> {
+        Ok(Self { budget: self.budget, depth: deeper(self.depth)? })
+    }
+}
+
+/// What is wrong with a payload, and after how many bytes, if that is known.
+pub(crate) type Wrong = (String, Option<usize>);
+
+/// Reads JSON without a type.
+pub(crate) fn read_json(bytes: &[u8]) -> Result<Value, Wrong> {
+    let mut input = serde_json::Deserializer::from_slice(bytes);
+    let value = AnyValue::new(&Budget::new()).deserialize(&mut input).and_then(|value| input.end().map(|()| value));
+    // Its texts name line and column.
+    value.map_err(|error| (error.to_string(), None))
+}
+
+/// Reads one CBOR item.
+pub(crate) fn read_cbor(bytes: &[u8]) -> Result<Value, Wrong> {
+    let mut input = cbor4ii::serde::Deserializer::new(SliceReader::new(bytes));
+    let read = AnyValue::new(&Budget::new()).deserialize(&mut input);
+    let rest = input.into_inner().fill(usize::MAX).map_or(0, |rest| rest.as_ref().len());
+    let offset = Some(bytes.len() - rest);
+    match read {
+        Ok(value) if rest == 0 => Ok(value),
+        Ok(_) => Err(("data follows the item".to_owned(), offset)),
+        Err(error) => Err((cbor_reason(&error), offset)),
+    }
+}
+
+/// The library's own texts are those of `Debug`.
+fn cbor_reason<E>(error: &cbor4ii::serde::DecodeError<E>) -> String {
+    use cbor4ii::core::dec::Error as Core;
+    use cbor4ii::serde::DecodeError;
+    match error {
+        DecodeError::Custom(reason) => return reason.to_string(),
+        DecodeError::Core(Core::Eof { .. }) => "the item is truncated",
+        DecodeError::Core(Core::Unsupported { .. }) => "tags and 16-bit floats are not supported",
+        DecodeError::Core(Core::RequireUtf8 { .. }) => "the text is not valid UTF-8",
+        DecodeError::Core(Core::DepthOverflow { .. }) => "it is nested too deep",
+        DecodeError::Core(_) => "the item is malformed",
+    }
+    .to_owned()
+}
+
+/// Reads one MessagePack value.
+pub(crate) fn read_msgpack(bytes: &[u8]) -> Result<Value, Wrong> {
+    let mut rest = std::io::Cursor::new(bytes);
+    let read = AnyValue::new(&Budget::new()).deserialize(&mut rmp_serde::Deserializer::new(&mut rest));
+    let offset = usize::try_from(rest.position()).ok();
+    match read {
+        Ok(value) if offset == Some(bytes.len()) => Ok(value),
+        Ok(_) => Err(("data follows the value".to_owned(), offset)),
+        Err(error) => Err((error.to_string(), offset)),
+    }
+}
+
+/// Writes JSON; bytes as base64, NaN and infinities as texts, as in protobuf's JSON.
+pub(crate) fn write_json(value: &Value) -> Bytes {
+    crate::to_json(value).into_bytes().into()
+}
+
+/// Writes one CBOR item.
+pub(crate) fn write_cbor(value: &Value) -> Result<Bytes, EncodeError> {
+    let mut writer = BufWriter::new(Vec::new());
+    let wrong = |error: cbor4ii::serde::EncodeError<_>| EncodeError::new(error.to_string());
+    Wire(value).serialize(&mut cbor4ii::serde::Serializer::new(&mut writer)).map_err(wrong)?;
+    Ok(writer.into_inner().into())
+}
+
+/// Writes one MessagePack value.
+pub(crate) fn write_msgpack(value: &Value) -> Result<Bytes, EncodeError> {
+    let mut bytes = Vec::new();
+    let mut output = rmp_serde::Serializer::new(&mut bytes);
+    Wire(value).serialize(&mut output).map_err(|error| EncodeError::new(error.to_string()))?;
+    Ok(bytes.into())
+}
+
+impl<'de> DeserializeSeed<'de> for AnyValue<'_> {
+    type Value = Value;
+
+    fn deserialize<D: serde::Deserializer<'de>>(self, input: D) -> Result<Value, D::Error> {
+        self.budget.take(1).map_err(D::Error::custom)?;
+        input.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for AnyValue<'_> {
+    type Value = Value;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value")
+    }
+
+    fn visit_bool<E>(self, flag: bool) -> Result<Value, E> {
+        Ok(Value::Bool(flag))
+    }
+
+    fn visit_i64<E>(self, number: i64) -> Result<Value, E> {
+        Ok(Value::Int(number))
+    }
+
+    fn visit_u64<E>(self, number: u64) -> Result<Value, E> {
+        Ok(number.into())
+    }
+
+    // Numbers of more than 64 bits, which CBOR and YAML have, are as exact as a float.
+    fn visit_i128<E>(self, number: i128) -> Result<Value, E> {
+        Ok(i64::try_from(number).map_or(Value::Float(number as f64), Value::Int))
+    }
+
+    fn visit_u128<E>(self, number: u128) -> Result<Value, E> {
+        Ok(u64::try_from(number).map_or(Value::Float(number as f64), Value::from))
+    }
+
+    fn visit_f32<E>(self, number: f32) -> Result<Value, E> {
+        Ok(Value::Float(widen(number)))
+    }
+
+    fn visit_f64<E>(self, number: f64) -> Result<Value, E> {
+        Ok(Value::Float(number))
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Value, E> {
+        Ok(text.into())
+    }
+
+    fn visit_string<E>(self, text: String) -> Result<Value, E> {
+        Ok(text.into())
+    }
+
+    fn visit_bytes<E>(self, bytes: &[u8]) -> Result<Value, E> {
+        Ok(Value::Bytes(bytes.to_owned()))
+    }
+
+    fn visit_none<E>(self) -> Result<Value, E> {
+        Ok(Value::Null)
+    }
+
+    fn visit_unit<E>(self) -> Result<Value, E> {
+        Ok(Value::Null)
+    }
+
+    fn visit_some<D: serde::Deserializer<'de>>(self, input: D) -> Result<Value, D::Error> {
+        self.deserialize(input)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Value, A::Error> {
+        let mut list = Vec::new();
+        while let Some(item) = items.next_element_seed(self.below().map_err(A::Error::custom)?)? {
+            list.push(item);
+        }
+        Ok(Value::List(list))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Value, A::Error> {
+        let mut map = Vec::new();
+        while let Some(key) = entries.next_key_seed(self.below().map_err(A::Error::custom)?)? {
+            map.push((key, entries.next_value_seed(self.below().map_err(A::Error::custom)?)?));
+        }
+        Ok(Value::Map(map))
+    }
+
+    /// An extension of MessagePack: a number and bytes.
+    fn visit_newtype_struct<D: serde::Deserializer<'de>>(self, input: D) -> Result<Value, D::Error> {
+        match AnyValue::new(self.budget).deserialize(input)? {
+            Value::List(parts) => match <[Value; 2]>::try_from(parts) {
+                Ok([number, data]) => Ok(Value::fields([(EXTENSION, number), (DATA, data)])),
+                Err(parts) => Ok(Value::List(parts)),
+            },
+            other => Ok(other),
+        }
+    }
+
+    /// A tagged value of YAML: `!binary` is bytes in base64, any other tag is left out.
+    fn visit_enum<A: EnumAccess<'de>>(self, tagged: A) -> Result<Value, A::Error> {
+        let below = self.below().map_err(A::Error::custom)?;
+        let (tag, content) = tagged.variant::<String>()?;
+        match (tag.trim_start_matches('!'), content.newtype_variant_seed(below)?) {
+            ("binary", Value::Text(text)) => {
+                crate::text::from_base64(&text).map(Value::Bytes).map_err(A::Error::custom)
+            }
+            (_, value) => Ok(value),
+        }
+    }
+}
+
+/// A value for CBOR and MessagePack, which have bytes and keys of all sorts.
+struct Wire<'v>(&'v Value);
+
+impl Serialize for Wire<'_> {
+    fn serialize<S: Serializer>(&self, output: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            // Not `serialize_unit`, which CBOR writes as an empty list.
+            Value::Null => output.serialize_none(),
+            Value::Bool(flag) => output.serialize_bool(*flag),
+            Value::Int(number) => output.serialize_i64(*number),
+            Value::Uint(number) => output.serialize_u64(*number),
+            Value::Float(number) => output.serialize_f64(*number),
+            Value::Text(text) => output.serialize_str(text),
+            Value::Bytes(bytes) => output.serialize_bytes(bytes),
+            Value::List(items) => {
+                let mut list = output.serialize_seq(Some(items.len()))?;
+                items.iter().try_for_each(|item| list.serialize_element(&Wire(item)))?;
+                list.end()
+            }
+            Value::Map(entries) => {
+                if let [(Value::Text(name), Value::Int(number)), (Value::Text(data), Value::Bytes(bytes))] =
+                    &entries[..]
+                    && (name.as_str(), data.as_str()) == (EXTENSION, DATA)
+                    && let Ok(number) = i8::try_from(*number)
+                {
+                    return output.serialize_newtype_struct(EXTENSION_STRUCT, &(number, ByteSlice(bytes)));
+                }
+                let mut map = output.serialize_map(Some(entries.len()))?;
+                entries.iter().try_for_each(|(key, value)| map.serialize_entry(&Wire(key), &Wire(value)))?;
+                map.end()
+            }
+            Value::Opaque(opaque) => Wire(&opaque.fields()).serialize(output),
+        }
+    }
+}
+
+struct ByteSlice<'b>(&'b [u8]);
+
+impl Serialize for ByteSlice<'_> {
+    fn serialize<S: Serializer>(&self, output: S) -> Result<S::Ok, S::Error> {
+        output.serialize_bytes(self.0)
+    }
+}

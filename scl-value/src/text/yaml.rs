@@ -1,0 +1,143 @@
+//! Values as YAML, and from YAML or JSON, as users write them.
+
+use super::to_base64;
+use crate::limits::Budget;
+use crate::self_describing::AnyValue;
+use crate::value::Value;
+use scl_terminal::Problem;
+use serde::de::DeserializeSeed;
+use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+use serde_yaml::value::{Tag, TaggedValue};
+use thiserror::Error;
+
+/// A text is not one value in YAML or JSON.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("this message is not valid YAML or JSON: {reason}")]
+pub struct ReadError {
+    reason: String,
+}
+
+impl From<ReadError> for Problem {
+    fn from(error: ReadError) -> Self {
+        Problem::new(error.to_string()).help("write for example '{speed: 1.0, unit: m/s}', in quotes of the shell")
+    }
+}
+
+/// Reads a value from YAML, which includes JSON: `{speed: 1.0}`. An empty text is an empty map.
+///
+/// # Errors
+/// The text is not YAML, has several documents, or unfolds into too many values.
+pub fn read_yaml(text: &str) -> Result<Value, ReadError> {
+    if text.trim().is_empty() {
+        return Ok(Value::Map(Vec::new()));
+    }
+    let read = AnyValue::new(&Budget::new()).deserialize(serde_yaml::Deserializer::from_str(text));
+    read.map_err(|error| ReadError { reason: error.to_string() })
+}
+
+/// A value as YAML, as a user would write it; it ends with a line end. `read_yaml` reads it back.
+pub fn to_yaml(value: &Value) -> String {
+    serde_yaml::to_string(&Yaml(value)).unwrap_or_else(|_| format!("{}\n", super::to_json(value)))
+}
+
+struct Yaml<'v>(&'v Value);
+
+impl Serialize for Yaml<'_> {
+    fn serialize<S: Serializer>(&self, output: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            Value::Null => output.serialize_unit(),
+            Value::Bool(flag) => output.serialize_bool(*flag),
+            Value::Int(number) => output.serialize_i64(*number),
+            Value::Uint(number) => output.serialize_u64(*number),
+            Value::Float(number) => output.serialize_f64(*number),
+            Value::Text(text) => output.serialize_str(text),
+            Value::Bytes(bytes) => {
+                TaggedValue { tag: Tag::new("binary"), value: to_base64(bytes).into() }.serialize(output)
+            }
+            Value::List(items) => {
+                let mut list = output.serialize_seq(Some(items.len()))?;
+                items.iter().try_for_each(|item| list.serialize_element(&Yaml(item)))?;
+                list.end()
+            }
+            Value::Map(entries) => {
+                let mut map = output.serialize_map(Some(entries.len()))?;
+                entries.iter().try_for_each(|(key, value)| map.serialize_entry(&Yaml(key), &Yaml(value)))?;
+                map.end()
+            }
+            Value::Opaque(opaque) => Yaml(&opaque.fields()).serialize(output),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use expect_test::expect;
+
+    #[test]
+    fn yaml_looks_as_a_user_would_write_it() {
+        let value = Value::fields([
+            ("speed", 1.84.into()),
+            ("whole", 1.0.into()),
+            ("count", Value::Int(-3)),
+            ("nan", f64::NAN.into()),
+            ("infinite", f64::NEG_INFINITY.into()),
+            ("unit", "m/s".into()),
+            ("digits", "12".into()),
+            ("escape", "a\u{1b}[31m\u{9b}".into()),
+            ("lines", "a\nb".into()),
+            ("bytes", Value::Bytes(vec![1, 2, 255])),
+            ("list", Value::List(vec![Value::Int(1), Value::fields([("x", Value::Null)])])),
+            ("empty", Value::Map(Vec::new())),
+            ("map", Value::Map(vec![(Value::Int(7), true.into())])),
+        ]);
+        let text = to_yaml(&value);
+        expect![[r#"
+            speed: 1.84
+            whole: 1.0
+            count: -3
+            nan: .nan
+            infinite: -.inf
+            unit: m/s
+            digits: '12'
+            escape: "a\e[31m\x9B"
+            lines: |-
+              a
+              b
+            bytes: !binary AQL/
+            list:
+            - 1
+            - x: null
+            empty: {}
+            map:
+              7: true
+        "#]]
+        .assert_eq(&text);
+        let back = read_yaml(&text).unwrap();
+        assert_eq!(to_yaml(&back), text);
+    }
+
+    #[test]
+    fn texts_of_the_command_line_are_yaml_or_json() {
+        let cases = [
+            ("{speed: 1.0}", r#"{"speed":1.0}"#),
+            (r#"{"speed": 1, "unit": "m/s"}"#, r#"{"speed":1,"unit":"m/s"}"#),
+            ("speed: 1e3\nlist:\n- a\n- yes", r#"{"speed":1000.0,"list":["a","yes"]}"#),
+            ("", "{}"),
+            ("3", "3"),
+            ("!binary AQL/", r#""AQL/""#),
+            ("{bytes: !binary AQL/}", r#"{"bytes":"AQL/"}"#),
+            ("18446744073709551615", "18446744073709551615"),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(super::super::to_json(&read_yaml(text).unwrap()), expected, "{text}");
+        }
+        assert_eq!(read_yaml("!binary AQL/").unwrap(), Value::Bytes(vec![1, 2, 255]));
+    }
+
+    #[test]
+    fn a_mistake_says_where_it_is() {
+        expect!["this message is not valid YAML or JSON: did not find expected ',' or '}' at line 2 column 1, while parsing a flow mapping"].assert_eq(&read_yaml("{speed: 1").unwrap_err().to_string());
+        expect!["this message is not valid YAML or JSON: deserializing from YAML containing more than one document is not supported"].assert_eq(&read_yaml("a: 1\n---\nb: 2").unwrap_err().to_string());
+    }
+}

@@ -1,0 +1,141 @@
+//! A message as a value that has no type of its own.
+
+/// A decoded message or a part of it.
+///
+/// Numbers are [`Int`](Value::Int) whenever they fit, so that equal numbers are equal values.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// Nothing: `null` in JSON and YAML.
+    Null,
+    /// `true` or `false`.
+    Bool(bool),
+    /// A whole number.
+    Int(i64),
+    /// A whole number above the range of `Int`.
+    Uint(u64),
+    /// Any other number. A number of 32 bits is the one with the shortest text that reads back: 1.84, not 1.8400000334.
+    Float(f64),
+    /// A text.
+    Text(String),
+    /// Bytes.
+    Bytes(Vec<u8>),
+    /// A list.
+    List(Vec<Value>),
+    /// A map or the fields of a message, in the order of the message. Keys are usually texts; CBOR, MessagePack and
+    /// protobuf have others, too.
+    Map(Vec<(Value, Value)>),
+    /// A payload that cannot be decoded without its type.
+    Opaque(Opaque),
+}
+
+/// A payload that is shown as bytes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Opaque {
+    /// Its length in bytes.
+    pub length: usize,
+    /// Its first [`SHOWN`](Opaque::SHOWN) bytes in hexadecimal; `...` follows if there are more.
+    pub hex: String,
+    /// Why it is not decoded.
+    pub why: String,
+}
+
+impl Opaque {
+    /// Maximum number of bytes in `hex`.
+    pub const SHOWN: usize = 4096;
+
+    /// Shows bytes.
+    pub fn new(bytes: &[u8], why: impl Into<String>) -> Self {
+        let mut hex: String = bytes.iter().take(Self::SHOWN).map(|byte| format!("{byte:02x}")).collect();
+        if bytes.len() > Self::SHOWN {
+            hex.push_str("...");
+        }
+        Self { length: bytes.len(), hex, why: why.into() }
+    }
+
+    /// As the map that is printed.
+    pub(crate) fn fields(&self) -> Value {
+        let length = i64::try_from(self.length).unwrap_or(i64::MAX);
+        Value::fields([("length", length.into()), ("hex", self.hex.as_str().into()), ("why", self.why.as_str().into())])
+    }
+}
+
+impl Value {
+    /// A map with texts as keys.
+    pub fn fields<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Self {
+        Value::Map(fields.into_iter().map(|(name, value)| (name.into(), value)).collect())
+    }
+
+    /// The value of a field, or of the key with this text. `None` if this is no map or has no such key.
+    pub fn get(&self, name: &str) -> Option<&Value> {
+        let Value::Map(entries) = self else { return None };
+        let is_named = |key: &Value| matches!(key, Value::Text(text) if text == name);
+        let by_name = entries.iter().find(|(key, _)| is_named(key));
+        by_name.or_else(|| entries.iter().find(|(key, _)| key_text(key) == name)).map(|(_, value)| value)
+    }
+
+    /// What this is, for messages: `a number`.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Value::Null => "null",
+            Value::Bool(_) => "a boolean",
+            Value::Int(_) | Value::Uint(_) | Value::Float(_) => "a number",
+            Value::Text(_) => "a text",
+            Value::Bytes(_) => "bytes",
+            Value::List(_) => "a list",
+            Value::Map(_) => "a map",
+            Value::Opaque(_) => "an undecoded payload",
+        }
+    }
+}
+
+/// A key of a map as the text that a field path and JSON use.
+pub(crate) fn key_text(key: &Value) -> String {
+    match key {
+        Value::Text(text) => text.clone(),
+        Value::Int(number) => number.to_string(),
+        Value::Uint(number) => number.to_string(),
+        Value::Bool(flag) => flag.to_string(),
+        other => crate::to_json(other),
+    }
+}
+
+/// A number of 32 bits as the one of 64 bits with the same shortest text.
+pub(crate) fn widen(number: f32) -> f64 {
+    if number.is_finite() { format!("{number:e}").parse().unwrap_or(f64::from(number)) } else { f64::from(number) }
+}
+
+impl From<bool> for Value {
+    fn from(flag: bool) -> Self {
+        Value::Bool(flag)
+    }
+}
+
+impl From<i64> for Value {
+    fn from(number: i64) -> Self {
+        Value::Int(number)
+    }
+}
+
+impl From<u64> for Value {
+    fn from(number: u64) -> Self {
+        i64::try_from(number).map_or(Value::Uint(number), Value::Int)
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Value::Float(number)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Value::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Value::Text(text)
+    }
+}
