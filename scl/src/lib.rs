@@ -89,6 +89,7 @@ mod environment;
 mod error;
 #[doc(hidden)]
 pub mod examine;
+mod figures;
 mod gate;
 pub mod host;
 mod log;

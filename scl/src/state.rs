@@ -2,24 +2,28 @@
 //! may still have something to send.
 
 mod flush;
+mod monitor;
 mod runtime;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use flush::{Flush, LINGER, SendingEnd};
+pub(crate) use monitor::stats_period;
 pub(crate) use runtime::{Driven, OwnedRuntime};
+
+use monitor::Monitor;
 
 use crate::error::{BlockingError, Missing, NotFlushed, PeerName, Unflushed};
 use crate::process_mark::ProcessMark;
 use crate::registration::Registration;
-use crate::runtime_dir::Holder;
+use crate::runtime_dir::{ComponentStats, Holder};
 use crate::spec::{ComponentSpec, GateSpec};
 use crate::sync::{AbortOnDrop, lock};
 use std::future::poll_fn;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 use tokio::runtime::Handle;
 use tokio::sync::Notify;
 use tokio::sync::futures::Notified;
@@ -42,6 +46,9 @@ pub(crate) struct ComponentState {
     calls_ended: AtomicBool,
     /// What wakes the waiting calls of gates without a sending end.
     waiting_calls: Mutex<Vec<Weak<dyn WakeCall>>>,
+    monitor: Arc<Monitor>,
+    /// Writes the component's stats, if it has any.
+    _stats: Option<AbortOnDrop>,
     /// Keeps the registration if the runtime folder is removed.
     _keeper: AbortOnDrop,
     /// Dropped last: once the lock is released, another process may run this component.
@@ -106,6 +113,7 @@ impl ComponentState {
             std::future::pending::<()>().await;
         });
         let keeper = AbortOnDrop(keeper.abort_handle());
+        let (monitor, stats) = start_monitor(spec, &registration, &handle);
         Self {
             spec,
             process: ProcessMark::new(),
@@ -118,6 +126,8 @@ impl ComponentState {
             runtime_ended,
             calls_ended: AtomicBool::new(false),
             waiting_calls: Mutex::default(),
+            monitor,
+            _stats: stats,
             _keeper: keeper,
             registration,
         }
@@ -129,6 +139,10 @@ impl ComponentState {
 
     pub(crate) fn registration(&self) -> &Registration {
         &self.registration
+    }
+
+    pub(crate) fn monitor(&self) -> &Monitor {
+        &self.monitor
     }
 
     pub(crate) fn changes(&self) -> Changes {
@@ -371,6 +385,22 @@ impl ComponentState {
         let awaited = end.waits_for_absent_peer().is_some_and(|left| self.runs_elsewhere(left.peer.component()));
         if flushed && !awaited { Poll::Ready(()) } else { Poll::Pending }
     }
+}
+
+/// Follows what the component does, and writes it where it has files.
+fn start_monitor(
+    spec: &'static ComponentSpec,
+    registration: &Registration,
+    handle: &Handle,
+) -> (Arc<Monitor>, Option<AbortOnDrop>) {
+    let unwritten = || ComponentStats::initial(spec, std::process::id(), SystemTime::now(), Duration::ZERO);
+    let (initial, writer) = registration.stats().unzip();
+    let monitor = Arc::new(Monitor::new(spec, initial.unwrap_or_else(unwritten)));
+    let task = writer.map(|writer| {
+        let task = handle.spawn(monitor::write_stats(Arc::downgrade(&monitor), writer));
+        AbortOnDrop(task.abort_handle())
+    });
+    (monitor, task)
 }
 
 /// Hands over what is left, within [`LINGER`], on the calling thread and without a runtime.
