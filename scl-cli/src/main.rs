@@ -30,13 +30,6 @@ mod list;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
-#[cfg(feature = "observe")]
-mod observed;
-#[cfg(feature = "new")]
-mod new;
-#[cfg(feature = "observe")]
-#[cfg(feature = "new")]
-mod new;
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]
@@ -44,6 +37,10 @@ mod observed;
 mod plan;
 #[cfg(feature = "observe")]
 mod quantity;
+#[cfg(feature = "record")]
+mod record;
+#[cfg(feature = "record")]
+mod recover;
 #[cfg(feature = "record")]
 mod replay;
 #[cfg(feature = "run")]
@@ -109,6 +106,9 @@ enum Command {
     Replay(replay::ReplayArguments),
     #[cfg(feature = "run")]
     Restart(restart::RestartArguments),
+    Record(record::RecordArguments),
+    #[cfg(feature = "record")]
+    Recover(recover::RecoverArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
@@ -163,6 +163,9 @@ fn main() -> ExitCode {
         Command::Replay(arguments) => replay::replay(&arguments),
         #[cfg(feature = "run")]
         Command::Restart(arguments) => restart::restart(&arguments),
+        Command::Record(arguments) => record::record(&arguments),
+        #[cfg(feature = "record")]
+        Command::Recover(arguments) => recover::recover(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

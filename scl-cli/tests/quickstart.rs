@@ -67,6 +67,13 @@ impl Copied {
             run.wait_for(line);
         }
         run.wait_for("user_interface | event: target is now 0.5 m/s");
+        // One program is replaced, and finds the others, which keep running.
+        let mut restart = self.system.scl(&["restart", "user_interface"]);
+        self.without_protoc(&mut restart);
+        let restarted = restart.output().unwrap();
+        let out = String::from_utf8_lossy(&restarted.stdout).into_owned();
+        assert!(out.starts_with("user_interface  running as process "), "{out}{restarted:?}");
+        run.wait_for("user_interface | asked for 0.5 m/s: accepted");
         run.signal("-INT");
         let (status, _, err) = run.finish();
         assert_eq!(status.code(), Some(0), "{err}");

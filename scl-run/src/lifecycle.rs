@@ -282,7 +282,7 @@ impl Lifecycle {
         match self.state {
             State::Waiting { .. } => self.start(),
             State::Running if self.ready_until().is_some_and(|until| until <= now) => {
-                let text = format!("not ready after {}{}", Shown(self.policy.ready_within), self.shown_status());
+                let text = format!("not ready within {}{}", Shown(self.policy.ready_within), self.shown_status());
                 self.fail_running(now, text, Signal::SIGTERM)
             }
             State::Running | State::Ready => {
@@ -362,7 +362,7 @@ impl Lifecycle {
         let Some(delay) = self.restarts.next(now, self.policy.delay, self.policy.limit) else {
             let RestartLimit { count, within } = self.policy.limit;
             let limit = format!("the restart limit ({count} in {within:?})");
-            let failure = self.failure.take().unwrap_or_else(|| "ended again and again".to_owned());
+            let failure = self.failure.take().unwrap_or_else(|| "ended too often".to_owned());
             self.failure = Some(format!("{failure}, and {limit} is reached"));
             self.state = State::Ended(Verdict::Failed);
             return vec![Action::Report(format!("not restarted: {limit} is reached"))];

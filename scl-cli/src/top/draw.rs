@@ -13,7 +13,7 @@ use scl_observe::{Activity, GateRow};
 use scl_terminal::{bytes_text, escape, shorten};
 
 /// Columns that are left out of narrow terminals, from the first on, until the names have enough room.
-const DISPENSABLE: [&str; 7] = ["RECEIVED", "SENT", "LOST", "KIND", "WAIT", "SINCE", "PID"];
+const DISPENSABLE: [&str; 8] = ["RECEIVED", "SENT", "LOST", "KIND", "WAIT", "SINCE", "PID", "MEM"];
 
 /// The room that names need before columns are left out.
 const NAME_WIDTH: usize = 20;
@@ -199,3 +199,6 @@ impl TextTable<'_> {
         if is_text(self.columns[column]) { Line::raw(text) } else { Line::raw(text).right_aligned() }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -96,9 +96,8 @@ impl View {
 
     fn sort_by(&mut self, order: Order) {
         self.order = order;
-        // The order of the file, on which the others build.
-        let position = |gate: &GateRow| gate.component.clone();
-        self.snapshot.gates.sort_by_key(position);
+        // By name first, as in a new snapshot, because rows that are equal in an order keep their places.
+        self.snapshot.gates.sort_by_key(GateRow::name);
         self.snapshot.components.sort_by(|one, other| one.name.cmp(&other.name));
         sort(&mut self.snapshot, order);
     }

@@ -80,6 +80,13 @@ impl Rover {
         }
     }
 
+    /// Starts components that need not find all their peers.
+    pub(crate) fn play_unready(&mut self, components: &[&str]) {
+        let started = components.iter().map(|name| self.spawn(name, &|_| {}));
+        let started: Vec<_> = started.collect();
+        self.playing.extend(started);
+    }
+
     /// Closes a component in order.
     pub(crate) fn stop(&mut self, component: &str) {
         let mut process = self.take(component);
