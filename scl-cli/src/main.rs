@@ -5,6 +5,8 @@
 mod bench;
 #[cfg(feature = "observe")]
 mod bw;
+#[cfg(feature = "observe")]
+mod call;
 mod check;
 #[cfg(feature = "observe")]
 mod complete_gates;
@@ -14,6 +16,8 @@ mod delay;
 mod diff;
 #[cfg(feature = "observe")]
 mod doctor;
+#[cfg(feature = "observe")]
+mod echo;
 mod explain;
 mod external;
 #[cfg(any(feature = "observe", feature = "run"))]
@@ -35,6 +39,10 @@ mod new;
 #[cfg(feature = "observe")]
 mod observed;
 mod plan;
+#[cfg(feature = "observe")]
+mod play;
+#[cfg(feature = "observe")]
+mod publish;
 #[cfg(feature = "observe")]
 mod quantity;
 #[cfg(feature = "record")]
@@ -79,6 +87,8 @@ enum Command {
     BenchWorker(bench::WorkerArguments),
     #[cfg(feature = "observe")]
     Bw(bw::BwArguments),
+    #[cfg(feature = "observe")]
+    Call(call::CallArguments),
     Check(check::CheckArguments),
     #[cfg(feature = "observe")]
     #[command(name = complete_gates::COMMAND, hide = true)]
@@ -89,6 +99,8 @@ enum Command {
     Diff(diff::DiffArguments),
     #[cfg(feature = "observe")]
     Doctor(doctor::DoctorArguments),
+    #[cfg(feature = "observe")]
+    Echo(echo::EchoArguments),
     Explain(explain::ExplainArguments),
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments),
@@ -102,16 +114,24 @@ enum Command {
     #[cfg(feature = "new")]
     New(new::NewArguments),
     Plan(plan::PlanArguments),
+    #[cfg(feature = "observe")]
+    #[command(name = "pub")]
+    Publish(publish::PubArguments),
+    #[cfg(feature = "record")]
+    Record(record::RecordArguments),
+    #[cfg(feature = "record")]
+    Recover(recover::RecoverArguments),
     #[cfg(feature = "record")]
     Replay(replay::ReplayArguments),
     #[cfg(feature = "run")]
     Restart(restart::RestartArguments),
-    Record(record::RecordArguments),
-    #[cfg(feature = "record")]
-    Recover(recover::RecoverArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
+    #[cfg(feature = "run")]
+    Stop(stop::StopArguments),
+    #[cfg(feature = "observe")]
+    Top(top::TopArguments),
     #[cfg(feature = "run")]
     #[command(name = run::START_WORD, hide = true)]
     Start(run::StartArguments),
@@ -121,10 +141,6 @@ enum Command {
     /// A program `scl-x` of the user's, as `scl x`.
     #[command(external_subcommand)]
     External(Vec<OsString>),
-    #[cfg(feature = "run")]
-    Stop(stop::StopArguments),
-    #[cfg(feature = "observe")]
-    Top(top::TopArguments),
 }
 
 fn main() -> ExitCode {
@@ -135,6 +151,8 @@ fn main() -> ExitCode {
         Command::BenchWorker(arguments) => bench::run_worker(&arguments),
         #[cfg(feature = "observe")]
         Command::Bw(arguments) => bw::bw(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Call(arguments) => call::call(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         #[cfg(feature = "observe")]
         Command::CompleteGates(arguments) => complete_gates::complete_gates(&arguments),
@@ -144,6 +162,8 @@ fn main() -> ExitCode {
         Command::Diff(arguments) => diff::diff(&arguments),
         #[cfg(feature = "observe")]
         Command::Doctor(arguments) => doctor::doctor(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Echo(arguments) => echo::echo(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         #[cfg(feature = "generate")]
         Command::Generate(arguments) => generate::generate(&arguments),
@@ -153,30 +173,31 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Info(arguments) => info::info(&arguments),
         #[cfg(feature = "observe")]
-        Command::Hz(arguments) => hz::hz(&arguments),
-        #[cfg(feature = "observe")]
         Command::List(arguments) => list::list(&arguments),
         #[cfg(feature = "new")]
         Command::New(arguments) => new::new(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Publish(arguments) => publish::publish(&arguments),
+        #[cfg(feature = "record")]
+        Command::Record(arguments) => record::record(&arguments),
+        #[cfg(feature = "record")]
+        Command::Recover(arguments) => recover::recover(&arguments),
         #[cfg(feature = "record")]
         Command::Replay(arguments) => replay::replay(&arguments),
         #[cfg(feature = "run")]
         Command::Restart(arguments) => restart::restart(&arguments),
-        Command::Record(arguments) => record::record(&arguments),
-        #[cfg(feature = "record")]
-        Command::Recover(arguments) => recover::recover(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
+        #[cfg(feature = "run")]
+        Command::Stop(arguments) => stop::stop(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Top(arguments) => top::top(&arguments),
         #[cfg(feature = "run")]
         Command::Start(arguments) => run::start_component(&arguments),
         #[cfg(feature = "run")]
         Command::Guard => run::keep_watch(),
         Command::External(words) => external::run_external(&words, &CommandLine::command()),
-        #[cfg(feature = "run")]
-        Command::Stop(arguments) => stop::stop(&arguments),
-        #[cfg(feature = "observe")]
-        Command::Top(arguments) => top::top(&arguments),
     }
 }
