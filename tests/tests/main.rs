@@ -36,6 +36,7 @@ mod sizes;
 mod stats;
 mod strangers;
 mod subscribers;
+mod systemd;
 mod taps;
 mod threads;
 mod unit;

@@ -203,7 +203,8 @@ impl Connection {
         gate.dropped_newest += dropped_newest;
         gate.dropped_for_observers += dropped_for_foreign;
         gate.lost += figures.lost;
-        gate.waiting += figures.waiting;
+        // Messages on their way do not wait in this program, and many may be until the peer acknowledges some of them.
+        gate.waiting += self.queue.len() as u64;
         gate.peers += u64::from(figures.connected);
         figures
     }
