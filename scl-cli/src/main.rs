@@ -5,6 +5,8 @@
 mod bench;
 #[cfg(feature = "observe")]
 mod bw;
+#[cfg(feature = "observe")]
+mod call;
 mod check;
 #[cfg(feature = "observe")]
 mod complete_gates;
@@ -12,6 +14,10 @@ mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
+#[cfg(feature = "observe")]
+mod doctor;
+#[cfg(feature = "observe")]
+mod echo;
 mod explain;
 mod external;
 #[cfg(any(feature = "observe", feature = "run"))]
@@ -29,16 +35,21 @@ mod load;
 #[cfg(feature = "observe")]
 mod measure;
 #[cfg(feature = "observe")]
-mod observed;
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]
-#[cfg(feature = "new")]
-mod new;
 mod observed;
 mod plan;
 #[cfg(feature = "observe")]
+mod play;
+#[cfg(feature = "observe")]
+mod publish;
+#[cfg(feature = "observe")]
 mod quantity;
+#[cfg(feature = "record")]
+mod record;
+#[cfg(feature = "record")]
+mod recover;
 #[cfg(feature = "record")]
 mod replay;
 #[cfg(feature = "run")]
@@ -50,6 +61,8 @@ mod run;
 mod schema;
 #[cfg(feature = "run")]
 mod stop;
+#[cfg(feature = "observe")]
+mod top;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
@@ -75,6 +88,8 @@ enum Command {
     BenchWorker(bench::WorkerArguments),
     #[cfg(feature = "observe")]
     Bw(bw::BwArguments),
+    #[cfg(feature = "observe")]
+    Call(call::CallArguments),
     Check(check::CheckArguments),
     #[cfg(feature = "observe")]
     #[command(name = complete_gates::COMMAND, hide = true)]
@@ -83,6 +98,10 @@ enum Command {
     #[cfg(feature = "observe")]
     Delay(delay::DelayArguments),
     Diff(diff::DiffArguments),
+    #[cfg(feature = "observe")]
+    Doctor(doctor::DoctorArguments),
+    #[cfg(feature = "observe")]
+    Echo(echo::EchoArguments),
     Explain(explain::ExplainArguments),
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments),
@@ -96,6 +115,13 @@ enum Command {
     #[cfg(feature = "new")]
     New(new::NewArguments),
     Plan(plan::PlanArguments),
+    #[cfg(feature = "observe")]
+    #[command(name = "pub")]
+    Publish(publish::PubArguments),
+    #[cfg(feature = "record")]
+    Record(record::RecordArguments),
+    #[cfg(feature = "record")]
+    Recover(recover::RecoverArguments),
     #[cfg(feature = "record")]
     Replay(replay::ReplayArguments),
     #[cfg(feature = "run")]
@@ -103,6 +129,10 @@ enum Command {
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
+    #[cfg(feature = "run")]
+    Stop(stop::StopArguments),
+    #[cfg(feature = "observe")]
+    Top(top::TopArguments),
     #[cfg(feature = "run")]
     #[command(name = run::START_WORD, hide = true)]
     Start(run::StartArguments),
@@ -112,8 +142,6 @@ enum Command {
     /// A program `scl-x` of the user's, as `scl x`.
     #[command(external_subcommand)]
     External(Vec<OsString>),
-    #[cfg(feature = "run")]
-    Stop(stop::StopArguments),
 }
 
 fn main() -> ExitCode {
@@ -124,6 +152,8 @@ fn main() -> ExitCode {
         Command::BenchWorker(arguments) => bench::run_worker(&arguments),
         #[cfg(feature = "observe")]
         Command::Bw(arguments) => bw::bw(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Call(arguments) => call::call(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         #[cfg(feature = "observe")]
         Command::CompleteGates(arguments) => complete_gates::complete_gates(&arguments),
@@ -131,6 +161,10 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Delay(arguments) => delay::delay(&arguments),
         Command::Diff(arguments) => diff::diff(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Doctor(arguments) => doctor::doctor(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Echo(arguments) => echo::echo(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         #[cfg(feature = "generate")]
         Command::Generate(arguments) => generate::generate(&arguments),
@@ -140,12 +174,16 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Info(arguments) => info::info(&arguments),
         #[cfg(feature = "observe")]
-        Command::Hz(arguments) => hz::hz(&arguments),
-        #[cfg(feature = "observe")]
         Command::List(arguments) => list::list(&arguments),
         #[cfg(feature = "new")]
         Command::New(arguments) => new::new(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Publish(arguments) => publish::publish(&arguments),
+        #[cfg(feature = "record")]
+        Command::Record(arguments) => record::record(&arguments),
+        #[cfg(feature = "record")]
+        Command::Recover(arguments) => recover::recover(&arguments),
         #[cfg(feature = "record")]
         Command::Replay(arguments) => replay::replay(&arguments),
         #[cfg(feature = "run")]
@@ -154,11 +192,13 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
         #[cfg(feature = "run")]
+        Command::Stop(arguments) => stop::stop(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Top(arguments) => top::top(&arguments),
+        #[cfg(feature = "run")]
         Command::Start(arguments) => run::start_component(&arguments),
         #[cfg(feature = "run")]
         Command::Guard => run::keep_watch(),
         Command::External(words) => external::run_external(&words, &CommandLine::command()),
-        #[cfg(feature = "run")]
-        Command::Stop(arguments) => stop::stop(&arguments),
     }
 }

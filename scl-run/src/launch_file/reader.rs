@@ -35,11 +35,10 @@ impl Reader<'_> {
             let path: Vec<&str> = at.iter().copied().chain(word).collect();
             let problem = Problem::new(format!("unknown key {} {whose}", shown(key))).at(self.text.place(&path));
             let close = word.and_then(|word| likely_key(word, allowed.iter().copied()));
-            let problem = match close {
+            self.problems.push(match close {
                 Some(close) => problem.help(format!("did you mean `{close}`?")),
-                None => problem,
-            };
-            self.problems.push(problem.note(format!("the keys are {}", quoted_list(names()))));
+                None => problem.note(format!("the keys are {}", quoted_list(names()))),
+            });
         }
     }
 

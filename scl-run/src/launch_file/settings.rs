@@ -2,8 +2,8 @@
 
 use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::entry::joined;
-use super::keys::form_of;
-use super::reader::{KeyPath, Reader, shown};
+use super::keys::{Form, form_of};
+use super::reader::{KeyPath, Reader, scalar_text, shown};
 use scl_terminal::{Problem, closest_name, parse_duration};
 use serde_yaml::{Mapping, Value};
 use std::time::Duration;
@@ -96,7 +96,7 @@ impl Reader<'_> {
     pub(super) fn wrong_value(&mut self, at: KeyPath<'_>, value: &Value) {
         let key = at.last().copied().unwrap_or_default();
         let form = form_of(key);
-        let problem = Problem::new(format!("`{key}` is {}, not {}", form.description(), shown(value)));
+        let problem = Problem::new(format!("`{key}` is {}, not {}", form.description(), shown_value(form, value)));
         let problem = problem.at(self.text.place(at));
         let help = likely(form, value).map(|meant| format!("did you mean `{key}: {meant}`?"));
         self.problems.push(match help {
@@ -106,10 +106,16 @@ impl Reader<'_> {
     }
 }
 
+/// Describes a wrong value: a list by its items, where one is expected.
+fn shown_value(form: Form, value: &Value) -> String {
+    let items = value.as_sequence().filter(|items| form == Form::Processors && !items.is_empty());
+    let texts = items.and_then(|items| items.iter().map(scalar_text).collect::<Option<Vec<String>>>());
+    texts.map_or_else(|| shown(value), |texts| format!("`[{}]`", texts.join(", ")))
+}
+
 /// What was probably meant by a wrong value.
-fn likely(form: super::keys::Form, value: &Value) -> Option<String> {
-    use super::keys::Form;
-    let text = super::reader::scalar_text(value)?;
+fn likely(form: Form, value: &Value) -> Option<String> {
+    let text = scalar_text(value)?;
     let text = text.trim();
     let candidate = match form {
         Form::Word(words) => {

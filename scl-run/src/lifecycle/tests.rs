@@ -96,7 +96,7 @@ fn not_ready_in_time_is_a_failure_with_its_reason() {
         watched(),
         &[(10, status), (4999, Input::Time), (5000, Input::Time), (5100, killed)],
         &[
-            report("not ready after 5s: waiting for `controller.commands`"),
+            report("not ready within 5s: waiting for `controller.commands`"),
             Action::Signal(Signal::SIGTERM),
             Action::ReportEnd(Ending::Killed(Signal::SIGTERM), millis(5100)),
             report("restarting in 100ms"),

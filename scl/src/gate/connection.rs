@@ -203,7 +203,8 @@ impl Connection {
         gate.dropped_newest += dropped_newest;
         gate.dropped_for_observers += dropped_for_foreign;
         gate.lost += figures.lost;
-        gate.waiting += figures.waiting;
+        // Messages on their way do not wait in this program, and many may be until the peer acknowledges some of them.
+        gate.waiting += self.queue.len() as u64;
         gate.peers += u64::from(figures.connected);
         figures
     }
@@ -372,6 +373,10 @@ impl SendingEnd for Connection {
 
     fn wake_call(&mut self) {
         self.waiting_sender.take().into_iter().for_each(Waker::wake);
+    }
+
+    fn call_waits(&self) -> bool {
+        self.waiting_sender.is_some()
     }
 
     fn write_out(&mut self) -> bool {
