@@ -5,6 +5,8 @@
 mod bandwidth;
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "observe")]
+mod call;
 mod check;
 mod check_fix;
 mod check_formats;
@@ -14,11 +16,14 @@ mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
+#[cfg(feature = "observe")]
+mod echo;
 mod editor;
 mod explain;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
+#[cfg(feature = "observe")]
 mod hz;
 #[cfg(feature = "observe")]
 mod info;
@@ -30,6 +35,8 @@ mod languages;
 mod list;
 mod lsp;
 mod plan;
+#[cfg(feature = "observe")]
+mod publish;
 #[cfg(feature = "run")]
 mod quickstart;
 #[cfg(feature = "observe")]
