@@ -33,14 +33,13 @@ pub(crate) fn bw(arguments: &BwArguments) -> ExitCode {
 
 impl Shown for BandwidthMeter {
     const COLUMNS: &'static [(&'static str, usize)] =
-        &[("BANDWIDTH", 10), ("MESSAGES", 8), ("TOTAL", 8), ("MIN", 8), ("MEAN", 8), ("MAX", 8)];
+        &[("BANDWIDTH", 10), ("MESSAGES", 8), ("MIN", 8), ("MEAN", 8), ("MAX", 8)];
 
     fn cells(figures: &BandwidthFigures) -> Option<Vec<String>> {
         let (min, mean, max) = figures.size?;
         Some(vec![
             figures.per_second.map_or("-".to_owned(), |rate| format!("{}/s", bytes_text(rate))),
             figures.messages.to_string(),
-            bytes_text(figures.bytes as f64),
             bytes_text(min as f64),
             bytes_text(mean),
             bytes_text(max as f64),

@@ -9,14 +9,17 @@ fn components_and_their_states_are_listed() {
     let mut rover = Rover::start();
     rover.kill("user_interface");
     rover.stop("logger");
+    // The figures of the sensor, whose logger is gone, and of the others come a moment later.
+    rover.wait_for(&["list"], |list| (list["components"][3]["ready"] == false).then_some(()));
     expect![[r#"
         rover: 2 running, 1 dead, 2 stopped
+
         COMPONENT STATE PID FOR PROGRAM
         actuator stopped
-        controller running N AGE tests
+        controller not ready PID AGE tests
         logger stopped
-        sensor not ready N AGE tests
-        user_interface dead N tests
+        sensor not ready PID AGE tests
+        user_interface dead PID tests
     "#]]
     .assert_eq(&shown(&rover, &["list"]));
 }
@@ -24,7 +27,35 @@ fn components_and_their_states_are_listed() {
 #[test]
 fn gates_are_listed_with_types_and_peers() {
     let rover = Rover::start();
-    expect![[]].assert_eq(&shown(&rover, &["list", "-v"]));
+    rover.wait_for(&["list"], |list| {
+        let running = list["components"].as_array()?.iter().filter(|component| component["state"] == "running");
+        running.into_iter().all(|component| component["ready"] == true).then_some(())
+    });
+    expect![[r#"
+        rover: 4 running, 1 stopped
+
+        COMPONENT STATE PID FOR PROGRAM
+        actuator stopped
+        controller running PID AGE tests
+        logger running PID AGE tests
+        sensor running PID AGE tests
+        user_interface running PID AGE tests
+
+        GATE KIND TYPE CODEC PEERS
+        controller.sensor sub rover.Measurement protobuf 1/1
+        controller.position sub rover.Position json 1/1
+        controller.actuator pub rover.Setpoint protobuf 0/1
+        controller.commands rep rover.Command -> rover.Status protobuf 1/1
+        controller.log push rover.Event protobuf 1/1
+        logger.events pull rover.Event protobuf 2/2
+        logger.images sub bytes raw 1/1
+        sensor.measurements pub rover.Measurement protobuf 1/1
+        sensor.position pub rover.Position json 1/1
+        sensor.image pub bytes raw 1/1
+        sensor.log push rover.Event protobuf 1/1
+        user_interface.commands req rover.Command -> rover.Status protobuf 1/1
+    "#]]
+    .assert_eq(&shown(&rover, &["list", "-v"]));
 }
 
 #[test]
@@ -56,7 +87,8 @@ fn without_a_running_system_the_way_out_is_shown() {
 
 #[test]
 fn a_stopped_system_is_found_by_its_name_or_its_topology() {
-    let mut rover = Rover::start_with(&["sensor"], |_| {});
+    let mut rover = Rover::stopped();
+    rover.play_alone("sensor");
     rover.stop("sensor");
     for arguments in [&["list"][..], &["list", "--system", "rover"]] {
         assert!(rover.text(arguments).starts_with("rover: 1 stopped\n"), "{arguments:?}");
@@ -65,18 +97,20 @@ fn a_stopped_system_is_found_by_its_name_or_its_topology() {
     assert!(error.contains("error: there is no system `rovr`\n  = help: did you mean `rover`?"), "{error}");
 }
 
-/// A table with single spaces, process numbers as `N`, ages as `AGE` and test programs as `tests`.
+/// A table with single spaces, and with process numbers as `PID`, ages as `AGE` and test programs as `tests`.
 fn shown(rover: &Rover, arguments: &[&str]) -> String {
     let text = rover.text(arguments);
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    let word = |word: &str| match word {
-        _ if word.starts_with("tests-") => "tests".to_owned(),
-        _ if word.parse::<u32>().is_ok() => "N".to_owned(),
-        _ => word.to_owned(),
-    };
-    let line = |line: &str| {
-        let words: Vec<String> = line.split_whitespace().map(word).collect();
-        words.join(" ") + "\n"
-    };
-    text.lines().filter(|it| !it.is_empty()).map(line).collect()
+    let lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+    let shown = lines.map(|words| match &words[..] {
+        [component, state @ .., pid, number, unit, program] if program.starts_with("tests-") => {
+            pid.parse::<u32>().unwrap();
+            number.parse::<f64>().unwrap();
+            assert!(["s", "min"].contains(unit), "{text}");
+            format!("{component} {} PID AGE tests\n", state.join(" "))
+        }
+        [component, "dead", _, program] if program.starts_with("tests-") => format!("{component} dead PID tests\n"),
+        words => words.join(" ") + "\n",
+    });
+    shown.collect()
 }

@@ -127,11 +127,21 @@ fn looked_in(runtime_dir: &RuntimeDir) -> String {
 
 /// The texts of the runtime have their way out in the second line.
 fn from_runtime_dir(error: &RuntimeDirError) -> Problem {
+    let (message, help) = message_and_help(error);
+    let problem = Problem::new(message);
+    match help {
+        Some(help) => problem.help(help),
+        None => problem,
+    }
+}
+
+/// What is wrong with the runtime folder, and what to do.
+pub(crate) fn message_and_help(error: &RuntimeDirError) -> (String, Option<String>) {
     let text = error.to_string();
-    let (message, help) = text.split_once("\nhelp: ").unwrap_or((&text, ""));
+    let (message, help) = text.split_once("\nhelp: ").map_or((&*text, None), |(message, help)| (message, Some(help)));
     let message = match error.source() {
         Some(source) => format!("{message}: {source}"),
         None => message.to_owned(),
     };
-    if help.is_empty() { Problem::new(message) } else { Problem::new(message).help(help) }
+    (message, help.map(str::to_owned))
 }

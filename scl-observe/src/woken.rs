@@ -103,7 +103,7 @@ mod tests {
         let (woken, counted) = (Woken::default(), Arc::new(Counted::default()));
         let task = Waker::from(Arc::clone(&counted));
         let wakers = [woken.add(0), woken.add(1), woken.add(2)];
-        let mut taken = || std::iter::from_fn(|| woken.take(&task)).collect::<Vec<_>>();
+        let taken = || std::iter::from_fn(|| woken.take(&task)).collect::<Vec<_>>();
         assert_eq!(taken(), [0, 1, 2], "each is polled at first");
         assert_eq!(taken(), Vec::<usize>::new());
         for index in [2, 0, 2, 2] {

@@ -7,6 +7,8 @@ pub mod format;
 pub mod progress;
 pub mod record;
 pub mod recording;
+pub mod recover;
 pub mod replay;
-#[cfg(test)]
-mod testing;
+#[cfg(any(test, feature = "testing"))]
+#[doc(hidden)]
+pub mod testing;

@@ -51,11 +51,6 @@ impl Output {
         Self { names, width, colour_out, colour_err, writing: Mutex::new(()) }
     }
 
-    /// The name before the output of a program.
-    pub(crate) fn name(&self, program: usize) -> &str {
-        &self.names[program]
-    }
-
     /// Copies every line of a program's stream, with its name before it, until the stream ends.
     ///
     /// Bytes are copied as they are, whether or not they are UTF-8; a missing line break at the end is added.

@@ -7,6 +7,7 @@ use crate::log::Level;
 use crate::options::OpenOptions;
 use crate::plan::{Plan, Schema};
 use crate::runtime_dir::{Announcement, SystemDir, check_peer};
+use crate::state::stats_period;
 use crate::{stop, untyped};
 use std::sync::Arc;
 
@@ -29,6 +30,7 @@ pub fn wrong_variables(variables: Variables<'_>) -> Vec<OpenError> {
         stop::grace_period(variables).err(),
         component::check_real_time(variables).err(),
         OpenOptions::check(variables).err(),
+        stats_period(variables).err(),
     ];
     checks.into_iter().flatten().collect()
 }

@@ -89,6 +89,7 @@ mod environment;
 mod error;
 #[doc(hidden)]
 pub mod examine;
+mod figures;
 mod gate;
 pub mod host;
 mod log;
@@ -100,6 +101,7 @@ pub mod private;
 mod process_mark;
 mod registration;
 pub mod runtime_dir;
+mod service;
 pub mod spec;
 mod state;
 mod stop;

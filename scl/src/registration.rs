@@ -2,14 +2,15 @@
 
 use crate::process_mark::ProcessMark;
 use crate::runtime_dir::{
-    Announcement, ComponentLock, FolderWatch, Holder, OwnedPath, QUIET, RuntimeDirError, SystemDir, check_peer,
-    explain_missing, publish_schema,
+    Announcement, ComponentLock, ComponentStats, FolderWatch, Holder, OwnedPath, QUIET, RuntimeDirError, StatsFile,
+    SystemDir, check_peer, explain_missing, publish_schema,
 };
 use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
 use crate::sync::lock;
 use crate::transport::PeerCheck;
 use std::error::Error;
 use std::sync::{Arc, Mutex, Weak};
+use std::time::Duration;
 
 /// What makes this process the one that runs a component. Dropped after everything that the component has bound: then
 /// another process may run it.
@@ -26,6 +27,8 @@ struct Files {
     dir: SystemDir,
     spec: &'static ComponentSpec,
     announcement: Announcement,
+    /// What the component has done before it did anything, unless it writes no stats.
+    initial_stats: Option<ComponentStats>,
     /// `None` once the component is closed.
     held: Mutex<Option<Held>>,
     process: ProcessMark,
@@ -35,21 +38,30 @@ struct Files {
 #[derive(Debug)]
 struct Held {
     announcement: OwnedPath,
+    /// `None` if the component writes none, or they could not be created.
+    stats: Option<StatsFile>,
     lock: ComponentLock,
 }
 
 impl Registration {
     /// Takes the component's lock, removes what a killed process left behind, and publishes the messages and the
-    /// announcement. The gates are opened after that.
-    pub(crate) fn in_folder(spec: &'static ComponentSpec, dir: SystemDir) -> Result<Self, RuntimeDirError> {
+    /// announcement. The gates are opened after that. The component writes its stats with the given period, if any.
+    pub(crate) fn in_folder(
+        spec: &'static ComponentSpec,
+        dir: SystemDir,
+        stats_period: Option<Duration>,
+    ) -> Result<Self, RuntimeDirError> {
         let lock = ComponentLock::take(&dir, spec.name)?;
         lock.clear_leftovers()?;
         let announcement = Announcement::of(spec);
         // Readers of the announcement must find the messages.
         publish_messages(&dir, spec)?;
-        let held = Held { announcement: announcement.publish(&dir)?, lock };
-        let files = Files { dir, spec, announcement, held: Mutex::new(Some(held)), process: ProcessMark::new() };
-        Ok(Self { files: Some(Arc::new(files)) })
+        let initial_stats =
+            stats_period.map(|period| ComponentStats::initial(spec, announcement.pid, announcement.started, period));
+        let stats = initial_stats.as_ref().and_then(|stats| create_stats(&dir, spec, stats));
+        let held = Held { announcement: announcement.publish(&dir)?, stats, lock };
+        let (held, process) = (Mutex::new(Some(held)), ProcessMark::new());
+        Ok(Self { files: Some(Arc::new(Files { dir, spec, announcement, initial_stats, held, process })) })
     }
 
     /// For a component on a transport of the user's choice.
@@ -77,6 +89,12 @@ impl Registration {
         }
     }
 
+    /// The figures of a component that has done nothing yet, and what writes later ones, unless it writes none.
+    pub(crate) fn stats(&self) -> Option<(ComponentStats, StatsWriter)> {
+        let files = self.files.as_ref()?;
+        Some((files.initial_stats.clone()?, StatsWriter(Arc::downgrade(files))))
+    }
+
     /// What a connecting end calls before it connects.
     pub(crate) fn peer_check(&self, gate: &'static GateSpec, link: &'static LinkSpec) -> Option<PeerCheck> {
         let files = self.files.as_ref()?;
@@ -98,6 +116,19 @@ impl Registration {
     }
 }
 
+/// Writes the component's stats, as long as it is open.
+pub(crate) struct StatsWriter(Weak<Files>);
+
+impl StatsWriter {
+    pub(crate) fn write(&self, stats: &ComponentStats) {
+        if let Some(files) = self.0.upgrade()
+            && let Some(file) = lock(&files.held).as_mut().and_then(|held| held.stats.as_mut())
+        {
+            file.write(stats);
+        }
+    }
+}
+
 impl Drop for Registration {
     fn drop(&mut self) {
         // The task in `keep` may be restoring the files at this moment, so dropping the reference is not enough. In a
@@ -115,7 +146,10 @@ impl Files {
 
     fn are_in_place(&self) -> bool {
         let held = lock(&self.held);
-        held.as_ref().is_none_or(|held| held.lock.is_in_place() && held.announcement.is_ours())
+        held.as_ref().is_none_or(|held| {
+            let stats = held.stats.as_ref().is_none_or(StatsFile::is_in_place);
+            held.lock.is_in_place() && held.announcement.is_ours() && stats
+        })
     }
 
     /// Returns true if the lock's file or the announcement was missing. Sockets are restored by their owners, which
@@ -132,9 +166,22 @@ impl Files {
         if !announced {
             held.announcement = self.announcement.publish(&self.dir)?;
         }
+        if let Some(Err(error)) = held.stats.as_mut().map(|stats| stats.restore(&self.dir)) {
+            log_missing_stats(self.spec, &error);
+            held.stats = None;
+        }
         self.dir.mark_restored();
         Ok(!locked || !announced)
     }
+}
+
+/// A component without stats is as good as any; only tools miss them.
+fn create_stats(dir: &SystemDir, spec: &ComponentSpec, stats: &ComponentStats) -> Option<StatsFile> {
+    StatsFile::create(dir, spec.name, stats).inspect_err(|error| log_missing_stats(spec, error)).ok()
+}
+
+fn log_missing_stats(spec: &ComponentSpec, error: &RuntimeDirError) {
+    tracing::debug!(error = error as &(dyn Error + 'static), "component `{}` writes no stats", spec.name);
 }
 
 fn publish_messages(dir: &SystemDir, spec: &ComponentSpec) -> Result<(), RuntimeDirError> {

@@ -78,6 +78,7 @@ pub(crate) use peer_check::{check_peer, explain_missing};
 #[cfg(feature = "zeromq")]
 pub(crate) use restored::Seen;
 pub(crate) use schema::publish_schema;
+pub(crate) use stats::StatsFile;
 pub use stats::{ComponentStats, ConnectionFigures, GateFigures};
 
 /// The longest path of a Unix socket in bytes, without its terminating zero.

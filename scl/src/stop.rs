@@ -9,6 +9,7 @@ mod state;
 
 use crate::environment::{self, Variables};
 use crate::error::{BlockingError, OpenError};
+use crate::service;
 use crate::sync::lock;
 pub(crate) use signals::LAST_FLUSH;
 pub use signals::StopSignal;
@@ -23,8 +24,6 @@ use std::time::Duration;
 
 /// The grace period if `SCL_STOP_WITHIN` is not set.
 const GRACE_PERIOD: Duration = Duration::from_secs(3);
-/// The longest accepted `SCL_STOP_WITHIN`: a day.
-const LONGEST: Duration = Duration::from_secs(86_400);
 
 static STOP: StopState = StopState::new();
 /// Whether the thread that watches for signals runs.
@@ -108,6 +107,7 @@ pub fn is_stop_requested() -> bool {
 /// Requests the stop, as a signal does.
 pub(crate) fn request(signal: StopSignal) {
     STOP.request(signal.exit_code());
+    service::stopping();
 }
 
 /// Makes the program handle stop requests itself, without watching for signals.
@@ -187,7 +187,8 @@ pub(crate) fn watch_signals(grace_period: Duration) -> io::Result<()> {
 /// # Errors
 /// [`OpenError::Environment`] if the value is not a duration of 1 us to a day.
 pub(crate) fn grace_period(variables: Variables<'_>) -> Result<Duration, OpenError> {
-    let found = environment::read(variables, "SCL_STOP_WITHIN", "a duration such as `3s` or `500ms`", parse_duration)?;
+    let found =
+        environment::read(variables, "SCL_STOP_WITHIN", "a duration such as `3s` or `500ms`", environment::duration)?;
     Ok(found.unwrap_or(GRACE_PERIOD))
 }
 
@@ -205,24 +206,6 @@ fn handle_stop() {
     if let Err(error) = watch_signals(grace_period) {
         panic!("cannot watch for signals: {error}");
     }
-}
-
-/// A duration as in a topology file: a decimal number and one of the units `us`, `ms`, `s`.
-fn parse_duration(text: &str) -> Option<Duration> {
-    let digits = text.find(|letter: char| letter.is_ascii_alphabetic())?;
-    let (number, unit) = text.split_at(digits);
-    let number = number.trim_end();
-    if !number.starts_with(|digit: char| digit.is_ascii_digit()) {
-        return None;
-    }
-    let seconds_per_unit = match unit {
-        "us" => 1e-6,
-        "ms" => 1e-3,
-        "s" => 1.0,
-        _ => return None,
-    };
-    let duration = Duration::try_from_secs_f64(number.parse::<f64>().ok()? * seconds_per_unit).ok()?;
-    (Duration::from_micros(1)..=LONGEST).contains(&duration).then_some(duration)
 }
 
 #[cfg(test)]

@@ -38,7 +38,7 @@ pub(crate) type SaveAnswer = oneshot::Sender<Result<Option<WrittenFile>, Problem
 
 /// Where messages go.
 pub(crate) enum Store {
-    Continuous(Continuous),
+    Continuous(Box<Continuous>),
     Ring(Ring),
 }
 

@@ -3,13 +3,14 @@
 use super::ComponentHandle;
 use crate::codec::Codec;
 use crate::error::{GateName, OpenError};
+use crate::figures::FigureSource;
 use crate::gate::{Connection, GateTap, Incoming, Outgoing, Pub, Pull, Push, Rep, Req, Sub};
 use crate::medium::Medium;
 use crate::options::OpenOptions;
 use crate::registration::Registration;
 use crate::runtime_dir::{RuntimeDir, SystemDir};
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
-use crate::state::{ComponentState, OwnedRuntime};
+use crate::spec::{ComponentSpec, GateSpec, LinkSpec, WhenFull};
+use crate::state::{ComponentState, OwnedRuntime, stats_period};
 use crate::time::Watchdog;
 use crate::transport::{Endpoint, Sender, Transport, TransportError};
 use std::sync::{Arc, Mutex};
@@ -31,7 +32,9 @@ impl Opener {
             Some(transport) => (Registration::without_files(), transport),
             None => register(spec, options)?,
         };
-        Ok(Self { state: Arc::new(ComponentState::new(spec, registration, runtime)), transport })
+        let state = Arc::new(ComponentState::new(spec, registration, runtime));
+        state.start_reporting();
+        Ok(Self { state, transport })
     }
 
     /// Opens the `pub` gate at an index of the component's list.
@@ -39,7 +42,9 @@ impl Opener {
         let spec = self.gate(index);
         let connections = self.connections(spec, |transport, endpoint| transport.publish(endpoint))?;
         let tap = self.tap(spec)?;
-        Ok(Pub::new(Outgoing::new::<C>(Arc::clone(&self.state), spec, connections, tap)))
+        let gate = Outgoing::new::<C>(Arc::clone(&self.state), spec, connections, tap);
+        self.follow(index, gate.figures());
+        Ok(Pub::new(gate))
     }
 
     /// Opens the `push` gate at an index of the component's list.
@@ -47,7 +52,9 @@ impl Opener {
         let spec = self.gate(index);
         let connections = self.connections(spec, |transport, endpoint| transport.push(endpoint))?;
         // The puller has the tap.
-        Ok(Push::new(Outgoing::new::<C>(Arc::clone(&self.state), spec, connections, GateTap::new(None))))
+        let gate = Outgoing::new::<C>(Arc::clone(&self.state), spec, connections, GateTap::new(None));
+        self.follow(index, gate.figures());
+        Ok(Push::new(gate))
     }
 
     /// Opens the `sub` gate at an index of the component's list.
@@ -56,7 +63,9 @@ impl Opener {
         let subscribe = |link| self.transport.subscribe(&self.connecting(spec, link));
         let links = spec.links.iter().map(subscribe).collect::<Result<_, _>>();
         let links = links.map_err(|source| self.refused(spec, source))?;
-        Ok(Sub::new(Incoming::new::<C>(Arc::clone(&self.state), spec, links, GateTap::new(None))))
+        let gate = Incoming::new::<C>(Arc::clone(&self.state), spec, links, GateTap::new(None));
+        self.follow(index, gate.figures());
+        Ok(Sub::new(gate))
     }
 
     /// Opens the `pull` gate at an index of the component's list.
@@ -65,7 +74,9 @@ impl Opener {
         let link = self.transport.pull(&endpoint(spec.endpoint, spec));
         let link = link.map_err(|source| self.refused(spec, source))?;
         let tap = self.tap(spec)?;
-        Ok(Pull::new(Incoming::new::<C>(Arc::clone(&self.state), spec, vec![link], tap)))
+        let gate = Incoming::new::<C>(Arc::clone(&self.state), spec, vec![link], tap);
+        self.follow(index, gate.figures());
+        Ok(Pull::new(gate))
     }
 
     /// Opens the `req` gate at an index of the component's list.
@@ -74,7 +85,9 @@ impl Opener {
         let link = spec.links.first().map(|link| self.transport.request(&self.connecting(spec, link))).transpose();
         let link = link.map_err(|source| self.refused(spec, source))?;
         let watchdog = Watchdog::new().map_err(|source| OpenError::Timer { gate: self.name(spec), source })?;
-        Ok(Req::new::<C>(Arc::clone(&self.state), spec, link, watchdog))
+        let gate = Req::new::<C>(Arc::clone(&self.state), spec, link, watchdog);
+        self.follow(index, gate.figures());
+        Ok(gate)
     }
 
     /// Opens the `rep` gate at an index of the component's list.
@@ -83,12 +96,18 @@ impl Opener {
         let link = self.transport.reply(&endpoint(spec.endpoint, spec));
         let link = link.map_err(|source| self.refused(spec, source))?;
         let tap = self.tap(spec)?;
-        Ok(Rep::new::<C>(Arc::clone(&self.state), spec, link, tap))
+        let gate = Rep::new::<C>(Arc::clone(&self.state), spec, link, tap);
+        self.follow(index, gate.figures());
+        Ok(gate)
     }
 
     /// What the component holds besides its gates.
     pub fn handle(&self) -> ComponentHandle {
         ComponentHandle(Arc::clone(&self.state))
+    }
+
+    fn follow(&self, index: usize, figures: FigureSource) {
+        self.state.monitor().follow(index, figures);
     }
 
     fn gate(&self, index: usize) -> &'static GateSpec {
@@ -100,8 +119,9 @@ impl Opener {
         spec: &'static GateSpec,
         open: impl Fn(&dyn Transport, &Endpoint) -> Result<Box<dyn Sender>, TransportError>,
     ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
-        let connect = |link| {
-            let sender = open(&*self.transport, &self.connecting(spec, link));
+        let connect = |link: &'static LinkSpec| {
+            let lossless = spec.options.backpressure && link.when_full == WhenFull::Wait;
+            let sender = open(&*self.transport, &Endpoint { lossless, ..self.connecting(spec, link) });
             let sender = sender.map_err(|source| self.refused(spec, source))?;
             let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes());
             Ok(self.state.drive(connection))
@@ -138,11 +158,12 @@ fn register(
     options: &OpenOptions,
 ) -> Result<(Registration, Arc<dyn Transport>), OpenError> {
     let (system, medium) = (options.system_name(spec.system)?, options.chosen_medium()?);
+    let stats = stats_period(&|name| options.variable(name))?;
     let failed = |source| OpenError::RuntimeDir { component: spec.name, source };
     let runtime_dir = RuntimeDir::locate(&|name| options.variable(name)).map_err(failed)?;
     let dir = runtime_dir.system(&system).map_err(failed)?;
     let transport = transport(spec, &dir, medium)?;
-    Ok((Registration::in_folder(spec, dir).map_err(failed)?, transport))
+    Ok((Registration::in_folder(spec, dir, stats).map_err(failed)?, transport))
 }
 
 #[cfg(feature = "zeromq")]

@@ -4,6 +4,7 @@ use super::foreign::ForeignPeer;
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::stats::{Activity, PeerStats};
 use crate::error::{GateName, Missing, PeerName, Unflushed};
+use crate::runtime_dir::{ConnectionFigures, GateFigures};
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
 use crate::state::{Changes, SendingEnd};
 use crate::transport::{Link, Peer, PeerKind, Sender};
@@ -184,6 +185,30 @@ impl Connection {
         self.foreign.iter().fold(self.foreign_left, |(sent, dropped), one| (sent + one.sent(), dropped + one.dropped()))
     }
 
+    /// Adds what this connection has done to the figures of its gate, and returns its own.
+    pub(crate) fn add_to_figures(&self, gate: &mut GateFigures) -> ConnectionFigures {
+        let (dropped_oldest, dropped_newest) = (self.queue.dropped_oldest, self.queue.dropped_newest);
+        let (sent_to_foreign, dropped_for_foreign) = self.foreign_counts();
+        let figures = ConnectionFigures {
+            connected: self.is_connected(),
+            waiting: self.queue.len() as u64,
+            // What is not acknowledged yet counts, too: at a slow gate, a peer acknowledges only when it is asked.
+            taken: self.account.handed - self.account.lost,
+            dropped: dropped_oldest + dropped_newest,
+            lost: self.account.lost,
+        };
+        self.account.activity.add_to_figures(gate);
+        gate.sent += self.account.handed + sent_to_foreign;
+        gate.dropped_oldest += dropped_oldest;
+        gate.dropped_newest += dropped_newest;
+        gate.dropped_for_observers += dropped_for_foreign;
+        gate.lost += figures.lost;
+        // Messages on their way do not wait in this program, and many may be until the peer acknowledges some of them.
+        gate.waiting += self.queue.len() as u64;
+        gate.peers += u64::from(figures.connected);
+        figures
+    }
+
     pub(crate) fn stats(&self) -> PeerStats {
         let unacknowledged = self.unacknowledged();
         let (dropped_oldest, dropped_newest) = (self.queue.dropped_oldest, self.queue.dropped_newest);
@@ -348,6 +373,10 @@ impl SendingEnd for Connection {
 
     fn wake_call(&mut self) {
         self.waiting_sender.take().into_iter().for_each(Waker::wake);
+    }
+
+    fn call_waits(&self) -> bool {
+        self.waiting_sender.is_some()
     }
 
     fn write_out(&mut self) -> bool {

@@ -1,11 +1,14 @@
 //! The end of a `req` gate, shared by its calls and its background task.
 
 use super::io_waker::IoWaker;
+use super::stats::{Activity, GateStats};
 use super::watch::Watch;
 use crate::error::{BlockingError, Missing};
+use crate::figures::{FigureSource, FiguresInWait};
+use crate::runtime_dir::{ConnectionFigures, GateFigures};
 use crate::spec::GateSpec;
 use crate::state::{Changes, ComponentState, WakeCall};
-use crate::sync::{AbortOnDrop, lock};
+use crate::sync::{AbortOnDrop, lock, try_lock};
 use crate::time::Watchdog;
 use crate::transport::{Answer, Requester};
 use bytes::Bytes;
@@ -31,14 +34,17 @@ struct End {
     refused: bool,
     was_connected: bool,
     changes: Changes,
+    sent: u64,
+    received: u64,
+    /// Replies that the codec could not read.
+    undecodable: u64,
+    activity: Activity,
+    in_wait: Arc<FiguresInWait>,
 }
 
 /// Why a request got no reply.
 pub(super) enum ExchangeError {
-    TimedOut {
-        /// Whether the request was sent before.
-        sent: bool,
-    },
+    TimedOut,
     Lost,
     /// The gate cannot be used any more.
     Refused(BlockingError),
@@ -50,8 +56,19 @@ impl Exchange {
         let (io, changes) = (Arc::new(IoWaker::default()), state.changes());
         state.register_calls(Arc::downgrade(&io) as _);
         let waker = Waker::from(Arc::clone(&io));
-        let end =
-            Arc::new(Mutex::new(End { link, waker, in_call: false, refused: false, was_connected: false, changes }));
+        let end = Arc::new(Mutex::new(End {
+            link,
+            waker,
+            in_call: false,
+            refused: false,
+            was_connected: false,
+            changes,
+            sent: 0,
+            received: 0,
+            undecodable: 0,
+            activity: Activity::default(),
+            in_wait: Arc::new(FiguresInWait::new(1)),
+        }));
         // Weak, so that the end is gone with the gate, and not only when the runtime drops the task.
         let (driven, task_io) = (Arc::downgrade(&end), Arc::clone(&io));
         let task = tokio::spawn(poll_fn(move |cx| {
@@ -90,7 +107,7 @@ impl Exchange {
                 return Poll::Ready(Err(ExchangeError::Refused(refused)));
             }
             // Without its timer the call could wait forever, so a timer that fails ends it too.
-            watchdog.poll_past(cx, deadline).map(|_past| Err(ExchangeError::TimedOut { sent: unsent.is_none() }))
+            watchdog.poll_past(cx, deadline).map(|_past| Err(ExchangeError::TimedOut))
         })
         .await
     }
@@ -112,7 +129,7 @@ impl Exchange {
                 Poll::Pending => changed.as_mut().poll(cx).map(|()| false),
             });
             if past.await {
-                return Err(ExchangeError::TimedOut { sent: false });
+                return Err(ExchangeError::TimedOut);
             }
         }
     }
@@ -130,7 +147,7 @@ impl Exchange {
         if unsent.is_none()
             && polled.is_pending()
             && let Some(within) = direct_wait.take()
-            && end.link.wait(within.min(deadline.saturating_duration_since(Instant::now())))
+            && end.wait(within.min(deadline.saturating_duration_since(Instant::now())))
         {
             polled = end.poll_call(id, unsent);
         }
@@ -144,10 +161,6 @@ impl Exchange {
         polled
     }
 
-    pub(super) fn is_connected(&self) -> bool {
-        self.lock().link.is_connected()
-    }
-
     pub(super) fn missing(&self, spec: &'static GateSpec) -> Vec<Missing> {
         self.lock().missing(spec)
     }
@@ -155,6 +168,31 @@ impl Exchange {
     pub(super) fn watch(&self, spec: &'static GateSpec) -> Watch {
         let end = Arc::downgrade(&self.end);
         Watch::new(spec, move || end.upgrade().map(|end| lock(&end).missing(spec)).unwrap_or_default())
+    }
+
+    pub(super) fn stats(&self) -> GateStats {
+        let end = self.lock();
+        let mut stats = GateStats { sent: end.sent, received: end.received, ..GateStats::default() };
+        stats.rejected = end.undecodable;
+        stats.peers = usize::from(end.link.is_connected());
+        end.activity.add_to(&mut stats);
+        stats
+    }
+
+    pub(super) fn count_undecodable(&self) {
+        self.lock().undecodable += 1;
+    }
+
+    pub(super) fn figures(&self) -> FigureSource {
+        let (end, in_wait) = (Arc::downgrade(&self.end), Arc::clone(&self.lock().in_wait));
+        Box::new(move |figures| {
+            let Some(end) = end.upgrade() else { return false };
+            match try_lock(&end) {
+                Some(end) => end.read_figures(figures),
+                None => in_wait.copy_to(figures),
+            }
+            true
+        })
     }
 
     /// Keeps the end from being dropped in a forked child, where that would disturb the parent.
@@ -192,14 +230,43 @@ impl End {
                 self.refused = true;
                 return Poll::Pending;
             }
+            self.sent += 1;
         }
         loop {
             match self.link.poll_answer(cx) {
-                Poll::Ready(Answer::Reply { id: replied, body }) if replied == id => return Poll::Ready(Ok(body)),
+                Poll::Ready(Answer::Reply { id: replied, body }) if replied == id => {
+                    self.received += 1;
+                    self.activity.add(body.len());
+                    return Poll::Ready(Ok(body));
+                }
                 Poll::Ready(Answer::Reply { .. }) => tracing::debug!("discarded the reply to an earlier call"),
                 Poll::Ready(Answer::Lost) => return Poll::Ready(Err(ExchangeError::Lost)),
                 Poll::Pending => return Poll::Pending,
             }
+        }
+    }
+
+    /// Waits for the reply on the calling thread.
+    fn wait(&mut self, within: Duration) -> bool {
+        let in_wait = Arc::clone(&self.in_wait);
+        let _waiting = in_wait.begin(|figures| self.read_figures(figures));
+        self.link.wait(within)
+    }
+
+    fn read_figures(&self, figures: &mut GateFigures) {
+        figures.clear();
+        (figures.sent, figures.received, figures.rejected) = (self.sent, self.received, self.undecodable);
+        figures.waiting = self.in_call.into();
+        let connected = self.link.is_connected();
+        figures.peers = connected.into();
+        self.activity.add_to_figures(figures);
+        for connection in &mut figures.connections {
+            *connection = ConnectionFigures {
+                connected,
+                waiting: self.in_call.into(),
+                taken: self.received,
+                ..ConnectionFigures::default()
+            };
         }
     }
 

@@ -6,9 +6,11 @@ use super::ready_set::{ReadySet, ReadySignals};
 use super::stats::Activity;
 use super::tap::{GateTap, Observed};
 use crate::error::Missing;
+use crate::figures::{FigureSource, FiguresInWait};
+use crate::runtime_dir::GateFigures;
 use crate::spec::{GateSpec, WhenFull};
 use crate::state::{Changes, ComponentState, WakeCall};
-use crate::sync::{AbortOnDrop, lock};
+use crate::sync::{AbortOnDrop, lock, try_lock};
 use crate::transport::Receiver;
 use bytes::Bytes;
 use std::future::poll_fn;
@@ -33,8 +35,15 @@ pub(super) struct Inbox {
     /// Whether a sender was asked for what it holds back.
     catching_up: bool,
     newest_only: bool,
+    /// Whether one link serves all peers.
+    listens: bool,
     pub(super) received: u64,
+    /// The same for each link.
+    received_over: Vec<u64>,
+    /// Messages that the codec could not read.
+    pub(super) undecodable: u64,
     pub(super) activity: Activity,
+    in_wait: Arc<FiguresInWait>,
     tap: GateTap,
     waker: Waker,
     connected: Vec<usize>,
@@ -102,6 +111,18 @@ impl SharedInbox {
         lock(&self.inbox)
     }
 
+    pub(super) fn figures(&self) -> FigureSource {
+        let (inbox, in_wait) = (self.downgrade(), Arc::clone(&self.lock().in_wait));
+        Box::new(move |figures| {
+            let Some(inbox) = inbox.upgrade() else { return false };
+            match try_lock(&inbox) {
+                Some(inbox) => inbox.read_figures(figures),
+                None => in_wait.copy_to(figures),
+            }
+            true
+        })
+    }
+
     pub(super) fn downgrade(&self) -> Weak<Mutex<Inbox>> {
         Arc::downgrade(&self.inbox)
     }
@@ -117,13 +138,17 @@ impl Inbox {
         let policy = QueuePolicy { capacity: spec.options.queue as usize, when_full: spec.options.when_full };
         Self {
             connected: vec![0; links.len()],
+            received_over: vec![0; links.len()],
             links,
             next: 0,
             queue: Queue::new(policy),
             was_empty: false,
             catching_up: false,
             newest_only: spec.newest_only(),
+            listens: !spec.endpoint.is_empty(),
             received: 0,
+            undecodable: 0,
+            in_wait: Arc::new(FiguresInWait::new(spec.links.len())),
             activity: Activity::default(),
             tap,
             waker,
@@ -174,8 +199,15 @@ impl Inbox {
             if let Poll::Ready(arrived) = self.poll_next() {
                 return Some(arrived);
             }
-            let [link] = &mut self.links[..] else { return None };
-            if !link.wait(within.checked_sub(started.elapsed())?) {
+            if self.links.len() != 1 {
+                return None;
+            }
+            let within = within.checked_sub(started.elapsed())?;
+            let in_wait = Arc::clone(&self.in_wait);
+            let waiting = in_wait.begin(|figures| self.read_figures(figures));
+            let arrived = self.links[0].wait(within);
+            drop(waiting);
+            if !arrived {
                 return None;
             }
         }
@@ -198,6 +230,12 @@ impl Inbox {
         self.was_empty = false;
         self.catch_up();
         self.take_in();
+        if !self.queue.waits() && self.is_lossless() {
+            // The sender waits for each of its messages: at any time there is only one.
+            let next = self.queue.pop();
+            self.report_ready();
+            return next;
+        }
         let mut newest = self.queue.pop_newest();
         if self.queue.waits() {
             // Such a gate takes in no more than its queue holds, but what is passed over keeps no publisher waiting.
@@ -236,7 +274,7 @@ impl Inbox {
     /// Drains the links into the queue, as far as it makes its senders wait.
     fn take_in(&mut self) {
         for _ in 0..TAKE_IN {
-            if self.queue.waits() && self.queue.is_full() {
+            if self.queue.is_full() && (self.queue.waits() || self.is_lossless()) {
                 return;
             }
             let Poll::Ready(arrived) = self.poll_links() else { return };
@@ -247,6 +285,11 @@ impl Inbox {
         self.waker.wake_by_ref();
     }
 
+    /// Whether a sender relies on this gate not to drop messages, although its queue would.
+    fn is_lossless(&self) -> bool {
+        self.links.iter().any(|link| link.is_lossless())
+    }
+
     fn poll_links(&mut self) -> Poll<Arrived> {
         let cx = &mut Context::from_waker(&self.waker);
         let count = self.links.len();
@@ -255,6 +298,7 @@ impl Inbox {
             if let Poll::Ready(frame) = self.links[link].poll_recv(cx) {
                 self.next = (link + 1) % count;
                 self.received += 1;
+                self.received_over[link] += 1;
                 self.activity.add(frame.len());
                 self.tap.observe(Observed::Message, 0, &frame);
                 return Poll::Ready(Arrived { link, frame });
@@ -306,6 +350,32 @@ impl Inbox {
         missing.map(|(link, end)| Missing { link, refusal: end.refusal() }).collect()
     }
 
+    /// Brings the figures of the gate up to date.
+    pub(super) fn read_figures(&self, figures: &mut GateFigures) {
+        figures.clear();
+        figures.received = self.received;
+        figures.rejected = self.rejected();
+        figures.dropped_oldest = self.queue.dropped_oldest;
+        figures.dropped_newest = self.queue.dropped_newest;
+        figures.tap_dropped = self.tap_dropped();
+        figures.dropped_for_observers = figures.tap_dropped;
+        figures.waiting = self.queue.len() as u64;
+        figures.peers = self.peers() as u64;
+        self.activity.add_to_figures(figures);
+        if self.listens {
+            return figures.share(self.peers() as u64, self.received);
+        }
+        let links = self.links.iter().zip(&self.received_over);
+        for (connection, (link, received)) in figures.connections.iter_mut().zip(links) {
+            (connection.connected, connection.taken) = (link.peers() > 0, *received);
+        }
+    }
+
+    /// Number of messages that could not be used.
+    pub(super) fn rejected(&self) -> u64 {
+        self.undecodable + self.malformed()
+    }
+
     pub(super) fn queue(&self) -> &Queue<Arrived> {
         &self.queue
     }
@@ -315,7 +385,7 @@ impl Inbox {
     }
 
     /// Number of messages that were not one frame.
-    pub(super) fn malformed(&self) -> u64 {
+    fn malformed(&self) -> u64 {
         self.links.iter().map(|link| link.malformed()).sum()
     }
 

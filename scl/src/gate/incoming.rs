@@ -6,6 +6,7 @@ use super::tap::GateTap;
 use super::watch::Watch;
 use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, GateName, Missing, Peers, RecvError, RecvTimeoutError};
+use crate::figures::FigureSource;
 use crate::spec::GateSpec;
 use crate::state::ComponentState;
 use crate::sync::lock;
@@ -20,7 +21,6 @@ pub(crate) struct Incoming<T> {
     name: GateName,
     inbox: SharedInbox,
     decode: fn(Bytes) -> Result<T, DecodeError>,
-    undecodable: u64,
     /// Dropped after the ends, which are this component's only as long as it holds its lock.
     pub(crate) state: Arc<ComponentState>,
 }
@@ -34,7 +34,7 @@ impl<T> Incoming<T> {
     ) -> Self {
         let name = GateName::new(state.spec().name, spec.name);
         let inbox = SharedInbox::new(spec, links, tap, &state);
-        Self { spec, name, inbox, decode: C::decode, undecodable: 0, state }
+        Self { spec, name, inbox, decode: C::decode, state }
     }
 
     pub(crate) async fn recv(&mut self) -> Result<T, RecvError> {
@@ -133,14 +133,14 @@ impl<T> Incoming<T> {
 
     fn decode(&mut self, Arrived { link, frame }: Arrived) -> Result<T, RecvError> {
         (self.decode)(frame).map_err(|source| {
-            self.undecodable += 1;
+            self.inbox.lock().undecodable += 1;
             RecvError::Decode { gate: self.name, peers: self.senders(link), source }
         })
     }
 
     /// Counts a message that the program itself could not decode.
     pub(crate) fn reject(&mut self, source: DecodeError) -> RecvError {
-        self.undecodable += 1;
+        self.inbox.lock().undecodable += 1;
         RecvError::Decode { gate: self.name, peers: Peers::of(self.spec), source }
     }
 
@@ -175,11 +175,15 @@ impl<T> Incoming<T> {
             .reporting(move |set| reporting.upgrade().into_iter().for_each(|inbox| lock(&inbox).report_to(set.clone())))
     }
 
+    pub(crate) fn figures(&self) -> FigureSource {
+        self.inbox.figures()
+    }
+
     pub(crate) fn stats(&self) -> GateStats {
         let inbox = self.inbox.lock();
         let mut stats = GateStats {
             received: inbox.received,
-            rejected: self.undecodable + inbox.malformed(),
+            rejected: inbox.rejected(),
             dropped_oldest: inbox.queue().dropped_oldest,
             dropped_newest: inbox.queue().dropped_newest,
             dropped_for_observers: inbox.tap_dropped(),

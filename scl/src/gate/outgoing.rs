@@ -7,6 +7,7 @@ use super::tap::{GateTap, Observed};
 use super::watch::Watch;
 use crate::codec::Codec;
 use crate::error::{GateName, Missing, PeerName, SendError, SendTimeoutError, TrySendError};
+use crate::figures::FigureSource;
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
 use crate::state::{ComponentState, SendingEnd};
 use crate::sync::lock;
@@ -32,6 +33,8 @@ pub(crate) struct Outgoing<T> {
     strictest: Option<&'static LinkSpec>,
     /// Number of connects and disconnects reported by `peers_changed`.
     reported: u64,
+    /// Counts the gate itself, whose connections may live longer.
+    open: Arc<()>,
     pub(crate) state: Arc<ComponentState>,
 }
 
@@ -47,7 +50,20 @@ impl<T> Outgoing<T> {
         let name = GateName::new(state.spec().name, spec.name);
         let strictest = spec.links.iter().min_by_key(|link| link.max_size);
         let encoding = Encoding::with::<C>();
-        Self { spec, name, connections, tap, encoding, may_wait, shares, turn: 0, strictest, reported: 0, state }
+        Self {
+            spec,
+            name,
+            connections,
+            tap,
+            encoding,
+            may_wait,
+            shares,
+            turn: 0,
+            strictest,
+            reported: 0,
+            open: Arc::default(),
+            state,
+        }
     }
 
     pub(crate) async fn send(&mut self, message: &T) -> Result<(), SendError> {
@@ -203,6 +219,27 @@ impl<T> Outgoing<T> {
         Watch::new(self.spec, move || {
             let connections = connections.iter().filter_map(Weak::upgrade);
             connections.filter_map(|connection| lock(&connection).missing()).collect()
+        })
+    }
+
+    pub(crate) fn figures(&self) -> FigureSource {
+        let connections: Vec<Weak<Mutex<Connection>>> = self.connections.iter().map(Arc::downgrade).collect();
+        let (open, dropped) = (Arc::downgrade(&self.open), self.tap.dropped_later());
+        Box::new(move |figures| {
+            // Checked first: connections outlive their gate until their peers have taken everything.
+            let is_open = open.strong_count() > 0;
+            if connections.iter().any(|connection| connection.strong_count() == 0) {
+                return is_open;
+            }
+            figures.clear();
+            for (index, connection) in connections.iter().enumerate() {
+                let Some(connection) = connection.upgrade() else { continue };
+                let own = lock(&connection).add_to_figures(figures);
+                figures.connections[index] = own;
+            }
+            figures.tap_dropped = dropped();
+            figures.dropped_for_observers += figures.tap_dropped;
+            is_open
         })
     }
 

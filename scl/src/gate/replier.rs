@@ -1,13 +1,14 @@
 //! The `rep` gate.
 
 use super::encoding::Encoding;
-use super::reply_end::ReplyEnd;
-use super::stats::{Activity, GateStats};
+use super::reply_end::{Numbered, ReplyEnd};
+use super::stats::GateStats;
 use super::tap::{GateTap, Observed};
 use super::watch::Watch;
 use super::{AnyGate, ReceivingGate};
 use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, GateName, Missing, PeerName, Peers, RecvError, RecvTimeoutError, ReplyError};
+use crate::figures::FigureSource;
 use crate::spec::{GateSpec, LinkSpec};
 use crate::state::ComponentState;
 use crate::sync::lock;
@@ -40,9 +41,6 @@ pub struct Rep<A, B> {
     spec: &'static GateSpec,
     end: Arc<ReplyEnd>,
     decode: fn(Bytes) -> Result<A, DecodeError>,
-    received: u64,
-    undecodable: u64,
-    activity: Activity,
     replies: Arc<Replies<B>>,
 }
 
@@ -70,7 +68,7 @@ impl<A, B> Rep<A, B> {
         let strictest = spec.links.iter().min_by_key(|link| link.max_size);
         let replies = Arc::new(Replies { gate, encoding, tap, strictest, state });
         let decode = <C as Codec<A>>::decode;
-        Self { spec, end, decode, received: 0, undecodable: 0, activity: Activity::default(), replies }
+        Self { spec, end, decode, replies }
     }
 
     /// Waits for the next request.
@@ -128,12 +126,17 @@ impl<A, B> Rep<A, B> {
 
     /// Returns the gate's counts; `received` counts requests.
     pub fn stats(&self) -> GateStats {
-        let mut stats = GateStats { received: self.received, ..GateStats::default() };
-        self.activity.add_to(&mut stats);
-        stats.rejected = self.undecodable + self.end.malformed();
+        let counts = self.end.counts();
+        let mut stats = GateStats { received: counts.received, ..GateStats::default() };
+        counts.activity.add_to(&mut stats);
+        stats.rejected = counts.undecodable + self.end.malformed();
         stats.peers = self.end.peers();
         stats.dropped_for_observers = self.replies.tap.dropped();
         stats
+    }
+
+    pub(crate) fn figures(&self) -> FigureSource {
+        self.end.figures(&self.replies.tap)
     }
 
     fn poll_recv(&mut self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Result<Request<A, B>, RecvError>> {
@@ -161,20 +164,14 @@ impl<A, B> Rep<A, B> {
 
     /// Counts a request that the program itself could not decode.
     pub(crate) fn reject(&mut self, source: DecodeError) -> RecvError {
-        self.undecodable += 1;
+        self.end.count_undecodable();
         RecvError::Decode { gate: self.replies.gate, peers: Peers::of(self.spec), source }
     }
 
-    fn decode(
-        &mut self,
-        IncomingRequest { body, envelope, path }: IncomingRequest,
-    ) -> Result<Request<A, B>, RecvError> {
-        self.received += 1;
-        self.activity.add(body.len());
-        let id = self.received;
+    fn decode(&mut self, (id, IncomingRequest { body, envelope, path }): Numbered) -> Result<Request<A, B>, RecvError> {
         self.replies.tap.observe(Observed::Request, id, &body);
         let decoded = (self.decode)(body).map_err(|source| {
-            self.undecodable += 1;
+            self.end.count_undecodable();
             RecvError::Decode { gate: self.replies.gate, peers: Peers::of(self.spec), source }
         });
         Ok(Request { message: decoded?, id, envelope, path, replies: Arc::clone(&self.replies) })

@@ -2,13 +2,20 @@
 
 use super::io_waker::IoWaker;
 use super::ready_set::{ReadySet, ReadySignals};
+use super::stats::Activity;
+use super::tap::GateTap;
 use crate::error::Unflushed;
+use crate::figures::FigureSource;
+use crate::runtime_dir::GateFigures;
 use crate::state::{ComponentState, SendingEnd, WakeCall};
-use crate::sync::{AbortOnDrop, lock};
+use crate::sync::{AbortOnDrop, lock, try_lock};
 use crate::transport::{IncomingRequest, Replier};
 use std::future::poll_fn;
 use std::sync::{Arc, Mutex, Weak};
-use std::task::{Context, Poll, Waker};
+use std::task::{Context, Poll, Waker, ready};
+
+/// A request, and how many had arrived with it.
+pub(super) type Numbered = (u64, IncomingRequest);
 
 pub(super) struct ReplyEnd {
     link: Arc<Mutex<Link>>,
@@ -21,11 +28,20 @@ struct Link {
     waker: Waker,
     written: bool,
     peers: usize,
+    counts: RequestCounts,
     /// A request that was read to know that there is one.
     next: Option<IncomingRequest>,
     ready: ReadySignals,
     /// A dropped gate and the component's flush may both wait.
     waiting_flushes: Vec<Waker>,
+}
+
+/// What has become of the requests of a gate.
+#[derive(Debug, Clone, Default)]
+pub(super) struct RequestCounts {
+    pub(super) received: u64,
+    pub(super) undecodable: u64,
+    pub(super) activity: Activity,
 }
 
 impl ReplyEnd {
@@ -39,6 +55,7 @@ impl ReplyEnd {
             waker,
             written: true,
             peers: 0,
+            counts: RequestCounts::default(),
             next: None,
             ready: ReadySignals::default(),
             waiting_flushes: Vec::new(),
@@ -58,8 +75,8 @@ impl ReplyEnd {
         Arc::new(Self { link, io, _task: AbortOnDrop(task.abort_handle()) })
     }
 
-    /// Returns the next request, or registers the call and returns `Pending`. `may_vanish`: see [`IoWaker::wait`].
-    pub(super) fn poll_next(&self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<IncomingRequest> {
+    /// Returns the next request with its number, or registers the call and returns `Pending`. `may_vanish`: see [`IoWaker::wait`].
+    pub(super) fn poll_next(&self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Numbered> {
         let mut link = lock(&self.link);
         let polled = link.poll_next();
         link.report_ready();
@@ -81,7 +98,7 @@ impl ReplyEnd {
         Poll::Pending
     }
 
-    pub(super) fn try_next(&self) -> Option<IncomingRequest> {
+    pub(super) fn try_next(&self) -> Option<Numbered> {
         let mut link = lock(&self.link);
         let polled = link.poll_next();
         link.report_ready();
@@ -121,6 +138,28 @@ impl ReplyEnd {
         lock(&self.link).replier.malformed()
     }
 
+    pub(super) fn counts(&self) -> RequestCounts {
+        lock(&self.link).counts.clone()
+    }
+
+    pub(super) fn count_undecodable(&self) {
+        lock(&self.link).counts.undecodable += 1;
+    }
+
+    pub(super) fn figures(self: &Arc<Self>, tap: &GateTap) -> FigureSource {
+        // The link may live longer than its gate, until the last reply is written.
+        let (end, dropped) = (Arc::downgrade(self), tap.dropped_later());
+        Box::new(move |figures| {
+            let Some(end) = end.upgrade() else { return false };
+            if let Some(link) = try_lock(&end.link) {
+                link.read_figures(figures);
+                figures.tap_dropped = dropped();
+                figures.dropped_for_observers = figures.tap_dropped;
+            }
+            true
+        })
+    }
+
     /// The end itself, which the component keeps until the last reply is written.
     pub(super) fn link(&self) -> Arc<Mutex<dyn SendingEnd>> {
         Arc::clone(&self.link) as _
@@ -128,11 +167,24 @@ impl ReplyEnd {
 }
 
 impl Link {
-    fn poll_next(&mut self) -> Poll<IncomingRequest> {
-        match self.next.take() {
-            Some(request) => Poll::Ready(request),
-            None => self.replier.poll_request(&mut Context::from_waker(&self.waker)),
-        }
+    fn poll_next(&mut self) -> Poll<Numbered> {
+        let request = match self.next.take() {
+            Some(request) => request,
+            None => ready!(self.replier.poll_request(&mut Context::from_waker(&self.waker))),
+        };
+        self.counts.received += 1;
+        self.counts.activity.add(request.body.len());
+        Poll::Ready((self.counts.received, request))
+    }
+
+    fn read_figures(&self, figures: &mut GateFigures) {
+        figures.clear();
+        figures.received = self.counts.received;
+        figures.rejected = self.counts.undecodable + self.replier.malformed();
+        figures.peers = self.replier.peers() as u64;
+        figures.waiting = self.next.is_some().into();
+        self.counts.activity.add_to_figures(figures);
+        figures.share(self.replier.peers() as u64, self.counts.received);
     }
 
     /// Returns true if there is a request.

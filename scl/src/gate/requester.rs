@@ -3,10 +3,11 @@
 use super::AnyGate;
 use super::encoding::Encoding;
 use super::exchange::{Exchange, ExchangeError};
-use super::stats::{Activity, GateStats};
+use super::stats::GateStats;
 use super::watch::Watch;
 use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, CallError, GateName, Missing, PeerName, Peers};
+use crate::figures::FigureSource;
 use crate::spec::GateSpec;
 use crate::state::ComponentState;
 use crate::time::Watchdog;
@@ -40,10 +41,6 @@ pub struct Req<A, B> {
     encoding: Encoding<A>,
     decode: fn(Bytes) -> Result<B, DecodeError>,
     last_id: u64,
-    sent: u64,
-    received: u64,
-    undecodable: u64,
-    activity: Activity,
     /// Dropped after the end, which is this component's only as long as it holds its lock.
     state: Arc<ComponentState>,
 }
@@ -65,10 +62,6 @@ impl<A, B> Req<A, B> {
             encoding: Encoding::with::<C>(),
             decode: <C as Codec<B>>::decode,
             last_id: 0,
-            sent: 0,
-            received: 0,
-            undecodable: 0,
-            activity: Activity::default(),
             state,
         }
     }
@@ -105,13 +98,11 @@ impl<A, B> Req<A, B> {
             None => Exchange::unconnected(&mut self.watchdog, deadline, &self.state).await,
         };
         let (gate, peers) = (self.name, Peers::of(self.spec));
-        // A connection that broke before the request was sent is no reason to count it.
-        self.sent += u64::from(!matches!(exchanged, Err(ExchangeError::TimedOut { sent: false })));
         match exchanged {
             Ok(body) => self.decode(body),
             Err(ExchangeError::Refused(source)) => Err(CallError::Blocking { gate, source }),
             Err(ExchangeError::Lost) => Err(CallError::PeerLost { gate, peers }),
-            Err(ExchangeError::TimedOut { .. }) => {
+            Err(ExchangeError::TimedOut) => {
                 let (connected, waited) = (self.is_connected(), started.elapsed());
                 let reason = self.state.why_missing(self.spec, &self.missing());
                 Err(CallError::Timeout { gate, peers, waited, connected, reason })
@@ -148,11 +139,14 @@ impl<A, B> Req<A, B> {
 
     /// Returns the gate's counts; `sent` counts requests, `received` replies.
     pub fn stats(&self) -> GateStats {
-        let mut stats = GateStats { sent: self.sent, received: self.received, ..GateStats::default() };
-        stats.rejected = self.undecodable;
-        self.activity.add_to(&mut stats);
-        stats.peers = usize::from(self.exchange.as_ref().is_some_and(Exchange::is_connected));
-        stats
+        self.exchange.as_ref().map(Exchange::stats).unwrap_or_default()
+    }
+
+    pub(crate) fn figures(&self) -> FigureSource {
+        match &self.exchange {
+            Some(exchange) => exchange.figures(),
+            None => Box::new(|_| true),
+        }
     }
 
     fn encode(&mut self, request: &A) -> Result<Bytes, CallError> {
@@ -172,15 +166,13 @@ impl<A, B> Req<A, B> {
 
     /// Counts a reply that the program itself could not decode.
     pub(crate) fn reject(&mut self, source: DecodeError) -> CallError {
-        self.undecodable += 1;
+        self.exchange.iter().for_each(Exchange::count_undecodable);
         CallError::Decode { gate: self.name, peers: Peers::of(self.spec), source }
     }
 
     fn decode(&mut self, body: Bytes) -> Result<B, CallError> {
-        self.received += 1;
-        self.activity.add(body.len());
         (self.decode)(body).map_err(|source| {
-            self.undecodable += 1;
+            self.exchange.iter().for_each(Exchange::count_undecodable);
             CallError::Decode { gate: self.name, peers: Peers::of(self.spec), source }
         })
     }

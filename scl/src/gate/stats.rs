@@ -1,7 +1,8 @@
 //! What a gate has done so far.
 
+use crate::runtime_dir::GateFigures;
 use rustix::time::{ClockId, clock_gettime};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 /// A gate's counts since its component was opened.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -72,6 +73,11 @@ impl Activity {
         stats.bytes += self.bytes;
         stats.last_activity = stats.last_activity.max(self.last.and_then(CoarseTime::to_instant));
     }
+
+    pub(crate) fn add_to_figures(&self, figures: &mut GateFigures) {
+        figures.bytes += self.bytes;
+        figures.last_activity = figures.last_activity.max(self.last.and_then(CoarseTime::to_system_time));
+    }
 }
 
 /// The operating system's coarse clock, exact to a few milliseconds. It is read for each message and costs a sixth of the
@@ -86,6 +92,14 @@ impl CoarseTime {
     }
 
     fn to_instant(self) -> Option<Instant> {
-        Instant::now().checked_sub(Self::now().0.saturating_sub(self.0))
+        Instant::now().checked_sub(self.elapsed())
+    }
+
+    fn to_system_time(self) -> Option<SystemTime> {
+        SystemTime::now().checked_sub(self.elapsed())
+    }
+
+    fn elapsed(self) -> Duration {
+        Self::now().0.saturating_sub(self.0)
     }
 }

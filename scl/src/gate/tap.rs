@@ -6,7 +6,7 @@ use bytes::Bytes;
 use rustix::time::{ClockId, clock_gettime};
 use std::future::poll_fn;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker};
 
 /// Length of the second frame of a message at a tap, in bytes.
@@ -31,6 +31,8 @@ struct Shared {
     /// Whether anybody observes; without, a message costs no more than a look at this and its number.
     observed: AtomicBool,
     sequence: AtomicU64,
+    /// Copied from the end, which may be locked while a long message is encoded.
+    dropped: AtomicU64,
 }
 
 struct End {
@@ -43,7 +45,12 @@ impl GateTap {
     pub(crate) fn new(tap: Option<Box<dyn Tap>>) -> Self {
         let Some(tap) = tap else { return Self { shared: None, _task: None } };
         let end = Mutex::new(End { tap, task: Waker::noop().clone() });
-        let shared = Arc::new(Shared { end, observed: AtomicBool::new(false), sequence: AtomicU64::new(0) });
+        let shared = Arc::new(Shared {
+            end,
+            observed: AtomicBool::new(false),
+            sequence: AtomicU64::new(0),
+            dropped: AtomicU64::new(0),
+        });
         // Weak, so that the socket is gone with the gate, and not only when the runtime drops the task.
         let driven = Arc::downgrade(&shared);
         let task = tokio::spawn(poll_fn(move |cx| match driven.upgrade() {
@@ -65,7 +72,13 @@ impl GateTap {
 
     /// Number of messages dropped because an observer reads slowly.
     pub(crate) fn dropped(&self) -> u64 {
-        self.shared.as_ref().map_or(0, |shared| lock(&shared.end).tap.dropped())
+        self.shared.as_ref().map_or(0, |shared| shared.dropped.load(Ordering::Relaxed))
+    }
+
+    /// Tells the same for as long as the gate exists.
+    pub(crate) fn dropped_later(&self) -> impl Fn() -> u64 + Send + Sync + 'static {
+        let shared = self.shared.as_ref().map(Arc::downgrade);
+        move || shared.as_ref().and_then(Weak::upgrade).map_or(0, |shared| shared.dropped.load(Ordering::Relaxed))
     }
 
     /// Keeps the tap from being dropped in a forked child, where that would disturb the parent.
@@ -92,6 +105,7 @@ impl Shared {
         let mut end = lock(&self.end);
         let End { tap, task } = &mut *end;
         tap.observe(&mut Context::from_waker(task), payload, &meta(sequence, now_ns(), call_id, what));
+        self.dropped.store(tap.dropped(), Ordering::Relaxed);
     }
 }
 

@@ -23,8 +23,22 @@ impl OwnedPath {
     /// Opens the file at `now`, which is about to be renamed to `path`.
     pub(super) fn of(now: &Path, path: &Path) -> io::Result<Self> {
         let flags = OFlags::PATH | OFlags::NOFOLLOW | OFlags::CLOEXEC;
+        Self::opened(now, path, flags)
+    }
+
+    /// The same, open for writing.
+    pub(super) fn writable(now: &Path, path: &Path) -> io::Result<Self> {
+        Self::opened(now, path, OFlags::WRONLY | OFlags::NOFOLLOW | OFlags::CLOEXEC)
+    }
+
+    fn opened(now: &Path, path: &Path, flags: OFlags) -> io::Result<Self> {
         let opened = rustix::fs::open(now, flags, Mode::empty())?.into();
         Ok(Self { path: path.to_owned(), opened, process: ProcessMark::new() })
+    }
+
+    /// The file; for reading its attributes, or for writing if it was opened so.
+    pub(super) fn file(&self) -> &File {
+        &self.opened
     }
 
     /// Returns true if the path still leads to the file that this process put there.

@@ -3,7 +3,7 @@
 use super::error::RuntimeDirError;
 use super::temp_entry::TempEntry;
 use rustix::fs::OFlags;
-use std::fs::OpenOptions;
+use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::Path;
@@ -17,10 +17,15 @@ pub(super) fn write_temp(folder: &Path, path: &Path, content: &[u8]) -> Result<T
     Ok(entry)
 }
 
+/// Opens a file for reading. Does not follow links, and does not wait at pipes.
+pub(super) fn open_file(path: &Path) -> io::Result<File> {
+    let flags = (OFlags::NOFOLLOW | OFlags::NONBLOCK).bits().cast_signed();
+    OpenOptions::new().read(true).custom_flags(flags).open(path)
+}
+
 /// Reads a file of at most `limit` bytes. Does not follow links, and does not wait at pipes.
 pub(super) fn read_file(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
-    let flags = (OFlags::NOFOLLOW | OFlags::NONBLOCK).bits().cast_signed();
-    let file = OpenOptions::new().read(true).custom_flags(flags).open(path)?;
+    let file = open_file(path)?;
     let mut content = Vec::new();
     file.take(limit.saturating_add(1)).read_to_end(&mut content)?;
     if content.len() as u64 > limit {

@@ -48,7 +48,20 @@ impl TempEntry {
 
     /// Renames it to `path`, replacing what is there. Dropping the returned value removes it.
     pub(super) fn rename(self, path: &Path) -> Result<OwnedPath, RuntimeDirError> {
-        let owned = OwnedPath::of(&self.path, path).map_err(|error| RuntimeDirError::io("open", &self.path, error))?;
+        self.rename_as(OwnedPath::of, path)
+    }
+
+    /// The same; the returned value has the file open for writing.
+    pub(super) fn rename_open(self, path: &Path) -> Result<OwnedPath, RuntimeDirError> {
+        self.rename_as(OwnedPath::writable, path)
+    }
+
+    fn rename_as(
+        self,
+        open: impl Fn(&Path, &Path) -> io::Result<OwnedPath>,
+        path: &Path,
+    ) -> Result<OwnedPath, RuntimeDirError> {
+        let owned = open(&self.path, path).map_err(|error| RuntimeDirError::io("open", &self.path, error))?;
         self.rename_and_keep(path)?;
         Ok(owned)
     }

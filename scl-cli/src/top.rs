@@ -1,0 +1,129 @@
+//! `scl top`: the components and gates of a running system.
+
+#[cfg(feature = "tui")]
+mod draw;
+#[cfg(feature = "tui")]
+mod live;
+mod rows;
+#[cfg(feature = "tui")]
+mod screen;
+#[cfg(feature = "tui")]
+mod view;
+
+use crate::format::{FormatArgument, print_json};
+use crate::observed::{SystemArgument, exit_code};
+use clap::{Args, ValueEnum};
+use rows::{COMPONENT_COLUMNS, GATE_COLUMNS, component_cells, gate_cells, sort, to_json};
+use scl_observe::{Snapshot, Watch};
+use scl_terminal::{Align, Problem, Table, parse_duration, print_out};
+use std::process::ExitCode;
+use std::thread;
+use std::time::Duration;
+
+/// The shortest period: figures are written twice a second.
+const SHORTEST_PERIOD: Duration = Duration::from_millis(100);
+
+/// Show the components and gates of a running system, live.
+///
+/// Everything is read from the files that components write twice a second, and from /proc, so watching costs them nothing.
+/// Keys: q ends, arrows choose a gate, Enter shows its connections, s changes the order, space pauses.
+#[derive(Args)]
+#[command(after_help = "\
+Columns: CPU is the part of one processor, MEM the resident memory, RATE the messages per second (each once for all peers),
+SENT counts a message once for each peer, WAIT those that wait in the program, DROP those dropped because a queue was full,
+LOST those on their way when a connection broke, PEERS the connected peers of all.
+
+Examples:
+  scl top
+  scl top --sort rate
+  scl top --once                        a table, for a pipe or a report
+  scl top --once --format json --period 10s
+
+Exit code: 0 shown, 2 no such system, or no terminal.")]
+pub(crate) struct TopArguments {
+    /// Print one table and exit.
+    #[arg(long)]
+    once: bool,
+    #[command(flatten)]
+    system: SystemArgument,
+    /// The time between two looks, which rates and processor time refer to.
+    #[arg(long, value_name = "DURATION", default_value = "1s", value_parser = parse_duration)]
+    period: Duration,
+    /// The order of the rows.
+    #[arg(long, value_enum, default_value_t = Order::Name)]
+    sort: Order,
+    #[command(flatten)]
+    format: FormatArgument,
+}
+
+/// What rows are sorted by. Where it does not apply, by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Order {
+    /// Components by name, gates as in the topology file.
+    Name,
+    /// Components by processor time.
+    Cpu,
+    /// Components by memory.
+    Memory,
+    /// Gates by messages per second.
+    Rate,
+    /// Gates by waiting messages.
+    Waiting,
+    /// Gates by dropped messages.
+    Dropped,
+}
+
+/// The body of `scl top`.
+pub(crate) fn top(arguments: &TopArguments) -> ExitCode {
+    exit_code(run(arguments))
+}
+
+fn run(arguments: &TopArguments) -> Result<ExitCode, Problem> {
+    let period = arguments.period.max(SHORTEST_PERIOD);
+    let mut watch = Watch::new(arguments.system.find()?);
+    if arguments.once {
+        watch.look();
+        thread::sleep(period);
+        let mut snapshot = watch.look();
+        sort(&mut snapshot, arguments.sort);
+        match arguments.format.is_json() {
+            true => print_json(&to_json(&snapshot)),
+            false => print_out(&table(&snapshot)),
+        }
+        return Ok(ExitCode::SUCCESS);
+    }
+    if arguments.format.is_json() {
+        return Err(Problem::new("the live display has no other format").help("add `--once`"));
+    }
+    live(watch, period, arguments.sort)
+}
+
+#[cfg(feature = "tui")]
+fn live(watch: Watch, period: Duration, order: Order) -> Result<ExitCode, Problem> {
+    live::run(watch, period, order)
+}
+
+#[cfg(not(feature = "tui"))]
+fn live(_watch: Watch, _period: Duration, _order: Order) -> Result<ExitCode, Problem> {
+    Err(Problem::new("this `scl` was built without the live display")
+        .help("add `--once`, or build with `--features tui`"))
+}
+
+fn table(snapshot: &Snapshot) -> String {
+    let mut components = Table::new(columns(&COMPONENT_COLUMNS));
+    snapshot.components.iter().for_each(|row| components.row(component_cells(row)));
+    let mut gates = Table::new(columns(&GATE_COLUMNS));
+    snapshot.gates.iter().for_each(|row| gates.row(gate_cells(row)));
+    let mut text = components.text();
+    if !gates.is_empty() {
+        text.push('\n');
+        text.push_str(&gates.text());
+    }
+    text
+}
+
+/// Names and words to the left, numbers to the right.
+fn columns<'c>(headings: &'c [&'static str]) -> impl Iterator<Item = (&'static str, Align)> + 'c {
+    let align = |heading| if rows::is_text(heading) { Align::Left } else { Align::Right };
+    headings.iter().map(move |heading| (*heading, align(heading)))
+}

@@ -1,0 +1,88 @@
+//! The loop of the live display: looks at the system, keys, signals.
+
+use super::Order;
+use super::draw::draw;
+use super::screen::Screen;
+use super::view::{Action, View};
+use nix::sys::signal::{self, Signal};
+use ratatui::crossterm::event::{self, Event};
+use scl_observe::Watch;
+use scl_terminal::Problem;
+use std::io::{self, IsTerminal, stdin, stdout};
+use std::process::ExitCode;
+use std::thread;
+use std::time::Duration;
+use tokio::runtime::Builder;
+use tokio::signal::unix::{self, SignalKind};
+use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
+use tokio::time::{MissedTickBehavior, interval};
+
+/// Shows the system until the user ends it.
+pub(super) fn run(watch: Watch, period: Duration, order: Order) -> Result<ExitCode, Problem> {
+    if !stdout().is_terminal() || !stdin().is_terminal() {
+        return Err(Problem::new("standard input and output are not a terminal").help("add `--once` for a table"));
+    }
+    let failed = |error: io::Error| Problem::new(format!("cannot use the terminal: {error}"));
+    let runtime = Builder::new_current_thread().enable_all().build().map_err(failed)?;
+    runtime.block_on(show(watch, period, order)).map_err(failed)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+async fn show(mut watch: Watch, period: Duration, order: Order) -> io::Result<()> {
+    let mut interrupt = unix::signal(SignalKind::interrupt())?;
+    let mut terminate = unix::signal(SignalKind::terminate())?;
+    let mut hang_up = unix::signal(SignalKind::hangup())?;
+    let mut stop = unix::signal(SignalKind::from_raw(Signal::SIGTSTP as i32))?;
+    let mut screen = Screen::enter()?;
+    let mut view = View::new(watch.look(), order, has_colours());
+    let mut events = read_events();
+    let mut ticks = interval(period);
+    ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    ticks.tick().await;
+    loop {
+        screen.terminal.draw(|frame| draw(frame, &view))?;
+        let action = tokio::select! {
+            _ = interrupt.recv() => Action::Quit,
+            _ = terminate.recv() => Action::Quit,
+            _ = hang_up.recv() => Action::Quit,
+            _ = stop.recv() => Action::Suspend,
+            _ = ticks.tick() => {
+                view.update(watch.look());
+                Action::Draw
+            }
+            event = events.recv() => match event {
+                Some(Event::Key(key)) => view.press(key),
+                Some(_) => Action::Draw,
+                // The terminal is gone.
+                None => Action::Quit,
+            },
+        };
+        match action {
+            Action::Quit => return Ok(()),
+            // SIGSTOP, because SIGTSTP is handled here. The program continues in the next line when it is continued.
+            Action::Suspend => screen.leave_during(|| {
+                // It cannot fail for a signal that exists.
+                let _ = signal::raise(Signal::SIGSTOP);
+            })?,
+            Action::Draw | Action::Nothing => {}
+        }
+    }
+}
+
+/// Reads keys and changes of the terminal's size on a thread of its own, which ends with the program.
+fn read_events() -> UnboundedReceiver<Event> {
+    let (sender, receiver) = unbounded_channel();
+    thread::spawn(move || {
+        while let Ok(event) = event::read() {
+            if sender.send(event).is_err() {
+                break;
+            }
+        }
+    });
+    receiver
+}
+
+/// <https://no-color.org>
+fn has_colours() -> bool {
+    std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}

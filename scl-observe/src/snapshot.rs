@@ -1,0 +1,230 @@
+//! A system at one moment: its components and gates, with rates since the moment before. Only files are read, so it costs
+//! the components nothing.
+
+use crate::process::ProcessFigures;
+use crate::{Component, System, throughput};
+use scl::runtime_dir::{ComponentState, ComponentStats, GateFigures};
+use scl_plan::{GateKind, GatePlan};
+use std::collections::HashMap;
+use std::time::{Duration, Instant, SystemTime};
+
+/// Looks at a system again and again.
+#[derive(Debug)]
+pub struct Watch {
+    system: System,
+    before: HashMap<String, Before>,
+}
+
+/// What was seen of a component the last time.
+#[derive(Debug)]
+struct Before {
+    processor: Option<(u32, Instant, Duration)>,
+    stats: Option<ComponentStats>,
+    /// The latest rates, which stay until the component has written its figures again.
+    rates: Vec<Option<f64>>,
+}
+
+/// A system at one moment.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Snapshot {
+    /// Its name.
+    pub system: String,
+    /// Its components, sorted by name.
+    pub components: Vec<ComponentRow>,
+    /// The gates of those that run, by component, in the order of the topology file.
+    pub gates: Vec<GateRow>,
+}
+
+/// What a component does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Activity {
+    /// It runs. Whether all required peers are connected is unknown, because it writes no figures.
+    Running,
+    /// It runs, and all required peers are connected.
+    Ready,
+    /// It runs, and waits for peers.
+    NotReady,
+    /// It runs, and has not written its figures for so long.
+    Hangs(Duration),
+    /// It was killed or has crashed.
+    Dead,
+    /// It does not run.
+    Stopped,
+}
+
+/// One component.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComponentRow {
+    /// Its name.
+    pub name: String,
+    /// What it does.
+    pub activity: Activity,
+    /// Its process, if it runs and is visible here.
+    pub pid: Option<u32>,
+    /// The part of one processor that the process used since the moment before; 1 is a whole one.
+    pub processor: Option<f64>,
+    /// The resident memory of the process in bytes.
+    pub memory: Option<u64>,
+    /// For how long it has been running.
+    pub since: Option<Duration>,
+}
+
+/// One gate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GateRow {
+    /// The component.
+    pub component: String,
+    /// The gate.
+    pub gate: String,
+    /// What it does.
+    pub kind: GateKind,
+    /// What it carries, as in the topology file.
+    pub payload: String,
+    /// Its codec.
+    pub codec: String,
+    /// Messages per second since the moment before: sent ones, each once for all peers, or received ones.
+    pub rate: Option<f64>,
+    /// What the component counted; `None` without figures.
+    pub figures: Option<GateFigures>,
+    /// Its connections.
+    pub connections: Vec<ConnectionRow>,
+}
+
+/// One connection of a gate.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ConnectionRow {
+    /// The gate at the other end, as `component.gate`.
+    pub peer: String,
+    /// Whether it is connected; `None` without figures.
+    pub connected: Option<bool>,
+}
+
+impl Watch {
+    /// Watches this system.
+    pub fn new(system: System) -> Self {
+        Self { system, before: HashMap::new() }
+    }
+
+    /// Reads what is there now.
+    pub fn look(&mut self) -> Snapshot {
+        let (now, time) = (Instant::now(), SystemTime::now());
+        let components = self.system.components();
+        let mut snapshot = Snapshot { system: self.system.name().to_owned(), ..Snapshot::default() };
+        let mut seen = HashMap::new();
+        for component in &components {
+            let before = self.before.remove(&component.name);
+            let (row, processor) = component_row(component, before.as_ref(), now, time);
+            let rates = rates(component, before.as_ref());
+            if component.is_running() {
+                snapshot.gates.extend(gate_rows(component, &rates));
+            }
+            snapshot.components.push(row);
+            seen.insert(component.name.clone(), Before { processor, stats: component.stats.clone(), rates });
+        }
+        self.before = seen;
+        snapshot
+    }
+}
+
+impl Activity {
+    /// In one or two words: `not ready`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Running => "running",
+            Self::Ready => "ready",
+            Self::NotReady => "not ready",
+            Self::Hangs(_) => "hangs",
+            Self::Dead => "dead",
+            Self::Stopped => "stopped",
+        }
+    }
+}
+
+impl GateRow {
+    /// `component.gate`.
+    pub fn name(&self) -> String {
+        format!("{}.{}", self.component, self.gate)
+    }
+
+    /// Messages dropped because a queue was full.
+    pub fn dropped(&self) -> Option<u64> {
+        self.figures.as_ref().map(|it| it.dropped_oldest.saturating_add(it.dropped_newest))
+    }
+}
+
+/// What a component does now.
+pub(crate) fn activity(component: &Component, now: SystemTime) -> Activity {
+    match component.state {
+        ComponentState::Stopped => Activity::Stopped,
+        ComponentState::Dead => Activity::Dead,
+        ComponentState::Running(_) => match (component.silent_for(now), &component.stats) {
+            (Some(silence), _) => Activity::Hangs(silence),
+            (None, None) => Activity::Running,
+            (None, Some(stats)) if stats.ready => Activity::Ready,
+            (None, Some(_)) => Activity::NotReady,
+        },
+    }
+}
+
+type ProcessorTime = Option<(u32, Instant, Duration)>;
+
+fn component_row(
+    component: &Component,
+    before: Option<&Before>,
+    now: Instant,
+    time: SystemTime,
+) -> (ComponentRow, ProcessorTime) {
+    let pid = component.process_id().filter(|_| component.is_running());
+    let process = pid.and_then(ProcessFigures::read);
+    let measured = pid.zip(process).map(|(pid, process)| (pid, now, process.processor_time));
+    let processor = measured.zip(before.and_then(|before| before.processor)).and_then(|(after, before)| {
+        let elapsed = after.1.duration_since(before.1).as_secs_f64();
+        let used = after.2.checked_sub(before.2)?.as_secs_f64();
+        (after.0 == before.0 && elapsed > 0.0).then(|| used / elapsed)
+    });
+    let started = component.announcement.as_ref().filter(|_| component.is_running()).map(|it| it.started);
+    let row = ComponentRow {
+        name: component.name.clone(),
+        activity: activity(component, time),
+        pid,
+        processor,
+        memory: process.map(|process| process.memory),
+        since: started.and_then(|started| time.duration_since(started).ok()),
+    };
+    (row, measured)
+}
+
+fn gate_rows(component: &Component, rates: &[Option<f64>]) -> Vec<GateRow> {
+    let gates = component.gates().iter().enumerate();
+    let row = |(index, gate): (usize, &GatePlan)| {
+        let figures = component.figures(index).cloned();
+        let connections = gate.connections.iter().enumerate();
+        let connections = connections.map(|(index, connection)| ConnectionRow {
+            peer: format!("{}.{}", connection.peer_component, connection.peer_gate),
+            connected: figures.as_ref().and_then(|it| it.connections.get(index)).map(|it| it.connected),
+        });
+        GateRow {
+            component: component.name.clone(),
+            gate: gate.name.clone(),
+            kind: gate.kind,
+            payload: gate.payload.to_string(),
+            codec: gate.codec.clone(),
+            rate: rates.get(index).copied().flatten(),
+            connections: connections.collect(),
+            figures,
+        }
+    };
+    gates.map(row).collect()
+}
+
+/// Messages per second of each gate; those of the moment before if the figures were not written since.
+fn rates(component: &Component, before: Option<&Before>) -> Vec<Option<f64>> {
+    let (Some(plan), Some(stats), Some(before)) = (component.plan(), &component.stats, before) else {
+        return Vec::new();
+    };
+    let Some(old) = before.stats.as_ref().filter(|old| old.started == stats.started) else { return Vec::new() };
+    match throughput::rates(plan, old, stats) {
+        Some(rates) => rates.iter().map(|rate| Some(rate.messages)).collect(),
+        None => before.rates.clone(),
+    }
+}

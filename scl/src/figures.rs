@@ -1,0 +1,81 @@
+//! What tools are shown of a gate, read without borrowing the gate and without waiting for it.
+
+use crate::runtime_dir::GateFigures;
+use crate::sync::lock;
+use std::sync::Mutex;
+
+/// Brings the figures of a gate up to date, and returns false if the gate was dropped. The connections are those of the
+/// plan and never more or fewer. Called twice a second, by a task that no gate may delay and that may delay no gate.
+pub(crate) type FigureSource = Box<dyn Fn(&mut GateFigures) -> bool + Send + Sync>;
+
+/// The figures of an end that is locked while its call waits for the socket. They cannot change meanwhile.
+#[derive(Default)]
+pub(crate) struct FiguresInWait(Mutex<InWait>);
+
+#[derive(Default)]
+struct InWait {
+    is_waiting: bool,
+    figures: GateFigures,
+}
+
+impl FiguresInWait {
+    pub(crate) fn new(connections: usize) -> Self {
+        let figures = GateFigures::of_connections(connections);
+        Self(Mutex::new(InWait { is_waiting: false, figures }))
+    }
+
+    /// Until the returned value is dropped, [`copy_to`](Self::copy_to) returns what `read` has read now.
+    pub(crate) fn begin(&self, read: impl FnOnce(&mut GateFigures)) -> EndOfWait<'_> {
+        let mut wait = lock(&self.0);
+        read(&mut wait.figures);
+        wait.is_waiting = true;
+        EndOfWait(self)
+    }
+
+    /// Leaves the figures as they are unless a call waits.
+    pub(crate) fn copy_to(&self, figures: &mut GateFigures) {
+        let wait = lock(&self.0);
+        if wait.is_waiting {
+            figures.copy_from(&wait.figures);
+        }
+    }
+}
+
+pub(crate) struct EndOfWait<'a>(&'a FiguresInWait);
+
+impl Drop for EndOfWait<'_> {
+    fn drop(&mut self) {
+        lock(&self.0.0).is_waiting = false;
+    }
+}
+
+impl GateFigures {
+    /// Sets everything to zero but the connections, and keeps their memory.
+    pub(crate) fn clear(&mut self) {
+        let connections = std::mem::take(&mut self.connections);
+        *self = Self { connections, ..Self::default() };
+    }
+
+    fn copy_from(&mut self, other: &Self) {
+        let mut connections = std::mem::take(&mut self.connections);
+        connections.copy_from_slice(&other.connections);
+        *self = Self { connections, ..*other };
+    }
+
+    /// What is known of the connections of a gate whose peers share an endpoint.
+    pub(crate) fn share(&mut self, peers: u64, taken: u64) {
+        let all = self.connections.len() as u64;
+        for connection in &mut self.connections {
+            connection.connected = peers >= all;
+            connection.taken = if all == 1 { taken } else { 0 };
+        }
+    }
+
+    /// The gate is gone: nobody is connected to it, and what it has done stays.
+    pub(crate) fn close(&mut self) {
+        (self.peers, self.waiting) = (0, 0);
+        for connection in &mut self.connections {
+            (connection.connected, connection.waiting) = (false, 0);
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! Writing the stats file in place, and reading one that may be written at this moment.
+
+use super::ComponentStats;
+use super::layout::{BEGIN, BODY, COUNTER, decode, encode};
+use crate::runtime_dir::SystemDir;
+use crate::runtime_dir::error::RuntimeDirError;
+use crate::runtime_dir::owned_path::OwnedPath;
+use crate::runtime_dir::small_file::{open_file, write_temp};
+use rustix::io::{pread, pwrite};
+use std::fs::File;
+use std::io;
+use std::path::Path;
+
+/// More than a component with ten thousand connections writes.
+const LIMIT: usize = 16 << 20;
+
+/// Attempts to read a file that is written meanwhile, which takes some microseconds of each period.
+const ATTEMPTS: usize = 100;
+
+/// The stats file of a component of this process. Dropping it removes the file.
+#[derive(Debug)]
+pub(crate) struct StatsFile {
+    placed: OwnedPath,
+    /// What was written last.
+    block: Vec<u8>,
+    counter: u64,
+    /// Whether the last write failed, so that it is logged once.
+    failed: bool,
+}
+
+impl StatsFile {
+    /// Creates the file, with mode 0600 and in one step.
+    ///
+    /// # Errors
+    /// The file cannot be created or written.
+    pub(crate) fn create(dir: &SystemDir, component: &str, stats: &ComponentStats) -> Result<Self, RuntimeDirError> {
+        let mut block = Vec::new();
+        encode(stats, 0, &mut block);
+        let placed = place(dir, &dir.file_of(component, ".stats")?, &block)?;
+        Ok(Self { placed, block, counter: 0, failed: false })
+    }
+
+    /// Creates the file again with what was written last, if it was removed.
+    ///
+    /// # Errors
+    /// Those of [`create`](Self::create).
+    pub(crate) fn restore(&mut self, dir: &SystemDir) -> Result<(), RuntimeDirError> {
+        if !self.is_in_place() {
+            let path = self.placed.path().to_owned();
+            self.placed = place(dir, &path, &self.block)?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn is_in_place(&self) -> bool {
+        self.placed.is_ours()
+    }
+
+    /// Replaces the figures, which must be of the same gates and connections. Allocates nothing. A file that cannot be
+    /// written, or was removed, does no harm.
+    pub(crate) fn write(&mut self, stats: &ComponentStats) {
+        self.counter += 1;
+        encode(stats, self.counter, &mut self.block);
+        let written = write_block(self.placed.file(), &self.block);
+        if let Err(error) = &written
+            && !self.failed
+        {
+            tracing::debug!(path = %self.placed.path().display(), %error, "cannot write the stats of the component");
+        }
+        self.failed = written.is_err();
+    }
+}
+
+fn place(dir: &SystemDir, path: &Path, block: &[u8]) -> Result<OwnedPath, RuntimeDirError> {
+    write_temp(dir.folder(), path, block)?.rename_open(path)
+}
+
+/// In three steps, so that no reordering within a write makes a half-written block look whole.
+fn write_block(file: &File, block: &[u8]) -> io::Result<()> {
+    let end = block.len() - COUNTER;
+    for (from, to) in [(BEGIN, BODY), (BODY, end), (end, block.len())] {
+        if pwrite(file, &block[from..to], from as u64)? != to - from {
+            return Err(io::ErrorKind::WriteZero.into());
+        }
+    }
+    Ok(())
+}
+
+/// Reads a stats file. Returns `None` if there is none, or it is not whole or cannot be understood.
+pub(super) fn read(path: &Path) -> Option<ComponentStats> {
+    let file = open_file(path).ok()?;
+    let mut block = Vec::new();
+    for _ in 0..ATTEMPTS {
+        if read_whole(&file, &mut block).ok()? {
+            return decode(&block);
+        }
+        std::thread::yield_now();
+    }
+    None
+}
+
+/// Returns true if nothing was written meanwhile.
+fn read_whole(file: &File, block: &mut Vec<u8>) -> io::Result<bool> {
+    let found = file.metadata()?;
+    let length = usize::try_from(found.len()).unwrap_or(usize::MAX);
+    if !found.is_file() || !(BODY + COUNTER..=LIMIT).contains(&length) {
+        return Err(io::ErrorKind::InvalidData.into());
+    }
+    let (mut begin, mut end) = ([0; COUNTER], [0; COUNTER]);
+    read_at(file, &mut end, length - COUNTER)?;
+    block.resize(length, 0);
+    read_at(file, block, 0)?;
+    read_at(file, &mut begin, BEGIN)?;
+    Ok(begin == end)
+}
+
+fn read_at(file: &File, mut into: &mut [u8], mut at: usize) -> io::Result<()> {
+    while !into.is_empty() {
+        let read = pread(file, &mut *into, at as u64)?;
+        if read == 0 {
+            return Err(io::ErrorKind::UnexpectedEof.into());
+        }
+        into = &mut into[read..];
+        at += read;
+    }
+    Ok(())
+}

@@ -1,0 +1,212 @@
+//! The bytes of a stats file, as the module above describes them.
+
+use super::{ComponentStats, ConnectionFigures, GateFigures};
+use bytes::{Buf, BufMut};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+const MAGIC: &[u8; 8] = b"SCLSTATS";
+const VERSION: u32 = 1;
+
+/// Where *begin* and the body are.
+pub(super) const BEGIN: usize = 16;
+pub(super) const BODY: usize = 24;
+/// Length of a counter.
+pub(super) const COUNTER: usize = 8;
+
+const HEADER: usize = 64;
+const GATE: usize = 104;
+const CONNECTION: usize = 40;
+
+/// Writes the whole block into `block`, which is emptied first; both counters are `counter`.
+pub(super) fn encode(stats: &ComponentStats, counter: u64, block: &mut Vec<u8>) {
+    let connections: usize = stats.gates.iter().map(|gate| gate.connections.len()).sum();
+    let length = HEADER + GATE * stats.gates.len() + CONNECTION * connections + COUNTER;
+    block.clear();
+    block.reserve(length);
+    block.put_slice(MAGIC);
+    block.put_u32_le(VERSION);
+    block.put_u32_le(count(length));
+    block.put_u64_le(counter);
+    block.put_u64_le(nanos(Some(stats.written)));
+    block.put_u64_le(u64::try_from(stats.period.as_nanos()).unwrap_or(u64::MAX));
+    block.put_u64_le(nanos(Some(stats.started)) / 1_000_000);
+    block.put_u32_le(stats.pid);
+    block.put_u32_le(stats.ready.into());
+    block.put_u32_le(count(stats.gates.len()));
+    block.put_u32_le(0);
+    for gate in &stats.gates {
+        put_gate(gate, block);
+    }
+    block.put_u64_le(counter);
+    debug_assert_eq!(block.len(), length);
+}
+
+fn put_gate(gate: &GateFigures, block: &mut Vec<u8>) {
+    for number in [
+        gate.sent,
+        gate.received,
+        gate.dropped_oldest,
+        gate.dropped_newest,
+        gate.dropped_for_observers,
+        gate.tap_dropped,
+        gate.lost,
+        gate.rejected,
+        gate.bytes,
+        gate.waiting,
+        gate.peers,
+        nanos(gate.last_activity),
+    ] {
+        block.put_u64_le(number);
+    }
+    block.put_u32_le(count(gate.connections.len()));
+    block.put_u32_le(0);
+    for one in &gate.connections {
+        for number in [u64::from(one.connected), one.waiting, one.taken, one.dropped, one.lost] {
+            block.put_u64_le(number);
+        }
+    }
+}
+
+/// Reads a block. Returns `None` if it is not one of this version, or its parts do not fit together.
+pub(super) fn decode(block: &[u8]) -> Option<ComponentStats> {
+    let mut rest = block.strip_prefix(MAGIC)?;
+    let (version, length) = (rest.try_get_u32_le().ok()?, rest.try_get_u32_le().ok()?);
+    if version != VERSION || usize::try_from(length) != Ok(block.len()) {
+        return None;
+    }
+    let _begin = rest.try_get_u64_le().ok()?;
+    let written = time(rest.try_get_u64_le().ok()?)?;
+    let period = Duration::from_nanos(rest.try_get_u64_le().ok()?);
+    let started = UNIX_EPOCH.checked_add(Duration::from_millis(rest.try_get_u64_le().ok()?))?;
+    let pid = rest.try_get_u32_le().ok()?;
+    let ready = rest.try_get_u32_le().ok()? & 1 != 0;
+    let gates = rest.try_get_u32_le().ok()?;
+    let _reserved = rest.try_get_u32_le().ok()?;
+    // Collecting stops at the first gate that is missing, so a wrong number reserves nothing.
+    let gates = (0..gates).map(|_| take_gate(&mut rest)).collect::<Option<Vec<_>>>()?;
+    (rest.len() == COUNTER).then_some(ComponentStats { written, period, pid, started, ready, gates })
+}
+
+fn take_gate(rest: &mut &[u8]) -> Option<GateFigures> {
+    let mut number = || rest.try_get_u64_le().ok();
+    let mut gate = GateFigures {
+        sent: number()?,
+        received: number()?,
+        dropped_oldest: number()?,
+        dropped_newest: number()?,
+        dropped_for_observers: number()?,
+        tap_dropped: number()?,
+        lost: number()?,
+        rejected: number()?,
+        bytes: number()?,
+        waiting: number()?,
+        peers: number()?,
+        ..GateFigures::default()
+    };
+    gate.last_activity = match number()? {
+        0 => None,
+        at => Some(time(at)?),
+    };
+    let connections = rest.try_get_u32_le().ok()?;
+    let _reserved = rest.try_get_u32_le().ok()?;
+    gate.connections = (0..connections).map(|_| take_connection(rest)).collect::<Option<_>>()?;
+    Some(gate)
+}
+
+fn take_connection(rest: &mut &[u8]) -> Option<ConnectionFigures> {
+    let mut number = || rest.try_get_u64_le().ok();
+    Some(ConnectionFigures {
+        connected: number()? != 0,
+        waiting: number()?,
+        taken: number()?,
+        dropped: number()?,
+        lost: number()?,
+    })
+}
+
+fn nanos(time: Option<SystemTime>) -> u64 {
+    let since = time.and_then(|time| time.duration_since(UNIX_EPOCH).ok()).unwrap_or_default();
+    u64::try_from(since.as_nanos()).unwrap_or(u64::MAX)
+}
+
+fn time(nanos: u64) -> Option<SystemTime> {
+    UNIX_EPOCH.checked_add(Duration::from_nanos(nanos))
+}
+
+fn count(number: usize) -> u32 {
+    u32::try_from(number).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stats() -> ComponentStats {
+        let at = |seconds| UNIX_EPOCH + Duration::from_secs(seconds);
+        let connection = ConnectionFigures { connected: true, waiting: 12, taken: 13, dropped: 14, lost: 15 };
+        let gate = GateFigures {
+            sent: 1,
+            received: 2,
+            dropped_oldest: 3,
+            dropped_newest: 4,
+            dropped_for_observers: 5,
+            tap_dropped: 6,
+            lost: 7,
+            rejected: 8,
+            bytes: 9,
+            waiting: 10,
+            peers: 11,
+            last_activity: Some(at(3)),
+            connections: vec![connection, ConnectionFigures::default()],
+        };
+        ComponentStats {
+            written: at(1),
+            period: Duration::from_millis(500),
+            pid: 77,
+            started: at(2),
+            ready: true,
+            gates: vec![gate, GateFigures::default()],
+        }
+    }
+
+    #[test]
+    fn the_block_is_laid_out_as_documented() {
+        let mut block = Vec::new();
+        encode(&stats(), 0x99, &mut block);
+        let number = |at: usize| u64::from_le_bytes(block[at..at + 8].try_into().unwrap());
+        let short = |at: usize| u32::from_le_bytes(block[at..at + 4].try_into().unwrap());
+        assert_eq!(&block[..8], b"SCLSTATS");
+        assert_eq!((short(8), short(12) as usize), (1, block.len()));
+        assert_eq!((number(16), number(block.len() - 8)), (0x99, 0x99));
+        assert_eq!((number(24), number(32), number(40)), (1_000_000_000, 500_000_000, 2_000));
+        assert_eq!((short(48), short(52), short(56), short(60)), (77, 1, 2, 0));
+        assert_eq!((0..11).map(|index| number(64 + 8 * index)).collect::<Vec<_>>(), (1..12).collect::<Vec<_>>());
+        assert_eq!((number(64 + 88), short(64 + 96), short(64 + 100)), (3_000_000_000, 2, 0));
+        assert_eq!((0..5).map(|index| number(168 + 8 * index)).collect::<Vec<_>>(), [1, 12, 13, 14, 15]);
+        assert_eq!(block.len(), 64 + 104 + 2 * 40 + 104 + 8);
+    }
+
+    #[test]
+    fn a_block_is_read_back_and_no_part_of_one_is() {
+        let mut block = Vec::new();
+        encode(&stats(), 7, &mut block);
+        assert_eq!(decode(&block), Some(stats()));
+        for length in 0..block.len() {
+            assert_eq!(decode(&block[..length]), None, "{length} bytes");
+        }
+        for (at, wrong) in [(0, b'X'), (8, 2), (12, 0), (56, 1), (56, 3), (59, 0xff), (64 + 96, 1), (64 + 99, 0xff)] {
+            let mut block = block.clone();
+            block[at] = wrong;
+            assert_eq!(decode(&block), None, "{wrong} at {at}");
+        }
+    }
+
+    #[test]
+    fn writing_again_needs_no_more_memory() {
+        let mut block = Vec::new();
+        encode(&stats(), 1, &mut block);
+        let (memory, capacity) = (block.as_ptr(), block.capacity());
+        encode(&stats(), 2, &mut block);
+        assert_eq!((block.as_ptr(), block.capacity()), (memory, capacity));
+    }
+}
