@@ -19,8 +19,9 @@ mod completions;
 mod delay;
 mod diff;
 #[cfg(feature = "observe")]
-mod echo;
 mod doctor;
+#[cfg(feature = "observe")]
+mod echo;
 mod editor;
 mod explain;
 mod external;
@@ -47,6 +48,7 @@ mod publish;
 mod quickstart;
 #[cfg(feature = "record")]
 mod record;
+#[cfg(feature = "record")]
 mod replay;
 #[cfg(feature = "observe")]
 mod rover;

@@ -7,8 +7,8 @@ use scl_terminal::Problem;
 use std::sync::Arc;
 
 impl System {
-    /// The plan of a component: as it announces it, or left it behind when it was killed; else as far as its running peers
-    /// know it, which is every gate that is connected to one of them.
+    /// The plan of a component: as it announces it, or left it behind when it was killed; else as far as its running
+    /// peers know it, which is every gate that is connected to one of them.
     ///
     /// # Errors
     /// There is no such component, or neither it nor a peer of it runs.
