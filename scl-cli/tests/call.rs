@@ -86,7 +86,8 @@ components:
   - {name: screen, gates: [commands: {req: rover.Command -> rover.Status}, raw: req]}
   - {name: remote, gates: [commands: {req: rover.Command -> rover.Status}]}
 connections:
-  - [controller.commands, [screen.commands, remote.commands]]
+  - [controller.commands, screen.commands]
+  - [controller.commands, remote.commands]
   - [controller.raw, screen.raw]
 ";
     let rover = Rover::of(topology);

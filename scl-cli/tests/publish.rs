@@ -117,7 +117,10 @@ fn without_a_topology_file_the_peers_know_the_gate() {
     }
     let error = elsewhere(&rover, &["pub", "sensor.nothing", "{}"]).output().unwrap();
     assert_eq!(error.status.code(), Some(2));
-    expect![[r#""#]].assert_eq(&String::from_utf8(error.stderr).unwrap());
+    expect![[r#"
+        error: component `sensor` has no gate `nothing`
+          = note: gates that it or its running peers know: `sensor.measurements`, `sensor.position`, `sensor.log`, `sensor.image`
+    "#]].assert_eq(&String::from_utf8(error.stderr).unwrap());
 }
 
 #[test]

@@ -122,7 +122,8 @@ components:
     gates:
       - commands: {req: rover.Command -> rover.Status, codec: json}
 connections:
-  - [sensor.measurements, [controller.sensor, display.sensor]]
+  - [sensor.measurements, controller.sensor]
+  - [sensor.measurements, display.sensor]
   - [sensor.log, logger.events]
   - [controller.log, logger.events]
   - [controller.commands, ui.commands]
