@@ -44,6 +44,8 @@ pub struct NotTaken {
     pub gate: String,
     pub peer: String,
     pub messages: u64,
+    /// Whether the peer was not there at the end.
+    pub was_absent: bool,
     /// Why: `its queue was full`.
     pub reason: &'static str,
 }
@@ -69,6 +71,11 @@ impl ReplayReport {
     /// Messages and requests sent.
     pub fn sent(&self) -> u64 {
         self.gates.iter().map(|gate| gate.sent).sum()
+    }
+
+    /// Whether a peer that took part to the end has not taken everything.
+    pub fn is_incomplete(&self) -> bool {
+        self.not_taken.iter().any(|left| !left.was_absent)
     }
 
     /// One line per gate.
