@@ -5,7 +5,6 @@ mod package;
 use super::Options;
 use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
 use super::placement::Placement;
-use super::policy::Policy;
 use super::program::{Build, Component, Program};
 use super::selection::Selection;
 use scl_terminal::{Problem, print_err, quoted_list};
