@@ -8,15 +8,17 @@ mod bw;
 #[cfg(feature = "observe")]
 mod call;
 mod check;
+#[cfg(feature = "record")]
+mod compare;
 #[cfg(feature = "observe")]
 mod complete_gates;
 mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
+mod doctor;
 #[cfg(feature = "observe")]
 mod echo;
-mod doctor;
 mod explain;
 mod external;
 #[cfg(any(feature = "observe", feature = "run"))]
@@ -45,8 +47,6 @@ mod observed;
 #[cfg(feature = "observe")]
 mod observed;
 mod plan;
-#[cfg(feature = "record")]
-mod replay;
 #[cfg(feature = "observe")]
 mod play;
 #[cfg(feature = "observe")]
@@ -57,6 +57,8 @@ mod quantity;
 mod record;
 #[cfg(feature = "record")]
 mod recover;
+#[cfg(feature = "record")]
+mod replay;
 #[cfg(feature = "record")]
 mod replay;
 #[cfg(feature = "run")]
@@ -101,6 +103,8 @@ enum Command {
     #[cfg(feature = "observe")]
     #[command(name = complete_gates::COMMAND, hide = true)]
     CompleteGates(complete_gates::CompleteGatesArguments),
+    #[cfg(feature = "record")]
+    Compare(compare::CompareArguments),
     Completions(completions::CompletionsArguments),
     #[cfg(feature = "observe")]
     Delay(delay::DelayArguments),
@@ -162,6 +166,8 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::check(&arguments),
         #[cfg(feature = "observe")]
         Command::CompleteGates(arguments) => complete_gates::complete_gates(&arguments),
+        #[cfg(feature = "record")]
+        Command::Compare(arguments) => compare::compare(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         #[cfg(feature = "observe")]
         Command::Delay(arguments) => delay::delay(&arguments),

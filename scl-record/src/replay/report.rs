@@ -103,7 +103,7 @@ impl ReplayReport {
             }
             text.push('\n');
         }
-        for NotTaken { gate, peer, messages, reason } in &self.not_taken {
+        for NotTaken { gate, peer, messages, reason, .. } in &self.not_taken {
             let _ = writeln!(text, "  not taken by {peer}: {} of {gate}; {reason}", count(*messages, "message"));
         }
         text
