@@ -16,6 +16,7 @@ mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
+#[cfg(feature = "observe")]
 mod doctor;
 #[cfg(feature = "observe")]
 mod echo;
@@ -35,15 +36,9 @@ mod list;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
-#[cfg(feature = "new")]
-mod new;
 #[cfg(feature = "observe")]
 #[cfg(feature = "new")]
 mod new;
-#[cfg(feature = "new")]
-mod new;
-#[cfg(feature = "observe")]
-mod observed;
 #[cfg(feature = "observe")]
 mod observed;
 mod plan;
@@ -57,8 +52,6 @@ mod quantity;
 mod record;
 #[cfg(feature = "record")]
 mod recover;
-#[cfg(feature = "record")]
-mod replay;
 #[cfg(feature = "record")]
 mod replay;
 #[cfg(feature = "run")]
@@ -110,8 +103,9 @@ enum Command {
     Delay(delay::DelayArguments),
     Diff(diff::DiffArguments),
     #[cfg(feature = "observe")]
-    Echo(echo::EchoArguments),
     Doctor(doctor::DoctorArguments),
+    #[cfg(feature = "observe")]
+    Echo(echo::EchoArguments),
     Explain(explain::ExplainArguments),
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments),
@@ -129,15 +123,20 @@ enum Command {
     #[command(name = "pub")]
     Publish(publish::PubArguments),
     #[cfg(feature = "record")]
-    Replay(replay::ReplayArguments),
-    #[cfg(feature = "run")]
-    Restart(restart::RestartArguments),
     Record(record::RecordArguments),
     #[cfg(feature = "record")]
     Recover(recover::RecoverArguments),
+    #[cfg(feature = "record")]
+    Replay(replay::ReplayArguments),
+    #[cfg(feature = "run")]
+    Restart(restart::RestartArguments),
     #[cfg(feature = "run")]
     Run(run::RunArguments),
     Schema(schema::SchemaArguments),
+    #[cfg(feature = "run")]
+    Stop(stop::StopArguments),
+    #[cfg(feature = "observe")]
+    Top(top::TopArguments),
     #[cfg(feature = "run")]
     #[command(name = run::START_WORD, hide = true)]
     Start(run::StartArguments),
@@ -147,10 +146,6 @@ enum Command {
     /// A program `scl-x` of the user's, as `scl x`.
     #[command(external_subcommand)]
     External(Vec<OsString>),
-    #[cfg(feature = "run")]
-    Stop(stop::StopArguments),
-    #[cfg(feature = "observe")]
-    Top(top::TopArguments),
 }
 
 fn main() -> ExitCode {
@@ -173,8 +168,9 @@ fn main() -> ExitCode {
         Command::Delay(arguments) => delay::delay(&arguments),
         Command::Diff(arguments) => diff::diff(&arguments),
         #[cfg(feature = "observe")]
-        Command::Echo(arguments) => echo::echo(&arguments),
         Command::Doctor(arguments) => doctor::doctor(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Echo(arguments) => echo::echo(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         #[cfg(feature = "generate")]
         Command::Generate(arguments) => generate::generate(&arguments),
@@ -184,8 +180,6 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Info(arguments) => info::info(&arguments),
         #[cfg(feature = "observe")]
-        Command::Hz(arguments) => hz::hz(&arguments),
-        #[cfg(feature = "observe")]
         Command::List(arguments) => list::list(&arguments),
         #[cfg(feature = "new")]
         Command::New(arguments) => new::new(&arguments),
@@ -193,23 +187,24 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Publish(arguments) => publish::publish(&arguments),
         #[cfg(feature = "record")]
-        Command::Replay(arguments) => replay::replay(&arguments),
-        #[cfg(feature = "run")]
-        Command::Restart(arguments) => restart::restart(&arguments),
         Command::Record(arguments) => record::record(&arguments),
         #[cfg(feature = "record")]
         Command::Recover(arguments) => recover::recover(&arguments),
+        #[cfg(feature = "record")]
+        Command::Replay(arguments) => replay::replay(&arguments),
+        #[cfg(feature = "run")]
+        Command::Restart(arguments) => restart::restart(&arguments),
         #[cfg(feature = "run")]
         Command::Run(arguments) => run::run(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
+        #[cfg(feature = "run")]
+        Command::Stop(arguments) => stop::stop(&arguments),
+        #[cfg(feature = "observe")]
+        Command::Top(arguments) => top::top(&arguments),
         #[cfg(feature = "run")]
         Command::Start(arguments) => run::start_component(&arguments),
         #[cfg(feature = "run")]
         Command::Guard => run::keep_watch(),
         Command::External(words) => external::run_external(&words, &CommandLine::command()),
-        #[cfg(feature = "run")]
-        Command::Stop(arguments) => stop::stop(&arguments),
-        #[cfg(feature = "observe")]
-        Command::Top(arguments) => top::top(&arguments),
     }
 }

@@ -1,6 +1,6 @@
 //! `scl info`: a gate, a component, and what does not exist.
 
-use crate::rover::Rover;
+use crate::rover::{COMPONENTS, Rover};
 use expect_test::{Expect, expect};
 
 /// A text with each number as `0`, and with single spaces where columns depend on numbers.
@@ -132,7 +132,7 @@ fn rates_are_those_of_the_senders() {
 
 #[test]
 fn without_figures_the_rest_is_shown() {
-    let rover = Rover::start_with(|command| {
+    let rover = Rover::start_with(&COMPONENTS, |command| {
         command.env("SCL_STATS", "off");
     });
     let text = rover.text(&["info", "sensor.measurements"]);

@@ -26,7 +26,6 @@ mod external;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
-mod hz;
 #[cfg(feature = "observe")]
 mod hz;
 #[cfg(feature = "observe")]
@@ -38,6 +37,8 @@ mod languages;
 #[cfg(feature = "observe")]
 mod list;
 mod lsp;
+#[cfg(feature = "new")]
+mod new;
 mod plan;
 #[cfg(feature = "run")]
 mod quickstart;
@@ -69,6 +70,8 @@ mod run_stop;
 mod rust_analyzer;
 mod schema;
 mod system;
+#[cfg(feature = "run")]
+mod systemd;
 #[cfg(feature = "observe")]
 mod ticker;
 #[cfg(feature = "observe")]

@@ -63,6 +63,3 @@ fn is_in_workspace(parent: &Path) -> bool {
     let manifests = parent.ancestors().filter_map(|folder| std::fs::read_to_string(folder.join("Cargo.toml")).ok());
     manifests.into_iter().any(|text| text.lines().any(|line| line.starts_with("[workspace")))
 }
-
-#[cfg(test)]
-mod tests;

@@ -33,8 +33,9 @@ pub(crate) fn check(name: &str, template: Template) -> Result<(), Problem> {
     if name.is_empty() || name.chars().any(char::is_control) {
         return Err(Problem::new(format!("`{shown}` cannot be a name")).help("write letters, digits and `_`"));
     }
-    if let Some(found) = system_problem(name) {
-        return Err(found);
+    let quoted = format!("'{}'", name.replace('\'', "''"));
+    if let Some(found) = checker_problem(&quoted) {
+        return Err(as_problem(name, &found));
     }
     let code = code_name(name);
     let reserved = |why: String| {
@@ -44,6 +45,9 @@ pub(crate) fn check(name: &str, template: Template) -> Result<(), Problem> {
     };
     if code.chars().all(|letter| letter == '_') {
         return Err(Problem::new(format!("`{name}` has no letter")).help("write a word, for example `rover`"));
+    }
+    if checker_problem(name).is_some() {
+        return reserved(format!("`{name}` means something else in YAML, unless it is quoted"));
     }
     if is_keyword(&code) {
         return reserved(format!(
@@ -66,12 +70,11 @@ pub(crate) fn check(name: &str, template: Template) -> Result<(), Problem> {
     Ok(())
 }
 
-/// What the checker says about a system of this name.
-fn system_problem(name: &str) -> Option<Problem> {
-    let quoted = name.replace('\'', "''");
-    let text = format!("system: '{quoted}'\ncomponents:\n  - name: sensor\n    gates: []\n");
+/// What the checker says about a system that is called so in the file.
+fn checker_problem(written: &str) -> Option<Diagnostic> {
+    let text = format!("system: {written}\ncomponents:\n  - name: sensor\n    gates: []\n");
     let found = load_bytes(&Request::new("topology.yaml"), text.into_bytes());
-    found.diagnostics.iter().find(|it| it.severity == Severity::Error).map(|it| as_problem(name, it))
+    found.diagnostics.into_iter().find(|it| it.severity == Severity::Error)
 }
 
 /// The checker's words without the place, which is in no file.

@@ -39,13 +39,13 @@ struct Playing {
 impl Rover {
     /// Starts the system and waits until all its components are connected.
     pub(crate) fn start() -> Self {
-        Self::start_with(|_| {})
+        Self::start_with(&COMPONENTS, |_| {})
     }
 
-    /// [`start`](Self::start) in an environment that `prepare` changes.
-    pub(crate) fn start_with(prepare: impl Fn(&mut Command)) -> Self {
+    /// Starts some components, in an environment that `prepare` changes, and waits until they are ready.
+    pub(crate) fn start_with(components: &[&str], prepare: impl Fn(&mut Command)) -> Self {
         let mut rover = Self::stopped();
-        rover.play(&COMPONENTS, prepare);
+        rover.play(components, prepare);
         rover
     }
 
@@ -110,6 +110,11 @@ impl Rover {
     /// A file in the system's folder, which is the working folder of [`scl`](Self::scl).
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.files.path(name)
+    }
+
+    /// Adds a file to the folder of the system.
+    pub(crate) fn write(&self, name: &str, text: &str) {
+        self.files.write(name, text);
     }
 
     /// The runtime folder.

@@ -5,9 +5,22 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStderr, ChildStdout, Command, ExitStatus, Output, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A program that never ends by itself. (`tail` would notice the end of a pipe to which it writes.)
 pub(crate) const FOREVER: &str = "exec tail -f /dev/null >/dev/null";
+
+/// One test at a time builds programs called `sensor` and starts them: all build into the folder of these tests.
+pub(crate) fn lock_programs() -> MutexGuard<'static, ()> {
+    static PROGRAMS: Mutex<()> = Mutex::new(());
+    // A test that failed does not make others fail.
+    PROGRAMS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The folder that the tests themselves were built into, so that little has to be built again.
+pub(crate) fn build_folder() -> PathBuf {
+    Path::new(env!("CARGO_BIN_EXE_scl")).ancestors().nth(2).unwrap().to_owned()
+}
 
 /// A folder with a system in it.
 pub(crate) struct System {

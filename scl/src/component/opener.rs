@@ -32,7 +32,9 @@ impl Opener {
             Some(transport) => (Registration::without_files(), transport),
             None => register(spec, options)?,
         };
-        Ok(Self { state: Arc::new(ComponentState::new(spec, registration, runtime)), transport })
+        let state = Arc::new(ComponentState::new(spec, registration, runtime));
+        state.start_reporting();
+        Ok(Self { state, transport })
     }
 
     /// Opens the `pub` gate at an index of the component's list.
