@@ -12,6 +12,8 @@ mod check_fix;
 mod check_formats;
 mod check_inputs;
 mod check_watch;
+#[cfg(feature = "record")]
+mod compare;
 #[cfg(feature = "observe")]
 mod complete_names;
 mod completions;
