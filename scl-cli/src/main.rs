@@ -34,6 +34,7 @@ mod list;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
+#[cfg(feature = "observe")]
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]

@@ -108,7 +108,7 @@ pub(crate) fn replay(arguments: &ReplayArguments) -> ExitCode {
                 Format::Text => report.to_text(),
                 Format::Json => format!("{}\n", report.to_json()),
             });
-            let is_incomplete = options.rate == Rate::Max && !report.was_stopped && !report.not_taken.is_empty();
+            let is_incomplete = options.rate == Rate::Max && !report.was_stopped && report.is_incomplete();
             if is_incomplete { ExitCode::FAILURE } else { ExitCode::SUCCESS }
         }
         Err(problem) => {

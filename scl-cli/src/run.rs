@@ -20,7 +20,8 @@ const COULD_NOT_RUN: u8 = 2;
 /// Reads `launch.yaml` in FOLDER, which says how each component is built and started. Without one, builds the cargo
 /// package in FOLDER and starts the program named like each component of `topology.yaml`.
 ///
-/// When one component fails, the others are stopped. Ctrl-C and SIGTERM are passed on to all; a second one kills at once.
+/// When a component fails, the others are stopped, unless the launch file says that it is restarted or not essential. Ctrl-C
+/// and SIGTERM are passed on to all; a second one kills at once.
 #[derive(Args)]
 #[command(after_help = after_help())]
 pub(crate) struct RunArguments {
@@ -57,6 +58,7 @@ Examples:
   scl run rover/replay.yaml       another launch file
   scl run --profile python        the programs of a profile
   scl run --only sensor           one component, while the others run elsewhere
+  scl restart sensor              from another shell; `scl stop` stops everything
 
 A launch file (docs/launch.md has all of it):
 {example}

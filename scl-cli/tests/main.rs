@@ -68,6 +68,8 @@ mod run_stop;
 mod rust_analyzer;
 mod schema;
 mod system;
+#[cfg(feature = "run")]
+mod systemd;
 #[cfg(feature = "observe")]
 mod ticker;
 #[cfg(feature = "observe")]

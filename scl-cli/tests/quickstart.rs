@@ -11,6 +11,7 @@ fn the_quick_start_builds_talks_stops_and_notices_its_file() {
     let _programs = lock_programs();
     let quickstart = Copied::new();
     quickstart.talks_and_stops();
+    quickstart.names_the_missing_peer();
 
     quickstart.edit("topology.yaml", "controller.sensor]", "controler.sensor]");
     let broken = quickstart.build();
@@ -67,6 +68,7 @@ impl Copied {
             run.wait_for(line);
         }
         run.wait_for("user_interface | event: target is now 0.5 m/s");
+        run.wait_for_error("scl: all components are ready after ");
         // One program is replaced, and finds the others, which keep running.
         let mut restart = self.system.scl(&["restart", "user_interface"]);
         self.without_protoc(&mut restart);
@@ -80,6 +82,20 @@ impl Copied {
         for name in ["sensor", "actuator", "controller", "user_interface"] {
             assert!(err.contains(&format!("{name:14}  ended with exit code 0 after ")), "{err}");
         }
+    }
+
+    /// The sensor alone: it never gets ready, and says why.
+    fn names_the_missing_peer(&self) {
+        let sensor = build_folder().join("debug/sensor");
+        let entry = format!("components: {{sensor: {{command: [{sensor:?}], ready_within: 3s}}}}\n");
+        self.system.write("launch.yaml", &entry);
+        let mut command = self.system.scl(&["run"]);
+        self.without_protoc(&mut command);
+        let output = command.output().unwrap();
+        let err = String::from_utf8_lossy(&output.stderr);
+        assert!(err.contains("sensor  not ready within 3s: waiting for `controller.sensor`\n"), "{err}");
+        assert_eq!(output.status.code(), Some(1), "{err}");
+        std::fs::remove_file(self.system.path("launch.yaml")).unwrap();
     }
 
     fn build(&self) -> Output {

@@ -29,6 +29,7 @@ mod json;
 mod lookup;
 mod measure;
 mod peer;
+mod plan_of;
 mod process;
 mod rate;
 mod silence;

@@ -71,7 +71,8 @@ fn accept_clients(listener: &UnixListener, events: &Sender<Event>) {
             continue;
         }
         let (events, slot) = (events.clone(), Arc::clone(&clients));
-        thread::spawn(move || {
+        // Without a thread for it, the client sees the end of the connection.
+        let _ = thread::Builder::new().spawn(move || {
             serve(client, &events);
             drop(slot);
         });

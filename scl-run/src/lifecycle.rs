@@ -1,101 +1,17 @@
 //! One component from its first start to its last end: what happened and when in, what to do out. Without processes and
 //! without a clock.
 
+mod input;
+mod state;
+
+pub(crate) use input::{Action, Input, Notice};
+pub(crate) use state::{State, StopReason, Verdict};
+
 use super::ending::Ending;
 use super::policy::{Policy, Restart, RestartLimit};
 use super::restarts::{Restarts, Time};
 use nix::sys::signal::Signal;
 use std::time::Duration;
-
-/// What is happening to a component.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum State {
-    /// To be started at this time.
-    Waiting { until: Time },
-    /// Its process is being started.
-    Starting,
-    /// Its process runs.
-    Running,
-    /// Its process has said that it is ready.
-    Ready,
-    /// Its process was told to end, or said that it is ending. It is killed at this time, if it has not been killed yet.
-    Stopping { reason: StopReason, kill_at: Option<Time> },
-    /// It has no process, and gets none unless somebody asks for it.
-    Ended(Verdict),
-}
-
-/// Why a process is ending.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum StopReason {
-    /// All components are stopped, by this signal.
-    Everything(Signal),
-    /// Somebody asked for it, for this component alone.
-    Request { start_again: bool },
-    /// It has failed already: it was not ready or not alive in time.
-    Failed,
-    /// It said so itself.
-    Own,
-}
-
-/// How a component ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Verdict {
-    /// As it should, also when all components were stopped.
-    InOrder,
-    /// Because somebody asked for it.
-    Stopped,
-    /// It has failed, and is not started again.
-    Failed,
-}
-
-/// What happens to a component.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Input {
-    /// Its process was started.
-    Started,
-    /// It could not be started, because of this.
-    CannotStart(String),
-    /// Its process ended.
-    Exited(Ending),
-    /// Its process said something about itself.
-    Notified(Notice),
-    /// All components are to stop.
-    StopAll(Signal),
-    /// The process must end now.
-    Kill,
-    /// Somebody asks for its end.
-    Stop,
-    /// Somebody asks for its end and another start.
-    Restart,
-    /// Time has passed.
-    Time,
-}
-
-/// What a process says about itself.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Notice {
-    /// `READY=1`
-    Ready,
-    /// `STOPPING=1`
-    Stopping,
-    /// `WATCHDOG=1`
-    Alive,
-    /// `STATUS=...`
-    Status(String),
-}
-
-/// What is to be done for a component.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Action {
-    /// Start a process, and answer with [`Input::Started`] or [`Input::CannotStart`].
-    Start,
-    /// Send a signal to the process and those that it has started.
-    Signal(Signal),
-    /// Tell the user this.
-    Report(String),
-    /// Tell the user how the process ended, and after how long.
-    ReportEnd(Ending, Duration),
-}
 
 /// A component, and all that is known of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -369,20 +285,6 @@ impl Lifecycle {
         };
         self.state = State::Waiting { until: now.saturating_add(delay) };
         vec![Action::Report(format!("restarting in {}", Shown(Some(delay))))]
-    }
-}
-
-impl StopReason {
-    /// The signal that asked all to stop.
-    fn asked_by(self) -> Option<Signal> {
-        match self {
-            StopReason::Everything(signal) => Some(signal),
-            _ => None,
-        }
-    }
-
-    fn signal(self) -> Signal {
-        self.asked_by().unwrap_or(Signal::SIGTERM)
     }
 }
 

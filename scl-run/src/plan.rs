@@ -1,10 +1,10 @@
 //! Decides what to build and to start: from a launch file, or from the cargo package beside the topology.
 
+mod package;
+
 use super::Options;
-use super::cargo_package::{BuiltProgram, build_package};
 use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
 use super::placement::Placement;
-use super::policy::Policy;
 use super::program::{Build, Component, Program};
 use super::selection::Selection;
 use scl_terminal::{Problem, print_err, quoted_list};
@@ -56,7 +56,7 @@ pub(crate) fn plan_run(options: &Options, component_names: ComponentNames<'_>) -
             return Err(vec![profile_without_file(profile, &folder)]);
         }
         let names = read_names(&topology, component_names)?;
-        plan_from_package(&folder, names, options)?
+        package::plan_from_package(&folder, names, options)?
     };
     let problems = plan.check();
     if problems.is_empty() { Ok(plan) } else { Err(problems) }
@@ -213,46 +213,4 @@ fn folder_of(folder: &Path, settings: &Settings) -> PathBuf {
 
 fn system_of_environment() -> Option<String> {
     std::env::var(SYSTEM).ok().filter(|name| !name.is_empty())
-}
-
-fn plan_from_package(folder: &Path, names: SystemNames, options: &Options) -> Result<RunPlan, Vec<Problem>> {
-    let source = folder.join(TOPOLOGY_FILE).display().to_string();
-    let selection = Selection::new(options, &names.components, &source)?;
-    let components: Vec<&String> = names.components.iter().filter(|name| selection.includes(name)).collect();
-    let built = build_package(folder, options.release).map_err(|problem| vec![problem])?;
-    let program_of = |name: &String| built.iter().find(|program| plays(program, name));
-    let missing = components.iter().filter(|name| program_of(name).is_none());
-    let missing: Vec<&str> = missing.map(|name| name.as_str()).collect();
-    if !missing.is_empty() {
-        return Err(vec![missing_programs(folder, &missing, &built)]);
-    }
-    let plan = |(name, built): (&String, &BuiltProgram)| Component {
-        name: name.clone(),
-        program: Program {
-            command: vec![built.executable.clone().into_os_string()],
-            environment: Vec::new(),
-            folder: folder.to_owned(),
-            placement: Placement::default(),
-        },
-        policy: Policy { stop_within: options.grace, ..Policy::default() },
-        recording: None,
-    };
-    let programs = components.iter().filter_map(|name| Some((*name, program_of(name)?)));
-    let components = programs.map(plan).collect();
-    Ok(RunPlan { system: system_of_environment().or(Some(names.system)), builds: Vec::new(), components })
-}
-
-/// Cargo targets are often named with hyphens, which component names cannot contain.
-fn plays(program: &BuiltProgram, component: &str) -> bool {
-    program.name == component || program.name.replace('-', "_") == component
-}
-
-fn missing_programs(folder: &Path, missing: &[&str], built: &[BuiltProgram]) -> Problem {
-    let noun = if missing.len() == 1 { "component" } else { "components" };
-    let problem = Problem::new(format!("no program for the {noun} {}", quoted_list(missing.iter().copied())));
-    let programs = quoted_list(built.iter().map(|program| program.name.as_str()));
-    let found = if built.is_empty() { "no programs".to_owned() } else { format!("the programs {programs}") };
-    problem
-        .help(format!("add `src/bin/{}.rs`, or say in `{LAUNCH_FILE}` how to start it", missing[0]))
-        .note(format!("the cargo package in `{}` has {found}", folder.display()))
 }

@@ -1,5 +1,7 @@
 //! Does what the state of a run asks for: starts processes, signals them, reports. Takes in what happens, event by event.
 
+mod process;
+
 use super::children::{Event, Role, Running, Start};
 use super::control::Asked;
 use super::ending::Ending;
@@ -15,12 +17,11 @@ use super::restarts::Time;
 use super::run_state::{RunEvent, RunState};
 use super::summary;
 use nix::sys::signal::Signal;
+use process::Process;
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
-
-/// How long to wait for output after a program has ended: processes it started may still write.
-const LATE_OUTPUT: Duration = Duration::from_millis(500);
 
 /// How the programs ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,17 +61,6 @@ pub(crate) struct Supervisor<'a> {
     guard: OrphanGuard,
     processes: Vec<Option<Process>>,
     next_process: usize,
-}
-
-/// The process of a program, or its last.
-#[derive(Debug)]
-struct Process {
-    number: usize,
-    running: Running,
-    open_streams: u8,
-    ended: Option<Instant>,
-    /// Written after its last output.
-    reports: Vec<String>,
 }
 
 /// A run in progress.
@@ -121,7 +111,7 @@ impl<'a> Supervisor<'a> {
     /// The next event, or `None` if something is due before.
     fn next_event(&self, run: &Run<'_>) -> Option<Event> {
         let drained = self.processes.iter().flatten().filter(|process| !process.is_silent());
-        let drained = drained.filter_map(|process| process.ended.map(|at| at + LATE_OUTPUT));
+        let drained = drained.filter_map(Process::drained_at);
         // A time too far in the future to be represented means never.
         let due = run.state.due().and_then(|due| run.began.checked_add(due));
         let Some(due) = drained.chain(due).min() else { return self.surroundings.events.recv().ok() };
@@ -168,7 +158,7 @@ impl<'a> Supervisor<'a> {
 
     /// Feeds an event to the state and does what it asks for, until nothing is left to do.
     fn apply(&mut self, run: &mut Run<'_>, event: RunEvent) {
-        let mut actions: std::collections::VecDeque<_> = run.state.step(run.now(), event).into();
+        let mut actions: VecDeque<_> = run.state.step(run.now(), event).into();
         while let Some((index, action)) = actions.pop_front() {
             match action {
                 Action::Start if run.state.components()[index].state() == State::Starting => {
@@ -207,7 +197,7 @@ impl<'a> Supervisor<'a> {
         let running = Running::start(member.program, &start, &mut self.guard, output, sender)?;
         let number = self.next_process;
         self.next_process += 1;
-        self.processes[index] = Some(Process { number, running, open_streams: 2, ended: None, reports: Vec::new() });
+        self.processes[index] = Some(Process::new(number, running));
         Ok(())
     }
 
@@ -257,18 +247,6 @@ impl<'a> Supervisor<'a> {
 impl Run<'_> {
     fn now(&self) -> Time {
         self.began.elapsed()
-    }
-}
-
-impl Process {
-    /// Whether it has ended and no output of it is to be waited for.
-    fn is_drained(&self) -> bool {
-        self.ended.is_some_and(|at| self.open_streams == 0 || at.elapsed() >= LATE_OUTPUT)
-    }
-
-    /// Whether everything has been reported.
-    fn is_silent(&self) -> bool {
-        self.is_drained() && self.reports.is_empty()
     }
 }
 

@@ -1,9 +1,11 @@
 //! Values as texts: YAML, JSON, rows of a table.
 
+mod documents;
 mod json;
 mod table;
 mod yaml;
 
+pub use documents::Documents;
 pub use json::to_json;
 pub use table::Table;
 pub use yaml::{ReadError, read_yaml, to_yaml};

@@ -19,6 +19,8 @@ def read(reader):
                 channel.topic,
                 {
                     "count": 0,
+                    "first": message.sequence,
+                    "last": None,
                     "encoding": channel.message_encoding,
                     "schema": schema.name,
                     "schema_encoding": schema.encoding,
@@ -26,8 +28,9 @@ def read(reader):
                 },
             )
             topic["count"] += 1
+            topic["last"] = message.sequence
             field = FIELDS.get(channel.topic)
-            if field is not None:
+            if field is not None and message.data:
                 topic["sum"] = (topic["sum"] or 0.0) + decode(schema, channel, message, field)
     except EndOfFile:
         complete = False

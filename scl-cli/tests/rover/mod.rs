@@ -112,6 +112,11 @@ impl Rover {
         self.files.path(name)
     }
 
+    /// Adds a file to the folder of the system.
+    pub(crate) fn write(&self, name: &str, text: &str) {
+        self.files.write(name, text);
+    }
+
     /// The runtime folder.
     pub(crate) fn runtime_dir(&self) -> PathBuf {
         self.path("run")

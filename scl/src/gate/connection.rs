@@ -375,6 +375,10 @@ impl SendingEnd for Connection {
         self.waiting_sender.take().into_iter().for_each(Waker::wake);
     }
 
+    fn call_waits(&self) -> bool {
+        self.waiting_sender.is_some()
+    }
+
     fn write_out(&mut self) -> bool {
         if !self.is_written() {
             let task = self.task.clone();

@@ -95,7 +95,11 @@ fn press(view: &mut View, key: KeyCode) -> Action {
 
 #[test]
 fn a_usual_terminal_shows_all_columns() {
-    check(&view(true), 80, 16, &expect![[r#"
+    check(
+        &view(true),
+        80,
+        16,
+        &expect![[r#"
         rover  3 of 4 components running, 1 hang
         COMPONENT   STATE      PID     CPU       MEM  SINCE
         controller  ready      120    2.1%  3.75 MiB  6 min
@@ -112,12 +116,17 @@ fn a_usual_terminal_shows_all_columns() {
 
 
         q quit  ↑↓ choose  Enter details  s sorted by name  space pause
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn narrow_terminals_leave_columns_out_and_shorten_names() {
-    check(&view(true), 50, 12, &expect![[r#"
+    check(
+        &view(true),
+        50,
+        12,
+        &expect![[r#"
         rover  3 of 4 components running, 1 hang
         COMPONENT   STATE      PID     CPU       MEM
         controller  ready      120    2.1%  3.75 MiB
@@ -130,8 +139,13 @@ fn narrow_terminals_leave_columns_out_and_shorten_names() {
         sensor.measurements  pub   1000   100     0    1/2
         sensor.image         pub   25.0     2     7    0/1
         q quit  ↑↓ choose  Enter details  s sorted by name
-    "#]]);
-    check(&view(true), 30, 12, &expect![[r#"
+    "#]],
+    );
+    check(
+        &view(true),
+        30,
+        12,
+        &expect![[r#"
         rover  3 of 4 components runni
         C  STATE         CPU       MEM
         …  ready        2.1%  3.75 MiB
@@ -144,7 +158,8 @@ fn narrow_terminals_leave_columns_out_and_shorten_names() {
         sensor.mea…  1000     0    1/2
         sensor.ima…  25.0     7    0/1
         q quit  ↑↓ choose  Enter detai
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
@@ -153,7 +168,11 @@ fn a_chosen_gate_shows_its_connections() {
     assert_eq!(press(&mut view, KeyCode::Down), Action::Draw);
     press(&mut view, KeyCode::Down);
     press(&mut view, KeyCode::Enter);
-    check(&view, 80, 18, &expect![[r#"
+    check(
+        &view,
+        80,
+        18,
+        &expect![[r#"
         rover  3 of 4 components running, 1 hang
         COMPONENT   STATE      PID     CPU       MEM  SINCE
         controller  ready      120    2.1%  3.75 MiB  6 min
@@ -172,7 +191,8 @@ fn a_chosen_gate_shows_its_connections() {
           controller.sensor  connected  taken 5  not yet 0  dropped 0  lost 0
           viewer.measurements  not connected  taken 0  not yet 0  dropped 0  lost 0
         q quit  ↑↓ choose  Enter details  s sorted by name  space pause
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
