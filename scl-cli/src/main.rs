@@ -34,7 +34,6 @@ mod list;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
-#[cfg(feature = "observe")]
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]
