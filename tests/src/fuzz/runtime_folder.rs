@@ -95,7 +95,7 @@ impl Scene {
         if let Some(Some(dir)) = self.told(RuntimeDir::existing(&variable)) {
             for system in dir.systems().unwrap_or_default() {
                 if let Some(Some(dir)) = self.told(dir.existing_system(&system)) {
-                    dir.components().unwrap_or_default().iter().for_each(|name| drop(dir.state(name)));
+                    dir.components().unwrap_or_default().iter().for_each(|name| _ = dir.state(name));
                 }
             }
         }
