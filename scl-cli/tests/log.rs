@@ -1,6 +1,6 @@
 //! `scl log`: what components printed, read without `scl run`.
 
-use crate::system::{FOREVER, System};
+use crate::system::{FOREVER, Started, System};
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
@@ -26,6 +26,12 @@ fn run(system: &System) {
     let mut command = system.scl(&["run"]);
     let output = command.env_remove("SCL_SYSTEM").env("SCL_RUNTIME_DIR", system.path("run")).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+fn start(system: &System) -> Started {
+    system.start_with(&[], |command| {
+        command.env_remove("SCL_SYSTEM").env("SCL_RUNTIME_DIR", system.path("run"));
+    })
 }
 
 fn entries(system: &System, arguments: &[&str]) -> Vec<Value> {
@@ -63,8 +69,12 @@ fn both_streams_are_kept_with_their_times_and_processes() {
 
 #[test]
 fn a_line_of_100_megabytes_is_cut() {
-    let system = system(&[("sensor", "head -c 100000000 /dev/zero | tr '\\0' x; echo; echo end")]);
-    run(&system);
+    let command = format!("head -c 100000000 /dev/zero | tr '\\0' x; echo; echo end; {FOREVER}");
+    let system = system(&[("sensor", &command)]);
+    let mut running = start(&system);
+    running.wait_for("sensor | end");
+    running.signal("-INT");
+    let _ = running.finish();
     let entries = entries(&system, &["sensor"]);
     let length: u64 = entries.iter().map(|it| it["text"].as_str().unwrap().len() as u64).sum();
     let cut: u64 = entries.iter().map(|it| it["cut_bytes"].as_u64().unwrap_or(0)).sum();
@@ -76,9 +86,7 @@ fn a_line_of_100_megabytes_is_cut() {
 #[test]
 fn a_log_is_followed_while_the_component_runs_and_after() {
     let system = system(&[("sensor", &format!("echo one; until [ -e go ]; do sleep 0.01; done; echo two; {FOREVER}"))]);
-    let mut running = system.start_with(&[], |command| {
-        command.env_remove("SCL_SYSTEM").env("SCL_RUNTIME_DIR", system.path("run"));
-    });
+    let mut running = start(&system);
     running.wait_for("sensor | one");
     let mut follow = log(&system, &["sensor", "-f"]).stdout(Stdio::piped()).spawn().unwrap();
     let mut lines = BufReader::new(follow.stdout.take().unwrap()).lines().map(Result::unwrap);
@@ -88,9 +96,7 @@ fn a_log_is_followed_while_the_component_runs_and_after() {
     running.signal("-INT");
     let _ = running.finish();
     // It waits on: the component may be started again.
-    let again = system.start_with(&[], |command| {
-        command.env_remove("SCL_SYSTEM").env("SCL_RUNTIME_DIR", system.path("run"));
-    });
+    let again = start(&system);
     assert_eq!(lines.next().unwrap(), "-- process 2 --");
     again.signal("-INT");
     let _ = again.finish();
