@@ -72,7 +72,10 @@ fn the_rate_scales_time() {
     let report = rover.replay_json(&["long.mcap", "--as", "sensor", "--rate", "1e5"]);
     assert_eq!(report["sent"], 3);
     assert!(report["seconds"].as_f64().unwrap() >= 0.108, "{report}");
-    assert_eq!(rover.replay_json(&["long.mcap", "--as", "sensor", "--rate", "max"])["sent"], 3);
+    assert_eq!(
+        rover.replay_json(&["long.mcap", "--as", "sensor", "--rate", "max", "--system", "beside", "--ready", "0s"])["sent"],
+        3
+    );
     let report = rover.replay_json(&["long.mcap", "--as", "sensor", "--start", "1h", "--end", "2h"]);
     assert_eq!(report["sent"], 1);
 }
@@ -173,13 +176,13 @@ fn requests_are_repeated_and_answered() {
     let answers = ["slower", "faster", "faster"]
         .map(|command| text(&commands.call_timeout(&command.to_owned().into(), HANG_LIMIT).unwrap()));
     assert_eq!(answers, ["no", "yes", "yes"]);
-    drop((commands, user_interface));
+    kill("-INT", replay.id());
     let report: serde_json::Value = serde_json::from_slice(&replay.wait_with_output().unwrap().stdout).unwrap();
     assert_eq!(
         report["answers"][0],
         serde_json::json!({"gate": "controller.commands", "answered": 3, "unanswered": 0})
     );
-    assert_eq!(report["gates"][0]["reason"], "`user_interface` is running as process 1");
+    assert_eq!(report["gates"][0]["reason"], format!("`user_interface` is running as process {}", std::process::id()));
 }
 
 #[test]
@@ -254,8 +257,8 @@ fn missing_peers_are_named() {
     let rover = Rover::new();
     rover.record("flight.mcap", &[(MEASUREMENTS, 0, "1")]);
     let error = rover.fails(&["flight.mcap", "--as", "sensor", "--ready", "100ms"]);
-    assert!(error.contains("component `sensor` is not ready after 100ms: "), "{error}");
-    assert!(error.contains("`controller` is not running") && error.contains("`--ready 0s`"), "{error}");
+    assert!(error.contains("component `sensor` is not ready after 1"), "{error}");
+    assert!(error.contains("`controller.newest` is not running") && error.contains("`--ready 0s`"), "{error}");
 }
 
 #[test]

@@ -32,7 +32,8 @@ fn a_full_disk_ends_the_recording_with_a_complete_file() {
         state ^= state << 17;
         state.to_le_bytes()
     };
-    for _ in 0..100 {
+    // The first ones may be sent before the gate knows the recorder.
+    for _ in 0..200 {
         let payload: Vec<u8> = (0..2048).flat_map(|_| random()).collect();
         source.send("g0", &payload);
     }

@@ -10,15 +10,17 @@ from mcap_protobuf.decoder import DecoderFactory
 FIELDS = {"/source/measurements": "speed", "/source/position": "latitude"}
 
 
-def read(reader):
+def read(reader, **options):
     topics = {}
     complete = True
     try:
-        for schema, channel, message in reader.iter_messages():
+        for schema, channel, message in reader.iter_messages(**options):
             topic = topics.setdefault(
                 channel.topic,
                 {
                     "count": 0,
+                    "first": message.sequence,
+                    "last": None,
                     "encoding": channel.message_encoding,
                     "schema": schema.name,
                     "schema_encoding": schema.encoding,
@@ -26,8 +28,9 @@ def read(reader):
                 },
             )
             topic["count"] += 1
+            topic["last"] = message.sequence
             field = FIELDS.get(channel.topic)
-            if field is not None:
+            if field is not None and message.data:
                 topic["sum"] = (topic["sum"] or 0.0) + decode(schema, channel, message, field)
     except EndOfFile:
         complete = False
@@ -44,7 +47,8 @@ def decode(schema, channel, message, field):
 DECODERS = DecoderFactory()
 
 with open(sys.argv[1], "rb") as file:
-    stream, complete = read(NonSeekingReader(file))
+    # Sorting would read all of a file before the first message.
+    stream, complete = read(NonSeekingReader(file), log_time_order=False)
 
 indexed = None
 if complete:

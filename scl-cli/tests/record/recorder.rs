@@ -120,6 +120,12 @@ pub(super) fn messages(path: &Path) -> Vec<Message> {
     read.map_while(Result::ok).map(message).collect()
 }
 
+/// The sequences of a topic's messages, from `first` on.
+pub(super) fn sequences(path: &Path, topic: &str, first: u64) -> Vec<u64> {
+    let of_topic = messages(path).into_iter().filter(|message| message.topic == topic);
+    of_topic.map(|message| message.sequence.into()).skip_while(|sequence| *sequence < first).collect()
+}
+
 /// Number of messages by topic.
 pub(super) fn counts(path: &Path) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();

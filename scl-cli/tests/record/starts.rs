@@ -1,17 +1,14 @@
 //! Components that start later, or again, while a recording runs.
 
-use super::recorder::{Recorder, counts, figures, messages};
-use super::source::{GATES, Source};
+use super::recorder::{Recorder, counts, figures, messages, sequences};
+use super::source::Source;
 use crate::rover::Rover;
 use scl_tests::wait_until;
 
 #[test]
 fn components_that_start_later_are_recorded() {
-    let mut rover = Rover::start_with(&[], |_| {});
-    // The system's folder must be there.
-    rover.play(&["logger"], |command| {
-        command.env("SCL_READY", "no");
-    });
+    let mut rover = Rover::start();
+    ["user_interface", "sensor", "controller"].iter().for_each(|component| rover.stop(component));
     let recorder = Recorder::start(&rover, 1, &["--format", "json"]);
     rover.play(&["sensor", "controller", "user_interface"], |_| {});
     let file = rover.path("flight.mcap");
@@ -23,24 +20,24 @@ fn components_that_start_later_are_recorded() {
 #[test]
 fn a_component_that_starts_again_is_recorded_on() {
     let mut source = Source::start();
-    let recorder = Recorder::start(&source.rover, GATES, &["--format", "json"]);
+    let recorder = source.record(&["g0"], &["--format", "json"]);
     let file = source.rover.path("flight.mcap");
-    source.send_numbers(0..100);
-    wait_until("the first run is recorded", || messages(&file).len() == 100);
+    let sent = source.send_numbers(100).collect::<Vec<_>>();
+    wait_until("the first run is recorded", || sequences(&file, "/source/g0", sent[0]) == sent);
+    let first_run = messages(&file).len();
     source.close();
     source.open();
     // What is sent before the recorder has connected again is lost, and counted.
-    let mut sent = 0;
     wait_until("the second run is recorded", || {
-        source.send_numbers(sent..sent + 1);
-        sent += 1;
-        messages(&file).len() > 100
+        source.send_numbers(1);
+        recorder.signal("-USR1");
+        messages(&file).len() > first_run
     });
     let report = recorder.stop_json();
     let (recorded, lost) = figures(&report, "source.g0");
-    assert_eq!(recorded + lost, 100 + sent);
-    let second = messages(&file)[100..].iter().map(|message| u64::from(message.sequence)).collect::<Vec<_>>();
-    assert_eq!(second, (lost..sent).collect::<Vec<_>>());
+    assert_eq!(recorded + lost, first_run as u64 + source.sent("g0"));
+    let second: Vec<u64> = messages(&file)[first_run..].iter().map(|message| message.sequence.into()).collect();
+    assert_eq!(second, (lost..source.sent("g0")).collect::<Vec<_>>());
 }
 
 #[test]

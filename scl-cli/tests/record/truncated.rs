@@ -1,19 +1,20 @@
 //! A small recording, cut at every byte: `recover` keeps what is there, and never fails on what is not.
 
-use super::recorder::{Recorder, messages, summary};
+use super::recorder::{messages, summary};
 use super::source::Source;
 use scl_record::recover::recover;
 use std::fs;
 
 #[test]
 fn a_recording_cut_at_every_byte_is_recovered() {
-    let mut source = Source::start();
-    let recorder = Recorder::start(&source.rover, 1, &["source.g0"]);
-    source.send_numbers(0..5);
+    let mut source = Source::start_with(1);
+    // The topology would be an attachment, with many more bytes.
+    fs::remove_file(source.rover.path("topology.yaml")).unwrap();
+    let recorder = source.record(&["g0"], &["--system", "rover"]);
+    source.send_numbers(5);
     recorder.stop();
     let bytes = fs::read(source.rover.path("flight.mcap")).unwrap();
     let whole = messages(&source.rover.path("flight.mcap"));
-    assert_eq!(whole.len(), 5);
 
     let cut = source.rover.path("cut.mcap");
     let mut last = 0;
@@ -37,15 +38,15 @@ fn a_recording_cut_at_every_byte_is_recovered() {
         assert!(last <= kept.len(), "{length} bytes");
         last = kept.len();
     }
-    assert_eq!(last, 5);
+    assert_eq!(last, whole.len());
     assert_eq!(fs::read_dir(source.rover.path("")).unwrap().flatten().filter(is_temporary).count(), 0);
 }
 
 #[test]
 fn damaged_chunks_are_left_out() {
     let mut source = Source::start();
-    let recorder = Recorder::start(&source.rover, 1, &["source.g0"]);
-    source.send_numbers(0..1000);
+    let recorder = source.record(&["g0"], &[]);
+    source.send_numbers(1000);
     recorder.stop();
     let file = source.rover.path("flight.mcap");
     let bytes = fs::read(&file).unwrap();
