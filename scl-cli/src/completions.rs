@@ -1,11 +1,16 @@
 //! `scl completions`: words that a shell offers after `scl`.
 
+mod names;
+
 use clap::{Args, Command};
 use clap_complete::{Shell, generate};
+use names::add_names;
 use scl_terminal::print_out;
 use std::process::ExitCode;
 
 /// Print a script with which a shell completes the commands and options of `scl`.
+///
+/// In bash, zsh and fish, the names of gates and components are those of the running system.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -25,6 +30,7 @@ pub(crate) fn print_completions(arguments: &CompletionsArguments, command_line: 
     let mut command_line = Command::new("scl").version(env!("CARGO_PKG_VERSION")).subcommands(visible);
     let mut script = Vec::new();
     generate(arguments.shell, &mut command_line, "scl", &mut script);
-    print_out(&String::from_utf8_lossy(&script));
+    let script = String::from_utf8_lossy(&script).into_owned();
+    print_out(&add_names(arguments.shell, &command_line, script));
     ExitCode::SUCCESS
 }

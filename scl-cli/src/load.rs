@@ -29,7 +29,8 @@ pub(crate) struct MaxSize {
     max_size: Option<u64>,
 }
 
-fn parse_size(text: &str) -> Result<u64, String> {
+/// Reads `8MiB`, as in the topology file.
+pub(crate) fn parse_size(text: &str) -> Result<u64, String> {
     size::parse(text).map_err(|_| match size::suggestions(text).as_slice() {
         [] => "expected a whole number and a unit, for example `8MiB`".to_owned(),
         likely => format!("did you mean `{}`?", likely.join("` or `")),

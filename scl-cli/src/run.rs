@@ -2,6 +2,7 @@
 
 use crate::load::{MaxSize, load_file, show_errors};
 use clap::Args;
+use scl_run::SystemNames;
 use scl_terminal::parse_duration;
 use scl_terminal::print_err;
 use std::ffi::OsString;
@@ -19,7 +20,8 @@ const COULD_NOT_RUN: u8 = 2;
 /// Reads `launch.yaml` in FOLDER, which says how each component is built and started. Without one, builds the cargo
 /// package in FOLDER and starts the program named like each component of `topology.yaml`.
 ///
-/// When one component fails, the others are stopped. Ctrl-C and SIGTERM are passed on to all; a second one kills at once.
+/// When a component fails, the others are stopped, unless the launch file says that it is restarted or not essential. Ctrl-C
+/// and SIGTERM are passed on to all; a second one kills at once.
 #[derive(Args)]
 #[command(after_help = after_help())]
 pub(crate) struct RunArguments {
@@ -38,7 +40,7 @@ pub(crate) struct RunArguments {
     /// Stop after this time, for example `5s`, and succeed.
     #[arg(long = "for", value_name = "TIME", value_parser = parse_duration)]
     run_for: Option<Duration>,
-    /// How long components may take to stop before they are killed.
+    /// How long components without a `stop_within` in the launch file may take to stop before they are killed.
     #[arg(long, value_name = "TIME", default_value = "5s", value_parser = parse_duration)]
     grace: Duration,
     /// Build the cargo package with optimizations.
@@ -56,6 +58,7 @@ Examples:
   scl run rover/replay.yaml       another launch file
   scl run --profile python        the programs of a profile
   scl run --only sensor           one component, while the others run elsewhere
+  scl restart sensor              from another shell; `scl stop` stops everything
 
 A launch file (docs/launch.md has all of it):
 {example}
@@ -68,6 +71,12 @@ Exit code: 0 all ended in order or were stopped, 1 a component failed or had to 
 pub(crate) struct StartArguments {
     /// The process that must be alive.
     parent: u32,
+    /// A processor that the program may use; several: all of them.
+    #[arg(long)]
+    cpu: Vec<usize>,
+    /// Its real-time priority.
+    #[arg(long)]
+    fifo: Option<u8>,
     /// The program and its arguments.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, required = true)]
     command: Vec<OsString>,
@@ -96,14 +105,16 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
 
 /// The body of `scl __start`.
 pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
-    scl_run::start_component(arguments.parent, &arguments.command)
+    let placement = scl_run::Placement { cpu: arguments.cpu.clone(), fifo: arguments.fifo };
+    scl_run::start_component(arguments.parent, &placement, &arguments.command)
 }
 
-fn component_names(topology: &Path) -> Option<Vec<String>> {
+fn component_names(topology: &Path) -> Option<SystemNames> {
     let loaded = load_file(topology, MaxSize::default());
     let Some(topology) = &loaded.topology else {
         show_errors(&loaded);
         return None;
     };
-    Some(topology.components().map(|(_, component)| component.name().to_owned()).collect())
+    let components = topology.components().map(|(_, component)| component.name().to_owned()).collect();
+    Some(SystemNames { system: topology.system().to_owned(), components })
 }

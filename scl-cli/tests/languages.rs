@@ -1,12 +1,13 @@
 //! `examples/languages`: the quick start in four languages, as `scl run` builds and runs it on a new machine.
 
-use crate::system::{Started, System};
+use crate::system::{Started, System, lock_programs};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// One test, because its parts build into the same folder and would wait for each other.
 #[test]
 fn every_language_runs_every_component_and_takes_over_from_another() {
+    let _programs = lock_programs();
     let example = Example::new();
     for profile in ["rust", "c", "cpp", "python"] {
         example.check_lines(&["--profile", profile]);

@@ -5,34 +5,59 @@
 mod bandwidth;
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "observe")]
+mod call;
 mod check;
 mod check_fix;
 mod check_formats;
 mod check_inputs;
 mod check_watch;
+#[cfg(feature = "record")]
+mod compare;
+#[cfg(feature = "observe")]
+mod complete_names;
 mod completions;
 #[cfg(feature = "observe")]
 mod delay;
 mod diff;
 #[cfg(feature = "observe")]
 mod doctor;
+#[cfg(feature = "observe")]
+mod echo;
 mod editor;
 mod explain;
+mod external;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
 #[cfg(feature = "observe")]
 mod hz;
+#[cfg(feature = "observe")]
+mod info;
+#[cfg(feature = "observe")]
+mod json;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
+#[cfg(feature = "observe")]
+mod list;
 mod lsp;
+#[cfg(feature = "new")]
+mod new;
 mod plan;
+#[cfg(feature = "observe")]
+mod publish;
 #[cfg(feature = "run")]
 mod quickstart;
+#[cfg(feature = "record")]
+mod record;
+#[cfg(feature = "record")]
+mod replay;
 #[cfg(feature = "observe")]
 mod rover;
 #[cfg(feature = "run")]
 mod run_build;
+#[cfg(feature = "run")]
+mod run_control;
 #[cfg(feature = "run")]
 mod run_mistakes;
 #[cfg(feature = "run")]
@@ -40,12 +65,20 @@ mod run_output;
 #[cfg(feature = "run")]
 mod run_package;
 #[cfg(feature = "run")]
+mod run_placement;
+#[cfg(feature = "run")]
 mod run_profiles;
+#[cfg(feature = "run")]
+mod run_ready;
+#[cfg(feature = "run")]
+mod run_restart;
 #[cfg(feature = "run")]
 mod run_stop;
 mod rust_analyzer;
 mod schema;
 mod system;
+#[cfg(feature = "run")]
+mod systemd;
 #[cfg(feature = "observe")]
 mod ticker;
 #[cfg(feature = "observe")]

@@ -1,15 +1,17 @@
 //! The first thing that anybody sees: the quick start builds, talks and stops; its file alone, when damaged and mended,
 //! is noticed by cargo. All of it without protoc.
 
-use crate::system::System;
+use crate::system::{System, build_folder, lock_programs};
 use std::os::unix::fs::PermissionsExt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 #[test]
 fn the_quick_start_builds_talks_stops_and_notices_its_file() {
+    let _programs = lock_programs();
     let quickstart = Copied::new();
     quickstart.talks_and_stops();
+    quickstart.names_the_missing_peer();
 
     quickstart.edit("topology.yaml", "controller.sensor]", "controler.sensor]");
     let broken = quickstart.build();
@@ -66,12 +68,34 @@ impl Copied {
             run.wait_for(line);
         }
         run.wait_for("user_interface | event: target is now 0.5 m/s");
+        run.wait_for_error("scl: all components are ready after ");
+        // One program is replaced, and finds the others, which keep running.
+        let mut restart = self.system.scl(&["restart", "user_interface"]);
+        self.without_protoc(&mut restart);
+        let restarted = restart.output().unwrap();
+        let out = String::from_utf8_lossy(&restarted.stdout).into_owned();
+        assert!(out.starts_with("user_interface  running as process "), "{out}{restarted:?}");
+        run.wait_for("user_interface | asked for 0.5 m/s: accepted");
         run.signal("-INT");
         let (status, _, err) = run.finish();
         assert_eq!(status.code(), Some(0), "{err}");
         for name in ["sensor", "actuator", "controller", "user_interface"] {
             assert!(err.contains(&format!("{name:14}  ended with exit code 0 after ")), "{err}");
         }
+    }
+
+    /// The sensor alone: it never gets ready, and says why.
+    fn names_the_missing_peer(&self) {
+        let sensor = build_folder().join("debug/sensor");
+        let entry = format!("components: {{sensor: {{command: [{sensor:?}], ready_within: 3s}}}}\n");
+        self.system.write("launch.yaml", &entry);
+        let mut command = self.system.scl(&["run"]);
+        self.without_protoc(&mut command);
+        let output = command.output().unwrap();
+        let err = String::from_utf8_lossy(&output.stderr);
+        assert!(err.contains("sensor  not ready within 3s: waiting for `controller.sensor`\n"), "{err}");
+        assert_eq!(output.status.code(), Some(1), "{err}");
+        std::fs::remove_file(self.system.path("launch.yaml")).unwrap();
     }
 
     fn build(&self) -> Output {
@@ -95,9 +119,4 @@ fn manifest(workspace: &Path) -> String {
         "[package]\nname = \"quickstart-copy\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[workspace]\n\n[dependencies]\n\
          scl = {{ package = \"scl-gates\", path = {scl:?} }}\ntokio = {{ version = \"1\", features = [\"macros\"] }}\n"
     )
-}
-
-/// The folder that the tests themselves were built into, so that little has to be built again.
-fn build_folder() -> PathBuf {
-    Path::new(env!("CARGO_BIN_EXE_scl")).ancestors().nth(2).unwrap().to_owned()
 }

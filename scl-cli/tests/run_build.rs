@@ -24,7 +24,7 @@ components:
   controller:
     build: [sh, -c, echo controller >> ../log]
     command: 'true'
-    folder: control
+    working_directory: control
 ";
     let output = run(launch, &[]);
     let err = without_times(&output.stderr);
@@ -52,7 +52,7 @@ build: echo x >> log
 components:
   a: {build: &all echo a >> log, command: cat log}
   b: {build: *all, command: 'true'}
-  c: {build: *all, command: 'true', folder: control}
+  c: {build: *all, command: 'true', working_directory: control}
   d: {build: echo x >> log, command: 'true'}
 ";
     let output = run(launch, &[]);

@@ -23,16 +23,14 @@ fn unknown_keys_get_a_suggestion_and_the_list() {
             error: unknown key `transprt` in a launch file
              --> launch.yaml:1:1
               = help: did you mean `transport`?
-              = note: the keys are `build`, `components`, `environment`, `profiles`, `topology`, `transport`
 
             error: unknown key `comand` in component `sensor`
              --> launch.yaml:4:25
               = help: did you mean `command`?
-              = note: the keys are `build`, `command`, `environment`, `folder`
 
             error: unknown key `colour` in component `b`
              --> launch.yaml:5:20
-              = note: the keys are `build`, `command`, `environment`, `folder`
+              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `environment`, `essential`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
         "#]],
     );
@@ -41,7 +39,7 @@ fn unknown_keys_get_a_suggestion_and_the_list() {
 #[test]
 fn a_missing_or_empty_command_is_shown_how_to_write() {
     check(
-        "components:\n  a: {folder: .}\n  b:\n    command: []\n  c: ./run\n  d: {comand: ls}\n  e: {command: ['']}\n",
+        "components:\n  a: {working_directory: .}\n  b:\n    command: []\n  c: ./run\n  d: {comand: ls}\n  e: {command: ['']}\n",
         &expect![[r#"
             error: component `a` has no usable `command`
              --> launch.yaml:2:3
@@ -58,7 +56,6 @@ fn a_missing_or_empty_command_is_shown_how_to_write() {
             error: unknown key `comand` in component `d`
              --> launch.yaml:6:7
               = help: did you mean `command`?
-              = note: the keys are `build`, `command`, `environment`, `folder`
 
             error: component `e` has no usable `command`
              --> launch.yaml:7:7
@@ -71,20 +68,20 @@ fn a_missing_or_empty_command_is_shown_how_to_write() {
 #[test]
 fn values_of_the_wrong_kind_are_named() {
     check(
-        "transport: udp\nenvironment: [A]\ncomponents:\n  a: {command: ls, folder: 3, environment: {A: [1], B: , 'C=': x}}\n  1: {command: ls}\n",
+        "transport: udp\nenvironment: [A]\ncomponents:\n  a: {command: ls, working_directory: 3, environment: {A: [1], B: , 'C=': x}}\n  1: {command: ls}\n",
         &expect![[r#"
             error: the variable `A` is a text, not a list
-             --> launch.yaml:4:45
+             --> launch.yaml:4:56
               = help: write `A: "..."`
 
             error: the variable `B` is a text, not nothing
-             --> launch.yaml:4:53
+             --> launch.yaml:4:64
               = help: write `B: "..."`
 
             error: `C=` is not the name of an environment variable
-             --> launch.yaml:4:31
+             --> launch.yaml:4:42
 
-            error: `folder` is a path, not `3`
+            error: `working_directory` is a path, not `3`
              --> launch.yaml:4:20
 
             error: the name of a component is a word, not `1`
@@ -150,7 +147,7 @@ fn a_key_given_twice_is_named() {
 #[test]
 fn programs_that_are_not_there_are_found_before_the_start() {
     check(
-        "components:\n  a: {command: [no-such-program]}\n  b: {command: [./b]}\n  c: {command: [./launch.yaml]}\n  d: {command: ls, folder: d}\n",
+        "components:\n  a: {command: [no-such-program]}\n  b: {command: [./b]}\n  c: {command: [./launch.yaml]}\n  d: {command: ls, working_directory: d}\n",
         &expect![[r#"
             error: the program `no-such-program` of component `a` is not in the search path
               = help: install it, or write its path: `./no-such-program` is looked up in the component's folder
@@ -185,7 +182,7 @@ components:
   b: {command: ls, build: {make: all}}
 build: 3
 profiles:
-  python: {a: {comand: ls}, c: {folder: .}, b: ls}
+  python: {a: {comand: ls}, c: {working_directory: .}, b: ls}
   sim: [a]
   2: {}
 ",
@@ -205,14 +202,13 @@ profiles:
             error: unknown key `comand` in component `a`
              --> launch.yaml:6:16
               = help: did you mean `command`?
-              = note: the keys are `build`, `command`, `environment`, `folder`
 
             error: component `c` has no usable `command`
              --> launch.yaml:6:29
               = help: write `command: ./c` or `command: [./c, --verbose]`
 
             error: the entry of component `b` is not a mapping
-             --> launch.yaml:6:45
+             --> launch.yaml:6:56
               = help: write `b: {command: ls}`
 
             error: profile `sim` is not a mapping from components to commands
@@ -264,4 +260,187 @@ fn profiles_are_compared_with_the_topology() {
 
     "#]]
     .assert_eq(&String::from_utf8(output.stderr).unwrap());
+}
+
+/// Every setting with wrong values, in an entry or in `defaults`.
+#[test]
+fn wrong_settings_are_named_with_what_was_probably_meant() {
+    check(
+        "\
+defaults: {command: ls, restart: sometimes, environment: {}}
+components:
+  a:
+    command: ls
+    restart: on-failure
+    restart_delay: 100ms-5s
+    restart_limit: 5/1m
+    essential: yes please
+    stop_within: 3
+    ready_within: 0s
+    alive_within: soon
+    cpu: [0, -1]
+    priority: 80
+    working_directory: ''
+  b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
+  c: {command: ls, replay: a.mcap}
+  d: {replay: a.mcap, build: make}
+  e: {replay: [a.mcap]}
+  f: {repaly: a.mcap}
+",
+        &expect![[r#"
+            error: `restart` is `never`, `on_failure` or `always`, not `on-failure`
+             --> launch.yaml:5:5
+              = help: did you mean `restart: on_failure`?
+
+            error: `restart_delay` is a range like `100ms..5s`, or one time, not `100ms-5s`
+             --> launch.yaml:6:5
+              = help: did you mean `restart_delay: 100ms..5s`?
+
+            error: `restart_limit` is a number of restarts and a time, like `5 in 1m`, not `5/1m`
+             --> launch.yaml:7:5
+              = help: did you mean `restart_limit: 5 in 1m`?
+
+            error: `essential` is `true` or `false`, not `yes please`
+             --> launch.yaml:8:5
+
+            error: `stop_within` is a time like `500ms` or `3s`, not `3`
+             --> launch.yaml:9:5
+              = help: did you mean `stop_within: 3s`?
+
+            error: `ready_within` is a time like `500ms` or `3s`, not `0s`
+             --> launch.yaml:10:5
+
+            error: `alive_within` is a time like `500ms` or `3s`, not `soon`
+             --> launch.yaml:11:5
+
+            error: `cpu` is a list of processors like `[2, 3]`, counted from 0, or one of them, not `[0, -1]`
+             --> launch.yaml:12:5
+
+            error: `priority` is `fifo:1` to `fifo:99`, not `80`
+             --> launch.yaml:13:5
+              = help: did you mean `priority: fifo:80`?
+
+            error: `working_directory` is a path, not ``
+             --> launch.yaml:14:5
+
+            error: `restart` is `never`, `on_failure` or `always`, not `true`
+             --> launch.yaml:15:20
+
+            error: `restart_delay` is a range like `100ms..5s`, or one time, not `5s..1s`
+             --> launch.yaml:15:35
+
+            error: `restart_limit` is a number of restarts and a time, like `5 in 1m`, not `5`
+             --> launch.yaml:15:58
+
+            error: `essential` is `true` or `false`, not `off`
+             --> launch.yaml:15:105
+              = help: did you mean `essential: false`?
+
+            error: `cpu` is a list of processors like `[2, 3]`, counted from 0, or one of them, not a list
+             --> launch.yaml:15:76
+
+            error: `priority` is `fifo:1` to `fifo:99`, not `fifo:100`
+             --> launch.yaml:15:85
+
+            error: component `c` has both a `command` and a `replay`
+             --> launch.yaml:16:20
+              = help: put one of them into a profile
+
+            error: a `replay` needs no `build`
+             --> launch.yaml:17:23
+              = help: remove it
+
+            error: `replay` is a path, not a list
+             --> launch.yaml:18:7
+
+            error: unknown key `repaly` in component `f`
+             --> launch.yaml:19:7
+              = help: did you mean `replay`?
+
+            error: unknown key `command` in `defaults`
+             --> launch.yaml:1:12
+              = note: the keys are `alive_within`, `cpu`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+
+            error: unknown key `environment` in `defaults`
+             --> launch.yaml:1:45
+              = note: the keys are `alive_within`, `cpu`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+
+            error: `restart` is `never`, `on_failure` or `always`, not `sometimes`
+             --> launch.yaml:1:25
+
+        "#]],
+    );
+}
+
+#[test]
+fn words_of_other_tools_are_understood() {
+    check(
+        "\
+components:
+  a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
+default: {restart: always}
+",
+        &expect![[r#"
+            error: unknown key `default` in a launch file
+             --> launch.yaml:3:1
+              = help: did you mean `defaults`?
+
+            error: unknown key `cmd` in component `a`
+             --> launch.yaml:2:7
+              = help: did you mean `command`?
+
+            error: unknown key `folder` in component `a`
+             --> launch.yaml:2:16
+              = help: did you mean `working_directory`?
+
+            error: unknown key `depends_on` in component `a`
+             --> launch.yaml:2:27
+              = help: did you mean `ready_within`?
+
+            error: unknown key `respawn` in component `a`
+             --> launch.yaml:2:42
+              = help: did you mean `restart`?
+
+            error: unknown key `watchdog` in component `a`
+             --> launch.yaml:2:57
+              = help: did you mean `alive_within`?
+
+            error: unknown key `env` in component `a`
+             --> launch.yaml:2:71
+              = help: did you mean `environment`?
+
+            error: unknown key `max_restarts` in component `a`
+             --> launch.yaml:2:84
+              = help: did you mean `restart_limit`?
+
+            error: unknown key `Grace` in component `a`
+             --> launch.yaml:2:101
+              = help: did you mean `stop_within`?
+
+        "#]],
+    );
+}
+
+#[test]
+fn a_recording_must_exist() {
+    check(
+        "components: {a: {replay: flight.mcap}}\n",
+        &expect![[r#"
+        error: the recording of component `a` does not exist: `FOLDER/flight.mcap`
+
+    "#]],
+    );
+}
+
+#[test]
+fn defaults_are_a_mapping() {
+    check(
+        "components: {a: {command: ls}}\ndefaults: always\n",
+        &expect![[r#"
+        error: `defaults` is a mapping, not `always`
+         --> launch.yaml:2:1
+          = help: write `defaults: {restart: on_failure, stop_within: 3s}`
+
+    "#]],
+    );
 }

@@ -48,6 +48,7 @@ fn a_failed_component_is_named_with_its_code() {
         &expect![[""]],
         &expect![[r#"
             sensor  ended with exit code 7 after N s
+            scl: component `sensor` failed: ended with exit code 7
         "#]],
     );
 }
@@ -60,6 +61,7 @@ fn a_crash_is_named_with_its_signal() {
         &expect![[""]],
         &expect![[r#"
             sensor  killed by signal 11 (SIGSEGV) after N s
+            scl: component `sensor` failed: killed by signal 11 (SIGSEGV)
         "#]],
     );
 }
@@ -115,7 +117,7 @@ components:
   sensor:
     command: 'echo $A $B $SCL_TRANSPORT $(basename $PWD) ${SCL_SYSTEM-unset}'
     environment: {B: 0.5}
-    folder: below
+    working_directory: below
 ",
         ),
         ("below/file", ""),
@@ -128,4 +130,16 @@ components:
 fn a_list_is_executed_as_it_is() {
     let system = System::of_files(&[("launch.yaml", "components: {a: {command: [printf, '%s;', '$A b', 1, true]}}")]);
     assert_eq!(String::from_utf8(system.run(&[]).stdout).unwrap(), "a | $A b;1;true;\n");
+}
+
+#[test]
+fn a_line_of_100_megabytes_arrives_and_holds_nobody_up() {
+    const LENGTH: usize = 100_000_000;
+    let flood = format!("head -c {LENGTH} /dev/zero | tr '\\0' x");
+    let output = System::of(&[("sensor", &flood), ("controller", "echo done")]).run(&[]);
+    let count = |byte: u8| output.stdout.iter().filter(|it| **it == byte).count();
+    // Split into parts, so that it does not fill the memory.
+    assert_eq!(count(b'x'), LENGTH);
+    assert!(count(b'\n') > 2);
+    assert_eq!(output.status.code(), Some(0));
 }

@@ -94,8 +94,9 @@ fn who_does_not_stop_in_time_is_named_and_killed() {
     run.wait_for_line("sensor     | ready");
     run.signal("-TERM");
     let (status, _, err) = run.finish();
-    assert!(err.contains("scl: not stopped within 500ms: `sensor`\n"), "{err}");
+    assert!(err.contains("sensor      not stopped within 500ms, killed\n"), "{err}");
     assert!(err.contains("sensor      killed by signal 9 (SIGKILL)"), "{err}");
+    assert!(err.ends_with("scl: component `sensor` failed: not stopped within 500ms\n"), "{err}");
     assert_eq!(status.code(), Some(1));
 }
 

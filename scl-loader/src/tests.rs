@@ -194,7 +194,7 @@ fn schemas_need_their_feature() {
             1 | schemas: [rover.proto]
               |           ^^^^^^^^^^^ this build of SCL compiles no schemas
               |
-              = help: switch it on in Cargo.toml: scl = { version = "..", features = ["protobuf"] }
+              = help: switch it on in Cargo.toml: scl = { package = "scl-gates", version = "..", features = ["protobuf"] }
               = note: without `schemas`, types are looked up in your Rust code
         "#]],
     );

@@ -4,7 +4,7 @@ use crate::Template;
 use scl_loader::{Request, load_bytes};
 use scl_terminal::{Problem, quoted_list};
 use scl_topology::diagnostic::{Diagnostic, Severity};
-use scl_topology::rust_name::is_keyword;
+use scl_topology::rust_name::{is_keyword, is_unescapable};
 
 /// Names of packages that cargo does not accept, or that hide a crate of the standard library.
 const OF_CARGO: [&str; 5] = ["alloc", "core", "proc_macro", "std", "test"];
@@ -33,8 +33,9 @@ pub(crate) fn check(name: &str, template: Template) -> Result<(), Problem> {
     if name.is_empty() || name.chars().any(char::is_control) {
         return Err(Problem::new(format!("`{shown}` cannot be a name")).help("write letters, digits and `_`"));
     }
-    if let Some(found) = system_problem(name) {
-        return Err(found);
+    let quoted = format!("'{}'", name.replace('\'', "''"));
+    if let Some(found) = checker_problem(&quoted) {
+        return Err(as_problem(name, &found));
     }
     let code = code_name(name);
     let reserved = |why: String| {
@@ -45,7 +46,10 @@ pub(crate) fn check(name: &str, template: Template) -> Result<(), Problem> {
     if code.chars().all(|letter| letter == '_') {
         return Err(Problem::new(format!("`{name}` has no letter")).help("write a word, for example `rover`"));
     }
-    if is_keyword(&code) {
+    if checker_problem(name).is_some() {
+        return reserved(format!("`{name}` means something else in YAML, unless it is quoted"));
+    }
+    if is_keyword(&code) || is_unescapable(&code) {
         return reserved(format!(
             "`{code}` is a keyword of Rust, and the messages of the project get a module of this name"
         ));
@@ -66,12 +70,11 @@ pub(crate) fn check(name: &str, template: Template) -> Result<(), Problem> {
     Ok(())
 }
 
-/// What the checker says about a system of this name.
-fn system_problem(name: &str) -> Option<Problem> {
-    let quoted = name.replace('\'', "''");
-    let text = format!("system: '{quoted}'\ncomponents:\n  - name: sensor\n    gates: []\n");
+/// What the checker says about a system that is called so in the file.
+fn checker_problem(written: &str) -> Option<Diagnostic> {
+    let text = format!("system: {written}\ncomponents:\n  - name: sensor\n    gates: []\n");
     let found = load_bytes(&Request::new("topology.yaml"), text.into_bytes());
-    found.diagnostics.iter().find(|it| it.severity == Severity::Error).map(|it| as_problem(name, it))
+    found.diagnostics.into_iter().find(|it| it.severity == Severity::Error)
 }
 
 /// The checker's words without the place, which is in no file.

@@ -1,6 +1,6 @@
 //! A component of a system: whether it runs, what it announces, and its figures.
 
-use scl::runtime_dir::{Announcement, ComponentState, ComponentStats, Holder, SystemDir};
+use scl::runtime_dir::{Announcement, ComponentState, ComponentStats, SystemDir};
 use scl_plan::{GatePlan, Plan};
 use std::time::{Duration, SystemTime};
 
@@ -40,15 +40,6 @@ impl Component {
     /// Whether a process runs it.
     pub fn is_running(&self) -> bool {
         matches!(self.state, ComponentState::Running(_))
-    }
-
-    /// The process that runs it, if one does and is visible here.
-    pub fn process_id(&self) -> Option<u32> {
-        match self.state {
-            ComponentState::Running(Holder::Process(pid)) => Some(pid),
-            ComponentState::Running(Holder::ThisProcess) => Some(std::process::id()),
-            _ => None,
-        }
     }
 
     /// Its plan, if it runs or was killed.

@@ -14,6 +14,18 @@ pub(crate) fn component<'c>(system: &System, all: &'c [Component], name: &str) -
     all.iter().find(|component| component.name == name).ok_or_else(|| unknown_component(system, all, name))
 }
 
+/// The component, and the gate's number in its plan if the name has one.
+pub(crate) fn component_and_gate(system: &System, name: &str) -> Result<(Component, Option<usize>), Problem> {
+    let all = system.components();
+    let (component_name, gate_name) = name.split_once('.').map_or((name, None), |(name, gate)| (name, Some(gate)));
+    let component = component(system, &all, component_name)?;
+    if component.announcement.is_none() {
+        return Err(not_running(component));
+    }
+    let gate = gate_name.map(|gate| gate_number(&all, component, gate)).transpose()?;
+    Ok((component.clone(), gate))
+}
+
 /// The gate with this name, `component.gate`.
 pub(crate) fn gate(system: &System, name: &str) -> Result<ObservedGate, Problem> {
     let all = system.components();
@@ -22,12 +34,7 @@ pub(crate) fn gate(system: &System, name: &str) -> Result<ObservedGate, Problem>
     if !component.is_running() {
         return Err(not_running(component));
     }
-    if component.plan().is_none() {
-        return Err(without_plan(component));
-    }
-    let Some(plan) = component.gates().iter().find(|gate| gate.name == gate_name) else {
-        return Err(unknown_gate(&all, component, gate_name));
-    };
+    let plan = &component.gates()[gate_number(&all, component, gate_name)?];
     let taps: Vec<Tap> = match own_tap(component_name, plan) {
         Some(tap) => vec![tap],
         None => peer_taps(&all, plan).collect(),
@@ -36,6 +43,14 @@ pub(crate) fn gate(system: &System, name: &str) -> Result<ObservedGate, Problem>
         return Err(no_taps(name, plan));
     }
     Ok(ObservedGate::new(component_name, plan, system.schema_of(component), taps))
+}
+
+fn gate_number(all: &[Component], component: &Component, gate: &str) -> Result<usize, Problem> {
+    if component.plan().is_none() {
+        return Err(without_plan(component));
+    }
+    let number = component.gates().iter().position(|plan| plan.name == gate);
+    number.ok_or_else(|| unknown_gate(all, component, gate))
 }
 
 /// The taps of a gate's running peers.

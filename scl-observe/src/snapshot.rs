@@ -2,7 +2,7 @@
 //! the components nothing.
 
 use crate::process::ProcessFigures;
-use crate::{Component, System};
+use crate::{Component, System, throughput};
 use scl::runtime_dir::{ComponentState, ComponentStats, GateFigures};
 use scl_plan::{GateKind, GatePlan};
 use std::collections::HashMap;
@@ -115,12 +115,11 @@ impl Watch {
             let before = self.before.remove(&component.name);
             let (row, processor) = component_row(component, before.as_ref(), now, time);
             let rates = rates(component, before.as_ref());
-            let stats = component.stats.as_ref().filter(|_| component.is_running());
             if component.is_running() {
-                snapshot.gates.extend(gate_rows(component, stats, &rates));
+                snapshot.gates.extend(gate_rows(component, &rates));
             }
             snapshot.components.push(row);
-            seen.insert(component.name.clone(), Before { processor, stats: stats.cloned(), rates });
+            seen.insert(component.name.clone(), Before { processor, stats: component.stats.clone(), rates });
         }
         self.before = seen;
         snapshot
@@ -175,7 +174,7 @@ fn component_row(
     now: Instant,
     time: SystemTime,
 ) -> (ComponentRow, ProcessorTime) {
-    let pid = component.process_id();
+    let pid = component.process_id().filter(|_| component.is_running());
     let process = pid.and_then(ProcessFigures::read);
     let measured = pid.zip(process).map(|(pid, process)| (pid, now, process.processor_time));
     let processor = measured.zip(before.and_then(|before| before.processor)).and_then(|(after, before)| {
@@ -195,10 +194,10 @@ fn component_row(
     (row, measured)
 }
 
-fn gate_rows(component: &Component, stats: Option<&ComponentStats>, rates: &[Option<f64>]) -> Vec<GateRow> {
+fn gate_rows(component: &Component, rates: &[Option<f64>]) -> Vec<GateRow> {
     let gates = component.gates().iter().enumerate();
     let row = |(index, gate): (usize, &GatePlan)| {
-        let figures = stats.and_then(|stats| stats.gates.get(index)).cloned();
+        let figures = component.figures(index).cloned();
         let connections = gate.connections.iter().enumerate();
         let connections = connections.map(|(index, connection)| ConnectionRow {
             peer: format!("{}.{}", connection.peer_component, connection.peer_gate),
@@ -218,28 +217,14 @@ fn gate_rows(component: &Component, stats: Option<&ComponentStats>, rates: &[Opt
     gates.map(row).collect()
 }
 
-/// Messages per second of each gate.
+/// Messages per second of each gate; those of the moment before if the figures were not written since.
 fn rates(component: &Component, before: Option<&Before>) -> Vec<Option<f64>> {
-    let (Some(stats), Some(before)) = (&component.stats, before) else { return Vec::new() };
+    let (Some(plan), Some(stats), Some(before)) = (component.plan(), &component.stats, before) else {
+        return Vec::new();
+    };
     let Some(old) = before.stats.as_ref().filter(|old| old.started == stats.started) else { return Vec::new() };
-    let Ok(elapsed) = stats.written.duration_since(old.written) else { return before.rates.clone() };
-    if elapsed.is_zero() {
-        return before.rates.clone();
-    }
-    let gates = component.gates().iter().zip(stats.gates.iter().zip(&old.gates));
-    gates.map(|(gate, (new, old))| Some(moved(gate.kind, new, old) as f64 / elapsed.as_secs_f64())).collect()
-}
-
-/// How many messages a gate sent or received between two moments. Figures count a message once for each peer.
-fn moved(kind: GateKind, new: &GateFigures, old: &GateFigures) -> u64 {
-    match kind {
-        GateKind::Sub | GateKind::Pull | GateKind::Rep => new.received.saturating_sub(old.received),
-        GateKind::Push | GateKind::Req => new.sent.saturating_sub(old.sent),
-        GateKind::Pub => {
-            let each = new.connections.iter().zip(&old.connections);
-            let published = |it: &scl::runtime_dir::ConnectionFigures| it.taken + it.dropped + it.lost + it.waiting;
-            let most = each.map(|(new, old)| published(new).saturating_sub(published(old))).max();
-            most.unwrap_or_else(|| new.sent.saturating_sub(old.sent))
-        }
+    match throughput::rates(plan, old, stats) {
+        Some(rates) => rates.iter().map(|rate| Some(rate.messages)).collect(),
+        None => before.rates.clone(),
     }
 }

@@ -72,6 +72,15 @@ impl System {
         lookup::component(self, &components, name).cloned()
     }
 
+    /// A component, or a gate and its component, by name: `component` or `component.gate`. The gate is its number in the
+    /// plan. The component runs or was killed; otherwise nothing is known about it.
+    ///
+    /// # Errors
+    /// There is no such component or gate, or the component is stopped.
+    pub fn component_and_gate(&self, name: &str) -> Result<(Component, Option<usize>), Problem> {
+        lookup::component_and_gate(self, name)
+    }
+
     /// A gate by its name, `component.gate`, with the taps where its messages are seen.
     ///
     /// # Errors

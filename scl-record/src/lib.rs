@@ -3,10 +3,13 @@
 //! [`format`] says what a recording contains; the writer side makes such files, the reader side reads them.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod compare;
 pub mod format;
 pub mod progress;
 pub mod record;
 pub mod recording;
+pub mod recover;
 pub mod replay;
-#[cfg(test)]
-mod testing;
+#[cfg(any(test, feature = "testing"))]
+#[doc(hidden)]
+pub mod testing;

@@ -24,6 +24,7 @@ mod trigger;
 pub use contents::AttachedFile;
 pub use continuous::Split;
 pub use file::WrittenFile;
+pub(crate) use file::options;
 pub use options::{Options, RingOptions};
 pub use report::Report;
 pub use trigger::trigger;
@@ -59,7 +60,7 @@ pub fn record(system: &System, options: &Options) -> Result<Report, Problem> {
 async fn record_async(system: &System, options: &Options) -> Result<Report, Problem> {
     // First, so that an early signal ends a recording and not the process.
     let signals = Signals::listen()?;
-    let notes = Notes::new(options.quiet);
+    let notes = Notes::new();
     let (selection, waiting) = Selection::new(system, &options.gates, &options.exclude)?;
     let (plans, plan) = Plans::of(system);
     let contents =
@@ -100,7 +101,7 @@ fn open_store(
             let continuous = Continuous::start(names, options.split, options.sync, contents)?;
             let path = continuous.path().map(|path| path.to_string_lossy().into_owned()).unwrap_or_default();
             notes.say(&format!("recording `{name}` to `{}`; Ctrl-C stops", escape(&path)));
-            Ok((Store::Continuous(continuous), None))
+            Ok((Store::Continuous(Box::new(continuous)), None))
         }
         Some(ring) => {
             let trigger = TriggerListener::open(system)?;

@@ -169,7 +169,9 @@ impl Run<'_> {
                 let Some(next) = batches.recv().await else { break };
                 batch = next?;
             }
-            if !self.stage.options.repeat || self.stage.report.sent() == 0 {
+            let takes_time =
+                self.stage.report.sent() > 0 || self.players.answers() && !self.stage.options.rate.is_max();
+            if !self.stage.options.repeat || !takes_time {
                 return Ok(());
             }
             self.stage.gates.clear();
@@ -184,6 +186,10 @@ impl Run<'_> {
             let gate = &self.stage.gates[message.channel];
             let (sender, reported) = (gate.sender.clone(), gate.reported);
             let Some(sender) = sender else {
+                // As long as the recording, for requesters that ask at other times.
+                if self.players.answers() {
+                    self.pace.wait_for(time).await?;
+                }
                 self.stage.skip(reported);
                 continue;
             };
@@ -254,9 +260,11 @@ fn answering_gates(cast: &Cast) -> Vec<GateId> {
 
 /// The time at which the recording begins, and the times that are played.
 fn span(recording: &Recording, options: &ReplayOptions) -> Result<(u64, Range<u64>), Problem> {
-    let Some((first, _)) = recording.times() else {
+    let Some(message) = recording.messages().next()? else {
         return Err(Problem::new(format!("the recording `{}` has no messages", recording.name())));
     };
+    // Of almost the first message to be sent; the recorder received it somewhat later.
+    let first = message.sent_ns;
     let (length, start, end) = (recording.duration(), options.start, options.end);
     if start > length {
         let message = format!("`--start {start:?}` is behind the end of the recording, which is {length:.1?} long");
@@ -266,7 +274,6 @@ fn span(recording: &Recording, options: &ReplayOptions) -> Result<(u64, Range<u6
         return Err(Problem::new("nothing is left to replay: `--end` is not behind `--start`"));
     }
     let at = |position: Duration| first.saturating_add(u64::try_from(position.as_nanos()).unwrap_or(u64::MAX));
-    // The first message was sent somewhat before it was recorded.
     let from = if start.is_zero() { 0 } else { at(start) };
     Ok((first, from..end.map_or(u64::MAX, at)))
 }

@@ -1,43 +1,51 @@
 //! Recordings for tests: what the recorder writes, made without a system.
+#![allow(clippy::unwrap_used, missing_docs, reason = "only tests use it")]
 
 use crate::format::{ChannelMetadata, Encoding, PLAN, PROFILE, Part, Topic, Totals};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, WriteOptions, Writer};
-use scl_plan::{GateKind, SystemPlan};
+use scl_plan::{GateKind, Payload, SystemPlan};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 /// One message: topic, milliseconds since the beginning, payload.
-pub(crate) type Sample<'a> = (&'a str, u64, &'a str);
+pub type Sample<'a> = (&'a str, u64, &'a str);
 
 /// Milliseconds since 1970 at the beginning of all recordings.
-pub(crate) const BEGINNING: u64 = 1_700_000_000_000;
+pub const BEGINNING: u64 = 1_700_000_000_000;
 
 /// A recording in memory.
-pub(crate) struct Recorder {
+pub struct Recorder {
     writer: Writer<Cursor<Vec<u8>>>,
     channels: BTreeMap<String, u16>,
+    plan: Option<SystemPlan>,
     sequence: u32,
 }
 
+impl Default for Recorder {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Recorder {
-    pub(crate) fn new() -> Self {
+    pub fn new() -> Self {
         Self::with_profile(PROFILE)
     }
 
-    pub(crate) fn with_profile(profile: &str) -> Self {
+    pub fn with_profile(profile: &str) -> Self {
         let options = WriteOptions::new()
             .profile(profile)
             .compression(Some(Compression::Lz4))
             .chunk_size(Some(1 << 20))
             .disable_seeking(true);
         let writer = options.create(Cursor::new(Vec::new())).unwrap();
-        Self { writer, channels: BTreeMap::new(), sequence: 0 }
+        Self { writer, channels: BTreeMap::new(), plan: None, sequence: 0 }
     }
 
-    pub(crate) fn attach_plan(mut self, plan: &SystemPlan) -> Self {
+    pub fn attach_plan(mut self, plan: &SystemPlan) -> Self {
         let data = plan.to_json().into_bytes();
         let (name, media_type) = (PLAN.to_owned(), "application/json".to_owned());
         self.writer
@@ -46,8 +54,14 @@ impl Recorder {
         self
     }
 
-    /// Messages of JSON.
-    pub(crate) fn messages(mut self, samples: &[Sample<'_>]) -> Self {
+    /// Takes types, codecs and contracts from a plan, which is not attached.
+    pub fn of_plan(mut self, plan: &SystemPlan) -> Self {
+        self.plan = Some(plan.clone());
+        self
+    }
+
+    /// Messages of JSON, unless the plan says otherwise.
+    pub fn messages(mut self, samples: &[Sample<'_>]) -> Self {
         for &(topic, at, payload) in samples {
             let channel_id = self.channel(topic, "json", "rover.Measurement");
             self.write(channel_id, at, payload.as_bytes());
@@ -55,34 +69,34 @@ impl Recorder {
         self
     }
 
-    pub(crate) fn message_of_type(mut self, (topic, at, payload): Sample<'_>, codec: &str, type_name: &str) -> Self {
+    pub fn message_of_type(mut self, (topic, at, payload): Sample<'_>, codec: &str, type_name: &str) -> Self {
         let channel_id = self.channel(topic, codec, type_name);
         self.write(channel_id, at, payload.as_bytes());
         self
     }
 
-    pub(crate) fn restart_numbers(mut self) -> Self {
+    pub fn restart_numbers(mut self) -> Self {
         self.sequence = 0;
         self
     }
 
-    pub(crate) fn end_chunk(mut self) -> Self {
+    pub fn end_chunk(mut self) -> Self {
         self.writer.flush().unwrap();
         self
     }
 
-    pub(crate) fn totals(mut self, totals: &Totals) -> Self {
+    pub fn totals(mut self, totals: &Totals) -> Self {
         let name = Totals::NAME.to_owned();
         self.writer.write_metadata(&Metadata { name, metadata: totals.to_map() }).unwrap();
         self
     }
 
-    pub(crate) fn finish(mut self) -> Vec<u8> {
+    pub fn finish(mut self) -> Vec<u8> {
         self.writer.finish().unwrap();
         self.writer.into_inner().into_inner()
     }
 
-    pub(crate) fn write_to(self, folder: &Path, name: &str) -> PathBuf {
+    pub fn write_to(self, folder: &Path, name: &str) -> PathBuf {
         write_file(folder, name, &self.finish())
     }
 
@@ -98,11 +112,24 @@ impl Recorder {
             contract: "aaaaaaaa".to_owned(),
             peers: Vec::new(),
         };
-        let encoding = Encoding::new(codec, Some(type_name), None);
+        let metadata = self.planned(&parsed).unwrap_or(metadata);
+        let encoding = Encoding::new(&metadata.codec, metadata.type_name.as_deref(), None);
         let schema = self.writer.add_schema(encoding.schema_name, encoding.schema_encoding, &encoding.schema).unwrap();
         let id = self.writer.add_channel(schema, topic, &encoding.message, &metadata.to_map()).unwrap();
         self.channels.insert(topic.to_owned(), id);
         id
+    }
+
+    fn planned(&self, topic: &Topic) -> Option<ChannelMetadata> {
+        let gate = self.plan.as_ref()?.component(&topic.component).ok()?.gate(&topic.gate)?;
+        let type_name = match (&gate.payload, topic.part) {
+            (Payload::Bytes, _) => None,
+            (Payload::Message(name), _) => Some(name.clone()),
+            (Payload::Exchange { request, .. }, Part::Request) => Some(request.clone()),
+            (Payload::Exchange { reply, .. }, _) => Some(reply.clone()),
+        };
+        let (codec, contract) = (gate.codec.clone(), gate.contract.clone());
+        Some(ChannelMetadata { kind: gate.kind, type_name, codec, contract, peers: Vec::new() })
     }
 
     fn write(&mut self, channel_id: u16, at: u64, payload: &[u8]) {
@@ -113,7 +140,7 @@ impl Recorder {
     }
 }
 
-pub(crate) fn write_file(folder: &Path, name: &str, content: &[u8]) -> PathBuf {
+pub fn write_file(folder: &Path, name: &str, content: &[u8]) -> PathBuf {
     let path = folder.join(name);
     std::fs::write(&path, content).unwrap();
     path

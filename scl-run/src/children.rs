@@ -1,6 +1,9 @@
 //! The running programs, of components and builds: each in its own process group, each with threads that watch it.
 
+use super::control::Asked;
 use super::ending::Ending;
+use super::lifecycle::Notice;
+use super::notify::Notified;
 use super::orphan_guard::{OrphanGuard, bound_command};
 use super::output::{Output, Stream};
 use super::program::Program;
@@ -14,19 +17,22 @@ use std::process::{Child, Stdio};
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::thread;
-use std::time::Instant;
 
-/// What the watching threads tell the supervisor.
+/// What the other threads tell the supervisor.
 #[derive(Debug)]
 pub(crate) enum Event {
     /// A program ended.
-    Ended { program: usize, ending: Ending },
+    Ended { process: usize, ending: Ending },
     /// One of the two streams of a program ended.
-    StreamClosed { program: usize },
+    StreamClosed { process: usize },
+    /// A process of this group said something about itself.
+    Notified { group: Pid, notice: Notice },
     /// The reader of our output has gone.
     OutputLost,
     /// A signal asks us to stop.
-    Asked(Signal),
+    Signalled(Signal),
+    /// Another `scl` asks for something.
+    Asked(Asked),
 }
 
 /// What a program is for.
@@ -38,49 +44,68 @@ pub(crate) enum Role {
     Component,
 }
 
+/// How a program is started, besides what it is.
+#[derive(Debug)]
+pub(crate) struct Start<'a> {
+    /// Its number in events.
+    pub(crate) process: usize,
+    /// Its number in the output.
+    pub(crate) label: usize,
+    pub(crate) role: Role,
+    /// Where it says that it is ready and alive.
+    pub(crate) notify: Option<Notified<'a>>,
+}
+
 /// A running program. It is reaped when this value is dropped, so that its process group id is not reused
 /// before that.
 #[derive(Debug)]
 pub(crate) struct Running {
     process: Child,
     group: Pid,
-    /// Start time.
-    pub(crate) started: Instant,
 }
 
 impl Running {
-    /// Starts a program and the threads that watch it; `index` is its number in the events and in the output.
+    /// Starts a program and the threads that watch it.
     ///
     /// # Errors
     ///
     /// If no process can be started, or the guard has ended.
     pub(crate) fn start(
-        index: usize,
         program: &Program,
-        role: Role,
+        start: &Start<'_>,
         guard: &mut OrphanGuard,
         output: &Arc<Output>,
         events: &Sender<Event>,
     ) -> io::Result<Self> {
-        let mut process = bound_command(&program.command)?
+        let mut command = bound_command(&program.command, &program.placement)?;
+        // What is set for us, by systemd, is not for our children.
+        for name in ["NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"] {
+            command.env_remove(name);
+        }
+        let mut process = command
             .current_dir(&program.folder)
+            .envs(start.notify.iter().flat_map(Notified::variables))
             .envs(program.environment.iter().map(|(key, value)| (key, value)))
             .process_group(0)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()?;
-        let started = Instant::now();
         let group = Pid::from_raw(process.id().cast_signed());
         let (out, err) = (process.stdout.take(), process.stderr.take());
-        let running = Self { process, group, started };
+        let running = Self { process, group };
         guard.watch(group)?;
         // Standard output has only what the components print.
-        let out_stream = if role == Role::Build { Stream::Err } else { Stream::Out };
-        watch_stream(index, out_stream, out, output, events);
-        watch_stream(index, Stream::Err, err, output, events);
-        watch_end(index, group, events.clone());
+        let out_stream = if start.role == Role::Build { Stream::Err } else { Stream::Out };
+        watch_stream(start, out_stream, out, output, events);
+        watch_stream(start, Stream::Err, err, output, events);
+        watch_end(start.process, group, events.clone());
         Ok(running)
+    }
+
+    /// Its process group, which has the number of its first process.
+    pub(crate) fn group(&self) -> Pid {
+        self.group
     }
 
     /// Sends a signal to the program's process group.
@@ -98,23 +123,24 @@ impl Drop for Running {
 }
 
 fn watch_stream(
-    program: usize,
+    start: &Start<'_>,
     stream: Stream,
     from: Option<impl Read + Send + 'static>,
     output: &Arc<Output>,
     events: &Sender<Event>,
 ) {
     let (output, events) = (Arc::clone(output), events.clone());
+    let (process, label) = (start.process, start.label);
     thread::spawn(move || {
-        let copied = from.map_or(Ok(()), |from| output.copy_lines(program, stream, from));
+        let copied = from.map_or(Ok(()), |from| output.copy_lines(label, stream, from));
         // After the supervisor has finished, nothing receives or needs the event.
-        let _ = events.send(if copied.is_ok() { Event::StreamClosed { program } } else { Event::OutputLost });
+        let _ = events.send(if copied.is_ok() { Event::StreamClosed { process } } else { Event::OutputLost });
     });
 }
 
-fn watch_end(program: usize, process: Pid, events: Sender<Event>) {
+fn watch_end(process: usize, group: Pid, events: Sender<Event>) {
     thread::spawn(move || {
-        let _ = events.send(Event::Ended { program, ending: wait_for_end(process) });
+        let _ = events.send(Event::Ended { process, ending: wait_for_end(group) });
     });
 }
 

@@ -7,10 +7,13 @@ mod environment;
 mod keys;
 mod profile;
 mod reader;
+mod settings;
 
-pub(crate) use entry::LaunchComponent;
+pub(crate) use entry::{LaunchComponent, Source};
+pub(crate) use settings::Settings;
 
 use super::launch_text::LaunchText;
+use keys::Form;
 use profile::Profile;
 use reader::Reader;
 use scl_terminal::Problem;
@@ -22,13 +25,24 @@ components:
   sensor:
     build: make sensor                 # optional: what makes the program
     command: [./sensor, --rate, 100]   # a list is executed as it is
+    restart: on_failure                # never (default), on_failure or always
+    ready_within: 5s                   # else it has failed
+    alive_within: 500ms                # watchdog
+    cpu: [2, 3]
+    priority: fifo:80
   controller:
     command: ./controller 2>> log      # a text is given to the shell
     environment: {GAIN: 0.5}
-    folder: control                    # where it runs; default: the folder of this file
+    working_directory: control         # default: the folder of this file
+  logger:
+    command: ./logger
+    essential: false                   # its failure does not stop the others
+defaults: {restart_limit: 5 in 1m, restart_delay: 100ms..5s, stop_within: 3s}
 profiles:                              # other programs for the same components
   python:
     sensor: {command: [python3, sensor.py]}
+  flight:
+    sensor: {replay: flight.mcap}      # plays a recording
 environment: {RUST_LOG: info}          # for all programs
 transport: ipc                         # or tcp
 ";
@@ -50,6 +64,8 @@ pub(crate) struct LaunchFile {
     pub(crate) environment: Vec<(String, String)>,
     /// `ipc` or `tcp`.
     pub(crate) transport: Option<String>,
+    /// For components that lack a setting.
+    pub(crate) defaults: Settings,
     profiles: Vec<Profile>,
 }
 
@@ -99,7 +115,21 @@ impl Reader<'_> {
             profiles: self.read_profiles(top.get("profiles"), top.get("components")),
             environment: self.read_environment(top.get("environment"), &["environment"]),
             transport: self.read_transport(top.get("transport")),
+            defaults: self.read_defaults(top.get("defaults")),
         }
+    }
+
+    fn read_defaults(&mut self, value: Option<&Value>) -> Settings {
+        let Some(value) = value else { return Settings::default() };
+        let Some(keys) = value.as_mapping() else {
+            let problem = Problem::new(format!("`defaults` is a mapping, not {}", reader::shown(value)));
+            let problem = problem.at(self.text.place(&["defaults"]));
+            self.problems.push(problem.help("write `defaults: {restart: on_failure, stop_within: 3s}`"));
+            return Settings::default();
+        };
+        let allowed = keys::COMPONENT.iter().filter(|key| key.in_defaults);
+        self.check_keys(keys, &["defaults"], allowed, "in `defaults`");
+        self.read_settings(keys, &["defaults"])
     }
 
     fn read_components(&mut self, value: Option<&Value>) -> Vec<LaunchComponent> {
@@ -118,9 +148,10 @@ impl Reader<'_> {
 
     fn read_transport(&mut self, value: Option<&Value>) -> Option<String> {
         let value = value?;
-        let word = value.as_str().filter(|word| keys::TRANSPORTS.contains(word));
+        let is_known = |word: &&str| matches!(keys::form_of("transport"), Form::Word(words) if words.contains(word));
+        let word = value.as_str().filter(is_known);
         if word.is_none() {
-            self.wrong(&["transport"], &format!("`transport` is `ipc` or `tcp`, not {}", reader::shown(value)));
+            self.wrong_value(&["transport"], value);
         }
         word.map(str::to_owned)
     }

@@ -6,37 +6,54 @@
 
 mod cargo_package;
 mod children;
+pub mod control;
 mod ending;
 mod launch_file;
 mod launch_text;
+mod lifecycle;
+mod log_file;
+mod notify;
 mod orphan_guard;
 mod output;
+mod own_file;
+mod placement;
 mod plan;
+mod policy;
 mod program;
 mod reports;
+mod requests;
+mod restarts;
+mod run_state;
 mod selection;
+mod sockets;
+mod summary;
 mod supervisor;
 
 pub use launch_file::EXAMPLE as EXAMPLE_LAUNCH_FILE;
+pub use log_file::{LogEntry, LogFolder, LogReader, LogStream};
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
-pub use plan::ComponentNames;
+pub use placement::Placement;
+pub use plan::{ComponentNames, SystemNames};
 
-use children::{Event, Role, Running};
+use children::{Event, Role};
 use ending::Ending;
+use log_file::LogFile;
 use nix::sys::signal::Signal;
 use orphan_guard::{OrphanGuard, stop_signals};
 use output::Output;
 use plan::RunPlan;
-use program::{Build, Program};
+use policy::Policy;
+use program::{Build, Component};
 use reports::Reports;
-use scl_terminal::Problem;
+use scl_terminal::{Problem, print_err};
+use sockets::Sockets;
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::Duration;
-use supervisor::{Outcome, Supervisor};
+use supervisor::{Member, Outcome, Supervisor, Surroundings};
 
 /// What to run, and how long.
 #[derive(Debug, Clone, Default)]
@@ -53,7 +70,7 @@ pub struct Options {
     pub release: bool,
     /// When to stop the components without being asked, if ever.
     pub run_for: Option<Duration>,
-    /// How long components may take to stop before they are killed.
+    /// How long components without a `stop_within` may take to stop before they are killed.
     pub grace: Duration,
 }
 
@@ -68,7 +85,7 @@ pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<boo
     let plan = plan::plan_run(options, component_names)?;
     let builds = plan.builds.iter().map(Build::label);
     let names = builds.chain(plan.components.iter().map(|component| component.name.as_str()));
-    let output = Arc::new(Output::new(names.map(str::to_owned).collect()));
+    let output = Arc::new(Output::new(names.map(str::to_owned).collect(), open_logs(&plan)));
     handle_stop_signals().map_err(|error| vec![Problem::new(format!("cannot handle signals: {error}"))])?;
     // Before the first thread, which inherits it: a thread that does not block them would end the process.
     let blocked = stop_signals().thread_block();
@@ -77,6 +94,17 @@ pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<boo
     let ended = run_plan(&plan, options, &output, &reports);
     reports.finish(options.grace);
     ended
+}
+
+/// The log of each component. A log that cannot be written is reported, and the component runs without.
+fn open_logs(plan: &RunPlan) -> Vec<Option<LogFile>> {
+    let system = plan.system.as_deref();
+    let folder = system.and_then(|system| LogFolder::of(system, &|variable| std::env::var_os(variable)));
+    let open = |component: &Component| {
+        let log = LogFile::open(folder.as_ref()?, &component.name);
+        log.map_err(|report| print_err(&format!("scl: {report}; its output is not logged\n"))).ok()
+    };
+    plan.components.iter().map(open).collect()
 }
 
 /// Programs inherit which signals are ignored, but not which are handled. A shell that starts `scl run` in the background
@@ -90,23 +118,16 @@ fn handle_stop_signals() -> io::Result<()> {
 
 fn run_plan(plan: &RunPlan, options: &Options, output: &Arc<Output>, reports: &Reports) -> Result<bool, Vec<Problem>> {
     let failed = |message: &str, error: io::Error| vec![Problem::new(format!("cannot {message}: {error}"))];
-    let (events, received) = channel();
-    listen_for_signals(events.clone()).map_err(|error| failed("listen for signals", error))?;
-    // Values are dropped in the opposite order: the guard ends while the programs are not reaped yet, so that the group
-    // numbers that it knows are still theirs.
-    let mut supervisor = Supervisor::new(received, reports, options.grace);
-    let mut guard = OrphanGuard::start().map_err(|error| failed("start the guard", error))?;
-    let mut start = |supervisor: &mut Supervisor<'_>, program: &Program, role| {
-        let running = Running::start(supervisor.next_index(), program, role, &mut guard, output, &events)?;
-        supervisor.add(running, role);
-        io::Result::Ok(())
-    };
-    for build in &plan.builds {
+    let (sender, events) = channel();
+    listen_for_signals(sender.clone()).map_err(|error| failed("listen for signals", error))?;
+    let sockets = Sockets::open(plan, &sender)?;
+    let guard = OrphanGuard::start().map_err(|error| failed("start the guard", error))?;
+    let surroundings = Surroundings { reports, output, events, sender: sender.clone() };
+    let mut supervisor = Supervisor::new(surroundings, guard, sockets.notify());
+    for (label, build) in plan.builds.iter().enumerate() {
         build.check().map_err(|problem| vec![problem])?;
         reports.announce(&format!("building {}: {}", build.owner(), build.shown_command()));
-        start(&mut supervisor, &build.program, Role::Build)
-            .map_err(|error| failed(&format!("start the build of {}", build.owner()), error))?;
-        match supervisor.wait_for_all() {
+        match supervisor.run(&[build_member(build, label, options.grace)], None) {
             Outcome::InOrder => {}
             Outcome::Failed(ending) => return Err(vec![failed_build(build, ending)]),
             Outcome::Stopped(signal) => return Err(vec![stopped_build(signal)]),
@@ -116,16 +137,26 @@ fn run_plan(plan: &RunPlan, options: &Options, output: &Arc<Output>, reports: &R
     if !problems.is_empty() {
         return Err(problems);
     }
-    supervisor.start_time(options.run_for);
-    for component in &plan.components {
-        start(&mut supervisor, &component.program, Role::Component)
-            .map_err(|error| vec![cannot_start(&component.name, &error)])?;
-    }
-    Ok(!matches!(supervisor.wait_for_all(), Outcome::Failed(_)))
+    let members = plan.components.iter().enumerate();
+    let members = members.map(|(index, component)| component_member(component, plan.builds.len() + index));
+    let members: Vec<Member<'_>> = members.collect();
+    let _control = sockets.open_control(&sender);
+    Ok(!matches!(supervisor.run(&members, options.run_for), Outcome::Failed(_)))
 }
 
-fn failed_build(build: &Build, ending: Ending) -> Problem {
+fn build_member(build: &Build, label: usize, grace: Duration) -> Member<'_> {
+    let policy = Policy { stop_within: grace, ..Policy::default() };
+    Member { name: build.label(), label, role: Role::Build, program: &build.program, policy }
+}
+
+fn component_member(component: &Component, label: usize) -> Member<'_> {
+    let Component { name, program, policy, .. } = component;
+    Member { name, label, role: Role::Component, program, policy: policy.clone() }
+}
+
+fn failed_build(build: &Build, ending: Option<Ending>) -> Problem {
     let problem = Problem::new(format!("the build of {} failed, so nothing was started", build.owner()));
+    let Some(ending) = ending else { return problem };
     let problem = problem.note(format!("`{}` {ending}", build.shown_command()));
     // As shells report it.
     if ending == Ending::Exited(127) { problem.help("install the command that was not found") } else { problem }
@@ -135,17 +166,12 @@ fn stopped_build(signal: Signal) -> Problem {
     Problem::new(format!("stopped on {} during a build, so nothing was started", signal.as_str()))
 }
 
-fn cannot_start(component: &str, error: &io::Error) -> Problem {
-    Problem::new(format!("cannot start component `{component}`: {error}"))
-        .help("the components that were started have been stopped again")
-}
-
 /// Turns the signals that ask us to stop, which are blocked in all threads, into events.
 fn listen_for_signals(events: Sender<Event>) -> io::Result<()> {
     let signals = stop_signals();
     thread::Builder::new().spawn(move || {
         while let Ok(signal) = signals.wait() {
-            if events.send(Event::Asked(signal)).is_err() {
+            if events.send(Event::Signalled(signal)).is_err() {
                 break;
             }
         }

@@ -7,15 +7,17 @@
 //! - One `scl __guard` holds the read end of a pipe whose write end only `scl run` holds. When the pipe ends, it kills
 //!   the whole process group of each component, including the processes that the programs have started.
 
+use super::placement::Placement;
 use nix::sys::signal::{SigSet, Signal, killpg};
 use nix::unistd::Pid;
 use scl_terminal::print_err;
+use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::io::{self, BufRead, Write};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, Command, ExitCode, Stdio};
 
-/// The hidden command that starts one component: `scl __start PARENT -- COMMAND...`.
+/// The hidden command that starts one component: `scl __start PARENT [--cpu N]... [--fifo N] -- COMMAND...`.
 pub const START_WORD: &str = "__start";
 /// The hidden command that keeps watch: `scl __guard`.
 pub const GUARD_WORD: &str = "__guard";
@@ -28,9 +30,9 @@ const CANNOT_EXECUTE: u8 = 126;
 /// # Errors
 ///
 /// If the running `scl` cannot be found.
-pub(crate) fn bound_command(command: &[OsString]) -> io::Result<Command> {
+pub(crate) fn bound_command(command: &[OsString], placement: &Placement) -> io::Result<Command> {
     let mut bound = this_program()?;
-    bound.arg(START_WORD).arg(std::process::id().to_string()).arg("--").args(command);
+    bound.arg(START_WORD).arg(std::process::id().to_string()).args(placement.arguments()).arg("--").args(command);
     Ok(bound)
 }
 
@@ -50,7 +52,7 @@ fn this_program() -> io::Result<Command> {
 
 /// The body of `scl __start`: becomes the program `command`, which ends when the process `parent` ends. Returns only if
 /// the program cannot be executed.
-pub fn start_component(parent: u32, command: &[OsString]) -> ExitCode {
+pub fn start_component(parent: u32, placement: &Placement, command: &[OsString]) -> ExitCode {
     // `scl run` blocks these signals to wait for them, and a program would inherit that.
     let unblocked = stop_signals().thread_unblock();
     if let Err(error) = unblocked.and_then(|()| die_with_parent()) {
@@ -62,7 +64,7 @@ pub fn start_component(parent: u32, command: &[OsString]) -> ExitCode {
         return ExitCode::from(CANNOT_EXECUTE);
     }
     let [program, rest @ ..] = command else { return ExitCode::from(CANNOT_EXECUTE) };
-    let error = Command::new(program).args(rest).exec();
+    let error = Command::new(program).args(rest).envs(placement.apply()).exec();
     print_err(&format!("scl: cannot execute `{}`: {error}\n", program.display()));
     ExitCode::from(CANNOT_EXECUTE)
 }
@@ -114,8 +116,18 @@ impl OrphanGuard {
     ///
     /// If the guard has ended.
     pub(crate) fn watch(&mut self, group: Pid) -> io::Result<()> {
+        self.tell(group.as_raw())
+    }
+
+    /// Takes a process group away that is about to be reaped, so that its number may be used by others afterwards.
+    pub(crate) fn forget(&mut self, group: Pid) {
+        // A guard that has ended kills nothing.
+        let _ = self.tell(-group.as_raw());
+    }
+
+    fn tell(&mut self, number: i32) -> io::Result<()> {
         let pipe = self.pipe.as_mut().ok_or(io::ErrorKind::BrokenPipe)?;
-        pipe.write_all(format!("{group}\n").as_bytes())
+        pipe.write_all(format!("{number}\n").as_bytes())
     }
 }
 
@@ -127,10 +139,17 @@ impl Drop for OrphanGuard {
     }
 }
 
-/// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told.
+/// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told. The negative of a
+/// group's number takes that group away.
 pub fn keep_watch() -> ExitCode {
-    let groups: Vec<i32> =
-        io::stdin().lock().lines().map_while(Result::ok).filter_map(|line| line.parse().ok()).collect();
+    let mut groups = BTreeSet::new();
+    for number in io::stdin().lock().lines().map_while(Result::ok).filter_map(|line| line.parse::<i32>().ok()) {
+        if number > 0 {
+            groups.insert(number)
+        } else {
+            groups.remove(&number.saturating_neg())
+        };
+    }
     for group in groups {
         // The group has usually ended already.
         let _ = killpg(Pid::from_raw(group), Signal::SIGKILL);

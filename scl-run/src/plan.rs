@@ -1,23 +1,39 @@
 //! Decides what to build and to start: from a launch file, or from the cargo package beside the topology.
 
+mod package;
+
 use super::Options;
-use super::cargo_package::{BuiltProgram, build_package};
-use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile};
+use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
+use super::placement::Placement;
 use super::program::{Build, Component, Program};
 use super::selection::Selection;
 use scl_terminal::{Problem, print_err, quoted_list};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 const LAUNCH_FILE: &str = "launch.yaml";
 const TOPOLOGY_FILE: &str = "topology.yaml";
+/// The variable that gives programs the name of their system.
+const SYSTEM: &str = "SCL_SYSTEM";
 
 /// Reads the names of the components from a topology file, or says what is wrong with it and returns `None`.
-pub type ComponentNames<'a> = &'a dyn Fn(&Path) -> Option<Vec<String>>;
+pub type ComponentNames<'a> = &'a dyn Fn(&Path) -> Option<SystemNames>;
+
+/// What is read from a topology file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SystemNames {
+    /// The name of the system.
+    pub system: String,
+    /// The names of its components, in file order.
+    pub components: Vec<String>,
+}
 
 /// What to build, in this order, and then to start.
 #[derive(Debug)]
 pub(crate) struct RunPlan {
+    /// The system that the programs belong to, where a topology file or `SCL_SYSTEM` names it.
+    pub(crate) system: Option<String>,
     pub(crate) builds: Vec<Build>,
     pub(crate) components: Vec<Component>,
 }
@@ -40,7 +56,7 @@ pub(crate) fn plan_run(options: &Options, component_names: ComponentNames<'_>) -
             return Err(vec![profile_without_file(profile, &folder)]);
         }
         let names = read_names(&topology, component_names)?;
-        plan_from_package(&folder, &names, options)?
+        package::plan_from_package(&folder, names, options)?
     };
     let problems = plan.check();
     if problems.is_empty() { Ok(plan) } else { Err(problems) }
@@ -71,7 +87,7 @@ fn find_folder(place: &Path) -> Result<(PathBuf, PathBuf), Problem> {
     Ok((folder, launch_path))
 }
 
-fn read_names(topology: &Path, names: ComponentNames<'_>) -> Result<Vec<String>, Vec<Problem>> {
+fn read_names(topology: &Path, names: ComponentNames<'_>) -> Result<SystemNames, Vec<Problem>> {
     let invalid = || Problem::new("the topology has errors, so nothing was started").at(topology.display().to_string());
     names(topology).ok_or_else(|| vec![invalid()])
 }
@@ -100,16 +116,18 @@ fn plan_from_launch_file(
         Some(topology) => Some(read_names(&topology, component_names)?),
         None => None,
     };
-    let launch = document.read(known.as_deref())?;
+    let launch = document.read(known.as_ref().map(|names| names.components.as_slice()))?;
     let components = launch.components_with(&options.profiles)?;
     let selection = Selection::new(options, &components, &shown)?;
     if selection.is_everything() {
-        note_missing(&components, known.as_deref().unwrap_or(&[]));
+        note_missing(&components, known.as_ref().map_or(&[], |names| names.components.as_slice()));
     }
+    let own_name = launch.environment.iter().rev().find(|(key, _)| key == SYSTEM).map(|(_, name)| name.clone());
     let chosen: Vec<LaunchComponent> = components.into_iter().filter(|it| selection.includes(&it.name)).collect();
     Ok(RunPlan {
+        system: own_name.or_else(system_of_environment).or_else(|| known.map(|names| names.system)),
         builds: plan_builds(folder, &launch, &chosen),
-        components: chosen.iter().map(|component| plan_component(folder, &launch, component)).collect(),
+        components: chosen.iter().map(|component| plan_component(folder, &launch, component, options.grace)).collect(),
     })
 }
 
@@ -142,6 +160,7 @@ fn plan_builds(folder: &Path, launch: &LaunchFile, components: &[LaunchComponent
         command: command.iter().map(OsString::from).collect(),
         environment: scl.iter().chain(&launch.environment).cloned().collect(),
         folder,
+        placement: Placement::default(),
     };
     let mut builds = Vec::new();
     if let Some(command) = &launch.build {
@@ -149,7 +168,7 @@ fn plan_builds(folder: &Path, launch: &LaunchFile, components: &[LaunchComponent
     }
     for component in components {
         let Some(command) = &component.build else { continue };
-        let program = program(command, folder_of(folder, component));
+        let program = program(command, folder_of(folder, &settings_of(launch, component)));
         match builds.iter_mut().find(|build: &&mut Build| build.program == program) {
             // The build of the whole system has run already.
             Some(build) if build.components.is_empty() => {}
@@ -160,55 +179,38 @@ fn plan_builds(folder: &Path, launch: &LaunchFile, components: &[LaunchComponent
     builds
 }
 
-fn plan_component(folder: &Path, launch: &LaunchFile, component: &LaunchComponent) -> Component {
+fn plan_component(folder: &Path, launch: &LaunchFile, component: &LaunchComponent, grace: Duration) -> Component {
+    let settings = settings_of(launch, component);
+    let (command, recording) = match &component.source {
+        Source::Command(words) => (words.iter().map(OsString::from).collect(), None),
+        Source::Replay(path) => (replay_command(path, &component.name), Some(PathBuf::from(path))),
+    };
     let transport = launch.transport.iter().map(|word| ("SCL_TRANSPORT".to_owned(), word.clone()));
     let environment = launch.environment.iter().chain(&component.environment).cloned();
     let program = Program {
-        command: component.command.iter().map(OsString::from).collect(),
+        command,
         environment: transport.chain(environment).collect(),
-        folder: folder_of(folder, component),
+        folder: folder_of(folder, &settings),
+        placement: Placement { cpu: settings.cpu.clone().unwrap_or_default(), fifo: settings.priority },
     };
-    Component { name: component.name.clone(), program }
+    Component { name: component.name.clone(), program, policy: settings.policy(grace), recording }
 }
 
-fn folder_of(folder: &Path, component: &LaunchComponent) -> PathBuf {
-    component.folder.as_ref().map_or_else(|| folder.to_owned(), |own| folder.join(own))
+/// What plays a component from a recording: the running `scl`, which `scl __start` is too.
+fn replay_command(recording: &str, component: &str) -> Vec<OsString> {
+    let scl = if cfg!(target_os = "linux") { None } else { std::env::current_exe().ok() };
+    let scl = scl.unwrap_or_else(|| PathBuf::from("/proc/self/exe")).into_os_string();
+    [scl].into_iter().chain(["replay", recording, "--as", component].map(OsString::from)).collect()
 }
 
-fn plan_from_package(folder: &Path, components: &[String], options: &Options) -> Result<RunPlan, Vec<Problem>> {
-    let source = folder.join(TOPOLOGY_FILE).display().to_string();
-    let selection = Selection::new(options, components, &source)?;
-    let components: Vec<&String> = components.iter().filter(|name| selection.includes(name)).collect();
-    let built = build_package(folder, options.release).map_err(|problem| vec![problem])?;
-    let program_of = |name: &String| built.iter().find(|program| plays(program, name));
-    let missing = components.iter().filter(|name| program_of(name).is_none());
-    let missing: Vec<&str> = missing.map(|name| name.as_str()).collect();
-    if !missing.is_empty() {
-        return Err(vec![missing_programs(folder, &missing, &built)]);
-    }
-    let plan = |(name, built): (&String, &BuiltProgram)| Component {
-        name: name.clone(),
-        program: Program {
-            command: vec![built.executable.clone().into_os_string()],
-            environment: Vec::new(),
-            folder: folder.to_owned(),
-        },
-    };
-    let programs = components.iter().filter_map(|name| Some((*name, program_of(name)?)));
-    Ok(RunPlan { builds: Vec::new(), components: programs.map(plan).collect() })
+fn settings_of(launch: &LaunchFile, component: &LaunchComponent) -> Settings {
+    component.settings.clone().over(&launch.defaults)
 }
 
-/// Cargo targets are often named with hyphens, which component names cannot contain.
-fn plays(program: &BuiltProgram, component: &str) -> bool {
-    program.name == component || program.name.replace('-', "_") == component
+fn folder_of(folder: &Path, settings: &Settings) -> PathBuf {
+    settings.working_directory.as_ref().map_or_else(|| folder.to_owned(), |own| folder.join(own))
 }
 
-fn missing_programs(folder: &Path, missing: &[&str], built: &[BuiltProgram]) -> Problem {
-    let noun = if missing.len() == 1 { "component" } else { "components" };
-    let problem = Problem::new(format!("no program for the {noun} {}", quoted_list(missing.iter().copied())));
-    let programs = quoted_list(built.iter().map(|program| program.name.as_str()));
-    let found = if built.is_empty() { "no programs".to_owned() } else { format!("the programs {programs}") };
-    problem
-        .help(format!("add `src/bin/{}.rs`, or say in `{LAUNCH_FILE}` how to start it", missing[0]))
-        .note(format!("the cargo package in `{}` has {found}", folder.display()))
+fn system_of_environment() -> Option<String> {
+    std::env::var(SYSTEM).ok().filter(|name| !name.is_empty())
 }

@@ -1,5 +1,7 @@
 //! The programs of a run: what makes them, and what runs the components.
 
+use super::placement::Placement;
+use super::policy::Policy;
 use scl_terminal::{Problem, quoted_list};
 use std::ffi::{OsStr, OsString};
 use std::os::unix::fs::PermissionsExt;
@@ -14,6 +16,8 @@ pub(crate) struct Program {
     pub(crate) environment: Vec<(String, String)>,
     /// Its working folder.
     pub(crate) folder: PathBuf,
+    /// Its processors and priority.
+    pub(crate) placement: Placement,
 }
 
 /// A component and the program that runs it.
@@ -21,6 +25,9 @@ pub(crate) struct Program {
 pub(crate) struct Component {
     pub(crate) name: String,
     pub(crate) program: Program,
+    pub(crate) policy: Policy,
+    /// The file that its program plays, from the program's folder.
+    pub(crate) recording: Option<PathBuf>,
 }
 
 /// A build command, and the components whose programs it makes; all of them if none is named.
@@ -33,7 +40,12 @@ pub(crate) struct Build {
 impl Component {
     /// Checks that the folder and the executable exist.
     pub(crate) fn check(&self) -> Result<(), Problem> {
-        self.program.check("program", &self.shown())
+        self.program.check("program", &self.shown())?;
+        let Some(recording) = self.recording.as_ref().map(|path| self.program.folder.join(path)) else { return Ok(()) };
+        if recording.is_file() {
+            return Ok(());
+        }
+        Err(Problem::new(format!("the recording of {} does not exist: `{}`", self.shown(), recording.display())))
     }
 
     /// As [`check`](Self::check), but only what no build can change: whether a program without a path is installed.

@@ -39,11 +39,6 @@ impl Reports {
         self.send(format!("scl: {text}\n"));
     }
 
-    /// The name before the output of a program.
-    pub(crate) fn name(&self, program: usize) -> &str {
-        self.output.name(program)
-    }
-
     /// Waits until everything has been written, but no longer than this.
     pub(crate) fn finish(self, patience: Duration) {
         drop(self.lines);

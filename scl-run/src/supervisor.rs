@@ -1,206 +1,260 @@
-//! Supervises the programs from the first start to the last end, event by event.
+//! Does what the state of a run asks for: starts processes, signals them, reports. Takes in what happens, event by event.
 
-use super::children::{Event, Role, Running};
+mod process;
+
+use super::children::{Event, Role, Running, Start};
+use super::control::Asked;
 use super::ending::Ending;
+use super::lifecycle::{Action, Input, State};
+use super::notify::{Notified, NotifySocket};
+use super::orphan_guard::OrphanGuard;
+use super::output::Output;
+use super::policy::Policy;
+use super::program::Program;
 use super::reports::Reports;
+use super::requests::Requests;
+use super::restarts::Time;
+use super::run_state::{RunEvent, RunState};
+use super::summary;
 use nix::sys::signal::Signal;
-use std::sync::mpsc::Receiver;
+use process::Process;
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
-
-/// How long to wait for output after a program has ended: processes it started may still write.
-const LATE_OUTPUT: Duration = Duration::from_millis(500);
 
 /// How the programs ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outcome {
     /// All in order, without being asked.
     InOrder,
-    /// The first that did not end in order.
-    Failed(Ending),
+    /// One has failed, and its last process ended like this, if it had one.
+    Failed(Option<Ending>),
     /// In order, after this signal was sent to them.
     Stopped(Signal),
 }
 
-/// The phase of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Phase {
-    Running { until: Option<Instant> },
-    Stopping { asked_by: Signal, kill_at: Option<Instant> },
-    Killing { asked_by: Signal },
+/// A program to supervise.
+#[derive(Debug)]
+pub(crate) struct Member<'p> {
+    pub(crate) name: &'p str,
+    /// Its number in the output.
+    pub(crate) label: usize,
+    pub(crate) role: Role,
+    pub(crate) program: &'p Program,
+    pub(crate) policy: Policy,
 }
 
-/// A program, and how it ended.
-#[derive(Debug)]
-struct Supervised {
-    running: Running,
-    role: Role,
-    open_streams: u8,
-    ended: Option<(Ending, Instant)>,
-    reported: bool,
+/// Where reports and output go, and where events come from.
+pub(crate) struct Surroundings<'a> {
+    pub(crate) reports: &'a Reports,
+    pub(crate) output: &'a Arc<Output>,
+    pub(crate) events: Receiver<Event>,
+    pub(crate) sender: Sender<Event>,
 }
 
-/// Watches the programs until all have ended.
-#[derive(Debug)]
+/// Runs programs, each with a process at most at any time.
 pub(crate) struct Supervisor<'a> {
-    programs: Vec<Supervised>,
-    events: Receiver<Event>,
-    reports: &'a Reports,
-    grace: Duration,
-    phase: Phase,
-    failure: Option<Ending>,
+    surroundings: Surroundings<'a>,
+    notify: Option<&'a NotifySocket>,
+    // Dropped before the processes: it must not know a group any more whose number is free again.
+    guard: OrphanGuard,
+    processes: Vec<Option<Process>>,
+    next_process: usize,
+}
+
+/// A run in progress.
+struct Run<'r> {
+    members: &'r [Member<'r>],
+    state: RunState,
+    began: Instant,
+    requests: Requests,
+    said_ready: bool,
 }
 
 impl<'a> Supervisor<'a> {
-    /// Starts without programs; `grace` is how long they have to stop before they are killed.
-    pub(crate) fn new(events: Receiver<Event>, reports: &'a Reports, grace: Duration) -> Self {
-        let phase = Phase::Running { until: None };
-        Self { programs: Vec::new(), events, reports, grace, phase, failure: None }
+    pub(crate) fn new(surroundings: Surroundings<'a>, guard: OrphanGuard, notify: Option<&'a NotifySocket>) -> Self {
+        Self { surroundings, notify, guard, processes: Vec::new(), next_process: 0 }
     }
 
-    /// Stops the programs after this time, if any, without being asked.
-    pub(crate) fn start_time(&mut self, run_for: Option<Duration>) {
-        if let Phase::Running { until } = &mut self.phase {
-            // A time too far in the future to be represented means never.
-            *until = run_for.and_then(|time| Instant::now().checked_add(time));
-        }
-    }
-
-    /// The number of the next program in events.
-    pub(crate) fn next_index(&self) -> usize {
-        self.programs.len()
-    }
-
-    /// Adds a program that has just been started with the number [`next_index`](Self::next_index).
-    pub(crate) fn add(&mut self, running: Running, role: Role) {
-        self.programs.push(Supervised { running, role, open_streams: 2, ended: None, reported: false });
-    }
-
-    /// Waits until every program has ended.
-    pub(crate) fn wait_for_all(&mut self) -> Outcome {
-        while self.programs.iter().any(|program| !program.reported) {
-            match self.next_event() {
-                Some(event) => self.take(event),
-                None => self.keep_time(),
+    /// Starts the programs and waits until all have ended. They are stopped after a time, if one is given.
+    pub(crate) fn run(&mut self, members: &[Member<'_>], run_for: Option<Duration>) -> Outcome {
+        let state = RunState::new(members.iter().map(|member| member.policy.clone()), run_for);
+        let mut run = Run { members, state, began: Instant::now(), requests: Requests::default(), said_ready: false };
+        self.processes = members.iter().map(|_| None).collect();
+        self.apply(&mut run, RunEvent::Time);
+        while !(run.state.is_over() && self.processes.iter().flatten().all(Process::is_silent)) {
+            match self.next_event(&run) {
+                Some(event) => self.take(&mut run, event),
+                None => self.apply(&mut run, RunEvent::Time),
             }
-            self.report_ended();
+            self.write_late_reports(&run);
+            self.follow(&mut run);
         }
-        match (self.failure, self.asked_by()) {
-            (Some(ending), _) => Outcome::Failed(ending),
+        for index in 0..self.processes.len() {
+            self.discard(index);
+        }
+        if members.iter().any(|member| member.role == Role::Component) {
+            summary::lines(members, &run.state).iter().for_each(|line| self.surroundings.reports.announce(line));
+        }
+        match (run.state.failed(), run.state.stopping()) {
+            // Build tools have codes of their own for being interrupted.
+            (Some(index), Some(signal)) if members[index].role == Role::Build && run.state.was_asked() => {
+                Outcome::Stopped(signal)
+            }
+            (Some(index), _) => Outcome::Failed(run.state.components()[index].last_ending()),
             (None, Some(signal)) => Outcome::Stopped(signal),
             (None, None) => Outcome::InOrder,
         }
     }
 
-    /// The next event, or `None` if a deadline comes first.
-    fn next_event(&self) -> Option<Event> {
-        let Some(due) = self.next_due() else { return self.events.recv().ok() };
-        self.events.recv_timeout(due.saturating_duration_since(Instant::now())).ok()
+    /// The next event, or `None` if something is due before.
+    fn next_event(&self, run: &Run<'_>) -> Option<Event> {
+        let drained = self.processes.iter().flatten().filter(|process| !process.is_silent());
+        let drained = drained.filter_map(Process::drained_at);
+        // A time too far in the future to be represented means never.
+        let due = run.state.due().and_then(|due| run.began.checked_add(due));
+        let Some(due) = drained.chain(due).min() else { return self.surroundings.events.recv().ok() };
+        self.surroundings.events.recv_timeout(due.saturating_duration_since(Instant::now())).ok()
     }
 
-    fn next_due(&self) -> Option<Instant> {
-        let phase_due = match self.phase {
-            Phase::Running { until } => until,
-            Phase::Stopping { kill_at, .. } => kill_at,
-            Phase::Killing { .. } => None,
-        };
-        let unreported = self.programs.iter().filter(|program| !program.reported);
-        let reports_due = unreported.filter_map(|program| program.ended.map(|(_, at)| at + LATE_OUTPUT));
-        reports_due.chain(phase_due).min()
-    }
-
-    fn take(&mut self, event: Event) {
+    fn take(&mut self, run: &mut Run<'_>, event: Event) {
         match event {
-            Event::StreamClosed { program } => self.programs[program].open_streams -= 1,
-            Event::Ended { program, ending } => self.take_ending(program, ending),
-            Event::Asked(signal) => self.take_request(signal),
-            Event::OutputLost => self.stop(Signal::SIGTERM),
-        }
-    }
-
-    fn take_ending(&mut self, program: usize, ending: Ending) {
-        let asked_by = self.asked_by();
-        let ended = &mut self.programs[program];
-        ended.ended = Some((ending, Instant::now()));
-        // Processes that the program left behind in its group are no longer needed.
-        ended.running.signal(Signal::SIGTERM);
-        // Build tools have codes of their own for being interrupted.
-        let interrupted_build = ended.role == Role::Build && asked_by.is_some();
-        if !interrupted_build && !ending.is_in_order(asked_by) {
-            self.failure.get_or_insert(ending);
-            self.stop(Signal::SIGTERM);
-        }
-    }
-
-    fn take_request(&mut self, signal: Signal) {
-        match self.phase {
-            Phase::Running { .. } => {
-                self.reports.announce(&format!("stopping on {}; once more kills at once", signal.as_str()));
-                self.stop(signal);
+            Event::StreamClosed { process } => {
+                if let Some((_, process)) = self.find(|it| it.number == process) {
+                    process.open_streams -= 1;
+                }
             }
-            Phase::Stopping { .. } => self.kill(),
-            Phase::Killing { .. } => {}
-        }
-    }
-
-    fn keep_time(&mut self) {
-        let now = Instant::now();
-        match self.phase {
-            Phase::Running { until: Some(until) } if until <= now => self.stop(Signal::SIGTERM),
-            Phase::Stopping { kill_at: Some(kill_at), .. } if kill_at <= now => {
-                self.reports.announce(&format!("not stopped within {:?}: {}", self.grace, self.names_of_living()));
-                self.kill();
+            Event::Ended { process, ending } => {
+                let Some((index, process)) = self.find(|it| it.number == process) else { return };
+                process.ended = Some(Instant::now());
+                // Processes that the program left behind in its group are no longer needed.
+                process.running.signal(Signal::SIGTERM);
+                self.apply(run, RunEvent::One(index, Input::Exited(ending)));
             }
-            _ => {}
+            Event::Notified { group, notice } => {
+                if let Some((index, _)) = self.find(|it| it.running.group() == group && it.ended.is_none()) {
+                    self.apply(run, RunEvent::One(index, Input::Notified(notice)));
+                }
+            }
+            Event::Signalled(signal) => {
+                if run.state.stopping().is_none() {
+                    let text = format!("stopping on {}; once more kills at once", signal.as_str());
+                    self.surroundings.reports.announce(&text);
+                }
+                self.apply(run, RunEvent::Stop(signal));
+            }
+            Event::OutputLost => self.apply(run, RunEvent::OutputLost),
+            Event::Asked(asked) => self.take_request(run, asked),
         }
     }
 
-    /// Asks every program to stop. Further calls have no effect.
-    fn stop(&mut self, signal: Signal) {
-        if let Phase::Running { .. } = self.phase {
-            self.phase = Phase::Stopping { asked_by: signal, kill_at: Instant::now().checked_add(self.grace) };
-            self.signal_all(signal);
+    fn take_request(&mut self, run: &mut Run<'_>, asked: Asked) {
+        let names: Vec<&str> = run.members.iter().map(|member| member.name).collect();
+        for event in run.requests.take(asked, &names, &run.state) {
+            self.apply(run, event);
         }
     }
 
-    fn kill(&mut self) {
-        if let Some(asked_by) = self.asked_by() {
-            self.phase = Phase::Killing { asked_by };
-            self.signal_all(Signal::SIGKILL);
-        }
-    }
-
-    fn signal_all(&self, signal: Signal) {
-        for program in &self.programs {
-            program.running.signal(signal);
-        }
-    }
-
-    fn asked_by(&self) -> Option<Signal> {
-        match self.phase {
-            Phase::Running { .. } => None,
-            Phase::Stopping { asked_by, .. } | Phase::Killing { asked_by } => Some(asked_by),
-        }
-    }
-
-    fn names_of_living(&self) -> String {
-        let living = self.programs.iter().enumerate().filter(|(_, program)| program.ended.is_none());
-        living.map(|(index, _)| format!("`{}`", self.reports.name(index))).collect::<Vec<_>>().join(", ")
-    }
-
-    /// Reports each end once, after the last output of its program.
-    fn report_ended(&mut self) {
-        for (index, program) in self.programs.iter_mut().enumerate().filter(|(_, it)| !it.reported) {
-            let Some((ending, at)) = program.ended else { continue };
-            if program.open_streams == 0 || at.elapsed() >= LATE_OUTPUT {
-                program.reported = true;
-                let after = at.saturating_duration_since(program.running.started).as_secs_f64();
-                let text = match (program.role, ending) {
-                    (Role::Component, _) => format!("{ending} after {after:.1} s"),
-                    (Role::Build, Ending::Exited(0)) => format!("built after {after:.1} s"),
-                    (Role::Build, _) => format!("build {ending} after {after:.1} s"),
-                };
-                self.reports.report(index, &text);
+    /// Feeds an event to the state and does what it asks for, until nothing is left to do.
+    fn apply(&mut self, run: &mut Run<'_>, event: RunEvent) {
+        let mut actions: VecDeque<_> = run.state.step(run.now(), event).into();
+        while let Some((index, action)) = actions.pop_front() {
+            match action {
+                Action::Start if run.state.components()[index].state() == State::Starting => {
+                    let input = match self.start(index, &run.members[index]) {
+                        Ok(()) => Input::Started,
+                        Err(error) => Input::CannotStart(error.to_string()),
+                    };
+                    actions.extend(run.state.step(run.now(), RunEvent::One(index, input)));
+                }
+                // Stopped before it could be started.
+                Action::Start => {}
+                Action::Signal(signal) => {
+                    if let Some(process) = &self.processes[index] {
+                        process.running.signal(signal);
+                    }
+                }
+                Action::Report(text) => self.report(index, &run.members[index], text),
+                Action::ReportEnd(ending, after) => {
+                    let text = end_text(run.members[index].role, ending, after);
+                    self.report(index, &run.members[index], text);
+                }
             }
         }
+    }
+
+    fn start(&mut self, index: usize, member: &Member<'_>) -> std::io::Result<()> {
+        if let Some(process) = &mut self.processes[index] {
+            let late = std::mem::take(&mut process.reports);
+            late.iter().for_each(|text| self.surroundings.reports.report(member.label, text));
+        }
+        self.discard(index);
+        let notify = self.notify.filter(|_| member.role == Role::Component);
+        let notify = notify.map(|socket| Notified { socket, alive_within: member.policy.alive_within });
+        let start = Start { process: self.next_process, label: member.label, role: member.role, notify };
+        let Surroundings { output, sender, .. } = &self.surroundings;
+        let running = Running::start(member.program, &start, &mut self.guard, output, sender)?;
+        let number = self.next_process;
+        self.next_process += 1;
+        self.processes[index] = Some(Process::new(number, running));
+        Ok(())
+    }
+
+    /// Kills what is left of a process, and frees its number.
+    fn discard(&mut self, index: usize) {
+        if let Some(process) = self.processes[index].take() {
+            self.guard.forget(process.running.group());
+        }
+    }
+
+    /// Reports now, or after the last output of a process that has ended.
+    fn report(&mut self, index: usize, member: &Member<'_>, text: String) {
+        match &mut self.processes[index] {
+            Some(process) if process.ended.is_some() && !process.is_drained() => process.reports.push(text),
+            _ => self.surroundings.reports.report(member.label, &text),
+        }
+    }
+
+    fn write_late_reports(&mut self, run: &Run<'_>) {
+        for (process, member) in self.processes.iter_mut().zip(run.members) {
+            let Some(process) = process.as_mut().filter(|process| process.is_drained()) else { continue };
+            let late = std::mem::take(&mut process.reports);
+            late.iter().for_each(|text| self.surroundings.reports.report(member.label, text));
+        }
+    }
+
+    /// Says once that all are ready, and answers the requests that are done.
+    fn follow(&mut self, run: &mut Run<'_>) {
+        if !run.said_ready && run.state.is_ready() {
+            run.said_ready = true;
+            let after = run.began.elapsed().as_secs_f64();
+            self.surroundings.reports.announce(&format!("all components are ready after {after:.1} s"));
+        }
+        let pid = |index: usize| {
+            let living = self.processes[index].as_ref().filter(|process| process.ended.is_none());
+            living.map(|process| process.running.group().as_raw())
+        };
+        run.requests.answer(&run.state, &pid);
+    }
+
+    fn find(&mut self, is_meant: impl Fn(&Process) -> bool) -> Option<(usize, &mut Process)> {
+        let processes = self.processes.iter_mut().enumerate();
+        processes.filter_map(|(index, process)| Some((index, process.as_mut()?))).find(|(_, it)| is_meant(it))
+    }
+}
+
+impl Run<'_> {
+    fn now(&self) -> Time {
+        self.began.elapsed()
+    }
+}
+
+fn end_text(role: Role, ending: Ending, after: Duration) -> String {
+    let after = after.as_secs_f64();
+    match (role, ending) {
+        (Role::Component, _) => format!("{ending} after {after:.1} s"),
+        (Role::Build, Ending::Exited(0)) => format!("built after {after:.1} s"),
+        (Role::Build, _) => format!("build {ending} after {after:.1} s"),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-const UNITS: [(&str, f64); 5] = [("us", 1e-6), ("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("h", 3600.0)];
+const UNITS: [(&str, f64); 6] = [("us", 1e-6), ("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("m", 60.0), ("h", 3600.0)];
 
 /// Reads `500ms`, `5s`, `1.5min`.
 ///
@@ -30,7 +30,9 @@ mod tests {
 
     #[test]
     fn numbers_with_units_are_durations() {
-        for (text, milliseconds) in [("5s", 5_000), ("500ms", 500), ("1.5min", 90_000), ("0s", 0), ("1h", 3_600_000)] {
+        for (text, milliseconds) in
+            [("5s", 5_000), ("500ms", 500), ("1.5min", 90_000), ("1m", 60_000), ("0s", 0), ("1h", 3_600_000)]
+        {
             assert_eq!(parse_duration(text), Ok(Duration::from_millis(milliseconds)), "{text}");
         }
     }

@@ -32,7 +32,7 @@ pub enum Align {
 /// table.row(["sensor.log", "1000.0"]);
 /// assert_eq!(
 ///     table.fit(24),
-///     "GATE                RATE\nsensor.measure…    50.0\nsensor.log        1000.0\n"
+///     "GATE                RATE\nsensor.measurem…    50.0\nsensor.log        1000.0\n"
 /// );
 /// ```
 #[derive(Debug, Clone)]

@@ -29,7 +29,7 @@ pub enum TypeError {
 
 /// A payload is not a message of the gate's type.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{length} bytes are not {expected}: {reason}{}", place(path, *offset))]
+#[error("this {length}-byte payload is not {expected}: {}{reason}", place(path, *offset))]
 #[non_exhaustive]
 pub struct DecodeError {
     /// The length of the payload.
@@ -45,10 +45,11 @@ pub struct DecodeError {
 }
 
 fn place(path: &str, offset: Option<usize>) -> String {
-    let field = if path.is_empty() { String::new() } else { format!(" in field `{path}`") };
-    match offset {
-        Some(offset) => format!("{field} at byte {offset}"),
-        None => field,
+    match (path, offset) {
+        ("", None) => String::new(),
+        ("", Some(offset)) => format!("at byte {offset}: "),
+        (path, None) => format!("field `{path}`: "),
+        (path, Some(offset)) => format!("field `{path}` at byte {offset}: "),
     }
 }
 

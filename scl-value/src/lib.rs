@@ -36,5 +36,5 @@ pub use condition::{Condition, ConditionError};
 pub use error::{DecodeError, EncodeError, TypeError};
 pub use message_type::MessageType;
 pub use path::{FieldPath, PathError, UnknownField};
-pub use text::{ReadError, Table, read_yaml, to_json, to_yaml};
+pub use text::{Documents, ReadError, Table, read_yaml, to_json, to_yaml};
 pub use value::{Opaque, Value};

@@ -1,5 +1,8 @@
 //! How the bytes of one type in one codec are read and written.
 
+#[cfg(test)]
+mod tests;
+
 use crate::error::{DecodeError, EncodeError, TypeError};
 use crate::path::{FieldPath, UnknownField};
 use crate::protobuf::{self, Unknown};
@@ -84,7 +87,7 @@ impl MessageType {
     pub fn decode(&self, bytes: &[u8]) -> Result<Value, DecodeError> {
         let wrong = |expected: &str| {
             let (length, expected) = (bytes.len(), expected.to_owned());
-            move |reason| DecodeError { length, expected, path: String::new(), offset: None, reason }
+            move |(reason, offset)| DecodeError { length, expected, path: String::new(), offset, reason }
         };
         match &self.form {
             Form::Protobuf(message) => protobuf::decode(message, bytes).map_err(|fault| DecodeError {
@@ -98,7 +101,7 @@ impl MessageType {
                 let expected = format!("the JSON of a message `{}`", message.full_name());
                 let json = read_json(bytes).map_err(wrong(&expected))?;
                 protobuf::from_json(message, &json)
-                    .map_err(|error| DecodeError { path: error.path.clone(), ..wrong(&expected)(error.reason) })
+                    .map_err(|error| DecodeError { path: error.path.clone(), ..wrong(&expected)((error.reason, None)) })
             }
             Form::Json => read_json(bytes).map_err(wrong("a JSON value")),
             Form::Cbor => read_cbor(bytes).map_err(wrong("a CBOR item")),
@@ -114,9 +117,9 @@ impl MessageType {
 
     /// Writes a message.
     ///
-    /// It accepts everything that `decode` returns, and what protobuf's JSON accepts: names in lowerCamelCase, numbers as
-    /// texts, bytes in base64, enum values by name or number. Opaque messages are written from bytes, `{hex: 01ff}` or
-    /// `{text: hello}`.
+    /// It accepts everything that `decode` returns, and what protobuf's JSON accepts: names in lowerCamelCase, numbers
+    /// as texts, bytes in base64, enum values by name or number. Opaque messages are written from bytes, `{hex: 01ff}`
+    /// or `{text: hello}`.
     ///
     /// # Errors
     /// The value is not one of the type: the error names the field and what is expected there.
@@ -143,8 +146,8 @@ impl MessageType {
         Some(protobuf::template(self.descriptor()?))
     }
 
-    /// The paths of all fields of a message that are no messages themselves, as columns of a table; `None` if the type is
-    /// not known.
+    /// The paths of all fields of a message that are no messages themselves, as columns of a table; `None` if the type
+    /// is not known.
     pub fn columns(&self) -> Option<Vec<FieldPath>> {
         Some(protobuf::columns(self.descriptor()?))
     }

@@ -73,6 +73,11 @@ impl FieldPath {
         self.segments.is_empty()
     }
 
+    /// Whether this is the other path or below it.
+    pub fn starts_with(&self, other: &FieldPath) -> bool {
+        self.segments.starts_with(&other.segments)
+    }
+
     /// The paths of the parts of a value that are no maps: the columns of a table.
     pub fn leaves(value: &Value) -> Vec<FieldPath> {
         let mut leaves = Vec::new();

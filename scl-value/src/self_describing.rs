@@ -33,31 +33,54 @@ impl<'b> AnyValue<'b> {
     }
 }
 
+/// What is wrong with a payload, and after how many bytes, if that is known.
+pub(crate) type Wrong = (String, Option<usize>);
+
 /// Reads JSON without a type.
-pub(crate) fn read_json(bytes: &[u8]) -> Result<Value, String> {
+pub(crate) fn read_json(bytes: &[u8]) -> Result<Value, Wrong> {
     let mut input = serde_json::Deserializer::from_slice(bytes);
     let value = AnyValue::new(&Budget::new()).deserialize(&mut input).and_then(|value| input.end().map(|()| value));
-    value.map_err(|error| error.to_string())
+    // Its texts name line and column.
+    value.map_err(|error| (error.to_string(), None))
 }
 
 /// Reads one CBOR item.
-pub(crate) fn read_cbor(bytes: &[u8]) -> Result<Value, String> {
+pub(crate) fn read_cbor(bytes: &[u8]) -> Result<Value, Wrong> {
     let mut input = cbor4ii::serde::Deserializer::new(SliceReader::new(bytes));
-    let value = AnyValue::new(&Budget::new()).deserialize(&mut input).map_err(|error| error.to_string())?;
-    match input.into_inner().fill(1) {
-        Ok(rest) if rest.as_ref().is_empty() => Ok(value),
-        _ => Err("data follows the item".to_owned()),
+    let read = AnyValue::new(&Budget::new()).deserialize(&mut input);
+    let rest = input.into_inner().fill(usize::MAX).map_or(0, |rest| rest.as_ref().len());
+    let offset = Some(bytes.len() - rest);
+    match read {
+        Ok(value) if rest == 0 => Ok(value),
+        Ok(_) => Err(("data follows the item".to_owned(), offset)),
+        Err(error) => Err((cbor_reason(&error), offset)),
     }
 }
 
+/// The library's own texts are those of `Debug`.
+fn cbor_reason<E>(error: &cbor4ii::serde::DecodeError<E>) -> String {
+    use cbor4ii::core::dec::Error as Core;
+    use cbor4ii::serde::DecodeError;
+    match error {
+        DecodeError::Custom(reason) => return reason.to_string(),
+        DecodeError::Core(Core::Eof { .. }) => "the item is truncated",
+        DecodeError::Core(Core::Unsupported { .. }) => "tags and 16-bit floats are not supported",
+        DecodeError::Core(Core::RequireUtf8 { .. }) => "the text is not valid UTF-8",
+        DecodeError::Core(Core::DepthOverflow { .. }) => "it is nested too deep",
+        DecodeError::Core(_) => "the item is malformed",
+    }
+    .to_owned()
+}
+
 /// Reads one MessagePack value.
-pub(crate) fn read_msgpack(bytes: &[u8]) -> Result<Value, String> {
+pub(crate) fn read_msgpack(bytes: &[u8]) -> Result<Value, Wrong> {
     let mut rest = std::io::Cursor::new(bytes);
-    let mut input = rmp_serde::Deserializer::new(&mut rest);
-    let value = AnyValue::new(&Budget::new()).deserialize(&mut input).map_err(|error| error.to_string())?;
-    match rest.position() {
-        end if end == bytes.len() as u64 => Ok(value),
-        end => Err(format!("the value ends after {end} of {} bytes", bytes.len())),
+    let read = AnyValue::new(&Budget::new()).deserialize(&mut rmp_serde::Deserializer::new(&mut rest));
+    let offset = usize::try_from(rest.position()).ok();
+    match read {
+        Ok(value) if offset == Some(bytes.len()) => Ok(value),
+        Ok(_) => Err(("data follows the value".to_owned(), offset)),
+        Err(error) => Err((error.to_string(), offset)),
     }
 }
 
@@ -178,7 +201,7 @@ impl<'de> Visitor<'de> for AnyValue<'_> {
         }
     }
 
-    /// A tagged value of YAML: `!!binary` or `!binary` is bytes, any other tag is left out.
+    /// A tagged value of YAML: `!binary` is bytes in base64, any other tag is left out.
     fn visit_enum<A: EnumAccess<'de>>(self, tagged: A) -> Result<Value, A::Error> {
         let below = self.below().map_err(A::Error::custom)?;
         let (tag, content) = tagged.variant::<String>()?;

@@ -1,9 +1,11 @@
 //! Values as texts: YAML, JSON, rows of a table.
 
+mod documents;
 mod json;
 mod table;
 mod yaml;
 
+pub use documents::Documents;
 pub use json::to_json;
 pub use table::Table;
 pub use yaml::{ReadError, read_yaml, to_yaml};
@@ -31,7 +33,7 @@ pub(crate) fn from_base64(text: &str) -> Result<Vec<u8>, String> {
 
 /// The bytes of an opaque message: bytes, or a map with `hex` or `text`.
 pub(crate) fn opaque_bytes(value: &Value) -> Result<Vec<u8>, EncodeError> {
-    let wrong = |reason: &str| EncodeError::new(reason).help("write `{hex: 01ff}`, `{text: hello}` or `!!binary AQL/`");
+    let wrong = |reason: &str| EncodeError::new(reason).help("write `{hex: 01ff}`, `{text: hello}` or `!binary AQL/`");
     let hex = match value {
         Value::Bytes(bytes) => return Ok(bytes.clone()),
         Value::Opaque(opaque) => opaque.hex.clone(),

@@ -81,6 +81,7 @@ pub(crate) async fn wait_for_peers(
     timeout: Duration,
 ) -> Result<(), NotReady> {
     let state = &handle.0;
+    let _waiting = state.waiting();
     let changes = state.changes();
     let started = Instant::now();
     let deadline = started.checked_add(timeout);

@@ -17,7 +17,7 @@ use crate::component;
 use crate::environment;
 use crate::error::{OpenError, Result};
 use crate::sync::lock;
-use crate::{log, stop};
+use crate::{log, service, stop};
 use std::sync::Mutex;
 use std::time::Duration;
 
@@ -42,6 +42,13 @@ pub fn text_with_causes(error: &dyn std::error::Error) -> String {
 pub fn start_log() -> Result<(), OpenError> {
     log::start(log::Level::read(&environment::of_process)?);
     Ok(())
+}
+
+/// From now on a service manager such as systemd or `scl run`, if one has started the process, is told when the components
+/// that are opened are ready, that a stop was requested, and that the program is alive, as `docs/service.md` describes.
+/// Without one, and when called again, does nothing.
+pub fn notify_service_manager() {
+    service::start(&environment::of_process);
 }
 
 /// From now on SIGTERM and SIGINT request a stop instead of ending the process. It is ended if it still runs after the

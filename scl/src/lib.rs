@@ -101,6 +101,7 @@ pub mod private;
 mod process_mark;
 mod registration;
 pub mod runtime_dir;
+mod service;
 pub mod spec;
 mod state;
 mod stop;

@@ -1,29 +1,33 @@
 //! What all gates of a component share: its registration, its runtime if it was opened without async, and the ends that
 //! may still have something to send.
 
+mod calls;
 mod flush;
 mod monitor;
+mod reported;
 mod runtime;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use calls::WakeCall;
 pub(crate) use flush::{Flush, LINGER, SendingEnd};
 pub(crate) use monitor::stats_period;
 pub(crate) use runtime::{Driven, OwnedRuntime};
 
 use monitor::Monitor;
 
-use crate::error::{BlockingError, Missing, NotFlushed, PeerName, Unflushed};
+use crate::error::{Missing, NotFlushed, PeerName, Unflushed};
 use crate::process_mark::ProcessMark;
 use crate::registration::Registration;
-use crate::runtime_dir::{ComponentStats, Holder};
+use crate::runtime_dir::Holder;
+use crate::service::{self, Member};
 use crate::spec::{ComponentSpec, GateSpec};
 use crate::sync::{AbortOnDrop, lock};
 use std::future::poll_fn;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, Weak};
+use std::sync::{Arc, Mutex, OnceLock, Weak};
 use std::task::{Context, Poll, Waker};
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, Instant};
 use tokio::runtime::Handle;
 use tokio::sync::Notify;
 use tokio::sync::futures::Notified;
@@ -49,14 +53,15 @@ pub(crate) struct ComponentState {
     monitor: Arc<Monitor>,
     /// Writes the component's stats, if it has any.
     _stats: Option<AbortOnDrop>,
+    /// What a service manager is told of the component, if there is one.
+    member: Option<Arc<Member>>,
+    /// Tells it.
+    reporting: OnceLock<AbortOnDrop>,
     /// Keeps the registration if the runtime folder is removed.
     _keeper: AbortOnDrop,
     /// Dropped last: once the lock is released, another process may run this component.
     registration: Registration,
 }
-
-/// How long the component's runtime may stand still while a call waits for its own socket.
-const DIRECT_WAIT: Duration = Duration::from_millis(2);
 
 /// A sending end and the task that drives it.
 struct Registered {
@@ -67,12 +72,6 @@ struct Registered {
 /// What generated code holds of a component besides its gates.
 #[derive(Clone)]
 pub struct ComponentHandle(pub(crate) Arc<ComponentState>);
-
-/// Wakes the call that waits at one end of a gate.
-pub(crate) trait WakeCall: Send + Sync {
-    /// Wakes it, if there is one.
-    fn wake_call(&self);
-}
 
 struct SetOnDrop(Arc<AtomicBool>);
 
@@ -113,7 +112,8 @@ impl ComponentState {
             std::future::pending::<()>().await;
         });
         let keeper = AbortOnDrop(keeper.abort_handle());
-        let (monitor, stats) = start_monitor(spec, &registration, &handle);
+        let (monitor, stats) = monitor::start(spec, &registration, &handle);
+        let member = service::join(|| reported::follows_calls(runtime.is_some(), &handle));
         Self {
             spec,
             process: ProcessMark::new(),
@@ -128,6 +128,8 @@ impl ComponentState {
             waiting_calls: Mutex::default(),
             monitor,
             _stats: stats,
+            member,
+            reporting: OnceLock::new(),
             _keeper: keeper,
             registration,
         }
@@ -213,114 +215,6 @@ impl ComponentState {
         !self.process.is_own()
     }
 
-    /// Fails if the component cannot be used any more, or not by this process.
-    pub(crate) fn check(&self) -> Result<(), BlockingError> {
-        if self.is_inherited() {
-            return Err(BlockingError::Forked);
-        }
-        if self.calls_ended.load(Ordering::Acquire) {
-            return Err(BlockingError::Closed);
-        }
-        if self.runtime_ended.load(Ordering::Acquire) { Err(BlockingError::RuntimeEnded) } else { Ok(()) }
-    }
-
-    /// Lets [`end_calls`](Self::end_calls) wake the calls that wait at an end.
-    pub(crate) fn register_calls(&self, calls: Weak<dyn WakeCall>) {
-        let mut waiting = lock(&self.waiting_calls);
-        // Those of descriptors that are gone; gates of a component are never more than it has.
-        waiting.retain(|calls| calls.strong_count() > 0);
-        waiting.push(calls);
-    }
-
-    /// Ends all waiting calls of the gates with [`BlockingError::Closed`], and refuses later ones.
-    ///
-    /// A call that is about to wait sees the flag: it registers its waker first, under a lock that is taken here after the
-    /// flag was set, and checks after that.
-    pub(crate) fn end_calls(&self) {
-        self.calls_ended.store(true, Ordering::SeqCst);
-        lock(&self.waiting_calls).iter().filter_map(Weak::upgrade).for_each(|calls| calls.wake_call());
-        self.ends().iter().for_each(|end| lock(end).wake_call());
-        self.changes.report();
-    }
-
-    /// Returns true if the program was told to stop and leaves that to SCL: its calls then stay pending or fail.
-    pub(crate) fn is_stopped(&self) -> bool {
-        crate::stop::gates_stopped()
-    }
-
-    /// Fails if a call that does not wait must not be made any more.
-    pub(crate) fn may_proceed(&self) -> Result<(), BlockingError> {
-        self.check()?;
-        if self.is_stopped() { Err(BlockingError::Stopped) } else { Ok(()) }
-    }
-
-    /// Fails if the component cannot be closed here and now by a call that blocks the thread. Also after a stop request.
-    pub(crate) fn may_close(&self) -> Result<(), BlockingError> {
-        if self.is_inherited() {
-            return Err(BlockingError::Forked);
-        }
-        runtime::refuse_inside_async()
-    }
-
-    /// Fails if a call that may block the thread must not be made here and now.
-    pub(crate) fn may_block(&self) -> Result<(), BlockingError> {
-        self.may_proceed()?;
-        runtime::refuse_inside_async()
-    }
-
-    /// Waits for a future from a plain thread, or until the program is told to stop.
-    pub(crate) fn block_on<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
-        self.may_block()?;
-        let future = crate::stop::until_stopped(future);
-        match &self.runtime {
-            Some(runtime) => runtime.block_on(future)?,
-            None => runtime::park_until(future),
-        }
-    }
-
-    /// Like [`block_on`](Self::block_on), but gives up after a given time and then returns `None`.
-    pub(crate) fn block_on_for<F: Future>(
-        &self,
-        time: Duration,
-        future: F,
-    ) -> Result<Option<F::Output>, BlockingError> {
-        self.may_block()?;
-        let future = crate::stop::until_stopped(future);
-        let done = match &self.runtime {
-            Some(runtime) => runtime.block_on(async { tokio::time::timeout(time, future).await.ok() })?,
-            None => runtime::park_until_or(time, future),
-        };
-        done.transpose()
-    }
-
-    /// How long a blocking call may wait for its socket itself before it drives the component's runtime, if the component
-    /// owns one. That spares the event loop of the runtime, which costs as much as everything else of a round trip.
-    ///
-    /// Messages that were held back to be written together are written first: the peer may have to answer them.
-    pub(crate) fn direct_wait(&self) -> Option<Duration> {
-        // The component's thread may drive the runtime, and would have to wait for the end that this call waits at.
-        self.runtime.as_ref().filter(|runtime| !runtime.is_driven())?;
-        let unwritten = lock(&self.ends).iter().filter(|one| !lock(&one.end).write_out()).count();
-        (unwritten == 0).then_some(DIRECT_WAIT)
-    }
-
-    /// Keeps the component's own runtime driven while no call does it, if there is one.
-    pub(crate) fn drive_always(&self) -> Option<Driven> {
-        self.runtime.as_ref().map(|runtime| runtime.drive_always())
-    }
-
-    /// Runs a task on the runtime of the ends, until it is done or dropped.
-    pub(crate) fn spawn(&self, task: impl Future<Output = ()> + Send + 'static) -> AbortOnDrop {
-        AbortOnDrop(self.handle.spawn(task).abort_handle())
-    }
-
-    /// Gives the component's own runtime a turn if one is due, after a call that did not wait.
-    pub(crate) fn take_turn(&self) {
-        if let Some(runtime) = &self.runtime {
-            runtime.take_turn();
-        }
-    }
-
     /// Why peers are missing, for error texts: `` `sensor` is not running ``.
     pub(crate) fn why_missing(&self, gate: &GateSpec, missing: &[Missing]) -> Option<String> {
         let reasons = missing.iter().map(|missing| self.explain(gate, missing));
@@ -344,6 +238,7 @@ impl ComponentState {
     /// Waits until peers have taken everything, at most for a given time.
     pub(crate) async fn flush(&self, flush: Flush, timeout: Duration) -> Result<(), NotFlushed> {
         *lock(&self.flushed) = true;
+        let _waiting = self.waiting();
         let started = Instant::now();
         let ends = self.ends();
         let mut left = flush::flush(&ends, flush, timeout, &|component| self.runs_elsewhere(component)).await;
@@ -385,22 +280,6 @@ impl ComponentState {
         let awaited = end.waits_for_absent_peer().is_some_and(|left| self.runs_elsewhere(left.peer.component()));
         if flushed && !awaited { Poll::Ready(()) } else { Poll::Pending }
     }
-}
-
-/// Follows what the component does, and writes it where it has files.
-fn start_monitor(
-    spec: &'static ComponentSpec,
-    registration: &Registration,
-    handle: &Handle,
-) -> (Arc<Monitor>, Option<AbortOnDrop>) {
-    let unwritten = || ComponentStats::initial(spec, std::process::id(), SystemTime::now(), Duration::ZERO);
-    let (initial, writer) = registration.stats().unzip();
-    let monitor = Arc::new(Monitor::new(spec, initial.unwrap_or_else(unwritten)));
-    let task = writer.map(|writer| {
-        let task = handle.spawn(monitor::write_stats(Arc::downgrade(&monitor), writer));
-        AbortOnDrop(task.abort_handle())
-    });
-    (monitor, task)
 }
 
 /// Hands over what is left, within [`LINGER`], on the calling thread and without a runtime.

@@ -9,6 +9,7 @@ mod state;
 
 use crate::environment::{self, Variables};
 use crate::error::{BlockingError, OpenError};
+use crate::service;
 use crate::sync::lock;
 pub(crate) use signals::LAST_FLUSH;
 pub use signals::StopSignal;
@@ -106,6 +107,7 @@ pub fn is_stop_requested() -> bool {
 /// Requests the stop, as a signal does.
 pub(crate) fn request(signal: StopSignal) {
     STOP.request(signal.exit_code());
+    service::stopping();
 }
 
 /// Makes the program handle stop requests itself, without watching for signals.

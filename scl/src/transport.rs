@@ -81,6 +81,9 @@ pub struct Endpoint {
     /// Whether only the newest message matters to this receiving end, as with `queue: 1`. It then keeps few messages in
     /// flight, so that [`Receiver::poll_caught_up`] can tell exactly whether the sender has a newer one.
     pub newest_only: bool,
+    /// Whether this sending end waits for slow peers instead of dropping messages. It tells them, see
+    /// [`Receiver::is_lossless`].
+    pub lossless: bool,
     /// Called by a connecting end each time before it connects; an error keeps it from connecting.
     pub check: Option<PeerCheck>,
 }
@@ -91,7 +94,7 @@ impl Endpoint {
 
     /// An endpoint with default limits.
     pub fn new(name: impl Into<Cow<'static, str>>) -> Self {
-        Self { name: name.into(), max_size: Self::MAX_SIZE, newest_only: false, check: None }
+        Self { name: name.into(), max_size: Self::MAX_SIZE, newest_only: false, lossless: false, check: None }
     }
 }
 
@@ -213,6 +216,12 @@ pub trait Receiver: Send {
 
     /// Number of connected peers: for a listening end, those that have completed the handshake.
     fn peers(&self) -> usize;
+
+    /// Returns true if a connected sender waits instead of dropping messages: then the receiving gate takes in no more than
+    /// its queue holds, whatever that queue would do when it is full.
+    fn is_lossless(&self) -> bool {
+        false
+    }
 
     /// Number of messages skipped because they did not consist of exactly one frame.
     fn malformed(&self) -> u64 {

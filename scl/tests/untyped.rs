@@ -33,7 +33,7 @@ fn system_plan(file: &str) -> SystemPlan {
     loaded.system_plan().unwrap_or_else(|| panic!("{file}: {:?}", loaded.diagnostics))
 }
 
-fn plan(component: &str) -> Plan {
+pub(crate) fn plan(component: &str) -> Plan {
     system_plan("untyped.yaml").component(component).unwrap().clone()
 }
 

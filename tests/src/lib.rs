@@ -3,6 +3,7 @@
 mod commands;
 mod compile;
 pub mod fuzz;
+mod manager;
 mod process;
 mod python;
 mod raw_peer;
@@ -14,6 +15,7 @@ pub mod zmtp;
 
 pub use commands::{Commands, ranges, say, say_error, say_result, stop_self};
 pub use compile::{CLibrary, Compile, c_library};
+pub use manager::ServiceManager;
 pub use process::{Exit, HANG_LIMIT, Process};
 pub use python::{python_with_packages, python_with_scl, start_python};
 pub use raw_peer::{Frame, RawListener, RawPeer};

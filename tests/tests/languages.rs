@@ -4,6 +4,7 @@
 //! All follow the same commands, so each promise is one test for all pairs. What is told about accounts is exact.
 
 mod exchange;
+mod figures;
 mod hostile;
 mod program;
 mod refusal;

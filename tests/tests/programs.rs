@@ -18,6 +18,7 @@ pub(crate) const STEADY: &str = env!("CARGO_BIN_EXE_steady");
 pub(crate) const STRANGER: &str = env!("CARGO_BIN_EXE_stranger");
 pub(crate) const TAKER: &str = env!("CARGO_BIN_EXE_taker");
 pub(crate) const TWIN: &str = env!("CARGO_BIN_EXE_twin");
+pub(crate) const WATCHED: &str = env!("CARGO_BIN_EXE_watched");
 pub(crate) const UNTYPED: &str = env!("CARGO_BIN_EXE_untyped");
 pub(crate) const ZEROMQ_TWIN: &str = env!("CARGO_BIN_EXE_zeromq_twin");
 

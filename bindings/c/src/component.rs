@@ -141,6 +141,7 @@ fn open(plan: &[u8], name: &str, options: &Options) -> Result<usize, Failure> {
 /// What `#[scl::main]` does for a Rust program, before its first component is opened.
 fn set_up(options: &Options) -> Result<(), Failure> {
     host::start_log()?;
+    host::notify_service_manager();
     if options.signals() {
         host::watch_signals()?;
     }

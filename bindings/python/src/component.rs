@@ -45,6 +45,7 @@ impl Component {
         let plan = plan.component(component)?;
         let opened = py.detach(|| {
             no_panic(|| {
+                host::notify_service_manager();
                 host::apply_real_time()?;
                 let mut opened = untyped::Component::open_blocking_with(plan, options)?;
                 let gates = plan.gates.iter().map(|gate| opened.gate(&gate.name));

@@ -64,7 +64,14 @@ impl Rover {
         rover
     }
 
-    /// Starts components and waits until they are ready.
+    /// Starts one component and waits until it sends; its peers need not run.
+    pub(crate) fn play_alone(&mut self, component: &str) {
+        self.play(&[component], |command| {
+            command.env(player::ALONE, "1");
+        });
+    }
+
+    /// Starts components and waits until they are ready, so all their required peers must run.
     pub(crate) fn play(&mut self, components: &[&str], prepare: impl Fn(&mut Command)) {
         let started = components.iter().map(|name| self.spawn(name, &prepare)).collect::<Vec<_>>();
         for mut playing in started {
@@ -105,7 +112,7 @@ impl Rover {
         self.files.path(name)
     }
 
-    /// Adds a file there.
+    /// Adds a file to the folder of the system.
     pub(crate) fn write(&self, name: &str, text: &str) {
         self.files.write(name, text);
     }
@@ -148,6 +155,16 @@ impl Rover {
         serde_json::from_str(&text).unwrap_or_else(|error| panic!("{arguments:?}: {error}\n{text}"))
     }
 
+    /// Repeats a query until `found` returns something.
+    pub(crate) fn wait_for<T>(&self, arguments: &[&str], found: impl Fn(&Value) -> Option<T>) -> T {
+        let arguments = [arguments, &["--format", "json"]].concat();
+        loop {
+            if let Some(found) = found(&self.json(&arguments)) {
+                return found;
+            }
+        }
+    }
+
     fn spawn(&self, component: &str, prepare: &impl Fn(&mut Command)) -> Playing {
         let mut command = Command::new(std::env::current_exe().unwrap());
         command.args(["--exact", player::TEST, "--nocapture", "--test-threads=1"]);
@@ -161,7 +178,7 @@ impl Rover {
     fn set_environment(&self, command: &mut Command) {
         command.env("SCL_RUNTIME_DIR", self.runtime_dir());
         command.env("XDG_STATE_HOME", self.path("state"));
-        for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS", "SCL_LOG", PLAYS] {
+        for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS", "SCL_LOG", PLAYS, player::ALONE] {
             command.env_remove(name);
         }
     }

@@ -4,10 +4,23 @@
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdout, Command, ExitStatus, Output, Stdio};
+use std::process::{Child, ChildStderr, ChildStdout, Command, ExitStatus, Output, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A program that never ends by itself. (`tail` would notice the end of a pipe to which it writes.)
 pub(crate) const FOREVER: &str = "exec tail -f /dev/null >/dev/null";
+
+/// One test at a time builds programs called `sensor` and starts them: all build into the folder of these tests.
+pub(crate) fn lock_programs() -> MutexGuard<'static, ()> {
+    static PROGRAMS: Mutex<()> = Mutex::new(());
+    // A test that failed does not make others fail.
+    PROGRAMS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The folder that the tests themselves were built into, so that little has to be built again.
+pub(crate) fn build_folder() -> PathBuf {
+    Path::new(env!("CARGO_BIN_EXE_scl")).ancestors().nth(2).unwrap().to_owned()
+}
 
 /// A folder with a system in it.
 pub(crate) struct System {
@@ -55,6 +68,7 @@ impl System {
         for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
             command.env_remove(name);
         }
+        command.env("SCL_RUNTIME_DIR", self.path("runtime"));
         command
     }
 
@@ -75,6 +89,7 @@ impl System {
         let mut command = Command::new("/bin/sh");
         command.args(["-c", script]).arg(scl.get_program()).args(arguments);
         command.current_dir(self.folder.path()).stdin(Stdio::null());
+        command.env("SCL_RUNTIME_DIR", self.path("runtime"));
         Started::spawn(&mut command)
     }
 
@@ -90,18 +105,34 @@ impl System {
 pub(crate) struct Started {
     process: Child,
     lines: BufReader<ChildStdout>,
+    errors: BufReader<ChildStderr>,
+    seen_errors: String,
 }
 
 impl Started {
     fn spawn(command: &mut Command) -> Self {
         let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let lines = BufReader::new(process.stdout.take().unwrap());
-        Self { process, lines }
+        let errors = BufReader::new(process.stderr.take().unwrap());
+        Self { process, lines, errors, seen_errors: String::new() }
     }
 
     /// Reads standard output up to this line.
     pub(crate) fn wait_for_line(&mut self, expected: &str) {
         self.wait_until(expected, |line| line == expected);
+    }
+
+    /// Reads standard error up to a line that contains this.
+    pub(crate) fn wait_for_error(&mut self, expected: &str) {
+        loop {
+            let seen = self.seen_errors.len();
+            self.errors.read_line(&mut self.seen_errors).unwrap();
+            let line = &self.seen_errors[seen..];
+            assert!(!line.is_empty(), "no `{expected}` in:\n{}", self.seen_errors);
+            if line.contains(expected) {
+                return;
+            }
+        }
     }
 
     /// Reads standard output up to a line that starts like this.
@@ -141,12 +172,12 @@ impl Started {
         self.process.wait().unwrap()
     }
 
-    /// Waits for the end; gives the rest of both streams.
+    /// Waits for the end; gives the rest of standard output, and all of standard error.
     pub(crate) fn finish(mut self) -> (ExitStatus, String, String) {
-        let (mut out, mut err) = (String::new(), String::new());
+        let mut out = String::new();
         self.lines.read_to_string(&mut out).unwrap();
-        self.process.stderr.take().unwrap().read_to_string(&mut err).unwrap();
-        (self.process.wait().unwrap(), out, err)
+        self.errors.read_to_string(&mut self.seen_errors).unwrap();
+        (self.process.wait().unwrap(), out, self.seen_errors)
     }
 }
 

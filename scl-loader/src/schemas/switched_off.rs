@@ -13,7 +13,7 @@ pub(crate) fn compile(_: &Request, model: &Model, _: &mut Sources, problems: &mu
         let message = format!("the schema file `{}` needs the feature `protobuf`", schema.value);
         let problem = SCHEMA
             .at(message, schema.span, "this build of SCL compiles no schemas")
-            .help("switch it on in Cargo.toml: scl = { version = \"..\", features = [\"protobuf\"] }")
+            .help("switch it on in Cargo.toml: scl = { package = \"scl-gates\", version = \"..\", features = [\"protobuf\"] }")
             .note("without `schemas`, types are looked up in your Rust code");
         problems.push(problem);
     }

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 /// several readers reject that for encodings that need a schema, and it would lose the type's name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Encoding<'a> {
-    /// MCAP's message encoding: the codec's word, or the path of a codec of the user's own.
+    /// MCAP's message encoding: the codec's word, or the path of a codec of the user's own. For bytes `raw`.
     pub message: Cow<'a, str>,
     /// Name of the schema: the type as in the topology file, or `bytes`.
     pub schema_name: &'a str,
@@ -19,13 +19,16 @@ pub struct Encoding<'a> {
 impl<'a> Encoding<'a> {
     /// The encoding of one codec and type; `descriptors` is the serialized `FileDescriptorSet` of the component's messages.
     pub fn new(codec: &'a str, type_name: Option<&'a str>, descriptors: Option<&'a [u8]>) -> Self {
+        let Some(schema_name) = type_name else {
+            // Bytes are what they are, whatever codec the system has for its other gates.
+            return Self { message: "raw".into(), schema_name: "bytes", schema_encoding: "", schema: [][..].into() };
+        };
         let (schema_encoding, schema) = match (codec, descriptors) {
             ("protobuf", Some(descriptors)) => ("protobuf", descriptors),
             // Readers of JSON need a schema, and accept one that says no more than this.
             ("json", _) => ("jsonschema", ANY_OBJECT),
             _ => ("", &[][..]),
         };
-        let schema_name = type_name.unwrap_or("bytes");
         Self { message: codec.into(), schema_name, schema_encoding, schema: schema.into() }
     }
 }
@@ -50,6 +53,7 @@ mod tests {
             assert_eq!((encoding.schema_encoding, &*encoding.schema), (schema_encoding, schema), "{codec}");
             assert_eq!((&*encoding.message, encoding.schema_name), (codec, "rover.Measurement"));
         }
-        assert_eq!(Encoding::new("raw", None, None).schema_name, "bytes");
+        let bytes = Encoding::new("protobuf", None, Some(b"set"));
+        assert_eq!((&*bytes.message, bytes.schema_name, bytes.schema_encoding), ("raw", "bytes", ""));
     }
 }

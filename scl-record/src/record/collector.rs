@@ -1,5 +1,6 @@
 //! From the taps into the queue: numbers the gates, counts losses, and reacts to signals and requests.
 
+use super::contents::now_ns;
 use super::gate::Message;
 use super::losses::Losses;
 use super::options::Notes;
@@ -16,10 +17,14 @@ use std::path::PathBuf;
 use std::time::Duration;
 use tokio::signal::unix::{Signal, SignalKind, signal};
 use tokio::sync::oneshot;
-use tokio::time::{MissedTickBehavior, interval, sleep};
+use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
 
 /// How often the figures on a terminal change.
 const SHOW: Duration = Duration::from_millis(500);
+
+/// At the end: how long nothing may arrive until nothing more is expected, and how long to look in any case.
+const ARRIVAL: Duration = Duration::from_millis(10);
+const LAST_LOOK: Duration = Duration::from_millis(200);
 
 /// The signals that concern a recorder.
 pub(crate) struct Signals {
@@ -95,14 +100,14 @@ impl<'a> Collector<'a> {
         if self.initial == 0 {
             self.notes.say("no gate to record is running yet; waiting");
         }
-        loop {
+        let is_stored = loop {
             let Signals { stop, save } = &mut signals;
             tokio::select! {
                 // Signals first: under load there always is a message.
                 biased;
-                () = Signals::stop(stop) => break,
-                () = &mut end => break,
-                _ = &mut stopped => break,
+                () = Signals::stop(stop) => break true,
+                () = &mut end => break true,
+                _ = &mut stopped => break false,
                 _ = save.recv() => self.save_for_signal(),
                 Ok(stream) = accept(&self.trigger) => {
                     let saved = self.save();
@@ -111,6 +116,9 @@ impl<'a> Collector<'a> {
                 _ = show.tick() => self.notes.show(progress),
                 event = self.taps.next() => self.handle(event),
             }
+        };
+        if is_stored {
+            self.take_arrived().await;
         }
         for (gate, losses) in self.losses.iter_mut().enumerate() {
             let lost = losses.take();
@@ -119,6 +127,19 @@ impl<'a> Collector<'a> {
             }
         }
         self.notes.clear();
+    }
+
+    /// Takes what was sent before now and is on its way.
+    async fn take_arrived(&mut self) {
+        let (now, deadline) = (now_ns(), Instant::now() + LAST_LOOK);
+        while Instant::now() < deadline
+            && let Ok(event) = timeout(ARRIVAL, self.taps.next()).await
+        {
+            match event {
+                TapsEvent::Event { event: TapEvent::Observed(observation), .. } if observation.sent_ns > now => {}
+                event => self.handle(event),
+            }
+        }
     }
 
     fn handle(&mut self, event: TapsEvent) {

@@ -1,10 +1,12 @@
 //! Names of recordings: `rover_20261122T001530Z.mcap`, and `flight_0001.mcap` for the parts of a split one.
 
-use scl_terminal::Problem;
+use rustix::fs::{FlockOperation, flock};
+use rustix::io::Errno;
+use scl_terminal::{Problem, timestamp};
 use std::fs::{File, OpenOptions};
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
+use std::time::SystemTime;
 
 const EXTENSION: &str = "mcap";
 
@@ -60,13 +62,21 @@ impl FileNames {
         let mut options = OpenOptions::new();
         options.write(true);
         match self.overwrite {
-            true => options.create(true).truncate(true),
+            true => options.create(true),
             false => options.create_new(true),
         };
-        let file = options.open(&path).map_err(|error| match error.kind() {
+        let cannot_create = |error: io::Error| match error.kind() {
             ErrorKind::AlreadyExists => exists(&path),
             _ => Problem::new(format!("cannot create `{}`: {error}", path.display())),
-        })?;
+        };
+        let file = options.open(&path).map_err(cannot_create)?;
+        // Held until the file is closed; `scl recover` looks at it, too. Where there are no locks, there is no protection.
+        if flock(&file, FlockOperation::NonBlockingLockExclusive) == Err(Errno::WOULDBLOCK) {
+            return Err(Problem::new(format!("`{}` is being recorded by another process", path.display())));
+        }
+        if self.overwrite {
+            file.set_len(0).map_err(cannot_create)?;
+        }
         self.used += 1;
         Ok((path, file))
     }
@@ -86,38 +96,22 @@ fn exists(path: &Path) -> Problem {
         .help("choose another name with `-o`, or replace it with `--overwrite`")
 }
 
-/// ISO 8601 without separators, in UTC, to the second: it sorts by time and needs no quotes in a shell.
+/// `20261122T001530Z`: it sorts by time and needs no quotes in a shell.
 fn compact_time(time: SystemTime) -> String {
-    let seconds = time.duration_since(SystemTime::UNIX_EPOCH).unwrap_or(Duration::ZERO).as_secs();
-    let (days, second) = (seconds / 86_400, seconds % 86_400);
-    // http://howardhinnant.github.io/date_algorithms.html#civil_from_days, for days after 1970 only.
-    let shifted = days + 719_468;
-    let (era, day_of_era) = (shifted / 146_097, shifted % 146_097);
-    let year_of_era = (day_of_era - day_of_era / 1_460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
-    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    let shifted_month = (5 * day_of_year + 2) / 153;
-    let day = day_of_year - (153 * shifted_month + 2) / 5 + 1;
-    let month = if shifted_month < 10 { shifted_month + 3 } else { shifted_month - 9 };
-    let year = year_of_era + era * 400 + u64::from(month <= 2);
-    format!("{year:04}{month:02}{day:02}T{:02}{:02}{:02}Z", second / 3600, second / 60 % 60, second % 60)
+    let text = timestamp(time).replace(['-', ':'], "");
+    let seconds = text.split('.').next().unwrap_or_default();
+    format!("{seconds}Z")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::time::Duration;
 
     #[test]
-    fn times_are_written_as_in_iso_8601() {
-        let cases = [
-            (0, "19700101T000000Z"),
-            (951_782_399, "20000228T235959Z"),
-            (951_782_400, "20000229T000000Z"),
-            (1_795_306_530, "20261122T001530Z"),
-            (4_107_542_400, "21000301T000000Z"),
-        ];
-        for (seconds, expected) in cases {
-            assert_eq!(compact_time(SystemTime::UNIX_EPOCH + Duration::from_secs(seconds)), expected);
-        }
+    fn times_have_no_separators() {
+        let time = SystemTime::UNIX_EPOCH + Duration::from_millis(1_795_306_530_750);
+        assert_eq!(compact_time(time), "20261122T001530Z");
     }
 
     #[test]

@@ -2,10 +2,9 @@
 
 use super::contents::AttachedFile;
 use super::continuous::Split;
-use super::report::size;
 use super::storage::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use scl_terminal::print_err;
+use scl_terminal::{bytes_text, print_err};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -33,8 +32,6 @@ pub struct Options {
     pub ring: Option<RingOptions>,
     /// Files to add to each recording.
     pub attached: Vec<AttachedFile>,
-    /// Whether to say nothing while recording.
-    pub quiet: bool,
 }
 
 /// A recording that is kept in memory.
@@ -50,29 +47,27 @@ pub struct RingOptions {
 #[derive(Debug, Clone)]
 pub(crate) struct Notes {
     line: ProgressBar,
-    quiet: bool,
 }
 
 impl Notes {
-    pub(crate) fn new(quiet: bool) -> Self {
-        let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-        let line = ProgressBar::with_draw_target(None, target);
+    pub(crate) fn new() -> Self {
+        // Invisible unless standard error is a terminal.
+        let line = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
         if let Ok(style) = ProgressStyle::with_template("{elapsed:>4}  {msg}") {
             line.set_style(style);
         }
-        Self { line, quiet }
+        Self { line }
     }
 
     pub(crate) fn say(&self, text: &str) {
-        if !self.quiet {
-            self.line.suspend(|| print_err(&format!("{text}\n")));
-        }
+        self.line.suspend(|| print_err(&format!("{text}\n")));
     }
 
     pub(crate) fn show(&self, progress: &Progress) {
         let load = |figure: &std::sync::atomic::AtomicU64| figure.load(Ordering::Relaxed);
         let (messages, lost) = (load(&progress.messages), load(&progress.lost));
-        self.line.set_message(format!("{messages} messages, {lost} lost, {}", size(load(&progress.bytes))));
+        self.line
+            .set_message(format!("{messages} messages, {lost} lost, {}", bytes_text(load(&progress.bytes) as f64)));
         self.line.tick();
     }
 

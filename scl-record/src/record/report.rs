@@ -2,7 +2,7 @@
 
 use super::file::WrittenFile;
 use crate::format::Totals;
-use scl_terminal::{Problem, escape};
+use scl_terminal::{Align, Problem, Table, bytes_text, escape};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::time::Duration;
@@ -29,11 +29,11 @@ impl Report {
 
     /// A table of the gates, and the files.
     pub fn text(&self) -> String {
-        let width = self.totals.gates.keys().map(|name| name.len()).max().unwrap_or(0).max("gate".len());
-        let mut text = format!("{:width$}  {:>12}  {:>10}\n", "gate", "recorded", "lost");
+        let mut table = Table::new([("GATE", Align::Left), ("RECORDED", Align::Right), ("LOST", Align::Right)]);
         for (name, gate) in &self.totals.gates {
-            let _ = writeln!(text, "{name:width$}  {:>12}  {:>10}", gate.recorded, gate.lost);
+            table.row([name, &gate.recorded.to_string(), &gate.lost.to_string()]);
         }
+        let mut text = table.text();
         let files = match &self.files[..] {
             [] => "no file".to_owned(),
             [only] => escape(&only.path.to_string_lossy()).into_owned(),
@@ -41,8 +41,8 @@ impl Report {
                 format!("{} to {}", escape(&first.path.to_string_lossy()), escape(&last.path.to_string_lossy()))
             }
         };
-        let bytes = self.files.iter().map(|file| file.bytes).sum();
-        let _ = writeln!(text, "{files}: {}, {:.1} s", size(bytes), self.duration.as_secs_f64());
+        let bytes: u64 = self.files.iter().map(|file| file.bytes).sum();
+        let _ = writeln!(text, "{files}: {}, {:.1} s", bytes_text(bytes as f64), self.duration.as_secs_f64());
         if self.deleted > 0 {
             let _ = writeln!(text, "{} older files deleted (`--keep`)", self.deleted);
         }
@@ -71,37 +71,11 @@ impl Report {
     }
 }
 
-/// `1.2 MiB`
-pub(crate) fn size(bytes: u64) -> String {
-    const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
-    if bytes < 1024 {
-        return format!("{bytes} B");
-    }
-    let mut value = bytes as f64 / 1024.0;
-    let mut units = UNITS.iter();
-    let mut unit = units.next().unwrap_or(&"");
-    while value >= 1024.0
-        && let Some(next) = units.next()
-    {
-        (value, unit) = (value / 1024.0, next);
-    }
-    format!("{value:.1} {unit}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::format::GateTotals;
     use std::collections::BTreeMap;
-
-    #[test]
-    fn sizes_have_a_unit() {
-        for (bytes, expected) in
-            [(0, "0 B"), (1023, "1023 B"), (1536, "1.5 KiB"), (1 << 30, "1.0 GiB"), (u64::MAX, "16777216.0 TiB")]
-        {
-            assert_eq!(size(bytes), expected);
-        }
-    }
 
     #[test]
     fn the_text_names_gates_and_files() {
@@ -110,9 +84,9 @@ mod tests {
         let file = WrittenFile { path: "flight.mcap".into(), bytes: 2048, totals: totals.clone() };
         let report = Report { totals, duration: Duration::from_secs(5), files: vec![file], deleted: 0, problem: None };
         expect_test::expect![[r#"
-            gate                     recorded        lost
-            sensor.measurements          5000           2
-            flight.mcap: 2.0 KiB, 5.0 s
+            GATE                 RECORDED  LOST
+            sensor.measurements      5000     2
+            flight.mcap: 2.00 KiB, 5.0 s
         "#]]
         .assert_eq(&report.text());
     }

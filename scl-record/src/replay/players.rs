@@ -7,7 +7,7 @@ use super::report::{AnswerReport, NotTaken};
 use bytes::Bytes;
 use scl::untyped::{Component, Gate};
 use scl::{CallError, OpenOptions, PeerStats, Pub, Push, Rep, Req, SendError};
-use scl_plan::{Plan, WhenFull};
+use scl_plan::{GateKind, GatePlan, Plan, WhenFull};
 use scl_terminal::Problem;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -79,7 +79,15 @@ impl Players {
             is_lossless,
         };
         for plan in &cast.played {
-            let plan = if is_lossless { lossless(plan) } else { plan.clone() };
+            let mut plan = plan.clone();
+            if is_lossless {
+                make_lossless(&mut plan);
+            }
+            if options.ready_within.is_zero() {
+                // Peers that nobody waits for at the beginning are not waited for later either.
+                let connections = plan.gates.iter_mut().flat_map(|gate| &mut gate.connections);
+                connections.for_each(|connection| connection.required = false);
+            }
             let opened = Component::open_with(&plan, OpenOptions::new().system(&cast.system)).await;
             let mut component = opened.map_err(|error| problem_of(&error))?;
             for gate in &plan.gates {
@@ -132,6 +140,11 @@ impl Players {
         sent.map_err(|error: SendError| problem_of(&error))
     }
 
+    /// Whether a played replier has recorded replies.
+    pub(super) fn answers(&self) -> bool {
+        !self.answering.is_empty()
+    }
+
     /// By requesting gate (`user_interface.commands`), the number of replies that it has received; it goes on counting.
     pub(super) fn replies(&self) -> HashMap<String, Arc<AtomicU64>> {
         let replies = self.senders.iter().filter_map(|((component, gate), sender)| match sender {
@@ -167,6 +180,7 @@ impl Players {
                     gate: left.gate.to_string(),
                     peer: left.peer.to_string().trim_matches('`').to_owned(),
                     messages: left.messages,
+                    was_absent: !left.running,
                     reason: if left.running { "it did not take them in time" } else { "it is not running" },
                 }));
             }
@@ -218,14 +232,16 @@ impl Players {
                 SendingGate::Push(gate) => gate.peer_stats(),
                 SendingGate::Req { .. } => Vec::new(),
             };
-            for PeerStats { peer, dropped_oldest, dropped_newest, lost, .. } in peers {
-                let full = (dropped_oldest + dropped_newest, "its queue was full");
+            for PeerStats { peer, connected, dropped_oldest, dropped_newest, lost, .. } in peers {
+                let reason = if connected { "its queue was full" } else { "it was not connected" };
+                let full = (dropped_oldest + dropped_newest, reason);
                 for (messages, reason) in [full, (lost, "it disconnected")] {
                     if messages > 0 {
                         dropped.push(NotTaken {
                             gate: format!("{component}.{gate}"),
                             peer: peer.clone(),
                             messages,
+                            was_absent: !connected,
                             reason,
                         });
                     }
@@ -237,14 +253,13 @@ impl Players {
     }
 }
 
-/// The plan of a component whose sending gates wait for slow peers instead of dropping messages.
-fn lossless(plan: &Plan) -> Plan {
-    let mut plan = plan.clone();
-    for gate in &mut plan.gates {
+/// Makes the sending gates wait for slow peers instead of dropping messages.
+fn make_lossless(plan: &mut Plan) {
+    let sends = |gate: &&mut GatePlan| matches!(gate.kind, GateKind::Pub | GateKind::Push);
+    for gate in plan.gates.iter_mut().filter(sends) {
         gate.options.backpressure = true;
         gate.connections.iter_mut().for_each(|connection| connection.when_full = WhenFull::Wait);
     }
-    plan
 }
 
 /// Makes the recorded calls, one after the other.

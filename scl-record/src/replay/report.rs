@@ -44,6 +44,8 @@ pub struct NotTaken {
     pub gate: String,
     pub peer: String,
     pub messages: u64,
+    /// Whether the peer was not there at the end.
+    pub was_absent: bool,
     /// Why: `its queue was full`.
     pub reason: &'static str,
 }
@@ -71,6 +73,11 @@ impl ReplayReport {
         self.gates.iter().map(|gate| gate.sent).sum()
     }
 
+    /// Whether a peer that took part to the end has not taken everything.
+    pub fn is_incomplete(&self) -> bool {
+        self.not_taken.iter().any(|left| !left.was_absent)
+    }
+
     /// One line per gate.
     pub fn to_text(&self) -> String {
         let sent = self.sent();
@@ -96,7 +103,7 @@ impl ReplayReport {
             }
             text.push('\n');
         }
-        for NotTaken { gate, peer, messages, reason } in &self.not_taken {
+        for NotTaken { gate, peer, messages, reason, .. } in &self.not_taken {
             let _ = writeln!(text, "  not taken by {peer}: {} of {gate}; {reason}", count(*messages, "message"));
         }
         text

@@ -1,7 +1,8 @@
 //! What a launch file says about one component, in `components` or in a profile.
 
 use super::keys;
-use super::reader::{KeyPath, Reader, scalar_text, shown};
+use super::reader::{KeyPath, Reader, likely_key, scalar_text, shown};
+use super::settings::Settings;
 use scl_terminal::{Problem, closest_name, quoted_list};
 use serde_yaml::{Mapping, Value};
 
@@ -12,12 +13,27 @@ pub(crate) struct LaunchComponent {
     pub(crate) name: String,
     /// What makes the program.
     pub(crate) build: Option<Vec<String>>,
-    /// The program and its arguments, not empty.
-    pub(crate) command: Vec<String>,
+    /// What runs it.
+    pub(crate) source: Source,
     /// For this program.
     pub(crate) environment: Vec<(String, String)>,
-    /// Where it runs, as written.
-    pub(crate) folder: Option<String>,
+    /// How it is run.
+    pub(crate) settings: Settings,
+}
+
+/// What runs a component.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// A program and its arguments, not empty.
+    Command(Vec<String>),
+    /// A recording, as written.
+    Replay(String),
+}
+
+impl Default for Source {
+    fn default() -> Self {
+        Source::Command(Vec::new())
+    }
 }
 
 /// An entry as written: keys that it lacks are `None`.
@@ -25,16 +41,16 @@ pub(crate) struct LaunchComponent {
 pub(super) struct Entry {
     pub(super) name: String,
     pub(super) build: Option<Vec<String>>,
-    pub(super) command: Option<Vec<String>>,
+    pub(super) source: Option<Source>,
     pub(super) environment: Vec<(String, String)>,
-    pub(super) folder: Option<String>,
+    pub(super) settings: Settings,
 }
 
 impl Entry {
-    /// The component, if the entry has a command.
+    /// The component, if the entry says what runs it.
     pub(super) fn into_component(self) -> Option<LaunchComponent> {
-        let Self { name, build, command, environment, folder } = self;
-        Some(LaunchComponent { name, build, command: command?, environment, folder })
+        let Self { name, build, source, environment, settings } = self;
+        Some(LaunchComponent { name, build, source: source?, environment, settings })
     }
 }
 
@@ -66,16 +82,24 @@ impl Reader<'_> {
             return None;
         };
         self.check_keys(keys, &at, keys::COMPONENT, &format!("in component `{name}`"));
-        let command = match keys.get("command") {
-            None if !must_have_command(name) => None,
-            _ => Some(self.read_command(name, keys, &at)),
+        let source = match (keys.get("command"), keys.get("replay")) {
+            (None, None) if !must_have_command(name) => None,
+            (None, Some(_)) => self.read_replay(keys, &at),
+            (command, replay) => {
+                if command.is_some() && replay.is_some() {
+                    let message = format!("component `{name}` has both a `command` and a `replay`");
+                    let problem = Problem::new(message).at(self.text.place(&joined(&at, "replay")));
+                    self.problems.push(problem.help("put one of them into a profile"));
+                }
+                Some(Source::Command(self.read_command(name, keys, &at)))
+            }
         };
         Some(Entry {
             name: name.to_owned(),
             build: self.read_build(keys.get("build"), &joined(&at, "build")),
-            command,
+            source,
             environment: self.read_environment(keys.get("environment"), &joined(&at, "environment")),
-            folder: self.read_path(keys.get("folder"), &joined(&at, "folder")),
+            settings: self.read_settings(keys, &at),
         })
     }
 
@@ -89,10 +113,18 @@ impl Reader<'_> {
         words
     }
 
+    fn read_replay(&mut self, keys: &Mapping, at: KeyPath<'_>) -> Option<Source> {
+        if keys.contains_key("build") {
+            let problem = Problem::new("a `replay` needs no `build`").at(self.text.place(&joined(at, "build")));
+            self.problems.push(problem.help("remove it"));
+        }
+        self.read_path(keys.get("replay"), &joined(at, "replay")).map(Source::Replay)
+    }
+
     fn read_command(&mut self, name: &str, keys: &Mapping, at: KeyPath<'_>) -> Vec<String> {
         let value = keys.get("command");
-        let misspelt = || keys.keys().filter_map(Value::as_str).any(|key| closest_name(key, ["command"]).is_some());
-        if value.is_none() && misspelt() {
+        let means_it = |key: &str| matches!(likely_key(key, keys::COMPONENT), Some("command" | "replay"));
+        if value.is_none() && keys.keys().filter_map(Value::as_str).any(means_it) {
             // The misspelt key has been reported, with the right one as its help.
             return Vec::new();
         }

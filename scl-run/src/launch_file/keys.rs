@@ -1,61 +1,245 @@
 //! The keys of a launch file, told once: for the reader, its messages and the tables of `docs/launch.md`.
 
+use super::super::policy::Restart;
+
 /// A key of a mapping.
 pub(super) struct Key {
     pub(super) name: &'static str,
-    /// What its value looks like, for the tables.
+    /// Names that other tools use for it, or that users may expect.
+    pub(super) also: &'static [&'static str],
+    /// What its value looks like.
+    pub(super) form: Form,
+    /// What applies without it, for the tables.
     #[cfg_attr(not(test), expect(dead_code, reason = "only the page shows it"))]
-    pub(super) value: &'static str,
+    pub(super) default: &'static str,
     /// What it means, for the tables.
     #[cfg_attr(not(test), expect(dead_code, reason = "only the page shows it"))]
     pub(super) meaning: &'static str,
+    /// Whether it may also stand in `defaults`.
+    pub(super) in_defaults: bool,
+}
+
+/// What the value of a key looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Form {
+    Command,
+    Path,
+    Variables,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    Duration,
+    DelayRange,
+    RestartLimit,
+    Flag,
+    Processors,
+    Priority,
+    /// A mapping with parts of its own.
+    Mapping(&'static str),
+}
+
+impl Form {
+    /// For messages (`restart_delay` is ...) and for the tables.
+    pub(super) fn description(self) -> String {
+        match self {
+            Form::Command => "a command".to_owned(),
+            Form::Path => "a path".to_owned(),
+            Form::Variables => "a mapping from names to texts or numbers".to_owned(),
+            Form::Word(words) => alternatives(words),
+            Form::Duration => "a time like `500ms` or `3s`".to_owned(),
+            Form::DelayRange => "a range like `100ms..5s`, or one time".to_owned(),
+            Form::RestartLimit => "a number of restarts and a time, like `5 in 1m`".to_owned(),
+            Form::Flag => "`true` or `false`".to_owned(),
+            Form::Processors => "a list of processors like `[2, 3]`, counted from 0, or one of them".to_owned(),
+            Form::Priority => "`fifo:1` to `fifo:99`".to_owned(),
+            Form::Mapping(description) => description.to_owned(),
+        }
+    }
+}
+
+fn alternatives(words: &[&str]) -> String {
+    match words {
+        [words @ .., last] if !words.is_empty() => {
+            let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+            format!("{} or `{last}`", words.join(", "))
+        }
+        _ => words.concat(),
+    }
 }
 
 /// The values of `transport`.
-pub(super) const TRANSPORTS: [&str; 2] = ["ipc", "tcp"];
+const TRANSPORTS: &[&str] = &["ipc", "tcp"];
+
+const RESTARTS: &[&str] = &{
+    let [(never, _), (on_failure, _), (always, _)] = Restart::WORDS;
+    [never, on_failure, always]
+};
+
+const KEY: Key = Key { name: "", also: &[], form: Form::Command, default: "", meaning: "", in_defaults: false };
 
 /// The keys at the top of the file.
 pub(super) const TOP: &[Key] = &[
-    Key { name: "build", value: "command", meaning: "Runs first, in the folder of the launch file." },
-    Key { name: "components", value: "mapping from names to entries", meaning: "The components to start. Required." },
+    Key { name: "build", meaning: "Runs first, in the folder of the launch file.", default: "nothing", ..KEY },
+    Key {
+        name: "components",
+        also: &["nodes", "services", "processes"],
+        form: Form::Mapping("a mapping from names to entries"),
+        default: "required",
+        meaning: "The components to start.",
+        ..KEY
+    },
+    Key {
+        name: "defaults",
+        also: &["default"],
+        form: Form::Mapping("a mapping with keys of entries"),
+        default: "nothing",
+        meaning: "Applies to every component whose entry lacks the key.",
+        ..KEY
+    },
     Key {
         name: "environment",
-        value: "mapping from names to texts or numbers",
+        also: &["env"],
+        form: Form::Variables,
+        default: "none",
         meaning: "Variables for all programs and builds, added to those of `scl run`.",
+        ..KEY
     },
     Key {
         name: "profiles",
-        value: "mapping from names to mappings like `components`",
-        meaning: "Other programs for components, chosen with `--profile`.",
+        form: Form::Mapping("a mapping from names to mappings like `components`"),
+        default: "none",
+        meaning: "Other programs or settings for components, chosen with `--profile`.",
+        ..KEY
     },
     Key {
         name: "topology",
-        value: "path",
-        meaning: "The topology file, from the folder of the launch file. Default: `topology.yaml`, if there is one.",
+        form: Form::Path,
+        default: "`topology.yaml`, if there is one",
+        meaning: "The topology file, from the folder of the launch file.",
+        ..KEY
     },
     Key {
         name: "transport",
-        value: "`ipc` or `tcp`",
-        meaning: "Sets `SCL_TRANSPORT` for all programs. Default: the environment's, or `ipc`.",
+        form: Form::Word(TRANSPORTS),
+        default: "the environment's, or `ipc`",
+        meaning: "Sets `SCL_TRANSPORT` for all programs.",
+        ..KEY
     },
 ];
 
-/// The keys of a component, in `components` and in a profile.
+/// The keys of a component, in `components` and in a profile, and those of `defaults`.
 pub(super) const COMPONENT: &[Key] = &[
     Key {
-        name: "build",
-        value: "command",
-        meaning: "Makes the program. Runs before any component starts, in the component's folder.",
+        name: "alive_within",
+        also: &["watchdog", "watchdog_sec"],
+        form: Form::Duration,
+        default: "no limit",
+        meaning: "Longest time between two signs of life. See [Readiness and watchdog](#readiness-and-watchdog).",
+        in_defaults: true,
     },
-    Key { name: "command", value: "command", meaning: "The program and its arguments. Required in `components`." },
+    Key {
+        name: "build",
+        default: "nothing",
+        meaning: "Makes the program. Runs before any component starts, in the component's folder.",
+        ..KEY
+    },
+    Key {
+        name: "command",
+        also: &["cmd", "run", "exec", "program", "args"],
+        default: "this or `replay` is required",
+        meaning: "The program and its arguments.",
+        ..KEY
+    },
+    Key {
+        name: "cpu",
+        also: &["cpus", "affinity", "cores"],
+        form: Form::Processors,
+        default: "all",
+        meaning: "The processors that the program may use.",
+        in_defaults: true,
+    },
     Key {
         name: "environment",
-        value: "mapping from names to texts or numbers",
+        also: &["env"],
+        form: Form::Variables,
+        default: "none",
         meaning: "Variables for this program. They win over those of all programs.",
+        ..KEY
     },
     Key {
-        name: "folder",
-        value: "path",
-        meaning: "Working folder of the program and its build, from the folder of the launch file. Default: that folder.",
+        name: "essential",
+        also: &["required", "critical"],
+        form: Form::Flag,
+        default: "`true`",
+        meaning: "Whether its failure stops the other components.",
+        in_defaults: true,
+    },
+    Key {
+        name: "priority",
+        also: &["nice", "sched", "scheduler"],
+        form: Form::Priority,
+        default: "an ordinary program",
+        meaning: "Real-time priority of the program. See [Processors and priority](#processors-and-priority).",
+        in_defaults: true,
+    },
+    Key {
+        name: "ready_within",
+        also: &["depends_on", "after", "startup_timeout"],
+        form: Form::Duration,
+        default: "no limit",
+        meaning: "How long it may take to be ready. See [Readiness and watchdog](#readiness-and-watchdog).",
+        in_defaults: true,
+    },
+    Key {
+        name: "replay",
+        also: &["play", "recording"],
+        form: Form::Path,
+        default: "none",
+        meaning: "In place of a command: plays the component from this recording, from the working directory.",
+        ..KEY
+    },
+    Key {
+        name: "restart",
+        also: &["respawn", "autorestart"],
+        form: Form::Word(RESTARTS),
+        default: "`never`",
+        meaning: "When the program is started again after it has ended.",
+        in_defaults: true,
+    },
+    Key {
+        name: "restart_delay",
+        also: &["respawn_delay", "restart_sec", "backoff"],
+        form: Form::DelayRange,
+        default: "`100ms..5s`",
+        meaning: "Time before a restart. It doubles with each one, and starts again after a minute without one.",
+        in_defaults: true,
+    },
+    Key {
+        name: "restart_limit",
+        also: &["max_restarts", "retries"],
+        form: Form::RestartLimit,
+        default: "`5 in 1m`",
+        meaning: "A component that would need more restarts than that has failed.",
+        in_defaults: true,
+    },
+    Key {
+        name: "stop_within",
+        also: &["grace", "stop_timeout", "timeout"],
+        form: Form::Duration,
+        default: "`--grace`, or `5s`",
+        meaning: "How long it may take to stop before it is killed.",
+        in_defaults: true,
+    },
+    Key {
+        name: "working_directory",
+        also: &["folder", "directory", "cwd", "working_dir", "dir"],
+        form: Form::Path,
+        default: "the folder of the launch file",
+        meaning: "Where the program and its build run, from the folder of the launch file.",
+        in_defaults: true,
     },
 ];
+
+/// The row of a key. Unknown names get an empty row, which no caller asks for.
+pub(super) fn form_of(name: &str) -> Form {
+    TOP.iter().chain(COMPONENT).find(|key| key.name == name).map_or(KEY.form, |key| key.form)
+}

@@ -45,26 +45,23 @@ impl LaunchFile {
     }
 }
 
-/// Applies an entry. With a command it is another program, to which the other's build and folder do not belong; without
-/// one it changes the keys that it has.
+/// Applies an entry. With a command or a recording it is another program, to which the other's build and folder do not
+/// belong. All other keys replace those that they name.
 fn apply(entry: &Entry, components: &mut Vec<LaunchComponent>) {
     let Some(component) = components.iter_mut().find(|component| component.name == entry.name) else {
         components.extend(entry.clone().into_component());
         return;
     };
     component.environment.extend(entry.environment.iter().cloned());
-    if let Some(command) = &entry.command {
-        component.command.clone_from(command);
-        component.build.clone_from(&entry.build);
-        component.folder.clone_from(&entry.folder);
-        return;
+    if let Some(source) = &entry.source {
+        component.source.clone_from(source);
+        component.build = None;
+        component.settings.working_directory = None;
     }
     if entry.build.is_some() {
         component.build.clone_from(&entry.build);
     }
-    if entry.folder.is_some() {
-        component.folder.clone_from(&entry.folder);
-    }
+    component.settings = entry.settings.clone().over(&component.settings);
 }
 
 impl Reader<'_> {

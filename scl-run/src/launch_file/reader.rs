@@ -18,7 +18,14 @@ pub(super) type KeyPath<'p> = &'p [&'p str];
 
 impl Reader<'_> {
     /// Reports keys that are not among those allowed; `whose` is the end of the message.
-    pub(super) fn check_keys(&mut self, keys: &Mapping, at: KeyPath<'_>, allowed: &[Key], whose: &str) {
+    pub(super) fn check_keys<'k>(
+        &mut self,
+        keys: &Mapping,
+        at: KeyPath<'_>,
+        allowed: impl IntoIterator<Item = &'k Key>,
+        whose: &str,
+    ) {
+        let allowed: Vec<&Key> = allowed.into_iter().collect();
         let names = || allowed.iter().map(|key| key.name);
         for key in keys.keys() {
             let word = key.as_str();
@@ -27,29 +34,36 @@ impl Reader<'_> {
             }
             let path: Vec<&str> = at.iter().copied().chain(word).collect();
             let problem = Problem::new(format!("unknown key {} {whose}", shown(key))).at(self.text.place(&path));
-            let close = word.and_then(|word| closest_name(word, names()));
-            let problem = match close {
+            let close = word.and_then(|word| likely_key(word, allowed.iter().copied()));
+            self.problems.push(match close {
                 Some(close) => problem.help(format!("did you mean `{close}`?")),
-                None => problem,
-            };
-            self.problems.push(problem.note(format!("the keys are {}", quoted_list(names()))));
+                None => problem.note(format!("the keys are {}", quoted_list(names()))),
+            });
         }
     }
 
     /// Reads a path; the last key of `at` is how the message names it.
     pub(super) fn read_path(&mut self, value: Option<&Value>, at: KeyPath<'_>) -> Option<String> {
         let value = value?;
-        if value.as_str().is_none_or(str::is_empty) {
-            let key = at.last().copied().unwrap_or_default();
-            self.wrong(at, &format!("`{key}` is a path, not {}", shown(value)));
+        let path = value.as_str().filter(|path| !path.is_empty() && !path.contains('\0'));
+        if path.is_none() {
+            self.wrong_value(at, value);
         }
-        value.as_str().map(str::to_owned)
+        path.map(str::to_owned)
     }
 
     /// Reports a wrong value.
     pub(super) fn wrong(&mut self, at: KeyPath<'_>, message: &str) {
         self.problems.push(Problem::new(message).at(self.text.place(at)));
     }
+}
+
+/// The key that an unknown one probably means: another tool's word for it, or a similar name.
+pub(super) fn likely_key<'k>(word: &str, allowed: impl IntoIterator<Item = &'k Key>) -> Option<&'k str> {
+    let allowed: Vec<&Key> = allowed.into_iter().collect();
+    let lower = word.to_lowercase().replace(['-', ' '], "_");
+    let named = allowed.iter().find(|key| key.also.contains(&lower.as_str()));
+    named.map(|key| key.name).or_else(|| closest_name(&lower, allowed.iter().map(|key| key.name)))
 }
 
 /// The text of a string, number or boolean that can be passed to a program, else `None`.

@@ -1,8 +1,10 @@
 //! What becomes of good launch files, and that no text at all is too bad. The words are tested with the real command.
 
+use super::super::policy::{Restart, RestartDelay, RestartLimit};
 use super::keys::{self, Key};
-use super::{EXAMPLE, LaunchComponent, LaunchDocument, LaunchFile};
+use super::{EXAMPLE, LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
 use scl_terminal::Problem;
+use std::time::Duration;
 
 fn parse_launch_file(text: &str, known: Option<&[String]>) -> Result<LaunchFile, Vec<Problem>> {
     LaunchDocument::parse("launch.yaml", text).map_err(|problem| vec![problem])?.read(known)
@@ -21,13 +23,13 @@ components:
     command: ./controller 2>> log
     environment:
       GAIN: 0.50
-    folder: control
+    working_directory: control
 profiles:
   python:
     controller: {command: [python3, controller.py], environment: {GAIN: 2}}
     display: {command: ./display}
   debug:
-    controller: {build: make debug, folder: debug, environment: {LOG: all}}
+    controller: {build: make debug, working_directory: debug, environment: {LOG: all}}
 topology: ../topology.yaml
 ";
 
@@ -39,11 +41,19 @@ fn words(words: &[&str]) -> Vec<String> {
     words.iter().map(|word| (*word).to_owned()).collect()
 }
 
+fn command(line: &[&str]) -> Source {
+    Source::Command(words(line))
+}
+
+fn in_folder(folder: &str) -> Settings {
+    Settings { working_directory: Some(folder.to_owned()), ..Settings::default() }
+}
+
 fn sensor() -> LaunchComponent {
     LaunchComponent {
         name: "sensor".to_owned(),
         build: Some(words(&["make", "-j", "2"])),
-        command: words(&["./sensor", "--rate", "100", "0.5", "true", "1.10"]),
+        source: command(&["./sensor", "--rate", "100", "0.5", "true", "1.10"]),
         ..LaunchComponent::default()
     }
 }
@@ -52,9 +62,9 @@ fn controller() -> LaunchComponent {
     LaunchComponent {
         name: "controller".to_owned(),
         build: None,
-        command: words(&["/bin/sh", "-c", "./controller 2>> log"]),
+        source: command(&["/bin/sh", "-c", "./controller 2>> log"]),
         environment: pairs(&[("GAIN", "0.5")]),
-        folder: Some("control".to_owned()),
+        settings: in_folder("control"),
     }
 }
 
@@ -79,23 +89,26 @@ fn the_topology_is_named_with_its_place() {
 #[test]
 fn a_profile_replaces_programs_or_changes_keys_and_later_ones_win() {
     let file = parse_launch_file(GOOD, None).unwrap();
-    let command = |line: &[&str]| LaunchComponent { command: words(line), ..controller() };
+    let running = |line: &[&str]| LaunchComponent { source: command(line), ..controller() };
     let environment = |more: &[(&str, &str)]| [pairs(&[("GAIN", "0.5")]), pairs(more)].concat();
     let display = || LaunchComponent {
         name: "display".to_owned(),
-        command: words(&["/bin/sh", "-c", "./display"]),
+        source: command(&["/bin/sh", "-c", "./display"]),
         ..LaunchComponent::default()
     };
     let python = ["python3", "controller.py"];
     let debug_build = Some(words(&["/bin/sh", "-c", "make debug"]));
-    let debug_folder = Some("debug".to_owned());
     let cases: [(&[&str], Vec<LaunchComponent>); 4] = [
         (&[], vec![sensor(), controller()]),
         (
             &["python"],
             vec![
                 sensor(),
-                LaunchComponent { folder: None, environment: environment(&[("GAIN", "2")]), ..command(&python) },
+                LaunchComponent {
+                    settings: Settings::default(),
+                    environment: environment(&[("GAIN", "2")]),
+                    ..running(&python)
+                },
                 display(),
             ],
         ),
@@ -105,7 +118,7 @@ fn a_profile_replaces_programs_or_changes_keys_and_later_ones_win() {
                 sensor(),
                 LaunchComponent {
                     build: debug_build.clone(),
-                    folder: debug_folder.clone(),
+                    settings: in_folder("debug"),
                     environment: environment(&[("LOG", "all")]),
                     ..controller()
                 },
@@ -117,9 +130,9 @@ fn a_profile_replaces_programs_or_changes_keys_and_later_ones_win() {
                 sensor(),
                 LaunchComponent {
                     build: debug_build,
-                    folder: debug_folder,
+                    settings: in_folder("debug"),
                     environment: environment(&[("GAIN", "2"), ("LOG", "all")]),
-                    ..command(&python)
+                    ..running(&python)
                 },
                 display(),
             ],
@@ -130,13 +143,88 @@ fn a_profile_replaces_programs_or_changes_keys_and_later_ones_win() {
     }
 }
 
+fn row(Key { name, form, default, meaning, in_defaults, .. }: &Key) -> String {
+    let mark = if *in_defaults { " *" } else { "" };
+    format!("| `{name}`{mark} | {} | {default} | {meaning} |\n", form.description())
+}
+
+const SETTINGS: &str = "\
+defaults: {restart: always, essential: false, stop_within: 3s, cpu: 1, working_directory: below}
+components:
+  sensor:
+    command: [./sensor]
+    restart: on_failure
+    restart_delay: 10ms..1m
+    restart_limit: 3 in 1h
+    essential: true
+    stop_within: 0s
+    ready_within: 5s
+    alive_within: 500ms
+    cpu: [2, 3]
+    priority: fifo:80
+    working_directory: .
+  gps: {replay: flight.mcap, restart_delay: 1s}
+profiles:
+  sim:
+    sensor: {command: ./sim, restart: never}
+  flight:
+    sensor: {replay: flight.mcap}
+";
+
+#[test]
+fn settings_are_read_and_fall_back_to_the_defaults() {
+    let file = parse_launch_file(SETTINGS, None).unwrap();
+    let seconds = Duration::from_secs;
+    let expected = Settings {
+        restart: Some(Restart::OnFailure),
+        restart_delay: Some(RestartDelay { first: Duration::from_millis(10), longest: seconds(60) }),
+        restart_limit: Some(RestartLimit { count: 3, within: seconds(3600) }),
+        essential: Some(true),
+        stop_within: Some(Duration::ZERO),
+        ready_within: Some(seconds(5)),
+        alive_within: Some(Duration::from_millis(500)),
+        cpu: Some(vec![2, 3]),
+        priority: Some(80),
+        working_directory: Some(".".to_owned()),
+    };
+    assert_eq!(file.components[0].settings, expected);
+    assert_eq!(file.components[0].settings.clone().over(&file.defaults), expected);
+    let gps = file.components[1].settings.clone().over(&file.defaults);
+    assert_eq!((gps.restart, gps.essential, gps.cpu.as_deref()), (Some(Restart::Always), Some(false), Some(&[1][..])));
+    assert_eq!(gps.restart_delay, Some(RestartDelay { first: seconds(1), longest: seconds(1) }));
+    assert_eq!(gps.policy(seconds(7)).stop_within, seconds(3));
+    assert_eq!(Settings::default().policy(seconds(7)).stop_within, seconds(7));
+    let with = |profile: &str| file.components_with(&words(&[profile])).unwrap().remove(0);
+    assert_eq!(
+        with("sim").settings,
+        Settings { restart: Some(Restart::Never), working_directory: None, ..expected.clone() }
+    );
+    assert_eq!(with("flight").source, Source::Replay("flight.mcap".to_owned()));
+    assert_eq!(with("flight").settings.restart, Some(Restart::OnFailure));
+}
+
+/// What the table says of defaults is what the code does.
+#[test]
+fn the_defaults_of_the_table_are_those_of_the_policy() {
+    let written = |key: &str| {
+        let row = keys::COMPONENT.iter().find(|row| row.name == key).unwrap();
+        row.default.trim_matches('`').to_owned()
+    };
+    let keys = ["restart", "restart_delay", "restart_limit", "essential"].map(|key| format!("{key}: {}", written(key)));
+    let text = format!("components: {{a: {{command: ls, {}, stop_within: 5s}}}}", keys.join(", "));
+    let file = parse_launch_file(&text, None).unwrap();
+    let written = file.components[0].settings.policy(Duration::MAX);
+    assert_eq!(written, super::super::policy::Policy::default());
+    assert_eq!(super::super::policy::Policy::default().stop_within, Duration::from_secs(5));
+}
+
 /// The page has the tables of the keys as they are here, and all of its launch files can be used.
 #[test]
 fn the_reference_page_is_current() {
     let page = include_str!("../../../docs/launch.md");
     for keys in [keys::TOP, keys::COMPONENT] {
-        let row = |Key { name, value, meaning }: &Key| format!("| `{name}` | {value} | {meaning} |\n");
-        let table = format!("| key | value | meaning |\n|---|---|---|\n{}", keys.iter().map(row).collect::<String>());
+        let rows: String = keys.iter().map(row).collect();
+        let table = format!("| key | value | default | meaning |\n|---|---|---|---|\n{rows}");
         assert!(page.contains(&table), "docs/launch.md lacks this table:\n{table}");
     }
     assert!(page.contains(&format!("```yaml\n{EXAMPLE}```\n")), "docs/launch.md lacks the example:\n{EXAMPLE}");

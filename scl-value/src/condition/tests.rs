@@ -72,16 +72,28 @@ fn check_error(text: &str, expected: Expect) {
 
 #[test]
 fn a_text_that_is_no_condition_says_why_and_where() {
-    check_error("", expect![""]);
-    check_error("speed >", expect![""]);
-    check_error("speed > 1 2", expect![""]);
-    check_error("speed > 1 and", expect![""]);
-    check_error("(speed > 1", expect![""]);
-    check_error("speed > 1x", expect![""]);
-    check_error("mode == 'AUTO", expect![""]);
-    check_error("3", expect![""]);
-    check_error("speed > 1 && mode == 'x'", expect![""]);
-    check_error("ä > > 1", expect![""]);
+    check_error("", expect!["`` is not a condition: expected a field or a value at character 1"]);
+    check_error("speed >", expect!["`speed >` is not a condition: expected a field or a value at character 8"]);
+    check_error(
+        "speed > 1 2",
+        expect!["`speed > 1 2` is not a condition: expected `and`, `or` or the end at character 11"],
+    );
+    check_error(
+        "speed > 1 and",
+        expect!["`speed > 1 and` is not a condition: expected a field or a value at character 14"],
+    );
+    check_error("(speed > 1", expect!["`(speed > 1` is not a condition: expected `)` at character 11"]);
+    check_error("speed > 1x", expect!["`speed > 1x` is not a condition: `1x` is not a number at character 9"]);
+    check_error("mode == 'AUTO", expect!["`mode == 'AUTO` is not a condition: a quote is not closed at character 9"]);
+    check_error(
+        "3",
+        expect!["`3` is not a condition: expected `==`, `!=`, `<`, `<=`, `>`, `>=` or `contains` at character 2"],
+    );
+    check_error(
+        "speed > 1 && mode == 'x'",
+        expect!["`speed > 1 && mode == 'x'` is not a condition: expected `and`, `or` or the end at character 11"],
+    );
+    check_error("ä > > 1", expect!["`ä > > 1` is not a condition: a name is expected before `>` at character 5"]);
     let deep = "(".repeat(100_000);
     assert!(deep.parse::<Condition>().is_err());
 }

@@ -39,7 +39,7 @@ impl<'b> Rest<'b> {
     fn take(&mut self, length: usize) -> Result<Rest<'b>, Fault> {
         let left = self.bytes.len();
         let Some((taken, rest)) = self.bytes.split_at_checked(length) else {
-            return Err(self.fault(format!("{length} bytes are announced and {left} are left")));
+            return Err(self.fault(format!("expected {length} bytes, found {left}")));
         };
         self.bytes = rest;
         Ok(Rest { bytes: taken, end: self.offset() })
@@ -50,7 +50,7 @@ impl<'b> Rest<'b> {
         decode_varint(&mut self.bytes).map_err(|_| Fault {
             path: String::new(),
             offset: at,
-            reason: "a number ends too early or is too long".to_owned(),
+            reason: "a varint is truncated or too long".to_owned(),
         })
     }
 
@@ -73,9 +73,9 @@ fn fields(
     }
     while !rest.bytes.is_empty() {
         let key = Rest { bytes: rest.bytes, end: rest.end };
-        let (number, wire) = decode_key(&mut rest.bytes).map_err(|_| key.fault("this does not begin a field"))?;
+        let (number, wire) = decode_key(&mut rest.bytes).map_err(|_| key.fault("expected the start of a field"))?;
         if wire == WireType::EndGroup {
-            return if group == Some(number) { Ok(()) } else { Err(key.fault("a group ends that did not begin")) };
+            return if group == Some(number) { Ok(()) } else { Err(key.fault("unexpected end of a group")) };
         }
         let known = message.and_then(|message| {
             let field = message.get_field(number).map(|field| (field.name().to_owned(), field.kind(), field.is_list()));
@@ -91,7 +91,7 @@ fn fields(
             None => fault,
         })?;
     }
-    if group.is_some() { Err(rest.fault("a group does not end")) } else { Ok(()) }
+    if group.is_some() { Err(rest.fault("expected the end of a group")) } else { Ok(()) }
 }
 
 struct Field<'k> {
@@ -118,7 +118,7 @@ fn one_field(
     }
     let is_group = field.wire == WireType::StartGroup && matches!(kind, Kind::Message(_));
     if field.wire != expected && !is_group {
-        return Err(key.fault(format!("{} is expected, and {} is there", word(expected), word(field.wire))));
+        return Err(key.fault(format!("expected {}, found {}", word(expected), word(field.wire))));
     }
     match kind {
         Kind::Message(message) if is_group => fields(Some(message), rest, Some(field.number), depth + 1, budget),
@@ -155,17 +155,17 @@ fn skip(field: &Field<'_>, rest: &mut Rest<'_>, depth: usize, budget: &Budget) -
         WireType::ThirtyTwoBit => rest.take(4).map(drop),
         WireType::LengthDelimited => rest.length_delimited().map(drop),
         WireType::StartGroup => fields(None, rest, Some(field.number), depth + 1, budget),
-        WireType::EndGroup => Err(rest.fault("a group ends that did not begin")),
+        WireType::EndGroup => Err(rest.fault("unexpected end of a group")),
     }
 }
 
 fn word(wire: WireType) -> &'static str {
     match wire {
         WireType::Varint => "a varint",
-        WireType::SixtyFourBit => "a number of 8 bytes",
-        WireType::LengthDelimited => "a length with as many bytes",
-        WireType::StartGroup => "the begin of a group",
+        WireType::SixtyFourBit => "an 8-byte number",
+        WireType::LengthDelimited => "a length and bytes",
+        WireType::StartGroup => "the start of a group",
         WireType::EndGroup => "the end of a group",
-        WireType::ThirtyTwoBit => "a number of 4 bytes",
+        WireType::ThirtyTwoBit => "a 4-byte number",
     }
 }

@@ -28,8 +28,7 @@ pub(crate) fn from_value(
         return read;
     }
     let Value::Map(entries) = value else {
-        let reason = format!("expected the fields of `{}`, found {}", message.full_name(), value.kind());
-        return Err(EncodeError::new(reason).note(known_fields(message)));
+        return Err(wrong(&format!("the fields of `{}`", message.full_name()), value).note(known_fields(message)));
     };
     let mut result = DynamicMessage::new(message.clone());
     let mut given: Vec<FieldDescriptor> = Vec::new();
@@ -112,7 +111,7 @@ fn read_field(field: &FieldDescriptor, value: &Value, unknown: &mut Unknown) -> 
     let kind = field.kind();
     if field.is_map() {
         let (Value::Map(entries), Kind::Message(entry)) = (value, &kind) else {
-            return Err(EncodeError::new(format!("expected a map, found {}", value.kind())));
+            return Err(wrong("a map", value));
         };
         let (key_kind, value_kind) = (entry.map_entry_key_field().kind(), entry.map_entry_value_field().kind());
         let mut map = HashMap::new();
@@ -129,7 +128,7 @@ fn read_field(field: &FieldDescriptor, value: &Value, unknown: &mut Unknown) -> 
     if field.is_list() {
         let Value::List(items) = value else {
             let hint = format!("write `{}: [...]`", field.name());
-            return Err(EncodeError::new(format!("expected a list, found {}", value.kind())).help(hint));
+            return Err(wrong("a list", value).help(hint));
         };
         let read = |(index, item)| read_value(&kind, item, unknown).map_err(|error| error.below(&format!("[{index}]")));
         return Ok(Field::List(items.iter().enumerate().map(read).collect::<Result<_, _>>()?));
@@ -155,8 +154,9 @@ fn read_value(kind: &Kind, value: &Value, unknown: &mut Unknown) -> Result<Field
         Kind::Bytes => match value {
             Value::Bytes(bytes) => Field::Bytes(bytes.clone().into()),
             Value::Text(text) => {
-                let decoded = crate::text::from_base64(text)
-                    .map_err(|reason| EncodeError::new(format!("expected bytes as base64: {reason}")))?;
+                let decoded = crate::text::from_base64(text).map_err(|reason| {
+                    EncodeError::new(format!("expected bytes as base64: {}", reason.trim_end_matches('.')))
+                })?;
                 Field::Bytes(decoded.into())
             }
             other => return Err(wrong("bytes as base64", other)),

@@ -26,7 +26,7 @@ fn example(message: &MessageDescriptor, around: &mut Vec<MessageDescriptor>, cou
         None => {
             let mut fields: Vec<FieldDescriptor> = message.fields().filter(is_first).collect();
             // A type within itself has no end.
-            fields.retain(|field| !around.iter().any(|outer| contains(field, outer)));
+            fields.retain(|field| !around.iter().any(|outer| contains(field, outer)) && !is_any(field));
             let mut entries = Vec::new();
             for field in fields {
                 *count += 1;
@@ -42,6 +42,11 @@ fn example(message: &MessageDescriptor, around: &mut Vec<MessageDescriptor>, cou
 /// Whether a field is no alternative to one before it.
 fn is_first(field: &FieldDescriptor) -> bool {
     field.containing_oneof().is_none_or(|oneof| oneof.fields().next().as_ref() == Some(field))
+}
+
+/// An `Any` has no example: its JSON needs a type.
+fn is_any(field: &FieldDescriptor) -> bool {
+    field.kind().as_message().is_some_and(|message| short(message) == Some(Short::Any))
 }
 
 /// Whether a field holds messages of a type.

@@ -2,6 +2,7 @@
 
 use super::to_base64;
 use crate::value::{Value, key_text};
+use scl_terminal::escape_json;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 
 /// A value as JSON on one line. Bytes are base64, NaN and infinities are texts, as in protobuf's JSON; keys are texts.
@@ -9,19 +10,7 @@ use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 /// All characters that a terminal could act on are escaped.
 pub fn to_json(value: &Value) -> String {
     // Writing to memory cannot fail, and `Json` has an answer for every value.
-    escape_controls(serde_json::to_string(&Json(value)).unwrap_or_default())
-}
-
-/// The control characters that `serde_json` leaves as they are: DEL, those of ISO 8859, and those that reorder text.
-fn escape_controls(json: String) -> String {
-    let is_unsafe = |c: char| {
-        c.is_control() || matches!(c, '\u{200e}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-    };
-    if !json.contains(is_unsafe) {
-        return json;
-    }
-    // They occur in texts only, because everything else in JSON is ASCII.
-    json.chars().map(|c| if is_unsafe(c) { format!("\\u{:04x}", u32::from(c)) } else { c.to_string() }).collect()
+    escape_json(&serde_json::to_string(&Json(value)).unwrap_or_default()).into_owned()
 }
 
 struct Json<'v>(&'v Value);

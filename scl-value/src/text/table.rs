@@ -26,6 +26,12 @@ impl Table {
         self.columns.iter().map(name).collect()
     }
 
+    /// Whether every part of a message has a column.
+    pub fn has_all_of(&self, message: &Value) -> bool {
+        let leaves = FieldPath::leaves(message);
+        leaves.iter().all(|leaf| self.columns.iter().any(|column| leaf.starts_with(column)))
+    }
+
     /// A message as a row: empty for fields that it does not have, lists and maps as JSON.
     pub fn row(&self, message: &Value) -> Vec<String> {
         self.columns.iter().map(|path| path.find(message).map_or_else(String::new, cell)).collect()

@@ -5,7 +5,7 @@ use super::{Component, Flush, realtime};
 use crate::environment;
 use crate::error::{Error, NotFlushed};
 use crate::options::OpenOptions;
-use crate::{log, stop};
+use crate::{log, service, stop};
 use std::io::Write;
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
@@ -52,6 +52,7 @@ fn set_up() -> Result<(), Error> {
     let grace_period = stop::grace_period(variables)?;
     let settings = realtime::Settings::read(variables)?;
     log::start(level);
+    service::start(variables);
     // Before the real-time settings: a main thread that computes at real-time priority on its one processor would keep
     // a signal thread with the same settings from running.
     stop::watch_signals(grace_period)?;

@@ -9,7 +9,7 @@ use crate::medium::Medium;
 use crate::options::OpenOptions;
 use crate::registration::Registration;
 use crate::runtime_dir::{RuntimeDir, SystemDir};
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::spec::{ComponentSpec, GateSpec, LinkSpec, WhenFull};
 use crate::state::{ComponentState, OwnedRuntime, stats_period};
 use crate::time::Watchdog;
 use crate::transport::{Endpoint, Sender, Transport, TransportError};
@@ -32,7 +32,9 @@ impl Opener {
             Some(transport) => (Registration::without_files(), transport),
             None => register(spec, options)?,
         };
-        Ok(Self { state: Arc::new(ComponentState::new(spec, registration, runtime)), transport })
+        let state = Arc::new(ComponentState::new(spec, registration, runtime));
+        state.start_reporting();
+        Ok(Self { state, transport })
     }
 
     /// Opens the `pub` gate at an index of the component's list.
@@ -117,8 +119,9 @@ impl Opener {
         spec: &'static GateSpec,
         open: impl Fn(&dyn Transport, &Endpoint) -> Result<Box<dyn Sender>, TransportError>,
     ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
-        let connect = |link| {
-            let sender = open(&*self.transport, &self.connecting(spec, link));
+        let connect = |link: &'static LinkSpec| {
+            let lossless = spec.options.backpressure && link.when_full == WhenFull::Wait;
+            let sender = open(&*self.transport, &Endpoint { lossless, ..self.connecting(spec, link) });
             let sender = sender.map_err(|source| self.refused(spec, source))?;
             let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes());
             Ok(self.state.drive(connection))

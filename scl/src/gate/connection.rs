@@ -187,13 +187,13 @@ impl Connection {
 
     /// Adds what this connection has done to the figures of its gate, and returns its own.
     pub(crate) fn add_to_figures(&self, gate: &mut GateFigures) -> ConnectionFigures {
-        let unacknowledged = self.unacknowledged();
         let (dropped_oldest, dropped_newest) = (self.queue.dropped_oldest, self.queue.dropped_newest);
         let (sent_to_foreign, dropped_for_foreign) = self.foreign_counts();
         let figures = ConnectionFigures {
             connected: self.is_connected(),
-            waiting: self.queue.len() as u64 + unacknowledged,
-            taken: self.account.handed - self.account.lost - unacknowledged,
+            waiting: self.queue.len() as u64,
+            // What is not acknowledged yet counts, too: at a slow gate, a peer acknowledges only when it is asked.
+            taken: self.account.handed - self.account.lost,
             dropped: dropped_oldest + dropped_newest,
             lost: self.account.lost,
         };
@@ -373,6 +373,10 @@ impl SendingEnd for Connection {
 
     fn wake_call(&mut self) {
         self.waiting_sender.take().into_iter().for_each(Waker::wake);
+    }
+
+    fn call_waits(&self) -> bool {
+        self.waiting_sender.is_some()
     }
 
     fn write_out(&mut self) -> bool {

@@ -230,6 +230,12 @@ impl Inbox {
         self.was_empty = false;
         self.catch_up();
         self.take_in();
+        if !self.queue.waits() && self.is_lossless() {
+            // The sender waits for each of its messages: at any time there is only one.
+            let next = self.queue.pop();
+            self.report_ready();
+            return next;
+        }
         let mut newest = self.queue.pop_newest();
         if self.queue.waits() {
             // Such a gate takes in no more than its queue holds, but what is passed over keeps no publisher waiting.
@@ -268,7 +274,7 @@ impl Inbox {
     /// Drains the links into the queue, as far as it makes its senders wait.
     fn take_in(&mut self) {
         for _ in 0..TAKE_IN {
-            if self.queue.waits() && self.queue.is_full() {
+            if self.queue.is_full() && (self.queue.waits() || self.is_lossless()) {
                 return;
             }
             let Poll::Ready(arrived) = self.poll_links() else { return };
@@ -277,6 +283,11 @@ impl Inbox {
         }
         // There is more: the task continues after others had their turn.
         self.waker.wake_by_ref();
+    }
+
+    /// Whether a sender relies on this gate not to drop messages, although its queue would.
+    fn is_lossless(&self) -> bool {
+        self.links.iter().any(|link| link.is_lossless())
     }
 
     fn poll_links(&mut self) -> Poll<Arrived> {

@@ -64,6 +64,10 @@ impl WakeCall for IoWaker {
             call.wake();
         }
     }
+
+    fn waits(&self, futures: bool) -> bool {
+        futures && lock(&self.wakers).call.is_some()
+    }
 }
 
 impl Wake for IoWaker {

@@ -82,6 +82,11 @@ impl WakeCall for ReadySet {
     fn wake_call(&self) {
         self.set_woken(true);
     }
+
+    /// An event loop waits as long as there is nothing for it.
+    fn waits(&self, _futures: bool) -> bool {
+        !lock(&self.reasons).raised
+    }
 }
 
 /// Reports to the sets that a gate belongs to whether it has something.

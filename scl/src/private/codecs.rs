@@ -21,7 +21,7 @@ macro_rules! codec {
                     "the codec `",
                     $feature,
                     "` is off; switch it on in Cargo.toml: ",
-                    r#"scl = { version = "..", features = [""#,
+                    r#"scl = { package = "scl-gates", version = "..", features = [""#,
                     $feature,
                     r#""] }"#
                 )

@@ -4,39 +4,9 @@
 //! answer: it works while the component hangs, and after it was killed. A component that closes removes its file. The
 //! environment variable `SCL_STATS` sets the period (`500ms` by default), or switches the file off (`off`).
 //!
-//! # Format
-//!
-//! All numbers are little endian; times are nanoseconds since 1970 (`CLOCK_REALTIME`) unless stated otherwise.
-//!
-//! | offset | type | field |
-//! |---|---|---|
-//! | 0 | 8 bytes | `SCLSTATS` |
-//! | 8 | u32 | version of the format: 1 |
-//! | 12 | u32 | length of the file in bytes |
-//! | 16 | u64 | **begin**: number of the write that was begun last |
-//! | 24 | u64 | time of the write |
-//! | 32 | u64 | period between two writes, in nanoseconds |
-//! | 40 | u64 | when the component was opened, in milliseconds: `started_ms` of its announcement |
-//! | 48 | u32 | process id, as `pid` of its announcement |
-//! | 52 | u32 | flags; bit 0: all required peers are connected. The others are 0 |
-//! | 56 | u32 | number of gates |
-//! | 60 | u32 | 0 |
-//! | 64 | | the gates, in the order of the plan |
-//! | length - 8 | u64 | **end**: number of the write that was completed last |
-//!
-//! A gate is 104 bytes and its connections:
-//!
-//! | offset | type | field |
-//! |---|---|---|
-//! | 0 | 11 × u64 | `sent`, `received`, `dropped_oldest`, `dropped_newest`, `dropped_for_observers`, `tap_dropped`, `lost`, `rejected`, `bytes`, `waiting`, `peers`: see [`GateFigures`] |
-//! | 88 | u64 | when a message last moved, or 0 |
-//! | 96 | u32 | number of connections |
-//! | 100 | u32 | 0 |
-//! | 104 | 40 bytes each | the connections in the order of the plan: 5 × u64 `connected` (0 or 1), `waiting`, `taken`, `dropped`, `lost`: see [`ConnectionFigures`] |
-//!
-//! A writer writes *begin*, then everything from offset 24 to *end*, then *end*, each with a `pwrite` of its own. A reader
-//! reads in the opposite order: *end*, then the whole file, then *begin* again. If the two numbers are equal, what it has
-//! read is whole; otherwise it tries again.
+//! `docs/stats.md` describes the format, for readers in other languages. A writer writes a counter at the begin of the
+//! block, then the figures, then the same counter at the end; a reader reads in the opposite order, so that equal counters
+//! prove that what it has read is whole.
 
 mod file;
 mod layout;
@@ -88,7 +58,7 @@ pub struct GateFigures {
     pub rejected: u64,
     /// Bytes of the messages sent or received.
     pub bytes: u64,
-    /// Messages that wait in the program.
+    /// Messages that wait in the program's queues.
     pub waiting: u64,
     /// Peers connected.
     pub peers: u64,
@@ -98,18 +68,20 @@ pub struct GateFigures {
     pub connections: Vec<ConnectionFigures>,
 }
 
-/// One connection of a gate: for a sending gate, the counts of [`PeerStats`](crate::PeerStats).
+/// One connection of a gate.
+///
+/// At a `pub` or `push` gate, the number of messages sent is `taken + waiting + dropped + lost`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ConnectionFigures {
     /// Whether the peer is connected. A `pull` or `rep` gate cannot tell its peers apart: true if it has as many as the
     /// plan says.
     pub connected: bool,
-    /// Messages that wait for the peer in the queue, or are on their way; at a `req` gate, a call that is under way. 0 at
-    /// a gate that receives, whose messages wait in one queue.
+    /// Messages that wait for the peer in the queue; at a `req` gate, a call that is under way. 0 at a gate that receives,
+    /// whose messages wait in one queue.
     pub waiting: u64,
-    /// Messages that the peer has taken; at a gate that receives, messages received from this peer, or 0 if that is not
-    /// known because several peers share an endpoint.
+    /// Messages that were given to the peer, the last of which may still be on their way. At a gate that receives:
+    /// messages received from this peer, or 0 if that is not known because several peers share an endpoint.
     pub taken: u64,
     /// Messages dropped because the queue was full.
     pub dropped: u64,

@@ -48,6 +48,11 @@ pub(crate) trait SendingEnd: Send {
 
     /// Wakes the call that waits to send, if there is one.
     fn wake_call(&mut self) {}
+
+    /// Returns true if a call waits to send.
+    fn call_waits(&self) -> bool {
+        false
+    }
 }
 
 type Ends = [Arc<Mutex<dyn SendingEnd>>];

@@ -3,12 +3,13 @@
 use crate::environment::{self, Variables};
 use crate::error::OpenError;
 use crate::figures::FigureSource;
-use crate::registration::StatsWriter;
+use crate::registration::{Registration, StatsWriter};
 use crate::runtime_dir::ComponentStats;
 use crate::spec::{ComponentSpec, LinkSpec};
-use crate::sync::lock;
-use std::sync::{Mutex, Weak};
+use crate::sync::{AbortOnDrop, lock};
+use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, SystemTime};
+use tokio::runtime::Handle;
 
 /// How often a component writes its figures if `SCL_STATS` is not set.
 const PERIOD: Duration = Duration::from_millis(500);
@@ -53,13 +54,24 @@ impl Monitor {
             }
         }
         stats.written = SystemTime::now();
-        let all_opened = followed.sources.iter().all(Option::is_some);
-        followed.stats.ready = all_opened && followed.missing(self.spec).next().is_none();
+        followed.stats.ready = followed.all_opened() && followed.missing(self.spec).next().is_none();
         then(&followed.stats);
+    }
+
+    /// The required peers that are not connected, or `None` while the gates are being opened.
+    pub(crate) fn missing(&self) -> Option<Vec<String>> {
+        self.refresh(|_| {});
+        let followed = lock(&self.followed);
+        let names = || followed.missing(self.spec).map(|link| format!("{}.{}", link.peer_component, link.peer_gate));
+        followed.all_opened().then(|| names().collect())
     }
 }
 
 impl Followed {
+    fn all_opened(&self) -> bool {
+        self.sources.iter().all(Option::is_some)
+    }
+
     /// The required peers that are not connected. Gates that listen for any number of peers have none, and those that
     /// were dropped wait for nobody.
     fn missing(&self, spec: &'static ComponentSpec) -> impl Iterator<Item = &'static LinkSpec> {
@@ -72,9 +84,25 @@ impl Followed {
     }
 }
 
+/// Follows what the component does, and writes it where it has files.
+pub(super) fn start(
+    spec: &'static ComponentSpec,
+    registration: &Registration,
+    handle: &Handle,
+) -> (Arc<Monitor>, Option<AbortOnDrop>) {
+    let unwritten = || ComponentStats::initial(spec, std::process::id(), SystemTime::now(), Duration::ZERO);
+    let (initial, writer) = registration.stats().unzip();
+    let monitor = Arc::new(Monitor::new(spec, initial.unwrap_or_else(unwritten)));
+    let task = writer.map(|writer| {
+        let task = handle.spawn(write_stats(Arc::downgrade(&monitor), writer));
+        AbortOnDrop(task.abort_handle())
+    });
+    (monitor, task)
+}
+
 /// Writes the figures again and again, as long as the component is open. For a task of the component's runtime: where the
 /// program drives that only now and then, the component's own thread does when no call is under way.
-pub(super) async fn write_stats(monitor: Weak<Monitor>, writer: StatsWriter) {
+async fn write_stats(monitor: Weak<Monitor>, writer: StatsWriter) {
     loop {
         let mut period = PERIOD;
         match monitor.upgrade() {

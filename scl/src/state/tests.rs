@@ -1,5 +1,6 @@
 //! What a blocking call does before it waits.
 
+use super::calls::DIRECT_WAIT;
 use super::*;
 
 static SPEC: ComponentSpec =

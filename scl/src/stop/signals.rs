@@ -3,6 +3,7 @@
 //! A thread of its own, because the program's threads may be computing or blocked.
 
 use super::state::StopState;
+use crate::service;
 use std::io::{self, Write};
 use std::sync::mpsc;
 use std::thread;
@@ -64,7 +65,12 @@ fn run(stop: &StopState, grace_period: Duration, started: impl FnOnce(io::Result
     match listening {
         Ok((mut signals, runtime)) => {
             started(Ok(()));
-            Some(runtime.block_on(watch(stop, grace_period, async || signals.next().await, log)))
+            let next = async || {
+                let signal = signals.next().await;
+                service::stopping();
+                signal
+            };
+            Some(runtime.block_on(watch(stop, grace_period, next, log)))
         }
         Err(error) => {
             started(Err(error));

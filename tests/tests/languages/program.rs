@@ -42,11 +42,22 @@ impl Program {
     /// Starts `left` or `right` and waits until its gates are open.
     #[track_caller]
     pub(super) fn start(system: &System, language: Language, component: &'static str) -> Self {
+        Self::start_with(system, language, component, &[])
+    }
+
+    /// The same with more environment variables.
+    #[track_caller]
+    pub(super) fn start_with(
+        system: &System,
+        language: Language,
+        component: &'static str,
+        more: &[(&str, &str)],
+    ) -> Self {
         let mut process = match language {
-            Rust => system.start(MATRIX, &[component]),
-            C => system.start(text(&C_PROGRAM), &[component]),
-            Cpp => system.start(text(&CPP_PROGRAM), &[component]),
-            Python => start_python(system, &[component]),
+            Rust => system.start_with(MATRIX, &[component], more),
+            C => system.start_with(text(&C_PROGRAM), &[component], more),
+            Cpp => system.start_with(text(&CPP_PROGRAM), &[component], more),
+            Python => start_python(system, &[component], more),
             Libzmq => {
                 let arguments = [vec![component.to_owned()], endpoints(system, component)].concat();
                 system.start(text(&LIBZMQ_PROGRAM), &arguments.iter().map(String::as_str).collect::<Vec<_>>())
@@ -71,7 +82,7 @@ impl Program {
             Rust => system.start(MATRIX, &[component, plan]),
             C => system.start(text(&C_PROGRAM), &[component, plan]),
             Cpp => system.start(text(&CPP_PROGRAM), &[component, plan]),
-            Python => start_python(system, &[component, plan]),
+            Python => start_python(system, &[component, plan], &[]),
             Libzmq | Pyzmq => unreachable!("a plain program has no plan"),
         };
         process.expect("open");
@@ -133,10 +144,14 @@ impl Program {
     }
 }
 
-fn start_python(system: &System, arguments: &[&str]) -> Process {
+fn start_python(system: &System, arguments: &[&str], more: &[(&str, &str)]) -> Process {
     let python = python_with_scl().to_str().expect("text");
     let main = languages().join("python/main.py");
-    system.start_with(python, &[&[text(&main)], arguments].concat(), &[("PYTHONPATH", text(&GENERATED))])
+    system.start_with(
+        python,
+        &[&[text(&main)], arguments].concat(),
+        &[&[("PYTHONPATH", text(&GENERATED))], more].concat(),
+    )
 }
 
 static CPP_PROGRAM: LazyLock<PathBuf> = LazyLock::new(|| {

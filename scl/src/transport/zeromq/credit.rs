@@ -13,7 +13,7 @@ const MOST_MESSAGES: u64 = 1 << 16;
 
 /// What a receiving end announces.
 pub(super) fn receiving(newest_only: bool) -> SclReady {
-    SclReady { window: Some(window(newest_only)), newest_only }
+    SclReady { window: Some(window(newest_only)), newest_only, lossless: false }
 }
 
 fn window(newest_only: bool) -> Window {

@@ -25,6 +25,8 @@ pub(super) struct Inbound {
     connection: Connection,
     credit: Option<ReceiveCredit>,
     newest_only: bool,
+    /// Whether the sender waits instead of dropping messages. Then older messages matter, too.
+    lossless: bool,
     /// Messages read while looking for the newest.
     ahead: VecDeque<Bytes>,
     /// Why no more will follow after those read ahead.
@@ -47,10 +49,12 @@ pub(super) struct Inbound {
 
 impl Inbound {
     pub(super) fn new(connection: Connection, peer: &PeerReady, newest_only: bool) -> Self {
+        let lossless = peer.scl.is_some_and(|scl| scl.lossless);
         Self {
             connection,
             credit: peer.scl.map(|_| ReceiveCredit::new(newest_only)),
-            newest_only,
+            newest_only: newest_only && !lossless,
+            lossless,
             ahead: VecDeque::new(),
             closed: None,
             malformed: 0,
@@ -63,6 +67,10 @@ impl Inbound {
             idle_polls: None,
             timer: Timer::new(),
         }
+    }
+
+    pub(super) fn is_lossless(&self) -> bool {
+        self.lossless
     }
 
     /// Returns the number of malformed messages since the last call.

@@ -26,9 +26,10 @@ struct Candidate {
 
 impl Publisher {
     pub(super) fn open(dir: &Arc<SystemDir>, medium: Medium, endpoint: &Endpoint) -> Result<Self, TransportError> {
+        let scl = zmtp::SclReady { lossless: endpoint.lossless, ..zmtp::SclReady::default() };
         // What subscribers send is short, whatever the limit for messages is.
         let endpoint = Endpoint { max_size: zmtp::COMMAND_LIMIT, ..endpoint.clone() };
-        let acceptor = Acceptor::open(dir, medium, &endpoint, SocketType::XPub, zmtp::SclReady::default())?;
+        let acceptor = Acceptor::open(dir, medium, &endpoint, SocketType::XPub, scl)?;
         Ok(Self { acceptor, unsubscribed: Vec::new(), links: Arc::default() })
     }
 

@@ -91,6 +91,10 @@ impl Receiver for Puller {
         self.pushers.len()
     }
 
+    fn is_lossless(&self) -> bool {
+        self.pushers.iter().any(Inbound::is_lossless)
+    }
+
     fn malformed(&self) -> u64 {
         self.malformed
     }

@@ -18,7 +18,8 @@ impl Pusher {
     pub(super) fn open(dir: &Arc<SystemDir>, endpoint: &Endpoint) -> Self {
         // A puller sends commands only.
         let endpoint = Endpoint { max_size: zmtp::COMMAND_LIMIT, ..endpoint.clone() };
-        let dialler = Dialler::new(dir, &endpoint, SocketType::Push, zmtp::SclReady::default());
+        let scl = zmtp::SclReady { lossless: endpoint.lossless, ..zmtp::SclReady::default() };
+        let dialler = Dialler::new(dir, &endpoint, SocketType::Push, scl);
         Self { dialler, links: Arc::default() }
     }
 }

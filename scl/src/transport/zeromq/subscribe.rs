@@ -61,6 +61,10 @@ impl Receiver for Subscriber {
         usize::from(self.publisher.is_some())
     }
 
+    fn is_lossless(&self) -> bool {
+        self.publisher.as_ref().is_some_and(Inbound::is_lossless)
+    }
+
     fn malformed(&self) -> u64 {
         self.malformed
     }

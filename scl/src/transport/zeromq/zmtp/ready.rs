@@ -66,6 +66,8 @@ pub(in crate::transport::zeromq) struct SclReady {
     pub(in crate::transport::zeromq) window: Option<Window>,
     /// Whether only the newest message matters to this end.
     pub(in crate::transport::zeromq) newest_only: bool,
+    /// Whether this sending end waits instead of dropping messages.
+    pub(in crate::transport::zeromq) lossless: bool,
 }
 
 /// How much may be in flight.
@@ -80,7 +82,8 @@ impl SclReady {
         let window =
             self.window.map_or_else(String::new, |Window { messages, bytes }| format!(" window={messages},{bytes}"));
         let newest = if self.newest_only { " newest" } else { "" };
-        format!("{SCL_VERSION}{window}{newest}")
+        let lossless = if self.lossless { " lossless" } else { "" };
+        format!("{SCL_VERSION}{window}{newest}{lossless}")
     }
 
     /// Returns `None` for another version. Unknown words are ignored, so that the value can grow.
@@ -95,6 +98,8 @@ impl SclReady {
                 ready.window = Window::parse(window);
             } else if word == "newest" {
                 ready.newest_only = true;
+            } else if word == "lossless" {
+                ready.lossless = true;
             }
         }
         Some(ready)

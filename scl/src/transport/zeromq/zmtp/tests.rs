@@ -64,7 +64,7 @@ const PLAIN: Item = Item::Ready(PeerReady { scl: None });
 #[test]
 fn our_own_hello_is_understood_by_every_role() {
     use SocketType::{Dealer, Pull, Push, Router, Sub, XPub};
-    let scl = SclReady { window: Some(Window { messages: 64, bytes: 32768 }), newest_only: true };
+    let scl = SclReady { window: Some(Window { messages: 64, bytes: 32768 }), newest_only: true, lossless: true };
     for (own, peer) in [(XPub, Sub), (Sub, XPub), (Push, Pull), (Pull, Push), (Dealer, Router), (Router, Dealer)] {
         assert_eq!(decode(own, &hello(peer, scl)), Ok(vec![Item::Ready(PeerReady { scl: Some(scl) })]));
     }
@@ -96,8 +96,9 @@ fn the_property_of_scl_can_grow() {
     let window = Some(Window { messages: 256, bytes: 1 << 20 });
     let cases = [
         ("1", Some(SclReady::default())),
-        ("1 window=256,1048576", Some(SclReady { window, newest_only: false })),
-        ("1 newest later=7 window=256,1048576 x", Some(SclReady { window, newest_only: true })),
+        ("1 window=256,1048576", Some(SclReady { window, ..SclReady::default() })),
+        ("1 lossless", Some(SclReady { lossless: true, ..SclReady::default() })),
+        ("1 newest later=7 window=256,1048576 x", Some(SclReady { window, newest_only: true, lossless: false })),
         ("1 window=0,0", Some(SclReady::default())),
         ("1 window=1", Some(SclReady::default())),
         ("1 window=-1,99999999999999999999999", Some(SclReady::default())),

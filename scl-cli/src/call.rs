@@ -1,0 +1,180 @@
+//! `scl call`: sends a request in place of a component, and prints the reply.
+
+use crate::observed::exit_code;
+use crate::play::{Plans, PlayArguments, message_type, problem_of};
+use clap::{Args, ValueEnum};
+use scl::CallError;
+use scl_plan::{ConnectionPlan, GateKind, GatePlan, Payload, Plan};
+use scl_terminal::{Problem, escape, parse_duration, print_err, print_out, quoted_list};
+use scl_value::{MessageType, read_yaml, to_json, to_yaml};
+use std::process::ExitCode;
+use std::time::Duration;
+use tokio::runtime::Builder;
+use tokio::signal::unix::{SignalKind, signal};
+
+/// How long closing may take; nothing is left to be sent then.
+const CLOSE: Duration = Duration::from_secs(1);
+
+/// Send a request to a `rep` gate, in place of a component that asks there, and print the reply.
+///
+/// The component must not be running. It is opened as its program would do; its `pull` and `rep` gates stay closed,
+/// because nobody would do their work.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl call controller.commands --template              an example request
+  scl call controller.commands '{target_speed: 0.5}'
+  scl call controller.commands '{target_speed: 0.5}' --as user_interface --format json | jq .accepted
+
+Exit code: 0 a reply was printed, 1 no reply within --timeout, 2 no such gate, the component runs, or the request is
+wrong.")]
+pub(crate) struct CallArguments {
+    /// The `rep` gate, as `component.gate`.
+    gate: String,
+    /// The request, as YAML or JSON [default: all fields have their default].
+    #[arg(conflicts_with = "template", allow_hyphen_values = true)]
+    request: Option<String>,
+    /// The component that asks [default: the only one that is connected to the gate and not running].
+    #[arg(long = "as", value_name = "COMPONENT")]
+    component: Option<String>,
+    /// Print an example request with all its fields, as YAML, and send nothing.
+    #[arg(long)]
+    template: bool,
+    /// How long to wait for the reply, which includes connecting.
+    #[arg(long, value_name = "TIME", default_value = "5s", value_parser = parse_duration)]
+    timeout: Duration,
+    /// How to print the reply.
+    #[arg(long, value_enum, default_value_t = ReplyFormat::Yaml, value_name = "FORMAT")]
+    format: ReplyFormat,
+    #[command(flatten)]
+    play: PlayArguments,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ReplyFormat {
+    /// As a user would write it.
+    Yaml,
+    /// One value on one line.
+    Json,
+}
+
+/// The body of `scl call`.
+pub(crate) fn call(arguments: &CallArguments) -> ExitCode {
+    let runtime = Builder::new_current_thread().enable_all().build();
+    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")));
+    exit_code(runtime.and_then(|runtime| runtime.block_on(run(arguments))))
+}
+
+async fn run(arguments: &CallArguments) -> Result<ExitCode, Problem> {
+    let plans = Plans::find(&arguments.play)?;
+    let (plan, gate) = plans.gate(&arguments.gate)?;
+    check_kind(&plan, &gate)?;
+    let (requests, replies) = types(&plan, &gate)?;
+    if arguments.template {
+        return print_template(arguments, &gate, &requests);
+    }
+    let request = requests.encode(&read_yaml(arguments.request.as_deref().unwrap_or("{}"))?)?;
+    let requester = find_requester(arguments, &plans, &gate)?;
+    let mut component = plans.open(&plans.component(&requester.peer_component)?).await?;
+    let mut asks = component.requester(&requester.peer_gate).map_err(|error| problem_of(&error))?;
+    let interrupt = signal(SignalKind::interrupt());
+    let mut interrupt = interrupt.map_err(|error| Problem::new(format!("cannot watch for signals: {error}")))?;
+    let reply = tokio::select! {
+        reply = asks.call_within(&request, arguments.timeout) => reply,
+        _ = interrupt.recv() => return Ok(ExitCode::FAILURE),
+    };
+    drop(asks);
+    // The reply is there; what becomes of the component's other gates does not matter.
+    let _ = component.close(CLOSE).await;
+    match reply {
+        Ok(bytes) => {
+            let reply = replies.show(&bytes);
+            print_out(&match arguments.format {
+                ReplyFormat::Yaml => to_yaml(&reply).lines().map(|line| format!("{}\n", escape(line))).collect(),
+                ReplyFormat::Json => format!("{}\n", to_json(&reply)),
+            });
+            Ok(ExitCode::SUCCESS)
+        }
+        Err(error @ (CallError::Timeout { connected: true, .. } | CallError::PeerLost { .. })) => {
+            print_err(&problem_of(&error).to_string());
+            Ok(ExitCode::FAILURE)
+        }
+        Err(error) => Err(problem_of(&error)),
+    }
+}
+
+/// Only `rep` gates take requests.
+fn check_kind(plan: &Plan, gate: &GatePlan) -> Result<(), Problem> {
+    if gate.kind == GateKind::Rep {
+        return Ok(());
+    }
+    let name = format!("{}.{}", plan.component, gate.name);
+    let problem = Problem::new(format!("`{name}` is a `{}` gate, which takes no requests", gate.kind.word()));
+    Err(match (gate.kind, gate.connections.first()) {
+        (GateKind::Req, Some(peer)) => problem.help(format!(
+            "call the gate that answers: `scl call {}.{} REQUEST --as {}`",
+            peer.peer_component, peer.peer_gate, plan.component
+        )),
+        (GateKind::Pub | GateKind::Push, _) => problem.help(format!("`scl pub {name} MESSAGE` sends messages there")),
+        _ => problem,
+    })
+}
+
+fn types(plan: &Plan, gate: &GatePlan) -> Result<(MessageType, MessageType), Problem> {
+    let (request, reply) = match &gate.payload {
+        Payload::Exchange { request, reply } => (Some(request.as_str()), Some(reply.as_str())),
+        Payload::Bytes | Payload::Message(_) => (None, None),
+    };
+    Ok((message_type(plan, gate, request)?, message_type(plan, gate, reply)?))
+}
+
+fn print_template(arguments: &CallArguments, gate: &GatePlan, requests: &MessageType) -> Result<ExitCode, Problem> {
+    let Some(template) = requests.template() else {
+        let problem = Problem::new(format!("the type of the requests of `{}` is not known", arguments.gate));
+        return Err(problem.note(format!("they are `{}`, in `{}`, without `schemas:`", gate.payload, gate.codec)));
+    };
+    print_out(&match arguments.format {
+        ReplyFormat::Yaml => to_yaml(&template),
+        ReplyFormat::Json => format!("{}\n", to_json(&template)),
+    });
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The connection to the component that asks.
+fn find_requester<'g>(
+    arguments: &CallArguments,
+    plans: &Plans,
+    gate: &'g GatePlan,
+) -> Result<&'g ConnectionPlan, Problem> {
+    let name = &arguments.gate;
+    let all = quoted_list(gate.connections.iter().map(|requester| requester.peer_component.as_str()));
+    if let Some(component) = &arguments.component {
+        return gate.connections.iter().find(|requester| requester.peer_component == *component).ok_or_else(|| {
+            let problem = Problem::new(format!("component `{}` does not ask at `{name}`", escape(component)));
+            problem.note(if all.is_empty() { "no component does".to_owned() } else { format!("those that do: {all}") })
+        });
+    }
+    let stopped = gate.connections.iter().filter(|requester| !plans.is_running(&requester.peer_component));
+    let mut stopped: Vec<&ConnectionPlan> = stopped.collect();
+    stopped.dedup_by_key(|requester| &requester.peer_component);
+    match stopped[..] {
+        [one] => Ok(one),
+        [] if gate.connections.is_empty() => Err(Problem::new(format!("no component is connected to `{name}`"))
+            .help("connect one in the topology, to play it here")),
+        [] => {
+            let problem = Problem::new(format!("every component that asks at `{name}` is running"))
+                .help("stop one of them, to play it here");
+            let holders = gate.connections.iter().filter_map(|requester| {
+                let holder = plans.holder(&requester.peer_component)?;
+                Some(format!("`{}` is {holder}", requester.peer_component))
+            });
+            Err(holders.fold(problem, Problem::note))
+        }
+        _ => {
+            let names = quoted_list(stopped.iter().map(|requester| requester.peer_component.as_str()));
+            Err(Problem::new(format!("several components that ask at `{name}` are not running"))
+                .help(format!("choose one with `--as {}`", stopped[0].peer_component))
+                .note(format!("not running: {names}")))
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! `scl complete-gates`: the names that a shell offers where a gate or a component is expected.
+
+use clap::Args;
+use scl_observe::System;
+use scl_terminal::print_out;
+use std::process::ExitCode;
+
+/// The name of the hidden command.
+pub(crate) const COMMAND: &str = "complete-gates";
+
+/// Print the names of gates that start with PREFIX, one a line.
+#[derive(Args)]
+pub(crate) struct CompleteGatesArguments {
+    /// Names of components instead.
+    #[arg(long)]
+    components: bool,
+    /// The system.
+    #[arg(long)]
+    system: Option<String>,
+    /// What the user has typed so far.
+    #[arg(default_value = "", allow_hyphen_values = true)]
+    prefix: String,
+}
+
+/// The body of `scl complete-gates`. Without a system there is nothing to offer, and nothing to say: the user is typing.
+pub(crate) fn complete_gates(arguments: &CompleteGatesArguments) -> ExitCode {
+    let system = arguments.system.as_deref().filter(|name| !name.is_empty());
+    if let Ok(system) = System::find(system) {
+        let names = names(&system, arguments.components).into_iter();
+        let fitting = names.filter(|name| name.starts_with(&arguments.prefix));
+        print_out(&fitting.map(|name| name + "\n").collect::<String>());
+    }
+    ExitCode::SUCCESS
+}
+
+fn names(system: &System, of_components: bool) -> Vec<String> {
+    let components = system.components();
+    if of_components {
+        return components.into_iter().map(|component| component.name).collect();
+    }
+    let running = components.iter().filter(|component| component.is_running());
+    let gates = running.flat_map(|it| it.gates().iter().map(|gate| format!("{}.{}", it.name, gate.name)));
+    gates.collect()
+}

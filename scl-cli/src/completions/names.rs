@@ -1,0 +1,146 @@
+//! The part of the completion scripts that asks the running system for the names of its gates and components.
+
+use clap::{Arg, Command};
+use clap_complete::Shell;
+use std::fmt::Write;
+
+/// An argument in whose place a name is offered.
+struct Place {
+    command: String,
+    /// `--option`, or `None` for the arguments without one.
+    option: Option<String>,
+    gates: bool,
+    components: bool,
+}
+
+/// Adds the names to a script that `clap_complete` wrote. Shells that are not listed here complete commands and options.
+pub(super) fn add_names(shell: Shell, command_line: &Command, script: String) -> String {
+    let places = places(command_line);
+    if places.is_empty() {
+        return script;
+    }
+    match shell {
+        Shell::Bash => script + &bash(&places),
+        Shell::Zsh => zsh(&places, &script),
+        Shell::Fish => script + &fish(&places),
+        _ => script,
+    }
+}
+
+/// The arguments whose values are called GATE or COMPONENT in the help.
+fn places(command_line: &Command) -> Vec<Place> {
+    let place = |command: &Command, argument: &Arg| {
+        // An argument without a name for its value is called like its field.
+        let called = argument.get_value_names().map(|names| names.iter().map(|name| name.to_string()).collect());
+        let called: Vec<String> = called.unwrap_or_else(|| vec![argument.get_id().as_str().to_uppercase()]);
+        let is_called = |word| {
+            let words = called.iter().flat_map(|name| name.split(['|', ',', '.']));
+            words.into_iter().any(|part| part.trim_end_matches('S') == word)
+        };
+        let option = argument.get_long().map(|long| format!("--{long}"));
+        let (gates, components) = (is_called("GATE"), is_called("COMPONENT"));
+        (gates || components).then(|| Place { command: command.get_name().to_owned(), option, gates, components })
+    };
+    let commands = command_line.get_subcommands();
+    commands.flat_map(|command| command.get_arguments().filter_map(move |it| place(command, it))).collect()
+}
+
+/// One line of a shell's `case` for each place: the pattern `command:option`, and what is asked for.
+fn cases(places: &[Place], indent: &str) -> String {
+    let mut text = String::new();
+    for place in places {
+        let wanted = [(place.gates, "gates"), (place.components, "components")];
+        let wanted: Vec<&str> = wanted.into_iter().filter(|(wanted, _)| *wanted).map(|(_, word)| word).collect();
+        // Writing to a string cannot fail.
+        let option = place.option.as_deref().unwrap_or_default();
+        let _ = writeln!(text, "{indent}{}:{option}) wanted=\"{}\" ;;", place.command, wanted.join(" "));
+    }
+    text
+}
+
+fn bash(places: &[Place]) -> String {
+    format!(
+        r#"
+# Names of gates and components, from the running system.
+_scl_with_names() {{
+    _scl "$@"
+    local current=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} wanted="" system="" names="" index
+    [[ $COMP_CWORD -lt 2 || $current == -* ]] && return
+    [[ $before == --* ]] || before=""
+    for ((index = 2; index < COMP_CWORD; index++)); do
+        [[ ${{COMP_WORDS[index]}} == --system ]] && system=${{COMP_WORDS[index + 1]}}
+    done
+    case ${{COMP_WORDS[1]}}:$before in
+{}    esac
+    [[ $wanted == *gates* ]] && names+=" $("${{COMP_WORDS[0]}}" complete-gates --system "$system" -- "$current" 2>/dev/null)"
+    [[ $wanted == *components* ]] &&
+        names+=" $("${{COMP_WORDS[0]}}" complete-gates --components --system "$system" -- "$current" 2>/dev/null)"
+    [[ -n $wanted ]] && COMPREPLY=($(compgen -W "$names" -- "$current"))
+}}
+complete -F _scl_with_names -o bashdefault -o default scl
+"#,
+        cases(places, "        ")
+    )
+}
+
+/// The script ends with code that registers or calls its function; ours takes its place.
+fn zsh(places: &[Place], script: &str) -> String {
+    let Some((functions, _)) = script.rsplit_once("if [ \"$funcstack[1]\"") else { return script.to_owned() };
+    format!(
+        r#"{functions}# Names of gates and components, from the running system.
+_scl_with_names() {{
+    local wanted="" before=""
+    [[ $words[CURRENT-1] == --* ]] && before=$words[CURRENT-1]
+    if (( CURRENT > 2 )) && [[ $PREFIX != -* ]]; then
+        case $words[2]:$before in
+{}        esac
+    fi
+    if [[ -z $wanted ]]; then
+        _scl "$@"
+        return
+    fi
+    local -a names system
+    (( $words[(I)--system] && $words[(I)--system] < CURRENT )) && system=(--system "$words[$words[(I)--system]+1]")
+    [[ $wanted == *gates* ]] && names+=(${{(f)"$("$words[1]" complete-gates $system -- "$PREFIX" 2>/dev/null)"}})
+    [[ $wanted == *components* ]] &&
+        names+=(${{(f)"$("$words[1]" complete-gates --components $system -- "$PREFIX" 2>/dev/null)"}})
+    compadd -- $names
+}}
+
+if [ "$funcstack[1]" = "_scl" ]; then
+    compdef _scl_with_names scl
+    _scl_with_names "$@"
+else
+    compdef _scl_with_names scl
+fi
+"#,
+        cases(places, "            ")
+    )
+}
+
+fn fish(places: &[Place]) -> String {
+    let mut text = String::from(
+        r#"
+# Names of gates and components, from the running system.
+function __fish_scl_names
+    set -l words (commandline -opc)
+    set -l system
+    if set -l index (contains -i -- --system $words)
+        set system --system $words[(math $index + 1)]
+    end
+    $words[1] complete-gates $argv $system -- (commandline -ct) 2>/dev/null
+end
+"#,
+    );
+    for place in places {
+        let condition = format!("__fish_seen_subcommand_from {}", place.command);
+        let option = place.option.as_deref().map(|option| format!(" -r -l {}", option.trim_start_matches('-')));
+        let lists = [(place.gates, "__fish_scl_names"), (place.components, "__fish_scl_names --components")];
+        for (_, list) in lists.into_iter().filter(|(wanted, _)| *wanted) {
+            // Writing to a string cannot fail.
+            let option = option.as_deref().unwrap_or_default();
+            let _ = writeln!(text, "complete -c scl -n \"{condition}\"{option} -f -a \"({list})\"");
+        }
+    }
+    text
+}

@@ -1,0 +1,208 @@
+//! `scl echo`: the messages that pass gates.
+
+mod output;
+mod watched;
+
+use crate::observed::{SystemArgument, exit_code};
+use clap::{Args, ValueEnum};
+use output::Output;
+use scl::tap::TapEvent;
+use scl_observe::{ObservedGate, System, Taps, TapsEvent, at_taps};
+use scl_terminal::{Problem, parse_duration, print_err, quoted_list};
+use scl_value::{Condition, FieldPath, UnknownField, Value};
+use std::io::{self, IsTerminal};
+use std::num::NonZeroU64;
+use std::process::ExitCode;
+use std::time::Duration;
+use tokio::runtime::Builder;
+use tokio::signal::unix::{SignalKind, signal};
+use tokio::time::{Instant, sleep_until};
+use watched::Watched;
+
+/// Show the messages that pass gates, decoded: messages of `pub` and `push` gates, requests and replies of `rep` gates.
+///
+/// Nothing is restarted, and no gate is delayed: messages that this program is too slow to read are dropped for it
+/// alone, and are noted on standard error. A component that stops is waited for, and followed when it runs again. A
+/// payload that is not the gate's type is shown as bytes, with the reason.
+///
+/// At a gate that receives, the messages are shown where they come from; those of a `req` gate at the gate that
+/// answers, with all its requests.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl echo sensor.measurements
+  scl echo sensor.measurements --field speed --field pose.x
+  scl echo sensor.measurements --where \"speed > 1.5 and mode == 'AUTO'\"
+  scl echo controller.commands                        requests and replies, with the number of their call
+  scl echo sensor.measurements --once --timeout 2s    is anything sent?
+  scl echo sensor.measurements controller.actuator --format json | jq .message
+  scl echo sensor.measurements --format csv > speed.csv
+
+Exit code: 0 shown, or stopped with Ctrl-C; 1 no message within --timeout; 2 no such gate, field or system, or it is not
+running.")]
+pub(crate) struct EchoArguments {
+    /// The gates, as `component.gate`.
+    #[arg(required = true, value_name = "GATE")]
+    gates: Vec<String>,
+    /// Show this field only, for example `pose.x`, `joints[0].angle` or `limits."front left"`; may be repeated.
+    #[arg(long = "field", value_name = "PATH")]
+    fields: Vec<FieldPath>,
+    /// Show messages only for which this holds, for example `speed > 1.5`. There are == != < <= > >= contains, and,
+    /// or, not and parentheses; texts stand in quotes. A comparison of a field that a message does not have is false.
+    #[arg(long = "where", value_name = "CONDITION")]
+    condition: Option<Condition>,
+    /// End after one message.
+    #[arg(long, conflicts_with = "count")]
+    once: bool,
+    /// End after this many messages.
+    #[arg(short = 'n', long, value_name = "N")]
+    count: Option<NonZeroU64>,
+    /// End with exit code 1 when no message was shown for this long: `2s`.
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    timeout: Option<Duration>,
+    /// How to show messages.
+    #[arg(long, value_enum, default_value_t = MessageFormat::Yaml, value_name = "FORMAT")]
+    format: MessageFormat,
+    #[command(flatten)]
+    system: SystemArgument,
+}
+
+/// How messages are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MessageFormat {
+    /// A document a message, as `scl pub` reads it.
+    Yaml,
+    /// An object a line, with gate, time, sequence, kind and message.
+    Json,
+    /// A row a message, with a column a field; lists and maps as JSON.
+    Csv,
+}
+
+/// The body of `scl echo`.
+pub(crate) fn echo(arguments: &EchoArguments) -> ExitCode {
+    let runtime = Builder::new_current_thread().enable_all().build();
+    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")));
+    exit_code(runtime.and_then(|runtime| runtime.block_on(run(arguments))))
+}
+
+async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
+    let interrupt = signal(SignalKind::interrupt());
+    let mut interrupt = interrupt.map_err(|error| Problem::new(format!("cannot watch for signals: {error}")))?;
+    let system = arguments.system.find()?;
+    let gates = find_gates(&system, &arguments.gates)?;
+    let mut watched: Vec<Watched> = gates.iter().cloned().map(Watched::new).collect();
+    for path in &arguments.fields {
+        check_field(&watched, |gate| gate.check_field(path))?;
+    }
+    if let Some(condition) = &arguments.condition {
+        check_field(&watched, |gate| gate.check_condition(condition))?;
+    }
+    let watched_several = watched.iter().flat_map(Watched::types).count() > 1;
+    let mut output = Output::new(arguments.format, &arguments.fields, &watched);
+    let mut taps = Taps::open(&system, gates);
+    let limit = if arguments.once { Some(1) } else { arguments.count.map(NonZeroU64::get) };
+    let (started, mut shown, mut last) = (Instant::now(), 0, Instant::now());
+    loop {
+        let silence = async {
+            match arguments.timeout {
+                Some(timeout) => sleep_until(last + timeout).await,
+                None => std::future::pending().await,
+            }
+        };
+        let (gate, event) = tokio::select! {
+            _ = interrupt.recv() => break,
+            () = silence => {
+                watched.iter_mut().for_each(Watched::note_lost);
+                return Ok(report_silence(arguments, shown));
+            }
+            event = taps.next() => match event {
+                TapsEvent::Event { gate, event } => (gate, event),
+                TapsEvent::Started(_) => continue,
+            },
+        };
+        let Some(gate) = watched.get_mut(gate) else { continue };
+        let seen = match event {
+            TapEvent::Connected => {
+                gate.connected(&system);
+                continue;
+            }
+            TapEvent::Disconnected => {
+                gate.disconnected();
+                continue;
+            }
+            TapEvent::Observed(seen) => seen,
+        };
+        gate.count(&seen);
+        let message = gate.decode(&seen);
+        if arguments.condition.as_ref().is_some_and(|condition| !condition.holds(&message)) {
+            continue;
+        }
+        // A request does not have the fields of its reply.
+        if watched_several && !has_any(&message, &arguments.fields) {
+            continue;
+        }
+        if output.print(gate, &seen, &message).is_err() {
+            // The reader has gone (`scl echo | head`).
+            return Ok(ExitCode::SUCCESS);
+        }
+        (shown, last) = (shown + 1, Instant::now());
+        if limit == Some(shown) {
+            break;
+        }
+    }
+    watched.iter_mut().for_each(Watched::note_lost);
+    if limit != Some(shown) && io::stderr().is_terminal() {
+        let lost: u64 = watched.iter().map(Watched::lost).sum();
+        let seconds = started.elapsed().as_secs_f64();
+        print_err(&format!("{shown} messages in {seconds:.1} s, {lost} lost\n"));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The gates at whose taps the messages of the named gates are seen.
+fn find_gates(system: &System, names: &[String]) -> Result<Vec<ObservedGate>, Problem> {
+    let named = names.iter().map(|name| system.gate(name)).collect::<Result<Vec<_>, _>>()?;
+    for gate in named.iter().filter(|gate| gate.taps.first().is_some_and(|tap| tap.component != gate.component)) {
+        let senders: Vec<String> = at_taps(std::slice::from_ref(gate)).iter().map(ObservedGate::name).collect();
+        let senders = quoted_list(senders.iter().map(String::as_str));
+        print_err(&format!("note: the messages of `{}` are shown where they are seen: {senders}\n", gate.name()));
+    }
+    Ok(at_taps(&named))
+}
+
+/// A field must be one of at least one of the gates.
+fn check_field(gates: &[Watched], check: impl Fn(&Watched) -> Result<(), UnknownField>) -> Result<(), Problem> {
+    let mut errors = gates.iter().map(check);
+    match errors.next() {
+        Some(Err(first)) if errors.all(|result| result.is_err()) => Err(first.into()),
+        _ => Ok(()),
+    }
+}
+
+fn report_silence(arguments: &EchoArguments, shown: u64) -> ExitCode {
+    let gates = quoted_list(arguments.gates.iter().map(String::as_str));
+    let waited = arguments.timeout.unwrap_or_default();
+    let (more, matching) = (
+        if shown > 0 { " more" } else { "" },
+        if arguments.condition.is_some() { " that meets the condition" } else { "" },
+    );
+    let problem = Problem::new(format!("no{more} message{matching} at {gates} within {waited:?}"));
+    print_err(&problem.help("`scl info GATE` shows peers and rates").to_string());
+    ExitCode::FAILURE
+}
+
+/// Whether a message has one of the fields, if there are any.
+fn has_any(message: &Value, fields: &[FieldPath]) -> bool {
+    fields.is_empty() || matches!(message, Value::Opaque(_)) || fields.iter().any(|path| path.find(message).is_some())
+}
+
+/// The parts of a message that are shown: the fields, or all of it.
+fn selected(message: &Value, fields: &[FieldPath]) -> Value {
+    let find = |path: &FieldPath| path.find(message).cloned().unwrap_or(Value::Null);
+    match fields {
+        _ if matches!(message, Value::Opaque(_)) => message.clone(),
+        [] => message.clone(),
+        [one] => find(one),
+        fields => Value::Map(fields.iter().map(|path| (path.to_string().into(), find(path))).collect()),
+    }
+}

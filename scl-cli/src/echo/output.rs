@@ -1,0 +1,149 @@
+//! How `scl echo` prints messages: as YAML documents, JSON lines or rows of CSV.
+
+use super::watched::Watched;
+use super::{MessageFormat, selected};
+use scl::tap::{Observation, ObservedKind};
+use scl_terminal::{escape, print_err, timestamp};
+use scl_value::{FieldPath, Table, Value, to_json, to_yaml};
+use std::io::{self, IsTerminal, Write};
+use std::time::{Duration, SystemTime};
+
+/// Prints messages in one of the formats.
+pub(super) struct Output<'a> {
+    format: MessageFormat,
+    fields: &'a [FieldPath],
+    /// Whether messages of several gates have to be told apart.
+    several: bool,
+    /// Whether there are requests and replies.
+    exchanges: bool,
+    /// The columns of CSV that are known from the types of all gates.
+    columns: Option<Vec<FieldPath>>,
+    /// The columns, once the header is printed.
+    table: Option<Table>,
+    /// Whether a message had a field without a column.
+    left_out: bool,
+}
+
+impl<'a> Output<'a> {
+    pub(super) fn new(format: MessageFormat, fields: &'a [FieldPath], gates: &[Watched]) -> Self {
+        let exchanges = gates.iter().any(Watched::exchanges);
+        let columns = if fields.is_empty() { known_columns(gates) } else { Some(fields.to_vec()) };
+        Self { format, fields, several: gates.len() > 1, exchanges, columns, table: None, left_out: false }
+    }
+
+    /// Prints a message. An error means that nobody reads the output any more.
+    pub(super) fn print(&mut self, gate: &Watched, seen: &Observation, message: &Value) -> io::Result<()> {
+        let text = match self.format {
+            MessageFormat::Yaml => self.document(gate, seen, &selected(message, self.fields)).into_bytes(),
+            MessageFormat::Json => line(gate, seen, &selected(message, self.fields)).into_bytes(),
+            MessageFormat::Csv => self.row(gate, seen, message)?,
+        };
+        let mut out = io::stdout().lock();
+        out.write_all(&text)?;
+        out.flush()
+    }
+
+    fn document(&self, gate: &Watched, seen: &Observation, shown: &Value) -> String {
+        // The YAML library escapes control characters, but not those that change the direction of text.
+        let text: String = to_yaml(shown).lines().map(|line| format!("{}\n", escape(line))).collect();
+        let is_nested = matches!(shown, Value::Map(_) | Value::List(_) | Value::Opaque(_));
+        if !self.several && !self.exchanges {
+            // The values of a single field are lines.
+            return if is_nested || self.fields.len() != 1 { format!("---\n{text}") } else { text };
+        }
+        let what = match seen.kind {
+            ObservedKind::Message => seen.sequence.to_string(),
+            kind => format!("{} of call {}", word(kind), seen.call_id),
+        };
+        format!("--- # {} {what}, {}\n{text}", gate.name(), timestamp(time_of(seen)))
+    }
+
+    fn row(&mut self, gate: &Watched, seen: &Observation, message: &Value) -> io::Result<Vec<u8>> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        if self.table.is_none() {
+            let table = self.columns.take().map_or_else(|| Table::of(message), Table::new);
+            let cells = self.own_cells("@time", "@sequence", "@gate", "@kind", "@call");
+            writer.write_record(cells.into_iter().map(str::to_owned).chain(table.header()))?;
+            self.table = Some(table);
+        }
+        let Some(table) = &self.table else { return Ok(Vec::new()) };
+        if !self.left_out && self.fields.is_empty() && !table.has_all_of(message) {
+            self.left_out = true;
+            print_err(
+                "note: some messages have fields that the first one does not have; choose columns with `--field`\n",
+            );
+        }
+        let time = format!("{}.{:09}", seen.sent_ns / 1_000_000_000, seen.sent_ns % 1_000_000_000);
+        let (sequence, call) = (seen.sequence.to_string(), seen.call_id.to_string());
+        let cells = self.own_cells(&time, &sequence, gate.name(), word(seen.kind), &call);
+        let cells = cells.into_iter().map(str::to_owned).chain(table.row(message));
+        if io::stdout().is_terminal() {
+            writer.write_record(cells.map(|cell| escape(&cell).into_owned()))?;
+        } else {
+            writer.write_record(cells)?;
+        }
+        writer.into_inner().map_err(|error| io::Error::other(error.to_string()))
+    }
+
+    /// The cells before those of the fields. Their headers begin with `@`, so that no field has the same name.
+    fn own_cells<'t>(
+        &self,
+        time: &'t str,
+        sequence: &'t str,
+        gate: &'t str,
+        kind: &'t str,
+        call: &'t str,
+    ) -> Vec<&'t str> {
+        let mut cells = vec![time, sequence];
+        cells.extend(self.several.then_some(gate));
+        cells.extend(self.exchanges.then_some([kind, call]).into_iter().flatten());
+        cells
+    }
+}
+
+/// A message as JSON on one line.
+fn line(gate: &Watched, seen: &Observation, shown: &Value) -> String {
+    let mut fields = vec![
+        ("gate", gate.name().into()),
+        ("time", exact_time(seen).into()),
+        ("sequence", seen.sequence.into()),
+        ("kind", word(seen.kind).into()),
+    ];
+    if seen.kind != ObservedKind::Message {
+        fields.push(("call", seen.call_id.into()));
+    }
+    fields.push(("message", shown.clone()));
+    format!("{}\n", to_json(&Value::fields(fields)))
+}
+
+/// The columns of all types of the gates, if all are known.
+fn known_columns(gates: &[Watched]) -> Option<Vec<FieldPath>> {
+    let mut columns: Vec<FieldPath> = Vec::new();
+    for messages in gates.iter().flat_map(Watched::types) {
+        for column in messages.columns()? {
+            if !columns.contains(&column) {
+                columns.push(column);
+            }
+        }
+    }
+    Some(columns)
+}
+
+fn word(kind: ObservedKind) -> &'static str {
+    match kind {
+        ObservedKind::Message => "message",
+        ObservedKind::Request => "request",
+        ObservedKind::Reply => "reply",
+    }
+}
+
+fn time_of(seen: &Observation) -> SystemTime {
+    SystemTime::UNIX_EPOCH + Duration::from_nanos(seen.sent_ns)
+}
+
+/// The time of sending with nanoseconds: `2026-11-22T00:05:09.250123456Z`.
+fn exact_time(seen: &Observation) -> String {
+    let text = timestamp(time_of(seen));
+    let seconds = text.split('.').next().unwrap_or(&text);
+    format!("{seconds}.{:09}Z", seen.sent_ns % 1_000_000_000)
+}

@@ -1,0 +1,125 @@
+//! One gate of `scl echo`: how its messages are decoded, and which of them were lost.
+
+use scl::tap::{Observation, ObservedKind};
+use scl_observe::{ObservedGate, System};
+use scl_plan::Payload;
+use scl_terminal::print_err;
+use scl_value::{Condition, FieldPath, MessageType, UnknownField, Value};
+use std::time::{Duration, Instant};
+
+/// Losses within this time are noted together: at a thousand messages a second, a note each would be the next loss.
+const BETWEEN_NOTES: Duration = Duration::from_secs(1);
+
+/// A gate that is observed at its own tap.
+pub(super) struct Watched {
+    gate: ObservedGate,
+    name: String,
+    /// Messages or requests.
+    message: MessageType,
+    reply: MessageType,
+    /// The number that the next message has if none is lost; `None` right after connecting.
+    next: Option<u64>,
+    was_connected: bool,
+    lost: u64,
+    /// How many of them were not noted yet.
+    unnoted: u64,
+    noted: Option<Instant>,
+}
+
+impl Watched {
+    pub(super) fn new(gate: ObservedGate) -> Self {
+        let (message, reply) = types_of(&gate);
+        let name = gate.name();
+        Self { gate, name, message, reply, next: None, was_connected: false, lost: 0, unnoted: 0, noted: None }
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether it has requests and replies.
+    pub(super) fn exchanges(&self) -> bool {
+        matches!(self.gate.payload, Payload::Exchange { .. })
+    }
+
+    /// The types of its messages, or of its requests and replies.
+    pub(super) fn types(&self) -> impl Iterator<Item = &MessageType> {
+        std::iter::once(&self.message).chain(self.exchanges().then_some(&self.reply))
+    }
+
+    /// Number of messages that were not seen.
+    pub(super) fn lost(&self) -> u64 {
+        self.lost
+    }
+
+    pub(super) fn check_field(&self, path: &FieldPath) -> Result<(), UnknownField> {
+        self.check(|messages| messages.check_field(path))
+    }
+
+    pub(super) fn check_condition(&self, condition: &Condition) -> Result<(), UnknownField> {
+        self.check(|messages| condition.check(messages))
+    }
+
+    /// One of the types must pass.
+    fn check(&self, check: impl Fn(&MessageType) -> Result<(), UnknownField>) -> Result<(), UnknownField> {
+        check(&self.message).or_else(|error| match self.exchanges() {
+            true => check(&self.reply).map_err(|_| error),
+            false => Err(error),
+        })
+    }
+
+    /// The component runs, perhaps again, and then perhaps built anew.
+    pub(super) fn connected(&mut self, system: &System) {
+        if self.was_connected {
+            if let Ok(gate) = system.gate(&self.name) {
+                (self.message, self.reply) = types_of(&gate);
+                self.gate = gate;
+            }
+            print_err(&format!("note: `{}` is connected again\n", self.name));
+        }
+        (self.was_connected, self.next) = (true, None);
+    }
+
+    pub(super) fn disconnected(&mut self) {
+        self.note_lost();
+        print_err(&format!("note: `{}` has disconnected; waiting until it runs again\n", self.name));
+    }
+
+    /// Notes messages that are missing before this one.
+    pub(super) fn count(&mut self, seen: &Observation) {
+        let lost = self.next.map_or(0, |next| seen.sequence.saturating_sub(next));
+        self.next = Some(seen.sequence.saturating_add(1));
+        self.lost += lost;
+        self.unnoted += lost;
+        if self.unnoted > 0 && self.noted.is_none_or(|noted| noted.elapsed() >= BETWEEN_NOTES) {
+            self.note_lost();
+        }
+    }
+
+    /// Tells the losses that were not told yet.
+    pub(super) fn note_lost(&mut self) {
+        if self.unnoted > 0 {
+            print_err(&format!("note: lost {} messages of `{}`: read too slowly\n", self.unnoted, self.name));
+            (self.unnoted, self.noted) = (0, Some(Instant::now()));
+        }
+    }
+
+    /// The message, or its bytes and why they cannot be decoded.
+    pub(super) fn decode(&self, seen: &Observation) -> Value {
+        match seen.kind {
+            ObservedKind::Reply => self.reply.show(&seen.payload),
+            ObservedKind::Message | ObservedKind::Request => self.message.show(&seen.payload),
+        }
+    }
+}
+
+/// How the messages or requests, and the replies of a gate are read.
+fn types_of(gate: &ObservedGate) -> (MessageType, MessageType) {
+    let read = |name: Option<&str>| {
+        let messages = MessageType::new(name, &gate.codec, gate.schema.as_deref());
+        messages.unwrap_or_else(|error| MessageType::opaque(error.to_string()))
+    };
+    let mut types = gate.payload.types();
+    let first = types.next();
+    (read(first), read(types.next().or(first)))
+}

@@ -1,0 +1,73 @@
+//! `scl x` for a program `scl-x` of the user's in `PATH`.
+
+use clap::Command as CommandLine;
+use scl_terminal::{Problem, closest_name, escape, print_err};
+use std::env;
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+/// Exit code: there is no such command, or it cannot be run.
+const COULD_NOT_RUN: u8 = 2;
+
+/// Becomes the program `scl-x`; `words` are `x` and its arguments. Returns only if that fails.
+pub(crate) fn run_external(words: &[OsString], command_line: &CommandLine) -> ExitCode {
+    let Some((name, arguments)) = words.split_first() else { return ExitCode::from(COULD_NOT_RUN) };
+    let problem = match find(name) {
+        Found::Program(program) => {
+            let mut command = Command::new(&program);
+            // So that it can call the `scl` by which it was called.
+            command.args(arguments).envs(env::current_exe().ok().map(|scl| ("SCL", scl)));
+            cannot_run(&program, &command.exec())
+        }
+        Found::NotExecutable(file) => Problem::new(format!("`{}` is not executable", file.display()))
+            .help(format!("run `chmod +x '{}'`", file.display())),
+        Found::Nothing => unknown(&name.to_string_lossy(), command_line),
+    };
+    print_err(&problem.to_string());
+    ExitCode::from(COULD_NOT_RUN)
+}
+
+enum Found {
+    Program(PathBuf),
+    NotExecutable(PathBuf),
+    Nothing,
+}
+
+fn find(name: &OsStr) -> Found {
+    let mut file = OsString::from("scl-");
+    file.push(name);
+    // A slash would lead out of the folders of PATH.
+    if Path::new(&file).components().count() != 1 {
+        return Found::Nothing;
+    }
+    let path = env::var_os("PATH").unwrap_or_default();
+    let folders = env::split_paths(&path).filter(|folder| !folder.as_os_str().is_empty());
+    let files: Vec<PathBuf> = folders.map(|folder| folder.join(&file)).filter(|file| file.is_file()).collect();
+    match files.iter().find(|file| is_executable(file)) {
+        Some(program) => Found::Program(program.clone()),
+        None => files.into_iter().next().map_or(Found::Nothing, Found::NotExecutable),
+    }
+}
+
+fn is_executable(file: &Path) -> bool {
+    fs::metadata(file).is_ok_and(|found| found.permissions().mode() & 0o111 != 0)
+}
+
+fn cannot_run(program: &Path, error: &std::io::Error) -> Problem {
+    Problem::new(format!("cannot run `{}`: {error}", program.display()))
+        .help("check that it is a program for this machine, or a script whose first line names an interpreter")
+}
+
+fn unknown(name: &str, command_line: &CommandLine) -> Problem {
+    let visible = command_line.get_subcommands().filter(|command| !command.is_hide_set());
+    let problem = Problem::new(format!("there is no command `{}`", escape(name)));
+    let problem = match closest_name(name, visible.map(CommandLine::get_name)) {
+        Some(close) => problem.help(format!("did you mean `scl {close}`?")),
+        None => problem.help("`scl --help` lists the commands"),
+    };
+    problem.note(format!("nor is there a program `scl-{}` in PATH", escape(name)))
+}

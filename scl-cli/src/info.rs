@@ -1,0 +1,93 @@
+//! `scl info`: everything about one gate, or one component and its gates in short.
+
+mod text;
+
+use crate::format::{FormatArgument, print_json};
+use crate::observed::{SystemArgument, exit_code};
+use clap::Args;
+use scl_observe::{Component, GateRate, System, rates};
+use scl_terminal::{Problem, print_out};
+use serde_json::Value;
+use std::process::ExitCode;
+use std::time::{Duration, SystemTime};
+
+/// How long to wait for a second reading of the figures. A component writes them twice a second by default.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Show everything about a gate, or about a component and its gates.
+///
+/// Type, codec, queue, contract and peers are those that the running program was built with. Rates are measured between two
+/// figures that the component writes, half a second apart by default.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl info controller.sensor               a gate
+  scl info controller                      a component
+  scl info controller.sensor --format json
+
+Exit code: 0 shown, 2 there is no such system, component or gate, or the component is not running.")]
+pub(crate) struct InfoArguments {
+    /// The gate or the component.
+    #[arg(value_name = "GATE|COMPONENT")]
+    name: String,
+    #[command(flatten)]
+    system: SystemArgument,
+    #[command(flatten)]
+    format: FormatArgument,
+}
+
+/// The body of `scl info`.
+pub(crate) fn info(arguments: &InfoArguments) -> ExitCode {
+    exit_code(print_info(arguments))
+}
+
+fn print_info(arguments: &InfoArguments) -> Result<ExitCode, Problem> {
+    let system = arguments.system.find()?;
+    let (component, gate) = system.component_and_gate(&arguments.name)?;
+    let reading = Reading::take(&system, component);
+    match arguments.format.is_json() {
+        true => print_json(&reading.to_json(gate)),
+        false => print_out(&reading.text(gate)),
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A component, and the rates of its gates.
+struct Reading {
+    component: Component,
+    /// In the plan's order; `None` without two readings of the figures.
+    rates: Option<Vec<GateRate>>,
+    now: SystemTime,
+}
+
+impl Reading {
+    fn take(system: &System, mut component: Component) -> Self {
+        let mut found = None;
+        let writes = component.is_running() && component.silent_for(SystemTime::now()).is_none();
+        if writes
+            && let (Some(plan), Some(earlier)) = (component.plan(), &component.stats)
+            && let Some(later) = system.newer_stats(&component.name, earlier, PATIENCE)
+        {
+            found = rates(plan, earlier, &later);
+            component.stats = Some(later);
+        }
+        Self { component, rates: found, now: SystemTime::now() }
+    }
+
+    fn rate(&self, gate: usize) -> Option<GateRate> {
+        self.rates.as_ref()?.get(gate).copied()
+    }
+
+    fn to_json(&self, gate: Option<usize>) -> Value {
+        let gate_to_json = |gate| self.component.gate_to_json(gate, self.rate(gate));
+        let component = self.component.to_json(self.now);
+        if let Some(gate) = gate {
+            let mut value = gate_to_json(gate);
+            value["component"] = component;
+            return value;
+        }
+        let mut value = component;
+        value["gates"] = (0..self.component.gates().len()).map(gate_to_json).collect();
+        value
+    }
+}

@@ -1,0 +1,81 @@
+//! The messages of `scl pub`: one from the command line, or those of standard input.
+
+use scl::bytes::Bytes;
+use scl_terminal::Problem;
+use scl_value::{Documents, MessageType, ReadError, Value, read_yaml};
+use std::io::{self, BufRead};
+use std::thread;
+use tokio::sync::mpsc::{Receiver, channel};
+
+/// The word for standard input.
+const INPUT: &str = "-";
+
+/// How many messages of standard input are read ahead.
+const AHEAD: usize = 16;
+
+/// The messages to send, encoded.
+pub(super) enum Messages {
+    /// The same message, once or again and again.
+    Fixed { message: Bytes, repeat: bool, taken: bool },
+    /// The messages of standard input, and how many were read.
+    Input { read: Receiver<io::Result<Result<Value, ReadError>>>, messages: MessageType, count: u64 },
+}
+
+impl Messages {
+    /// Those of an argument, which is a message or `-`.
+    pub(super) fn new(argument: &str, messages: MessageType, repeat: bool) -> Result<Self, Problem> {
+        if argument == INPUT {
+            return Ok(Self::Input { read: read_input(), messages, count: 0 });
+        }
+        let message = messages.encode(&read_yaml(argument)?)?;
+        Ok(Self::Fixed { message, repeat, taken: false })
+    }
+
+    /// Whether they end by themselves.
+    pub(super) fn are_from_input(&self) -> bool {
+        matches!(self, Self::Input { .. })
+    }
+
+    /// The next message; `None` after the last.
+    ///
+    /// # Cancel safety
+    /// Cancel safe.
+    pub(super) async fn next(&mut self) -> Result<Option<Bytes>, Problem> {
+        match self {
+            Messages::Fixed { taken: true, repeat: false, .. } => Ok(None),
+            Messages::Fixed { message, taken, .. } => {
+                *taken = true;
+                Ok(Some(message.clone()))
+            }
+            Messages::Input { read, messages, count } => {
+                let Some(value) = read.recv().await else { return Ok(None) };
+                *count += 1;
+                let unreadable = |error| Problem::new(format!("standard input cannot be read: {error}"));
+                let place = format!("message {count} of standard input");
+                let value = value.map_err(unreadable)?.map_err(|error| Problem::from(error).at(place.clone()))?;
+                messages.encode(&value).map(Some).map_err(|error| Problem::from(error).at(place))
+            }
+        }
+    }
+}
+
+/// Reads standard input in a thread, because a pipe may be silent for any time.
+fn read_input() -> Receiver<io::Result<Result<Value, ReadError>>> {
+    let (sender, receiver) = channel(AHEAD);
+    thread::spawn(move || {
+        let mut documents = Documents::default();
+        for line in io::stdin().lock().lines() {
+            let message = match line {
+                Ok(line) => documents.line(&line).map(Ok),
+                Err(error) => Some(Err(error)),
+            };
+            // A send fails when the command has ended.
+            let is_last = message.as_ref().is_some_and(Result::is_err);
+            if message.is_some_and(|message| sender.blocking_send(message).is_err()) || is_last {
+                return;
+            }
+        }
+        let _ = documents.end().map(|message| sender.blocking_send(Ok(message)));
+    });
+    receiver
+}

@@ -1,0 +1,47 @@
+//! `scl recover`: rebuilds a recording that was cut off.
+
+use crate::observed::exit_code;
+use clap::Args;
+use scl_record::recover::{Recovered, recover as recover_file};
+use scl_terminal::{Problem, bytes_text, escape, print_out};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Make a complete recording of one that was cut off, for example by a crash or a full disk.
+///
+/// Keeps every message that is there, and writes a new index. Without `-o`, the file is replaced once the new one is
+/// complete, which needs as much disk space as the file.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl recover flight.mcap
+  scl recover flight.mcap -o recovered.mcap
+
+Exit code: 0 the recording is complete now, 2 it could not be read or written.")]
+pub(crate) struct RecoverArguments {
+    /// The recording.
+    file: PathBuf,
+    /// Write the complete recording to this file, and leave the damaged one as it is.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// The body of `scl recover`.
+pub(crate) fn recover(arguments: &RecoverArguments) -> ExitCode {
+    exit_code(run(arguments))
+}
+
+fn run(arguments: &RecoverArguments) -> Result<ExitCode, Problem> {
+    let Recovered { path, messages, dropped, was_complete } =
+        recover_file(&arguments.file, arguments.output.as_deref())?;
+    let path = path.to_string_lossy();
+    let path = escape(&path);
+    print_out(&match (was_complete, dropped) {
+        (true, _) => format!("{path}: complete already, {messages} messages\n"),
+        (false, 0) => format!("{path}: recovered {messages} messages\n"),
+        (false, _) => {
+            format!("{path}: recovered {messages} messages, {} were incomplete\n", bytes_text(dropped as f64))
+        }
+    });
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,46 @@
+//! `--format json` of every query: one JSON value, or one object a line, and nothing else on standard output.
+
+use crate::rover::Rover;
+use serde_json::Value;
+
+/// Queries whose answer is one value.
+const VALUES: &[&[&str]] = &[
+    &["list"],
+    &["list", "-v"],
+    &["info", "sensor"],
+    &["info", "sensor.measurements"],
+    &["info", "controller.commands"],
+    &["call", "controller.commands", "--template"],
+];
+
+/// Queries whose answer is a stream, with what ends it.
+const STREAMS: &[&[&str]] = &[
+    &["echo", "sensor.measurements", "-n", "3"],
+    &["echo", "controller.commands", "logger.events", "sensor.image", "-n", "9"],
+];
+
+#[test]
+fn every_query_answers_in_json() {
+    let rover = Rover::start();
+    for arguments in VALUES {
+        let text = output(&rover, arguments);
+        serde_json::from_str::<Value>(&text).unwrap_or_else(|error| panic!("{arguments:?}: {error}\n{text}"));
+    }
+    for arguments in STREAMS {
+        let text = output(&rover, arguments);
+        assert!(!text.is_empty(), "{arguments:?}");
+        for line in text.lines() {
+            let value = serde_json::from_str::<Value>(line);
+            assert!(value.as_ref().is_ok_and(Value::is_object), "{arguments:?}: {value:?}\n{line}");
+        }
+    }
+}
+
+/// What a query prints, which has only characters that a terminal shows.
+fn output(rover: &Rover, arguments: &[&str]) -> String {
+    let text = rover.text(&[arguments, &["--format", "json"]].concat());
+    let raw = text.chars().find(|&c| c != '\n' && (c.is_control() || "\u{202e}\u{2066}".contains(c)));
+    assert_eq!(raw, None, "{arguments:?}:\n{text}");
+    assert!(text.ends_with('\n'), "{arguments:?}:\n{text}");
+    text
+}

@@ -1,0 +1,116 @@
+//! `scl list`: what runs, what ran, and what is only known as a peer.
+
+use crate::rover::Rover;
+use expect_test::expect;
+use serde_json::Value;
+
+#[test]
+fn components_and_their_states_are_listed() {
+    let mut rover = Rover::start();
+    rover.kill("user_interface");
+    rover.stop("logger");
+    // The figures of the sensor, whose logger is gone, and of the others come a moment later.
+    rover.wait_for(&["list"], |list| (list["components"][3]["ready"] == false).then_some(()));
+    expect![[r#"
+        rover: 2 running, 1 dead, 2 stopped
+
+        COMPONENT STATE PID FOR PROGRAM
+        actuator stopped
+        controller not ready PID AGE tests
+        logger stopped
+        sensor not ready PID AGE tests
+        user_interface dead PID tests
+    "#]]
+    .assert_eq(&shown(&rover, &["list"]));
+}
+
+#[test]
+fn gates_are_listed_with_types_and_peers() {
+    let rover = Rover::start();
+    rover.wait_for(&["list"], |list| {
+        let running = list["components"].as_array()?.iter().filter(|component| component["state"] == "running");
+        running.into_iter().all(|component| component["ready"] == true).then_some(())
+    });
+    expect![[r#"
+        rover: 4 running, 1 stopped
+
+        COMPONENT STATE PID FOR PROGRAM
+        actuator stopped
+        controller running PID AGE tests
+        logger running PID AGE tests
+        sensor running PID AGE tests
+        user_interface running PID AGE tests
+
+        GATE KIND TYPE CODEC PEERS
+        controller.sensor sub rover.Measurement protobuf 1/1
+        controller.position sub rover.Position json 1/1
+        controller.actuator pub rover.Setpoint protobuf 0/1
+        controller.commands rep rover.Command -> rover.Status protobuf 1/1
+        controller.log push rover.Event protobuf 1/1
+        logger.events pull rover.Event protobuf 2/2
+        logger.images sub bytes raw 1/1
+        sensor.measurements pub rover.Measurement protobuf 1/1
+        sensor.position pub rover.Position json 1/1
+        sensor.image pub bytes raw 1/1
+        sensor.log push rover.Event protobuf 1/1
+        user_interface.commands req rover.Command -> rover.Status protobuf 1/1
+    "#]]
+    .assert_eq(&shown(&rover, &["list", "-v"]));
+}
+
+#[test]
+fn json_has_the_same_and_more() {
+    let rover = Rover::start();
+    let list = rover.json(&["list", "--format", "json"]);
+    assert_eq!(list["system"], "rover");
+    let component = |name: &str| list["components"].as_array().unwrap().iter().find(|it| it["name"] == name).unwrap();
+    let sensor = component("sensor");
+    assert_eq!(sensor["state"], "running");
+    assert_eq!(sensor["pid"], rover.process_id("sensor"));
+    assert!(sensor["program"].as_str().unwrap().starts_with('/'));
+    let gates: Vec<&Value> = sensor["gates"].as_array().unwrap().iter().map(|gate| &gate["name"]).collect();
+    assert_eq!(gates, ["sensor.measurements", "sensor.position", "sensor.image", "sensor.log"]);
+    assert_eq!(sensor["gates"][0]["type"]["message"], "rover.Measurement");
+    assert_eq!(component("actuator")["state"], "stopped");
+}
+
+#[test]
+fn without_a_running_system_the_way_out_is_shown() {
+    let rover = Rover::stopped();
+    expect![[r#"
+        error: no system is running
+          = help: start one, for example with `scl run`
+          = note: the runtime folder does not exist (`SCL_RUNTIME_DIR` chooses another)
+    "#]]
+    .assert_eq(&rover.error(&["list"], 2));
+}
+
+#[test]
+fn a_stopped_system_is_found_by_its_name_or_its_topology() {
+    let mut rover = Rover::stopped();
+    rover.play_alone("sensor");
+    rover.stop("sensor");
+    for arguments in [&["list"][..], &["list", "--system", "rover"]] {
+        assert!(rover.text(arguments).starts_with("rover: 1 stopped\n"), "{arguments:?}");
+    }
+    let error = rover.error(&["list", "--system", "rovr"], 2);
+    assert!(error.contains("error: there is no system `rovr`\n  = help: did you mean `rover`?"), "{error}");
+}
+
+/// A table with single spaces, and with process numbers as `PID`, ages as `AGE` and test programs as `tests`.
+fn shown(rover: &Rover, arguments: &[&str]) -> String {
+    let text = rover.text(arguments);
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    let lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+    let shown = lines.map(|words| match &words[..] {
+        [component, state @ .., pid, number, unit, program] if program.starts_with("tests-") => {
+            pid.parse::<u32>().unwrap();
+            number.parse::<f64>().unwrap();
+            assert!(["s", "min"].contains(unit), "{text}");
+            format!("{component} {} PID AGE tests\n", state.join(" "))
+        }
+        [component, "dead", _, program] if program.starts_with("tests-") => format!("{component} dead PID tests\n"),
+        words => words.join(" ") + "\n",
+    });
+    shown.collect()
+}

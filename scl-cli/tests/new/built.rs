@@ -1,0 +1,100 @@
+//! Projects that are built. It takes as long as a new user waits, less what the tests have already compiled.
+
+use crate::new::new;
+use crate::system::{System, build_folder, lock_programs};
+use std::process::Command;
+
+#[test]
+fn the_minimal_template_is_built_tested_checked_and_run() {
+    let project = Project::new("zoo", "minimal");
+    project.check();
+    project.talks(&["display | speed 1.84 m/s", "display | speed 1.91 m/s"]);
+}
+
+#[test]
+fn the_control_template_is_built_tested_checked_and_run() {
+    // A name that code spells in another way, and that sorts before the names of crates.
+    let project = Project::new("Air-Ship", "control");
+    project.check();
+    project.talks(&[
+        "sensor     | speed 1.84 m/s",
+        "display    | throttle -0.",
+        "display    | asked for 0.5 m/s: accepted",
+        "display    | event: target is now 0.5 m/s",
+    ]);
+}
+
+struct Project {
+    system: System,
+    name: &'static str,
+    _programs: std::sync::MutexGuard<'static, ()>,
+}
+
+impl Project {
+    fn new(name: &'static str, template: &str) -> Self {
+        let _programs = lock_programs();
+        let system = System::of_files(&[]);
+        let output = new(&system, &[name, "--template", template]);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        Self { system, name, _programs }
+    }
+
+    /// What the CI file of the project runs.
+    fn check(&self) {
+        self.succeeds(self.cargo(&["fmt", "--check"]));
+        self.succeeds(self.cargo(&["clippy", "--quiet", "--all-targets", "--", "-D", "warnings"]));
+        let tested = self.succeeds(self.cargo(&["test"]));
+        let passed = tested.lines().filter(|line| line.starts_with("test ") && line.ends_with(" ... ok")).count();
+        assert!(passed > 0, "{tested}");
+        self.succeeds(self.prepared(self.system.scl(&["check", "--deny", "warnings", "--lints"])));
+    }
+
+    /// Waits until the programs have printed a line that starts like each of these, in any order.
+    fn talks(&self, starts: &[&str]) {
+        let mut run = self.system.start_with(&[self.name], |command| {
+            self.environment(command);
+        });
+        let (mut missing, mut lines) = (starts.to_vec(), 0);
+        while !missing.is_empty() {
+            let Some(line) = run.next_line() else {
+                panic!("no lines {missing:?}:\n{}", run.finish().2);
+            };
+            missing.retain(|start| !line.starts_with(start));
+            // More than a minute of output.
+            lines += 1;
+            assert!(lines < 2000, "no lines {missing:?}, but `{line}`");
+        }
+        run.signal("-INT");
+        let (status, _, err) = run.finish();
+        assert_eq!(status.code(), Some(0), "{err}");
+        assert_eq!(err.matches(" ended with exit code 0 after ").count(), self.programs(), "{err}");
+    }
+
+    fn programs(&self) -> usize {
+        std::fs::read_dir(self.system.path(self.name).join("src/bin")).unwrap().count()
+    }
+
+    fn cargo(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO"));
+        command.args(arguments);
+        self.prepared(command)
+    }
+
+    fn prepared(&self, mut command: Command) -> Command {
+        command.current_dir(self.system.path(self.name));
+        self.environment(&mut command);
+        command
+    }
+
+    fn environment(&self, command: &mut Command) {
+        command.env("CARGO_NET_OFFLINE", "true").env("CARGO_TARGET_DIR", build_folder());
+        command.env("SCL_RUNTIME_DIR", self.system.path("run"));
+    }
+
+    fn succeeds(&self, mut command: Command) -> String {
+        let output = command.output().unwrap();
+        let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert!(output.status.success(), "{command:?}:\n{out}{err}");
+        out.into_owned()
+    }
+}

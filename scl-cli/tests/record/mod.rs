@@ -1,0 +1,13 @@
+//! `scl record` and `scl recover` on real systems, and what is in the files.
+
+mod crash;
+mod disk;
+mod messages;
+mod mistakes;
+mod python;
+mod recorder;
+mod ring;
+mod source;
+mod split;
+mod starts;
+mod truncated;

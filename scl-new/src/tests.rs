@@ -1,1 +1,0 @@
-//! Names, files and problems of new projects.

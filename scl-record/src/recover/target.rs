@@ -1,0 +1,136 @@
+//! The new file: written under a temporary name, then renamed.
+
+use crate::record::options;
+use mcap::records::{Header, Record};
+use mcap::write::NoSeek;
+use mcap::{Attachment, McapError, McapResult, Writer, parse_record};
+use scl_terminal::Problem;
+use std::borrow::Cow;
+use std::fs::{self, File, Metadata};
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+/// Uncompressed size of a chunk.
+const CHUNK: u64 = 1 << 20;
+
+/// A file that takes the place of another one, or none if it is not published.
+pub(super) struct Target {
+    path: PathBuf,
+    temporary: PathBuf,
+    output: Output,
+    messages: u64,
+    /// Bytes in the open chunk.
+    pending: u64,
+}
+
+enum Output {
+    /// Before the header of the old file is known.
+    Empty(File),
+    Open(Box<Writer<NoSeek<BufWriter<File>>>>),
+    Finished,
+}
+
+impl Target {
+    /// Creates the temporary file beside `path`, with the permissions of the old file.
+    pub(super) fn create(path: &Path, old: &Metadata) -> Result<Self, Problem> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let temporary = path.with_file_name(format!(".{name}.recovered"));
+        let file = File::create(&temporary)
+            .map_err(|error| Problem::new(format!("cannot create `{}`: {error}", temporary.display())))?;
+        // The content is what matters; a file system may know no permissions.
+        let _copied = file.set_permissions(old.permissions());
+        Ok(Self { path: path.to_owned(), temporary, output: Output::Empty(file), messages: 0, pending: 0 })
+    }
+
+    /// Number of messages so far.
+    pub(super) fn messages(&self) -> u64 {
+        self.messages
+    }
+
+    /// Adds a record of the old file; returns false if it cannot be understood. Records of the index are made anew.
+    pub(super) fn add_record(&mut self, opcode: u8, body: &[u8]) -> McapResult<bool> {
+        let Ok(record) = parse_record(opcode, body) else { return Ok(false) };
+        if let Record::Header(header) = record {
+            self.open(Some(header))?;
+            return Ok(true);
+        }
+        self.open(None)?;
+        let Output::Open(writer) = &mut self.output else { return Ok(false) };
+        let added = match record {
+            Record::Schema { header, data } => {
+                writer.add_schema_with_id(header.id, &header.name, &header.encoding, &data).map(drop)
+            }
+            Record::Channel(channel) => writer
+                .add_channel_with_id(
+                    channel.id,
+                    channel.schema_id,
+                    &channel.topic,
+                    &channel.message_encoding,
+                    &channel.metadata,
+                )
+                .map(drop),
+            Record::Message { header, data } => writer.write_to_known_channel(&header, &data).inspect(|()| {
+                self.messages += 1;
+                self.pending += data.len() as u64;
+            }),
+            Record::Attachment { header, data, .. } => writer.attach(&Attachment {
+                log_time: header.log_time,
+                create_time: header.create_time,
+                name: header.name,
+                media_type: header.media_type,
+                data: Cow::Borrowed(&data),
+            }),
+            Record::Metadata(metadata) => writer.write_metadata(&metadata),
+            _ => Ok(()),
+        };
+        if self.pending >= CHUNK {
+            writer.flush()?;
+            self.pending = 0;
+        }
+        match added {
+            Ok(()) => Ok(true),
+            Err(error @ (McapError::Io(_) | McapError::AttemptedWriteAfterFailure)) => Err(error),
+            // It contradicts another record, or names one that is missing.
+            Err(_) => Ok(false),
+        }
+    }
+
+    /// Writes the index.
+    pub(super) fn finish(&mut self) -> McapResult<()> {
+        self.open(None)?;
+        if let Output::Open(writer) = &mut self.output {
+            writer.finish()?;
+        }
+        Ok(())
+    }
+
+    /// Gives the file its name, with its content safely on the disk.
+    pub(super) fn publish(mut self) -> Result<(), Problem> {
+        let output = std::mem::replace(&mut self.output, Output::Finished);
+        let written = match output {
+            Output::Open(writer) => writer.into_inner().into_inner().into_inner().map_err(|error| error.into_error()),
+            Output::Empty(file) => Ok(file),
+            Output::Finished => return Ok(()),
+        };
+        let published = written.and_then(|file| file.sync_all()).and_then(|()| fs::rename(&self.temporary, &self.path));
+        published.map_err(|error| Problem::new(format!("cannot write `{}`: {error}", self.path.display())))
+    }
+
+    fn open(&mut self, header: Option<Header>) -> McapResult<()> {
+        let Output::Empty(file) = &self.output else { return Ok(()) };
+        let mut options = options();
+        if let Some(header) = header {
+            options = options.profile(header.profile).library(header.library);
+        }
+        let file = file.try_clone()?;
+        self.output = Output::Open(Box::new(options.create(NoSeek::new(BufWriter::new(file)))?));
+        Ok(())
+    }
+}
+
+impl Drop for Target {
+    fn drop(&mut self) {
+        // After publishing there is no file with this name.
+        let _removed = fs::remove_file(&self.temporary);
+    }
+}

@@ -1,0 +1,301 @@
+//! One component from its first start to its last end: what happened and when in, what to do out. Without processes and
+//! without a clock.
+
+mod input;
+mod state;
+
+pub(crate) use input::{Action, Input, Notice};
+pub(crate) use state::{State, StopReason, Verdict};
+
+use super::ending::Ending;
+use super::policy::{Policy, Restart, RestartLimit};
+use super::restarts::{Restarts, Time};
+use nix::sys::signal::Signal;
+use std::time::Duration;
+
+/// A component, and all that is known of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Lifecycle {
+    policy: Policy,
+    state: State,
+    restarts: Restarts,
+    starts: usize,
+    /// When the process was started.
+    started: Time,
+    /// When the next sign of life is due.
+    alive_until: Option<Time>,
+    /// What the process has last said of itself.
+    status: String,
+    failure: Option<String>,
+    last_ending: Option<Ending>,
+}
+
+impl Lifecycle {
+    /// A component to be started at once.
+    pub(crate) fn new(policy: Policy) -> Self {
+        let state = State::Waiting { until: Time::ZERO };
+        Self {
+            policy,
+            state,
+            restarts: Restarts::default(),
+            starts: 0,
+            started: Time::ZERO,
+            alive_until: None,
+            status: String::new(),
+            failure: None,
+            last_ending: None,
+        }
+    }
+
+    pub(crate) fn state(&self) -> State {
+        self.state
+    }
+
+    pub(crate) fn policy(&self) -> &Policy {
+        &self.policy
+    }
+
+    /// Number of processes so far.
+    pub(crate) fn starts(&self) -> usize {
+        self.starts
+    }
+
+    /// Number of restarts that the policy has asked for.
+    pub(crate) fn restarts(&self) -> usize {
+        self.restarts.total()
+    }
+
+    /// Why it failed last.
+    pub(crate) fn failure(&self) -> Option<&str> {
+        self.failure.as_deref()
+    }
+
+    /// How its last process ended.
+    pub(crate) fn last_ending(&self) -> Option<Ending> {
+        self.last_ending
+    }
+
+    /// When [`Input::Time`] is due, if nothing else happens before.
+    pub(crate) fn due(&self) -> Option<Time> {
+        match self.state {
+            State::Waiting { until } => Some(until),
+            State::Running => self.ready_until().into_iter().chain(self.alive_until).min(),
+            State::Ready => self.alive_until,
+            State::Stopping { kill_at, .. } => kill_at,
+            State::Starting | State::Ended(_) => None,
+        }
+    }
+
+    /// Takes in what happened.
+    pub(crate) fn step(&mut self, now: Time, input: Input) -> Vec<Action> {
+        match (input, self.state) {
+            (Input::Started, State::Starting) => self.take_start(now),
+            (Input::CannotStart(error), State::Starting) => {
+                self.take_failure(now, format!("cannot be started: {error}"))
+            }
+            (Input::Exited(ending), State::Running | State::Ready | State::Stopping { .. }) => {
+                self.take_end(now, ending)
+            }
+            (Input::Notified(notice), State::Running | State::Ready | State::Stopping { .. }) => {
+                self.take_notice(now, notice)
+            }
+            (Input::StopAll(signal), _) => self.stop(now, StopReason::Everything(signal)),
+            (Input::Stop, _) => self.stop(now, StopReason::Request { start_again: false }),
+            (Input::Restart, _) => self.restart(now),
+            (Input::Kill, State::Running | State::Ready) => {
+                self.kill(StopReason::Everything(Signal::SIGTERM), "killed on request".to_owned())
+            }
+            (Input::Kill, State::Stopping { reason, .. }) => self.kill(reason, "killed on request".to_owned()),
+            (Input::Kill, State::Waiting { .. } | State::Starting) => {
+                self.state = State::Ended(Verdict::InOrder);
+                Vec::new()
+            }
+            (Input::Time, _) => self.take_time(now),
+            // Late, from a process that has been replaced.
+            _ => Vec::new(),
+        }
+    }
+
+    fn ready_until(&self) -> Option<Time> {
+        self.policy.ready_within.map(|limit| self.started.saturating_add(limit))
+    }
+
+    fn take_start(&mut self, now: Time) -> Vec<Action> {
+        self.state = State::Running;
+        self.starts += 1;
+        self.started = now;
+        self.alive_until = None;
+        self.status.clear();
+        Vec::new()
+    }
+
+    fn take_notice(&mut self, now: Time, notice: Notice) -> Vec<Action> {
+        match (notice, self.state) {
+            (Notice::Status(text), _) => self.status = text,
+            (Notice::Ready, State::Running) => {
+                self.state = State::Ready;
+                self.take_sign_of_life(now);
+            }
+            (Notice::Alive, State::Running | State::Ready) => self.take_sign_of_life(now),
+            (Notice::Stopping, State::Running | State::Ready) => {
+                self.state = State::Stopping { reason: StopReason::Own, kill_at: self.kill_time(now) };
+            }
+            _ => {}
+        }
+        Vec::new()
+    }
+
+    fn take_sign_of_life(&mut self, now: Time) {
+        self.alive_until = self.policy.alive_within.map(|limit| now.saturating_add(limit));
+    }
+
+    fn kill_time(&self, now: Time) -> Option<Time> {
+        Some(now.saturating_add(self.policy.stop_within))
+    }
+
+    fn stop(&mut self, now: Time, reason: StopReason) -> Vec<Action> {
+        let verdict = match reason {
+            StopReason::Everything(_) => Verdict::InOrder,
+            _ => Verdict::Stopped,
+        };
+        match self.state {
+            State::Running | State::Ready => {
+                self.state = State::Stopping { reason, kill_at: self.kill_time(now) };
+                vec![Action::Signal(reason.signal())]
+            }
+            State::Stopping { reason: earlier, kill_at } => {
+                // A process that was told to end needs no other signal. One that hangs had one that it may have ignored.
+                let is_told = matches!(earlier, StopReason::Everything(_) | StopReason::Request { .. });
+                let reason = if matches!(earlier, StopReason::Everything(_)) { earlier } else { reason };
+                self.state = State::Stopping { reason, kill_at };
+                if is_told { Vec::new() } else { vec![Action::Signal(reason.signal())] }
+            }
+            State::Waiting { .. } | State::Starting => {
+                self.state = State::Ended(verdict);
+                Vec::new()
+            }
+            State::Ended(_) => Vec::new(),
+        }
+    }
+
+    fn restart(&mut self, now: Time) -> Vec<Action> {
+        match self.state {
+            State::Waiting { .. } | State::Ended(_) => self.start(),
+            State::Starting | State::Stopping { reason: StopReason::Everything(_), .. } => Vec::new(),
+            _ => self.stop(now, StopReason::Request { start_again: true }),
+        }
+    }
+
+    fn start(&mut self) -> Vec<Action> {
+        self.state = State::Starting;
+        vec![Action::Start]
+    }
+
+    fn take_time(&mut self, now: Time) -> Vec<Action> {
+        if self.due().is_none_or(|due| now < due) {
+            return Vec::new();
+        }
+        match self.state {
+            State::Waiting { .. } => self.start(),
+            State::Running if self.ready_until().is_some_and(|until| until <= now) => {
+                let text = format!("not ready within {}{}", Shown(self.policy.ready_within), self.shown_status());
+                self.fail_running(now, text, Signal::SIGTERM)
+            }
+            State::Running | State::Ready => {
+                let limit = Shown(self.policy.alive_within);
+                // As systemd does: a core dump shows where the program hangs.
+                self.fail_running(now, format!("no sign of life for {limit}"), Signal::SIGABRT)
+            }
+            State::Stopping { reason, .. } => {
+                let text = format!("not stopped within {}", Shown(Some(self.policy.stop_within)));
+                let report = Action::Report(format!("{text}, killed"));
+                [vec![report], self.kill(reason, text)].concat()
+            }
+            State::Starting | State::Ended(_) => Vec::new(),
+        }
+    }
+
+    /// Ends a process at once. Why is the reason of its failure, unless it had failed before.
+    fn kill(&mut self, reason: StopReason, why: String) -> Vec<Action> {
+        self.state = State::Stopping { reason, kill_at: None };
+        if reason != StopReason::Failed {
+            self.failure = Some(why);
+        }
+        vec![Action::Signal(Signal::SIGKILL)]
+    }
+
+    fn shown_status(&self) -> String {
+        if self.status.is_empty() { ", and has sent no `STATUS=`".to_owned() } else { format!(": {}", self.status) }
+    }
+
+    /// Ends a process that runs but does not work.
+    fn fail_running(&mut self, now: Time, text: String, signal: Signal) -> Vec<Action> {
+        self.state = State::Stopping { reason: StopReason::Failed, kill_at: self.kill_time(now) };
+        self.failure = Some(text.clone());
+        vec![Action::Report(text), Action::Signal(signal)]
+    }
+
+    fn take_end(&mut self, now: Time, ending: Ending) -> Vec<Action> {
+        self.last_ending = Some(ending);
+        let report = Action::ReportEnd(ending, now.saturating_sub(self.started));
+        let (reason, was_killed) = match self.state {
+            State::Stopping { reason, kill_at } => (Some(reason), kill_at.is_none()),
+            _ => (None, false),
+        };
+        let failed = !matches!(reason, Some(StopReason::Failed | StopReason::Request { .. }));
+        let asked_by = reason.and_then(StopReason::asked_by);
+        if failed && !was_killed && !ending.is_in_order(asked_by) {
+            self.failure = Some(ending.to_string());
+        }
+        let next = match reason {
+            Some(StopReason::Request { start_again: true }) => self.start(),
+            Some(StopReason::Request { start_again: false }) => self.end(Verdict::Stopped),
+            Some(StopReason::Everything(_)) if ending.is_in_order(asked_by) => self.end(Verdict::InOrder),
+            Some(StopReason::Everything(_)) => self.end(Verdict::Failed),
+            Some(StopReason::Failed) => self.start_again(now),
+            Some(StopReason::Own) | None if !ending.is_in_order(None) => self.start_again(now),
+            Some(StopReason::Own) | None if self.policy.restart == Restart::Always => self.start_again(now),
+            Some(StopReason::Own) | None => self.end(Verdict::InOrder),
+        };
+        [vec![report], next].concat()
+    }
+
+    fn take_failure(&mut self, now: Time, text: String) -> Vec<Action> {
+        self.failure = Some(text.clone());
+        [vec![Action::Report(text)], self.start_again(now)].concat()
+    }
+
+    fn end(&mut self, verdict: Verdict) -> Vec<Action> {
+        self.state = State::Ended(verdict);
+        Vec::new()
+    }
+
+    /// Plans the next start, if the policy has one.
+    fn start_again(&mut self, now: Time) -> Vec<Action> {
+        if self.policy.restart == Restart::Never {
+            return self.end(Verdict::Failed);
+        }
+        let Some(delay) = self.restarts.next(now, self.policy.delay, self.policy.limit) else {
+            let RestartLimit { count, within } = self.policy.limit;
+            let limit = format!("the restart limit ({count} in {within:?})");
+            let failure = self.failure.take().unwrap_or_else(|| "ended too often".to_owned());
+            self.failure = Some(format!("{failure}, and {limit} is reached"));
+            self.state = State::Ended(Verdict::Failed);
+            return vec![Action::Report(format!("not restarted: {limit} is reached"))];
+        };
+        self.state = State::Waiting { until: now.saturating_add(delay) };
+        vec![Action::Report(format!("restarting in {}", Shown(Some(delay))))]
+    }
+}
+
+/// A time as users write it.
+struct Shown(Option<Duration>);
+
+impl std::fmt::Display for Shown {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:?}", self.0.unwrap_or_default())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,54 @@
+//! What happens to a component, and what is to be done for it.
+
+use super::super::ending::Ending;
+use nix::sys::signal::Signal;
+use std::time::Duration;
+
+/// What happens to a component.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Input {
+    /// Its process was started.
+    Started,
+    /// It could not be started, because of this.
+    CannotStart(String),
+    /// Its process ended.
+    Exited(Ending),
+    /// Its process said something about itself.
+    Notified(Notice),
+    /// All components are to stop.
+    StopAll(Signal),
+    /// The process must end now.
+    Kill,
+    /// Somebody asks for its end.
+    Stop,
+    /// Somebody asks for its end and another start.
+    Restart,
+    /// Time has passed.
+    Time,
+}
+
+/// What a process says about itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Notice {
+    /// `READY=1`
+    Ready,
+    /// `STOPPING=1`
+    Stopping,
+    /// `WATCHDOG=1`
+    Alive,
+    /// `STATUS=...`
+    Status(String),
+}
+
+/// What is to be done for a component.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Action {
+    /// Start a process, and answer with [`Input::Started`] or [`Input::CannotStart`].
+    Start,
+    /// Send a signal to the process and those that it has started.
+    Signal(Signal),
+    /// Tell the user this.
+    Report(String),
+    /// Tell the user how the process ended, and after how long.
+    ReportEnd(Ending, Duration),
+}

@@ -1,0 +1,59 @@
+//! The states of a component.
+
+use super::super::restarts::Time;
+use nix::sys::signal::Signal;
+
+/// What is happening to a component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum State {
+    /// To be started at this time.
+    Waiting { until: Time },
+    /// Its process is being started.
+    Starting,
+    /// Its process runs.
+    Running,
+    /// Its process has said that it is ready.
+    Ready,
+    /// Its process was told to end, or said that it is ending. It is killed at this time, if it has not been killed yet.
+    Stopping { reason: StopReason, kill_at: Option<Time> },
+    /// It has no process, and gets none unless somebody asks for it.
+    Ended(Verdict),
+}
+
+/// Why a process is ending.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum StopReason {
+    /// All components are stopped, by this signal.
+    Everything(Signal),
+    /// Somebody asked for it, for this component alone.
+    Request { start_again: bool },
+    /// It has failed already: it was not ready or not alive in time.
+    Failed,
+    /// It said so itself.
+    Own,
+}
+
+/// How a component ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// As it should, also when all components were stopped.
+    InOrder,
+    /// Because somebody asked for it.
+    Stopped,
+    /// It has failed, and is not started again.
+    Failed,
+}
+
+impl StopReason {
+    /// The signal that asked all to stop.
+    pub(super) fn asked_by(self) -> Option<Signal> {
+        match self {
+            StopReason::Everything(signal) => Some(signal),
+            _ => None,
+        }
+    }
+
+    pub(super) fn signal(self) -> Signal {
+        self.asked_by().unwrap_or(Signal::SIGTERM)
+    }
+}

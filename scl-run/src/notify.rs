@@ -1,0 +1,128 @@
+//! Receives what programs say about themselves: systemd's protocol, `sd_notify(3)`, on one datagram socket.
+//!
+//! The kernel adds the sender's process id to each datagram. Only processes of a component's own process group count;
+//! everything else that arrives is ignored.
+
+use super::children::Event;
+use super::lifecycle::Notice;
+use super::own_file::OwnFile;
+use nix::unistd::{Pid, getpgid};
+use rustix::cmsg_space;
+use rustix::net::{RecvAncillaryBuffer, RecvAncillaryMessage, RecvFlags, ReturnFlags, recvmsg, sockopt};
+use scl_terminal::escape;
+use std::io::{self, IoSliceMut};
+use std::mem::MaybeUninit;
+use std::os::unix::net::UnixDatagram;
+use std::path::Path;
+use std::sync::mpsc::Sender;
+use std::thread;
+use std::time::Duration;
+
+/// Far more than the messages of any program.
+const LONGEST_DATAGRAM: usize = 4096;
+
+/// A status is one line on a terminal.
+const LONGEST_STATUS: usize = 300;
+
+/// The socket where programs say that they are ready and alive. Dropping this value removes it.
+#[derive(Debug)]
+pub(crate) struct NotifySocket {
+    file: OwnFile,
+}
+
+/// What a program is told about the socket.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Notified<'a> {
+    pub(crate) socket: &'a NotifySocket,
+    pub(crate) alive_within: Option<Duration>,
+}
+
+impl NotifySocket {
+    /// Listens in a folder that only this user can write to, and sends what arrives as events.
+    ///
+    /// # Errors
+    ///
+    /// If the socket cannot be bound.
+    pub(crate) fn open(folder: &Path, events: Sender<Event>) -> io::Result<Self> {
+        let (file, socket) = OwnFile::bind(folder, "notify", |path| UnixDatagram::bind(path))?;
+        sockopt::set_socket_passcred(&socket, true)?;
+        thread::Builder::new().spawn(move || receive(&socket, &events))?;
+        Ok(Self { file })
+    }
+}
+
+impl Notified<'_> {
+    /// The variables by which programs find the socket. `WATCHDOG_PID` is left out, so that also a program behind a shell
+    /// is meant.
+    pub(crate) fn variables(&self) -> Vec<(&'static str, String)> {
+        let path = self.socket.file.path().display().to_string();
+        let watchdog = self.alive_within.map(|limit| ("WATCHDOG_USEC", limit.as_micros().to_string()));
+        [("NOTIFY_SOCKET", path)].into_iter().chain(watchdog).collect()
+    }
+}
+
+fn receive(socket: &UnixDatagram, events: &Sender<Event>) {
+    let mut datagram = [0; LONGEST_DATAGRAM];
+    loop {
+        // Without room for file descriptors, which the kernel closes then. `systemd-notify` waits for that.
+        let mut space = [MaybeUninit::uninit(); cmsg_space!(ScmCredentials(1))];
+        let mut control = RecvAncillaryBuffer::new(&mut space);
+        let received = recvmsg(socket, &mut [IoSliceMut::new(&mut datagram)], &mut control, RecvFlags::CMSG_CLOEXEC);
+        let received = match received {
+            Ok(received) => received,
+            Err(rustix::io::Errno::INTR) => continue,
+            Err(_) => return,
+        };
+        let sender = control.drain().find_map(|message| match message {
+            RecvAncillaryMessage::ScmCredentials(credentials) => Some(credentials.pid),
+            _ => None,
+        });
+        let group = sender.and_then(|sender| getpgid(Some(Pid::from_raw(sender.as_raw_pid()))).ok());
+        let Some(group) = group.filter(|_| !received.flags.contains(ReturnFlags::TRUNC)) else { continue };
+        for notice in notices(&datagram[..received.bytes]) {
+            if events.send(Event::Notified { group, notice }).is_err() {
+                return;
+            }
+        }
+    }
+}
+
+/// What a datagram says that matters here.
+fn notices(datagram: &[u8]) -> Vec<Notice> {
+    let text = std::str::from_utf8(datagram).unwrap_or_default();
+    text.lines().filter_map(notice).collect()
+}
+
+fn notice(line: &str) -> Option<Notice> {
+    match line.split_once('=')? {
+        ("READY", "1") => Some(Notice::Ready),
+        ("STOPPING", "1") => Some(Notice::Stopping),
+        ("WATCHDOG", "1") => Some(Notice::Alive),
+        ("STATUS", text) => {
+            Some(Notice::Status(escape(&text.chars().take(LONGEST_STATUS).collect::<String>()).into_owned()))
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_lines_are_read_and_others_ignored() {
+        let status = |text: &str| Notice::Status(text.to_owned());
+        let cases: [(&[u8], Vec<Notice>); 7] = [
+            (b"READY=1", vec![Notice::Ready]),
+            (b"STATUS=waiting for a.b\nREADY=1\n", vec![status("waiting for a.b"), Notice::Ready]),
+            (b"WATCHDOG=1\nMAINPID=1\nX\n\n=\nSTOPPING=1", vec![Notice::Alive, Notice::Stopping]),
+            (b"READY=0\nready=1\n READY=1\nWATCHDOG=trigger", vec![]),
+            (b"STATUS=a=b", vec![status("a=b")]),
+            (b"READY=1\xff", vec![]),
+            (b"", vec![]),
+        ];
+        for (datagram, expected) in cases {
+            assert_eq!(notices(datagram), expected, "{}", String::from_utf8_lossy(datagram));
+        }
+    }
+}

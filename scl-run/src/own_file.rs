@@ -1,0 +1,111 @@
+//! The sockets of a `scl run`, named by its process id: `run.<pid>.control`, `run.<pid>.notify`. Those that a killed
+//! process left behind are removed by the next that finds them.
+
+use std::fs;
+use std::io;
+use std::os::unix::fs::PermissionsExt;
+use std::os::unix::net::{UnixDatagram, UnixStream};
+use std::path::{Path, PathBuf};
+
+const PREFIX: &str = "run.";
+
+/// A socket's file. Dropping this value removes it.
+#[derive(Debug)]
+pub(crate) struct OwnFile {
+    path: PathBuf,
+}
+
+impl OwnFile {
+    /// Binds a socket in a folder that only this user can write to. Its name ends with `ending`. It appears there when
+    /// it can be connected to, so that nobody mistakes it for one that was left behind.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be bound, for example because the path is too long for a socket.
+    pub(crate) fn bind<S>(
+        folder: &Path,
+        ending: &str,
+        bind: impl FnOnce(&Path) -> io::Result<S>,
+    ) -> io::Result<(Self, S)> {
+        let name = format!("{PREFIX}{}.{ending}", std::process::id());
+        let new = folder.join(format!(".{name}"));
+        // Of an earlier process with the same id.
+        let _ = fs::remove_file(&new);
+        let socket = bind(&new)?;
+        let path = folder.join(name);
+        let ready = fs::set_permissions(&new, fs::Permissions::from_mode(0o600)).and_then(|()| fs::rename(&new, &path));
+        if ready.is_err() {
+            let _ = fs::remove_file(&new);
+        }
+        ready.map(|()| (Self { path }, socket))
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Drop for OwnFile {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// The sockets with this ending in a folder, by process id.
+pub(crate) fn sockets_in(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let pid = |path: &Path| -> Option<u32> {
+        path.file_name()?.to_str()?.strip_prefix(PREFIX)?.strip_suffix(ending)?.strip_suffix('.')?.parse().ok()
+    };
+    let mut found: Vec<_> = entries.filter_map(|entry| Some((pid(&entry.path())?, entry.path()))).collect();
+    found.sort();
+    found.into_iter().map(|(_, path)| path).collect()
+}
+
+/// Connects to the `scl run` of a control socket. Removes the socket if its process has ended.
+pub(crate) fn connect(path: &Path) -> io::Result<UnixStream> {
+    let connected = UnixStream::connect(path);
+    remove_if_dead(path, connected.as_ref().err());
+    connected
+}
+
+/// Removes the sockets of processes that have ended.
+pub(crate) fn remove_stale(folder: &Path) {
+    for path in sockets_in(folder, "notify") {
+        let connected = UnixDatagram::unbound().and_then(|socket| socket.connect(&path));
+        remove_if_dead(&path, connected.as_ref().err());
+    }
+    for path in sockets_in(folder, "control") {
+        let _ = connect(&path);
+    }
+}
+
+fn remove_if_dead(path: &Path, error: Option<&io::Error>) {
+    if error.is_some_and(|error| error.kind() == io::ErrorKind::ConnectionRefused) {
+        let _ = fs::remove_file(path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::os::unix::net::UnixListener;
+
+    #[test]
+    fn dead_sockets_are_removed_and_others_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        drop(UnixListener::bind(path("run.1.control")).unwrap());
+        drop(UnixDatagram::bind(path("run.1.notify")).unwrap());
+        fs::write(path("run.x.control"), "").unwrap();
+        let (own, _listener) = OwnFile::bind(folder.path(), "control", |path| UnixListener::bind(path)).unwrap();
+        let (_notify, _socket) = OwnFile::bind(folder.path(), "notify", |path| UnixDatagram::bind(path)).unwrap();
+        assert_eq!(fs::metadata(own.path()).unwrap().permissions().mode() & 0o777, 0o600);
+        remove_stale(folder.path());
+        assert_eq!(sockets_in(folder.path(), "control"), [own.path()]);
+        assert_eq!(sockets_in(folder.path(), "notify").len(), 1);
+        assert!(path("run.x.control").exists());
+        drop(own);
+        assert!(sockets_in(folder.path(), "control").is_empty());
+    }
+}

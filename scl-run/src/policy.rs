@@ -1,0 +1,77 @@
+//! How a component is treated when it fails, hangs or has to stop.
+
+use std::time::Duration;
+
+/// The settings of a component, with a value for each.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Policy {
+    pub(crate) restart: Restart,
+    pub(crate) delay: RestartDelay,
+    pub(crate) limit: RestartLimit,
+    /// Whether its failure stops the other components.
+    pub(crate) essential: bool,
+    /// How long it may take to stop before it is killed.
+    pub(crate) stop_within: Duration,
+    /// How long it may take to say that it is ready.
+    pub(crate) ready_within: Option<Duration>,
+    /// The longest time between two signs of life, once it is ready.
+    pub(crate) alive_within: Option<Duration>,
+}
+
+/// When a component is started again.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) enum Restart {
+    /// Its first end is the last.
+    #[default]
+    Never,
+    /// After a failure.
+    OnFailure,
+    /// Also after it has ended in order.
+    Always,
+}
+
+/// The time between an end and the next start. It doubles with each restart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct RestartDelay {
+    pub(crate) first: Duration,
+    pub(crate) longest: Duration,
+}
+
+/// How many restarts are allowed in any period of this length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct RestartLimit {
+    pub(crate) count: usize,
+    pub(crate) within: Duration,
+}
+
+impl Restart {
+    /// The words of launch files.
+    pub(crate) const WORDS: [(&'static str, Restart); 3] =
+        [("never", Restart::Never), ("on_failure", Restart::OnFailure), ("always", Restart::Always)];
+}
+
+impl Default for RestartDelay {
+    fn default() -> Self {
+        Self { first: Duration::from_millis(100), longest: Duration::from_secs(5) }
+    }
+}
+
+impl Default for RestartLimit {
+    fn default() -> Self {
+        Self { count: 5, within: Duration::from_secs(60) }
+    }
+}
+
+impl Default for Policy {
+    fn default() -> Self {
+        Self {
+            restart: Restart::default(),
+            delay: RestartDelay::default(),
+            limit: RestartLimit::default(),
+            essential: true,
+            stop_within: Duration::from_secs(5),
+            ready_within: None,
+            alive_within: None,
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! All components of a run: when one's end is the end of all, what a request means for each. Events and times in, actions
+//! out; without processes and without a clock.
+
+use super::lifecycle::{Action, Input, Lifecycle, State, Verdict};
+use super::policy::Policy;
+use super::restarts::Time;
+use nix::sys::signal::Signal;
+
+/// What happens to a run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum RunEvent {
+    /// Something happens to one component.
+    One(usize, Input),
+    /// All are to stop by this signal. The second time they are killed.
+    Stop(Signal),
+    /// Nobody can see the output any more.
+    OutputLost,
+    /// Time has passed.
+    Time,
+}
+
+/// The components, and whether they are being stopped.
+#[derive(Debug, Clone)]
+pub(crate) struct RunState {
+    components: Vec<Lifecycle>,
+    /// When all are stopped without being asked.
+    until: Option<Time>,
+    stopping: Option<Signal>,
+    /// Whether the stop was asked for, and not the consequence of a failure.
+    asked: bool,
+    killing: bool,
+}
+
+impl RunState {
+    /// Components to be started at once, which are stopped at a time, if any.
+    pub(crate) fn new(policies: impl IntoIterator<Item = Policy>, until: Option<Time>) -> Self {
+        let components = policies.into_iter().map(Lifecycle::new).collect();
+        Self { components, until, stopping: None, asked: false, killing: false }
+    }
+
+    pub(crate) fn components(&self) -> &[Lifecycle] {
+        &self.components
+    }
+
+    /// The signal by which the components are being stopped.
+    pub(crate) fn stopping(&self) -> Option<Signal> {
+        self.stopping
+    }
+
+    /// Whether somebody asked for the stop, so that it is not the consequence of a failure.
+    pub(crate) fn was_asked(&self) -> bool {
+        self.asked
+    }
+
+    /// Whether every component has ended.
+    pub(crate) fn is_over(&self) -> bool {
+        self.components.iter().all(|component| matches!(component.state(), State::Ended(_)))
+    }
+
+    /// Whether every component has said that it is ready.
+    pub(crate) fn is_ready(&self) -> bool {
+        self.components.iter().all(|component| component.state() == State::Ready)
+    }
+
+    /// The first component whose failure is that of the run.
+    pub(crate) fn failed(&self) -> Option<usize> {
+        self.components.iter().position(has_failed_the_run)
+    }
+
+    /// When [`RunEvent::Time`] is due, if nothing else happens before.
+    pub(crate) fn due(&self) -> Option<Time> {
+        let until = self.until.filter(|_| self.stopping.is_none());
+        self.components.iter().filter_map(Lifecycle::due).chain(until).min()
+    }
+
+    /// Takes in what happened, and returns what is to be done for which component.
+    pub(crate) fn step(&mut self, now: Time, event: RunEvent) -> Vec<(usize, Action)> {
+        let mut actions = match event {
+            // A run that stops starts nothing.
+            RunEvent::One(_, Input::Restart) if self.stopping.is_some() => Vec::new(),
+            RunEvent::One(index, input) => self.step_one(now, index, &input),
+            RunEvent::Stop(_) if self.stopping.is_some() => self.kill(now),
+            RunEvent::Stop(signal) => {
+                self.asked = true;
+                self.stop(now, signal)
+            }
+            RunEvent::OutputLost => self.stop(now, Signal::SIGTERM),
+            RunEvent::Time => self.take_time(now),
+        };
+        if self.failed().is_some() {
+            actions.extend(self.stop(now, Signal::SIGTERM));
+        }
+        actions
+    }
+
+    fn take_time(&mut self, now: Time) -> Vec<(usize, Action)> {
+        let mut actions = self.step_all(now, &Input::Time);
+        if self.until.is_some_and(|until| until <= now) {
+            actions.extend(self.stop(now, Signal::SIGTERM));
+        }
+        actions
+    }
+
+    /// Further calls have no effect.
+    fn stop(&mut self, now: Time, signal: Signal) -> Vec<(usize, Action)> {
+        if self.stopping.is_some() {
+            return Vec::new();
+        }
+        self.stopping = Some(signal);
+        self.step_all(now, &Input::StopAll(signal))
+    }
+
+    fn kill(&mut self, now: Time) -> Vec<(usize, Action)> {
+        if std::mem::replace(&mut self.killing, true) {
+            return Vec::new();
+        }
+        self.step_all(now, &Input::Kill)
+    }
+
+    fn step_all(&mut self, now: Time, input: &Input) -> Vec<(usize, Action)> {
+        (0..self.components.len()).flat_map(|index| self.step_one(now, index, input)).collect()
+    }
+
+    fn step_one(&mut self, now: Time, index: usize, input: &Input) -> Vec<(usize, Action)> {
+        let Some(component) = self.components.get_mut(index) else { return Vec::new() };
+        component.step(now, input.clone()).into_iter().map(|action| (index, action)).collect()
+    }
+}
+
+fn has_failed_the_run(component: &Lifecycle) -> bool {
+    component.policy().essential && component.state() == State::Ended(Verdict::Failed)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,39 @@
+//! The process of a program, and what of it is still to be shown.
+
+use super::super::children::Running;
+use std::time::{Duration, Instant};
+
+/// How long to wait for output after a program has ended: processes it started may still write.
+const LATE_OUTPUT: Duration = Duration::from_millis(500);
+
+/// The process of a program, or its last.
+#[derive(Debug)]
+pub(super) struct Process {
+    pub(super) number: usize,
+    pub(super) running: Running,
+    pub(super) open_streams: u8,
+    pub(super) ended: Option<Instant>,
+    /// Written after its last output.
+    pub(super) reports: Vec<String>,
+}
+
+impl Process {
+    pub(super) fn new(number: usize, running: Running) -> Self {
+        Self { number, running, open_streams: 2, ended: None, reports: Vec::new() }
+    }
+
+    /// When it counts as drained, if it has ended.
+    pub(super) fn drained_at(&self) -> Option<Instant> {
+        self.ended.map(|at| at + LATE_OUTPUT)
+    }
+
+    /// Whether it has ended and no output of it is to be waited for.
+    pub(super) fn is_drained(&self) -> bool {
+        self.ended.is_some_and(|at| self.open_streams == 0 || at.elapsed() >= LATE_OUTPUT)
+    }
+
+    /// Whether everything has been reported.
+    pub(super) fn is_silent(&self) -> bool {
+        self.is_drained() && self.reports.is_empty()
+    }
+}

@@ -1,0 +1,47 @@
+//! What a service manager is told of a component: the task that reports it.
+
+use super::ComponentState;
+use crate::service::Member;
+use std::pin::pin;
+use std::sync::{Arc, Weak};
+use std::time::Duration;
+use tokio::runtime::{Handle, RuntimeFlavor};
+use tokio::time::timeout;
+
+/// How often it is looked whether a component is ready: most changes are reported, but not that a gate was opened or
+/// dropped.
+const UNTIL_READY: Duration = Duration::from_millis(50);
+const ONCE_READY: Duration = Duration::from_secs(1);
+
+/// Whether calls of the gates are needed to see that the program is alive: see [`Member`].
+pub(super) fn follows_calls(owns_runtime: bool, handle: &Handle) -> bool {
+    owns_runtime || handle.runtime_flavor() != RuntimeFlavor::CurrentThread
+}
+
+impl ComponentState {
+    /// Starts to report to the service manager, if there is one.
+    pub(crate) fn start_reporting(self: &Arc<Self>) {
+        if let Some(member) = &self.member {
+            let task = self.spawn(report(Arc::downgrade(self), Arc::clone(member)));
+            let _started_once = self.reporting.set(task);
+        }
+    }
+}
+
+async fn report(state: Weak<ComponentState>, member: Arc<Member>) {
+    while let Some(current) = state.upgrade() {
+        let changes = current.changes();
+        let mut changed = pin!(changes.next());
+        // Before the look, so that no change after it is missed.
+        changed.as_mut().enable();
+        if let Some(missing) = current.monitor.missing() {
+            member.report_missing(missing);
+        }
+        member.tick(|| current.any_call_waits());
+        // The component may be closed while this task waits.
+        drop(current);
+        let pause = if member.was_ready() { ONCE_READY } else { UNTIL_READY };
+        let pause = member.tick_period().map_or(pause, |period| period.min(pause));
+        let _either = timeout(pause, changed).await;
+    }
+}
