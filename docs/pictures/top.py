@@ -17,7 +17,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SCL = ROOT / "target/debug/scl"
-COLUMNS, LINES = 80, 16
+COMPONENTS = ["sensor", "controller", "actuator", "user_interface"]
+COLUMNS, LINES = 80, 18
 CHARACTER, LINE = 8.4, 18
 COLOURS = {"1": "#cc6666", "2": "#8ec07c", "3": "#e5c07b"}
 
@@ -25,13 +26,15 @@ COLOURS = {"1": "#cc6666", "2": "#8ec07c", "3": "#e5c07b"}
 def main():
     with tempfile.TemporaryDirectory() as folder:
         environment = {**os.environ, "SCL_RUNTIME_DIR": folder}
-        run = subprocess.Popen([SCL, "run", ROOT / "examples/quickstart"], env=environment, stdout=subprocess.DEVNULL)
+        programs = [ROOT / "target/debug" / name for name in COMPONENTS]
+        running = [subprocess.Popen([it], env=environment, stdout=subprocess.DEVNULL) for it in programs]
         try:
             # A rate needs some seconds to settle.
             screen = captured(environment, 15)
         finally:
-            run.terminate()
-            run.wait()
+            for program in running:
+                program.terminate()
+                program.wait()
     (Path(__file__).parent / "top.svg").write_text(svg(screen))
 
 
@@ -39,7 +42,7 @@ def captured(environment, seconds):
     """What `scl top` shows after a time, with its colours."""
     tmux = ["tmux", "-L", f"scl-{os.getpid()}"]
     command = f"SCL_RUNTIME_DIR={environment['SCL_RUNTIME_DIR']} {SCL} top"
-    # The system has to be built and started first.
+    # Until the first component has announced itself, there is no system.
     while subprocess.run([SCL, "top", "--once"], env=environment, capture_output=True).returncode:
         time.sleep(0.2)
     subprocess.run([*tmux, "new-session", "-d", "-x", str(COLUMNS), "-y", str(LINES), command], check=True)
@@ -103,8 +106,12 @@ def span(number, column, text, style):
     attributes = f' fill="{fill}"' if fill else ""
     attributes += ' font-weight="bold"' if style.get("bold") else ""
     attributes += ' opacity="0.6"' if style.get("dim") else ""
-    if text.strip():
-        shown = html.escape(text)
+    words = text.strip()
+    if words:
+        # Viewers differ in what they do with spaces at the ends.
+        x += (len(text) - len(text.lstrip())) * CHARACTER
+        length = len(words) * CHARACTER
+        shown = html.escape(words)
         yield f'<text x="{x:g}" y="{y + 13.5:g}" textLength="{length:g}"{attributes}>{shown}</text>'
 
 
