@@ -150,8 +150,9 @@ impl Recorder {
 /// Sends the time at all gates every millisecond.
 fn source() -> Result<()> {
     let mut component = open("source")?;
-    let mut gates =
-        (0..GATES).map(|number| component.publisher(&format!("g{number}"))).collect::<Result<Vec<_>, _>>()?;
+    let mut gates = (0..GATES)
+        .map(|number| component.publisher(&format!("g{number}")))
+        .collect::<std::result::Result<Vec<_>, _>>()?;
     component.ready_blocking(Duration::from_secs(60))?;
     let started = Instant::now();
     for tick in 1.. {
