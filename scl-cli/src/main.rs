@@ -93,11 +93,11 @@ enum Command {
     #[cfg(feature = "observe")]
     Call(call::CallArguments),
     Check(check::CheckArguments),
+    #[cfg(feature = "record")]
+    Compare(compare::CompareArguments),
     #[cfg(feature = "observe")]
     #[command(name = complete_gates::COMMAND, hide = true)]
     CompleteGates(complete_gates::CompleteGatesArguments),
-    #[cfg(feature = "record")]
-    Compare(compare::CompareArguments),
     Completions(completions::CompletionsArguments),
     #[cfg(feature = "observe")]
     Delay(delay::DelayArguments),
@@ -159,10 +159,10 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Call(arguments) => call::call(&arguments),
         Command::Check(arguments) => check::check(&arguments),
-        #[cfg(feature = "observe")]
-        Command::CompleteGates(arguments) => complete_gates::complete_gates(&arguments),
         #[cfg(feature = "record")]
         Command::Compare(arguments) => compare::compare(&arguments),
+        #[cfg(feature = "observe")]
+        Command::CompleteGates(arguments) => complete_gates::complete_gates(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         #[cfg(feature = "observe")]
         Command::Delay(arguments) => delay::delay(&arguments),

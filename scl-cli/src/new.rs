@@ -60,6 +60,9 @@ pub(crate) fn new(arguments: &NewArguments) -> ExitCode {
                 created.files.len(),
                 created.scl
             ));
+            if created.from_registry {
+                print_err("note: if the registry does not have it, use `--path` with a clone of SCL's repository\n");
+            }
             print_out(&format!("cd {name} && scl run\n"));
             ExitCode::SUCCESS
         }

@@ -6,6 +6,8 @@ use std::process::Output;
 
 #[cfg(feature = "run")]
 mod built;
+#[cfg(all(feature = "observe", feature = "record", feature = "run"))]
+mod commands;
 
 fn new(system: &System, arguments: &[&str]) -> Output {
     system.scl(&[&["new"], arguments].concat()).output().unwrap()
@@ -64,6 +66,7 @@ fn names_that_cannot_be_used_write_nothing() {
         ("null", "error: a project cannot be called `null`\n  = help: for example `my_null`\n"),
         ("type", "error: a project cannot be called `type`\n"),
         ("Self", "error: a project cannot be called `Self`\n"),
+        ("crate", "error: a project cannot be called `crate`\n"),
         ("test", "error: a project cannot be called `test`\n"),
         ("core", "error: a project cannot be called `core`\n"),
         ("proc-macro", "error: a project cannot be called `proc-macro`\n"),

@@ -119,3 +119,25 @@ fn toml_text(text: &str) -> String {
     };
     format!("\"{}\"", text.chars().map(letter).collect::<String>())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_registry_is_named_by_version() {
+        assert_eq!(Dependency::Registry.manifest_line(), "scl = { package = \"scl-gates\", version = \"0.1.0\" }");
+        assert_eq!(Dependency::Registry.install_command(), "cargo install scl-cli --version 0.1.0");
+        assert_eq!(Dependency::Registry.lock_file(), None);
+    }
+
+    #[test]
+    fn paths_are_quoted_for_their_readers() {
+        let path = "/it's \"here\"\\\u{7f}/scl";
+        let dependency = Dependency::Folder { path: path.to_owned(), found: PathBuf::from(path) };
+        let line = r#"scl = { package = "scl-gates", path = "/it's \"here\"\\\u007f/scl" }"#;
+        assert_eq!(dependency.manifest_line(), line);
+        let command = "cargo install --path '/it'\\''s \"here\"\\\u{7f}/scl-cli'";
+        assert_eq!(dependency.install_command(), command);
+    }
+}

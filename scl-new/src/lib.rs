@@ -36,6 +36,8 @@ pub struct Created {
     pub files: Vec<String>,
     /// What its `Cargo.toml` says about SCL: a path, or a version in the package registry.
     pub scl: String,
+    /// Whether cargo will look for SCL in the package registry.
+    pub from_registry: bool,
 }
 
 /// Creates the project as a folder in `parent`.
@@ -54,7 +56,8 @@ pub fn create(parent: &Path, project: &Project) -> Result<Created, Problem> {
     let mut files = project.template.files(&project.name, &dependency, is_in_workspace(parent));
     files.extend(dependency.lock_file().map(|text| ("Cargo.lock".to_owned(), text)));
     write::write_all(parent, &project.name, &files)?;
-    Ok(Created { files: files.into_iter().map(|(path, _)| path).collect(), scl: dependency.to_string() })
+    let files = files.into_iter().map(|(path, _)| path).collect();
+    Ok(Created { files, scl: dependency.to_string(), from_registry: !dependency.is_path() })
 }
 
 /// Whether cargo would take a package in this folder for a member of the workspace around it.

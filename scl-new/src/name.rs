@@ -4,7 +4,7 @@ use crate::Template;
 use scl_loader::{Request, load_bytes};
 use scl_terminal::{Problem, quoted_list};
 use scl_topology::diagnostic::{Diagnostic, Severity};
-use scl_topology::rust_name::is_keyword;
+use scl_topology::rust_name::{is_keyword, is_unescapable};
 
 /// Names of packages that cargo does not accept, or that hide a crate of the standard library.
 const OF_CARGO: [&str; 5] = ["alloc", "core", "proc_macro", "std", "test"];
@@ -49,7 +49,7 @@ pub(crate) fn check(name: &str, template: Template) -> Result<(), Problem> {
     if checker_problem(name).is_some() {
         return reserved(format!("`{name}` means something else in YAML, unless it is quoted"));
     }
-    if is_keyword(&code) {
+    if is_keyword(&code) || is_unescapable(&code) {
         return reserved(format!(
             "`{code}` is a keyword of Rust, and the messages of the project get a module of this name"
         ));

@@ -103,3 +103,22 @@ fn with_name(text: &str, name: &str) -> String {
         .map(|(index, part)| if index % 2 == 0 { part.replace(NAME, &code_name(name)) } else { part.to_owned() })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The templates are valid as they are, for the name and the dependency that stand in them.
+    #[test]
+    fn a_template_is_a_project() {
+        for template in Template::ALL {
+            let files = template.files(NAME, &Dependency::Registry, false);
+            let files: Vec<(&str, &str)> = files.iter().map(|(path, text)| (&**path, &**text)).collect();
+            assert_eq!(files, template.sources());
+            for (path, text) in files {
+                assert_eq!(path == "Cargo.toml", text.contains(DEPENDENCY), "{path}");
+                assert_eq!(path.ends_with("ci.yml"), text.contains(INSTALL) && text.contains(CHECKOUT), "{path}");
+            }
+        }
+    }
+}
