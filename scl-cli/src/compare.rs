@@ -41,10 +41,10 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "FIELD,...", value_delimiter = ',')]
     field: Vec<FieldPath>,
     /// How much numbers may differ.
-    #[arg(long, value_name = "NUMBER", default_value = "0", value_parser = parse_tolerance)]
+    #[arg(long, value_name = "NUMBER", default_value = "0", value_parser = parse_tolerance, allow_negative_numbers = true)]
     within: f64,
     /// How much numbers may differ, as a part of the larger one: 0.01 is one percent.
-    #[arg(long, value_name = "NUMBER", default_value = "0", value_parser = parse_tolerance)]
+    #[arg(long, value_name = "NUMBER", default_value = "0", value_parser = parse_tolerance, allow_negative_numbers = true)]
     relative: f64,
     /// How much the times of messages may differ, counted from the first of each gate.
     #[arg(long, value_name = "TIME", value_parser = parse_duration)]

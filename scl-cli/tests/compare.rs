@@ -43,7 +43,7 @@ fn differences_are_named_and_counted() {
         text,
         "controller.actuator: 1 of 2 messages different, 0 missing, 1 additional\n  \
          message 1 at 0.010 s, throttle: 0.25 -> 0.2500001\n  \
-         message 2 at 0.020 s is additional: {\"length\":8,\"hex\":\"6e6f74204a534f4e\",\"why\":\"the pa...\n\
+         message 2 at 0.020 s is additional: 8 bytes: 6e6f74204a534f4e\n\
          sensor.measurements: 1 message equal\n"
     );
     let arguments = ["second.mcap", "first.mcap", "--gate", "controller.actuator", "--show", "1", "--format", "json"];

@@ -314,6 +314,26 @@ fn a_recording_that_was_cut_off_is_replayed_as_far_as_it_goes() {
     assert_eq!(sent_before, 2);
 }
 
+#[cfg(feature = "run")]
+#[test]
+fn a_launch_file_replays_a_component() {
+    let rover = Rover::new();
+    rover.record("flight.mcap", &[(MEASUREMENTS, 0, "1"), (ACTUATOR, 5, "0.5"), (MEASUREMENTS, 10, "2")]);
+    rover.system.write("topology.yaml", ROVER);
+    let launch = "components:\n  sensor: {replay: flight.mcap}\n  controller: {command: [cat]}\n  \
+                  user_interface: {command: [cat]}\n";
+    rover.system.write("launch.yaml", launch);
+    let mut controller = rover.open("controller");
+    let mut history = controller.subscriber("history").unwrap();
+    let mut run = rover.system.scl(&["run", "--only", "sensor"]);
+    run.env("SCL_RUNTIME_DIR", rover.system.path("run")).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let run = run.spawn().unwrap();
+    assert_eq!([(); 2].map(|()| text(&history.recv_timeout(HANG_LIMIT).unwrap())), ["1", "2"]);
+    let output = run.wait_with_output().unwrap();
+    assert!(text(&output.stdout).contains("replayed 2 messages in "), "{output:?}");
+    assert!(output.status.success(), "{output:?}");
+}
+
 const MEASUREMENTS: &str = "/sensor/measurements";
 const LOG: &str = "/controller/log";
 const ACTUATOR: &str = "/controller/actuator";

@@ -79,7 +79,7 @@ pub fn compare(
 fn choose_topics(contents: &[Contents; 2], options: &CompareOptions) -> Result<Vec<Topic>, Problem> {
     let all: BTreeSet<&Topic> = contents.iter().flat_map(Contents::topics).collect();
     let names: BTreeSet<String> = all.iter().map(|topic| topic.gate_name()).collect();
-    for gate in options.gates.iter().filter(|gate| !names.contains(*gate)) {
+    if let Some(gate) = options.gates.iter().find(|gate| !names.contains(*gate)) {
         let problem = Problem::new(format!("neither recording has messages of a gate `{}`", escape(gate)));
         return Err(match closest_name(gate, names.iter().map(String::as_str)) {
             Some(close) => problem.help(format!("did you mean `{close}`?")),

@@ -260,7 +260,7 @@ fn answering_gates(cast: &Cast) -> Vec<GateId> {
 
 /// The time at which the recording begins, and the times that are played.
 fn span(recording: &Recording, options: &ReplayOptions) -> Result<(u64, Range<u64>), Problem> {
-    let Some(message) = recording.messages().next()? else {
+    let Some(message) = recording.messages().read()? else {
         return Err(Problem::new(format!("the recording `{}` has no messages", recording.name())));
     };
     // Of almost the first message to be sent; the recorder received it somewhat later.
@@ -282,7 +282,7 @@ fn span(recording: &Recording, options: &ReplayOptions) -> Result<(u64, Range<u6
 fn check_only(plan: &SystemPlan, options: &ReplayOptions) -> Result<(), Problem> {
     let gates = || plan.components.iter().flat_map(|plan| plan.gates.iter().map(move |gate| (plan, gate)));
     let names: Vec<_> = gates().map(|(plan, gate)| format!("{}.{}", plan.component, gate.name)).collect();
-    for name in options.only.iter().filter(|name| !names.contains(name)) {
+    if let Some(name) = options.only.iter().find(|name| !names.contains(name)) {
         let problem = Problem::new(format!("there is no gate `{}`", escape(name)));
         return Err(match closest_name(name, names.iter().map(String::as_str)) {
             Some(close) => problem.help(format!("did you mean `{close}`?")),

@@ -13,7 +13,7 @@ fn a_killed_recorder_loses_at_most_its_last_second() {
     let recorder = source.record(&["g0"], &[]);
     let file = source.rover.path("flight.mcap");
     // Until some flushes have passed.
-    for _ in 0..3000 {
+    for _ in 0..5000 {
         source.send_numbers(1);
         thread::sleep(Duration::from_millis(1));
     }
@@ -23,8 +23,8 @@ fn a_killed_recorder_loses_at_most_its_last_second() {
 
     let kept = messages(&file);
     let last = kept.last().unwrap().log_time;
-    // One second is the promise, the rest is for a test machine that was busy between the last message and the signal.
-    assert!(killed - last < 5_000_000_000, "{} ns", killed - last);
+    // One second is the promise, the rest is for a machine that is busy with other tests.
+    assert!(killed - last < 3_000_000_000, "{} ns", killed - last);
     let sequences: Vec<u32> = kept.iter().map(|message| message.sequence).collect();
     assert_eq!(sequences, (sequences[0]..=*sequences.last().unwrap()).collect::<Vec<_>>());
 

@@ -153,6 +153,25 @@ fn gates_are_chosen_and_left_out_by_name() {
 }
 
 #[test]
+fn what_a_recorder_that_hangs_misses_is_counted() {
+    let mut source = Source::start();
+    let recorder = source.record(&["g0"], &["--format", "json"]);
+    let file = source.rover.path("flight.mcap");
+    let first = u64::from(messages(&file)[0].sequence);
+    recorder.signal("-STOP");
+    // More than the tap and the socket keep for it.
+    let sent = source.send_numbers(20_000);
+    recorder.signal("-CONT");
+    wait_until("the newest message is recorded", || {
+        messages(&file).last().is_some_and(|last| u64::from(last.sequence) == sent.end - 1)
+    });
+    let (recorded, lost) = figures(&recorder.stop_json(), "source.g0");
+    assert!(lost > 0);
+    assert_eq!(recorded + lost, source.sent("g0") - first);
+    assert_eq!(recorded, messages(&file).len() as u64);
+}
+
+#[test]
 fn the_report_is_a_table() {
     let mut source = Source::start();
     let recorder = source.record(&["g0"], &[]);

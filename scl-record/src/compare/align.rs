@@ -3,7 +3,7 @@
 use super::CompareOptions;
 use super::report::{Difference, DifferenceKind, GateComparison};
 use super::side::{Side, Waiting};
-use super::values::{FieldDifference, Rules, shown};
+use super::values::{FieldDifference, Rules, shown_message};
 use crate::format::Topic;
 use std::time::Duration;
 
@@ -108,7 +108,7 @@ impl Alignment {
     fn single(&mut self, sides: &mut [Side; 2], topic: usize, kind: DifferenceKind) {
         let side = if kind == DifferenceKind::Missing { 0 } else { 1 };
         let Some(message) = sides[side].pop(topic) else { return };
-        let value = shown(&sides[side].message_type(message.channel).show(&message.payload));
+        let value = shown_message(sides[side].message_type(message.channel), &message.payload);
         let values = if side == 0 {
             self.gate.missing += 1;
             [Some(value), None]

@@ -22,7 +22,7 @@ impl Contents {
         let mut messages = recording.messages();
         let mut counts = Vec::new();
         let mut start_ns = None;
-        while let Some(message) = messages.next()? {
+        while let Some(message) = messages.read()? {
             counts.resize(counts.len().max(message.channel + 1), 0);
             counts[message.channel] += 1;
             start_ns.get_or_insert(message.sent_ns);
@@ -109,7 +109,7 @@ impl Side {
 
     /// Reads one message; returns the index of its topic, if that is compared.
     pub(super) fn read(&mut self) -> Result<Option<usize>, Problem> {
-        let Some(message) = self.messages.next()? else {
+        let Some(message) = self.messages.read()? else {
             self.is_at_end = true;
             return Ok(None);
         };

@@ -3,7 +3,7 @@
 use super::CompareOptions;
 use super::side::{Side, Waiting};
 use scl_terminal::{Problem, escape};
-use scl_value::{FieldPath, Opaque, Value, to_json};
+use scl_value::{FieldPath, MessageType, Opaque, Value, to_json};
 
 /// How much of a value is shown.
 const SHOWN: usize = 60;
@@ -119,10 +119,7 @@ fn bytes_difference(messages: [&Waiting; 2]) -> Option<FieldDifference> {
     if messages[0].payload == messages[1].payload {
         return None;
     }
-    let values = messages.map(|message| {
-        let Opaque { length, hex, .. } = Opaque::new(&message.payload, "");
-        Some(cut(&format!("{length} bytes: {hex}")))
-    });
+    let values = messages.map(|message| Some(shown_bytes(&message.payload)));
     Some(FieldDifference { field: FieldPath::default(), values })
 }
 
@@ -147,8 +144,21 @@ fn key_text(key: &Value) -> String {
     }
 }
 
+/// A message as JSON, or its bytes if it cannot be decoded.
+pub(super) fn shown_message(message_type: &MessageType, payload: &[u8]) -> String {
+    match message_type.decode(payload) {
+        Ok(Value::Opaque(_)) | Err(_) => shown_bytes(payload),
+        Ok(value) => shown(&value),
+    }
+}
+
+fn shown_bytes(payload: &[u8]) -> String {
+    let Opaque { length, hex, .. } = Opaque::new(payload, "");
+    cut(&format!("{length} bytes: {hex}"))
+}
+
 /// A value as JSON, safe for a terminal and not too long.
-pub(super) fn shown(value: &Value) -> String {
+fn shown(value: &Value) -> String {
     cut(&to_json(value))
 }
 

@@ -9,10 +9,14 @@ use std::io::{self, Read};
 use std::os::unix::net::UnixStream as BlockingStream;
 use std::path::{Path, PathBuf};
 use std::process;
+use std::time::Duration;
 use tokio::io::AsyncWriteExt;
 use tokio::net::{UnixListener, UnixStream};
 
 const SUFFIX: &str = ".recorder";
+
+/// How long a recorder may take to write its ring.
+const PATIENCE: Duration = Duration::from_secs(120);
 
 /// The recorder's end; the socket is removed when it is dropped.
 pub(crate) struct TriggerListener {
@@ -78,7 +82,9 @@ pub fn trigger(system: &System) -> Result<Vec<PathBuf>, Problem> {
 fn ask(socket: &Path) -> Option<Result<PathBuf, Problem>> {
     let mut stream = BlockingStream::connect(socket).ok()?;
     let mut line = String::new();
-    stream.read_to_string(&mut line).ok()?;
+    if stream.set_read_timeout(Some(PATIENCE)).and_then(|()| stream.read_to_string(&mut line)).is_err() {
+        return Some(Err(Problem::new(format!("the recorder at `{}` does not answer", socket.display()))));
+    }
     let line = line.trim_end();
     if let Some(path) = line.strip_prefix("ok ") {
         return Some(Ok(PathBuf::from(path)));

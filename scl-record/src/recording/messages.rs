@@ -54,7 +54,7 @@ impl Messages {
     ///
     /// # Errors
     /// A file cannot be read, is damaged, or was not recorded by SCL.
-    pub fn next(&mut self) -> Result<Option<RecordedMessage>, Problem> {
+    pub fn read(&mut self) -> Result<Option<RecordedMessage>, Problem> {
         loop {
             if let Some(message) = self.ready.pop_front() {
                 return Ok(Some(message));

@@ -27,7 +27,7 @@ fn small_recording() -> Vec<u8> {
 
 fn read_all(messages: &mut Messages) -> Result<Vec<String>, Problem> {
     let mut read = Vec::new();
-    while let Some(message) = messages.next()? {
+    while let Some(message) = messages.read()? {
         let topic = &messages.channels()[message.channel].topic;
         let at = message.sent_ns / 1_000_000 - BEGINNING;
         read.push(format!("{topic} {at} {}", String::from_utf8_lossy(&message.payload)));

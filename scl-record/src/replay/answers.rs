@@ -63,7 +63,7 @@ pub(super) fn read_answers(
     let mut open = HashMap::<_, VecDeque<Bytes>>::new();
     let mut messages = recording.messages();
     let mut bytes = 0;
-    while let Some(message) = messages.next()? {
+    while let Some(message) = messages.read()? {
         let topic = &messages.channels()[message.channel].topic;
         let gate = (topic.component.clone(), topic.gate.clone());
         let Some(answers) = answers.get_mut(&gate) else { continue };

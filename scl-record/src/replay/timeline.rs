@@ -118,7 +118,7 @@ impl Timeline {
 
     fn next(&mut self) -> Result<Option<Timed>, Problem> {
         while !self.is_at_end && !self.is_first_in_place() {
-            match self.messages.next()? {
+            match self.messages.read()? {
                 Some(message) => self.hold(message),
                 None => self.is_at_end = true,
             }
