@@ -324,7 +324,8 @@ fn deep_and_large_payloads_are_refused() {
         })
     };
     assert!(message_type("rover.Measurement", "protobuf").decode(&nested(99)).is_ok());
-    let cases: [(&str, Vec<u8>, &str); 8] = [
+    let cases: [(&str, Vec<u8>, &str); 9] = [
+        ("protobuf", nested(100), "nested deeper than 100 levels"),
         ("protobuf", nested(10_000), "nested deeper than 100 levels"),
         ("protobuf", [&[0x92, 0x01][..], &[0x80, 0x80, 0x80, 0x0a], &vec![0; 20 << 20]].concat(), "more than 4194304"),
         ("protobuf", [0x9a, 0x01, 0].repeat(5 << 20), "more than 4194304"),
