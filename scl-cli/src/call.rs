@@ -26,7 +26,8 @@ Examples:
   scl call controller.commands '{target_speed: 0.5}'
   scl call controller.commands '{target_speed: 0.5}' --as user_interface --format json | jq .accepted
 
-Exit code: 0 a reply was printed, 1 no reply within --timeout, 2 no such gate, the component runs, or the request is wrong.")]
+Exit code: 0 a reply was printed, 1 no reply within --timeout, 2 no such gate, the component runs, or the request is
+wrong.")]
 pub(crate) struct CallArguments {
     /// The `rep` gate, as `component.gate`.
     gate: String,

@@ -21,12 +21,12 @@ use watched::Watched;
 
 /// Show the messages that pass gates, decoded: messages of `pub` and `push` gates, requests and replies of `rep` gates.
 ///
-/// Nothing is restarted, and no gate is delayed: messages that this program is too slow to read are dropped for it alone,
-/// and are noted on standard error. A component that stops is waited for, and followed when it runs again. A payload that
-/// is not the gate's type is shown as bytes, with the reason.
+/// Nothing is restarted, and no gate is delayed: messages that this program is too slow to read are dropped for it
+/// alone, and are noted on standard error. A component that stops is waited for, and followed when it runs again. A
+/// payload that is not the gate's type is shown as bytes, with the reason.
 ///
-/// At a gate that receives, the messages are shown where they come from; those of a `req` gate at the gate that answers,
-/// with all its requests.
+/// At a gate that receives, the messages are shown where they come from; those of a `req` gate at the gate that
+/// answers, with all its requests.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -44,11 +44,11 @@ pub(crate) struct EchoArguments {
     /// The gates, as `component.gate`.
     #[arg(required = true, value_name = "GATE")]
     gates: Vec<String>,
-    /// Show this field only, for example `pose.x`, `joints[0].angle` or `limits.\"front left\"`; may be repeated.
+    /// Show this field only, for example `pose.x`, `joints[0].angle` or `limits."front left"`; may be repeated.
     #[arg(long = "field", value_name = "PATH")]
     fields: Vec<FieldPath>,
-    /// Show messages only for which this holds, for example `speed > 1.5`. There are == != < <= > >= contains, and, or, not
-    /// and parentheses; texts stand in quotes. A comparison of a field that a message does not have is false.
+    /// Show messages only for which this holds, for example `speed > 1.5`. There are == != < <= > >= contains, and,
+    /// or, not and parentheses; texts stand in quotes. A comparison of a field that a message does not have is false.
     #[arg(long = "where", value_name = "CONDITION")]
     condition: Option<Condition>,
     /// End after one message.
@@ -97,6 +97,7 @@ async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
     if let Some(condition) = &arguments.condition {
         check_field(&watched, |gate| gate.check_condition(condition))?;
     }
+    let watched_several = watched.iter().flat_map(Watched::types).count() > 1;
     let mut output = Output::new(arguments.format, &arguments.fields, &watched);
     let mut taps = Taps::open(&system, gates);
     let limit = if arguments.once { Some(1) } else { arguments.count.map(NonZeroU64::get) };
@@ -134,6 +135,10 @@ async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
         gate.count(&seen);
         let message = gate.decode(&seen);
         if arguments.condition.as_ref().is_some_and(|condition| !condition.holds(&message)) {
+            continue;
+        }
+        // A request does not have the fields of its reply.
+        if watched_several && !has_any(&message, &arguments.fields) {
             continue;
         }
         if output.print(gate, &seen, &message).is_err() {
@@ -184,6 +189,11 @@ fn report_silence(arguments: &EchoArguments, shown: u64) -> ExitCode {
     let problem = Problem::new(format!("no{more} message{matching} at {gates} within {waited:?}"));
     print_err(&problem.help("`scl info GATE` shows peers and rates").to_string());
     ExitCode::FAILURE
+}
+
+/// Whether a message has one of the fields, if there are any.
+fn has_any(message: &Value, fields: &[FieldPath]) -> bool {
+    fields.is_empty() || matches!(message, Value::Opaque(_)) || fields.iter().any(|path| path.find(message).is_some())
 }
 
 /// The parts of a message that are shown: the fields, or all of it.

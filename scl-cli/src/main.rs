@@ -8,6 +8,8 @@ mod bw;
 #[cfg(feature = "observe")]
 mod call;
 mod check;
+#[cfg(feature = "record")]
+mod compare;
 #[cfg(feature = "observe")]
 mod complete_gates;
 mod completions;
@@ -34,6 +36,7 @@ mod list;
 mod load;
 #[cfg(feature = "observe")]
 mod measure;
+#[cfg(feature = "observe")]
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]
@@ -90,6 +93,8 @@ enum Command {
     #[cfg(feature = "observe")]
     Call(call::CallArguments),
     Check(check::CheckArguments),
+    #[cfg(feature = "record")]
+    Compare(compare::CompareArguments),
     #[cfg(feature = "observe")]
     #[command(name = complete_gates::COMMAND, hide = true)]
     CompleteGates(complete_gates::CompleteGatesArguments),
@@ -154,6 +159,8 @@ fn main() -> ExitCode {
         #[cfg(feature = "observe")]
         Command::Call(arguments) => call::call(&arguments),
         Command::Check(arguments) => check::check(&arguments),
+        #[cfg(feature = "record")]
+        Command::Compare(arguments) => compare::compare(&arguments),
         #[cfg(feature = "observe")]
         Command::CompleteGates(arguments) => complete_gates::complete_gates(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),

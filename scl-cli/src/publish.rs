@@ -26,9 +26,10 @@ const DEFAULT_RATE: f64 = 1.0;
 
 /// Send messages at a `pub` or `push` gate, in place of its component, which must not be running.
 ///
-/// The component is opened as its program would do, so its peers cannot tell the difference. Its `pull` and `rep` gates stay
-/// closed, because nobody would do their work. The first message is sent when all required peers of the gate, and all
-/// others that run, are connected; at the end, everything is handed over before the component is closed.
+/// The component is opened as its program would do, so its peers cannot tell the difference. Its `pull` and `rep`
+/// gates stay closed, because nobody would do their work. The first message is sent when all required peers of the
+/// gate, and all others that run, are connected; at the end, everything is handed over before the component is
+/// closed.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -40,7 +41,8 @@ Examples:
   scl echo sensor.measurements --format json | jq -c .message > messages.jsonl
   scl pub sensor.measurements - --rate 50 < messages.jsonl     one message per line
 
-Exit code: 0 all sent and taken, or stopped with Ctrl-C; 2 the component runs, peers are missing, or a message is wrong.")]
+Exit code: 0 all sent and taken, or stopped with Ctrl-C; 2 the component runs, peers are missing, or a message is
+wrong.")]
 pub(crate) struct PubArguments {
     /// The gate, as `component.gate`.
     gate: String,
@@ -110,12 +112,12 @@ async fn send_all(
 ) -> Result<u64, Problem> {
     let rate = arguments.rate.or(arguments.count.filter(|_| !messages.are_from_input()).map(|_| DEFAULT_RATE));
     let timer = rate.map(|rate| scl::time::interval(Duration::from_secs_f64(1.0 / rate))).transpose();
-    let mut timer = timer.map_err(|error| Problem::new(format!("the operating system refused a timer: {error}")))?;
+    let mut timer = timer.map_err(|error| timer_problem(&error))?;
     let mut sent = 0;
     while arguments.count.is_none_or(|count| sent < count.get()) {
         if let Some(timer) = timer.as_mut().filter(|_| sent > 0) {
             tokio::select! {
-                ticked = timer.tick() => ticked.map_err(|error| Problem::new(format!("the timer has failed: {error}")))?,
+                ticked = timer.tick() => ticked.map_err(|error| timer_problem(&error))?,
                 () = stop.requested() => break,
             }
         }
@@ -132,6 +134,10 @@ async fn send_all(
         sent += 1;
     }
     Ok(sent)
+}
+
+fn timer_problem(error: &io::Error) -> Problem {
+    Problem::new(format!("the timer of `--rate` has failed: {error}"))
 }
 
 /// Only `pub` and `push` gates send by themselves.

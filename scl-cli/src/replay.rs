@@ -1,7 +1,8 @@
 //! `scl replay`: plays recorded components in a running system.
 
+use crate::format::{FormatArgument, print_json};
 use crate::load::{MaxSize, load_file, show_errors};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use scl_record::progress::Progress;
 use scl_record::recording::{Recording, find_files};
 use scl_record::replay::{Rate, ReplayOptions, ReplayReport, replay as play};
@@ -67,15 +68,8 @@ pub(crate) struct ReplayArguments {
     /// Play the components of this topology file, not as they were recorded.
     #[arg(long, value_name = "FILE")]
     topology: Option<PathBuf>,
-    /// How to print what was replayed.
-    #[arg(long, value_name = "FORMAT", default_value = "text")]
-    format: Format,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
+    #[command(flatten)]
+    format: FormatArgument,
 }
 
 /// The body of `scl replay`.
@@ -104,10 +98,10 @@ pub(crate) fn replay(arguments: &ReplayArguments) -> ExitCode {
     };
     match run(&arguments.files, &options) {
         Ok(report) => {
-            print_out(&match arguments.format {
-                Format::Text => report.to_text(),
-                Format::Json => format!("{}\n", report.to_json()),
-            });
+            match arguments.format.is_json() {
+                true => print_json(&report.to_json()),
+                false => print_out(&report.to_text()),
+            }
             let is_incomplete = options.rate == Rate::Max && !report.was_stopped && report.is_incomplete();
             if is_incomplete { ExitCode::FAILURE } else { ExitCode::SUCCESS }
         }

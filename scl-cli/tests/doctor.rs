@@ -89,7 +89,8 @@ fn hang_findings(rover: &Rover) -> Vec<String> {
 
 #[test]
 fn programs_of_different_topologies_are_found() {
-    let mut rover = Rover::start_with(&["sensor", "logger"], |_| {});
+    let mut rover = Rover::stopped();
+    rover.play_unready(&["sensor", "logger"]);
     // A controller that was built with another type.
     let other =
         crate::rover::TOPOLOGY.replace("sensor: {sub: rover.Measurement, queue: 1}", "sensor: {sub: rover.Setpoint}");

@@ -10,10 +10,14 @@ const VALUES: &[&[&str]] = &[
     &["info", "sensor"],
     &["info", "sensor.measurements"],
     &["info", "controller.commands"],
+    &["call", "controller.commands", "--template"],
 ];
 
 /// Queries whose answer is a stream, with what ends it.
-const STREAMS: &[&[&str]] = &[];
+const STREAMS: &[&[&str]] = &[
+    &["echo", "sensor.measurements", "-n", "3"],
+    &["echo", "controller.commands", "logger.events", "sensor.image", "-n", "9"],
+];
 
 #[test]
 fn every_query_answers_in_json() {

@@ -5,11 +5,15 @@
 mod bandwidth;
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "observe")]
+mod call;
 mod check;
 mod check_fix;
 mod check_formats;
 mod check_inputs;
 mod check_watch;
+#[cfg(feature = "record")]
+mod compare;
 #[cfg(feature = "observe")]
 mod complete_names;
 mod completions;
@@ -18,6 +22,8 @@ mod delay;
 mod diff;
 #[cfg(feature = "observe")]
 mod doctor;
+#[cfg(feature = "observe")]
+mod echo;
 mod editor;
 mod explain;
 mod external;
@@ -38,10 +44,13 @@ mod lsp;
 #[cfg(feature = "new")]
 mod new;
 mod plan;
+#[cfg(feature = "observe")]
+mod publish;
 #[cfg(feature = "run")]
 mod quickstart;
 #[cfg(feature = "record")]
 mod record;
+#[cfg(feature = "record")]
 mod replay;
 #[cfg(feature = "observe")]
 mod rover;

@@ -85,11 +85,21 @@ if pid == 0:
     os.execv(sys.argv[1], [sys.argv[1], "top"])
 
 output = b""
+ended = None
+def status():
+    global ended
+    if ended is None:
+        found, how = os.waitpid(pid, os.WNOHANG)
+        ended = os.waitstatus_to_exitcode(how) if found else None
+    return ended
+
 def wait_for(text):
     global output
     while text not in output:
-        select.select([master], [], [])
-        output += os.read(master, 65536)
+        if select.select([master], [], [], 0.1)[0]:
+            output += os.read(master, 65536)
+        elif status() is not None:
+            sys.exit(f"ended with {status()} before {text}: {output}")
     output = output.split(text, 1)[1]
 
 def restored():
@@ -117,9 +127,7 @@ for step in sys.argv[2:]:
         wait_for(b"\x1b[?1049h")
         wait_for(b"PEERS")
 print("restored:", restored())
-# What is left in the terminal would keep the program from ending on some systems.
-status = os.waitpid(pid, 0)[1]
-print("exit code:", os.waitstatus_to_exitcode(status))
+print("exit code:", status() if status() is not None else os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]))
 "#;
 
 fn in_terminal(steps: &[&str]) -> String {

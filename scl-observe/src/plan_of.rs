@@ -7,8 +7,8 @@ use scl_terminal::Problem;
 use std::sync::Arc;
 
 impl System {
-    /// The plan of a component: as it announces it, or left it behind when it was killed; else as far as its running peers
-    /// know it, which is every gate that is connected to one of them.
+    /// The plan of a component: as it announces it, or left it behind when it was killed; else as far as its running
+    /// peers know it, which is every gate that is connected to one of them.
     ///
     /// # Errors
     /// There is no such component, or neither it nor a peer of it runs.
@@ -122,7 +122,8 @@ components:
     gates:
       - commands: {req: rover.Command -> rover.Status, codec: json}
 connections:
-  - [sensor.measurements, [controller.sensor, display.sensor]]
+  - [sensor.measurements, controller.sensor]
+  - [sensor.measurements, display.sensor]
   - [sensor.log, logger.events]
   - [controller.log, logger.events]
   - [controller.commands, ui.commands]

@@ -104,7 +104,10 @@ impl Taps {
         if let Some(gate) = self.started.pop_front() {
             return Poll::Ready(TapsEvent::Started(gate));
         }
-        while let Some(index) = self.woken.take(cx.waker()) {
+        // One turn for each: with its budget used up, a future of tokio wakes itself at once and needs another poll of the
+        // whole task.
+        for _ in 0..self.woken.len() {
+            let Some(index) = self.woken.take() else { break };
             let watched = &mut self.observers[index];
             let Some(observer) = &mut watched.observer else { continue };
             if let Poll::Ready(event) = observer.poll_next(&mut Context::from_waker(&watched.waker)) {
@@ -113,6 +116,7 @@ impl Taps {
                 return Poll::Ready(TapsEvent::Event { gate: watched.gate, event });
             }
         }
+        self.woken.wake_when_any(cx.waker());
         Poll::Pending
     }
 

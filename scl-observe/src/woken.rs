@@ -34,16 +34,27 @@ impl Woken {
         Arc::new(Member { index, shared: Arc::clone(&self.shared) }).into()
     }
 
-    /// Takes the next woken future; if there is none, `task` is woken when there is.
-    pub(crate) fn take(&self, task: &Waker) -> Option<usize> {
+    /// Takes the next woken future.
+    pub(crate) fn take(&self) -> Option<usize> {
         let mut state = self.shared.lock();
-        let next = state.queue.pop_front();
-        match next {
-            Some(index) => state.queued[index] = false,
-            None if state.task.as_ref().is_some_and(|known| known.will_wake(task)) => {}
-            None => state.task = Some(task.clone()),
+        let next = state.queue.pop_front()?;
+        state.queued[next] = false;
+        Some(next)
+    }
+
+    /// Wakes `task` when a future is woken, or now if one is.
+    pub(crate) fn wake_when_any(&self, task: &Waker) {
+        let mut state = self.shared.lock();
+        if !state.queue.is_empty() {
+            task.wake_by_ref();
+        } else if !state.task.as_ref().is_some_and(|known| known.will_wake(task)) {
+            state.task = Some(task.clone());
         }
-        next
+    }
+
+    /// Number of woken futures now.
+    pub(crate) fn len(&self) -> usize {
+        self.shared.lock().queue.len()
     }
 
     /// Puts a future that is not done yet at the end of the queue.
@@ -103,15 +114,18 @@ mod tests {
         let (woken, counted) = (Woken::default(), Arc::new(Counted::default()));
         let task = Waker::from(Arc::clone(&counted));
         let wakers = [woken.add(0), woken.add(1), woken.add(2)];
-        let taken = || std::iter::from_fn(|| woken.take(&task)).collect::<Vec<_>>();
+        let taken = || std::iter::from_fn(|| woken.take()).collect::<Vec<_>>();
         assert_eq!(taken(), [0, 1, 2], "each is polled at first");
         assert_eq!(taken(), Vec::<usize>::new());
+        woken.wake_when_any(&task);
         for index in [2, 0, 2, 2] {
             wakers[index].wake_by_ref();
         }
         assert_eq!(taken(), [2, 0]);
         assert_eq!(counted.0.load(Ordering::Relaxed), 1, "the task is woken once for all that follow");
         woken.put_back(1);
+        woken.wake_when_any(&task);
+        assert_eq!(counted.0.load(Ordering::Relaxed), 2, "at once, because one is woken");
         assert_eq!(taken(), [1]);
     }
 }

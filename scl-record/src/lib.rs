@@ -3,6 +3,7 @@
 //! [`format`] says what a recording contains; the writer side makes such files, the reader side reads them.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod compare;
 pub mod format;
 pub mod progress;
 pub mod record;

@@ -11,6 +11,7 @@ mod ending;
 mod launch_file;
 mod launch_text;
 mod lifecycle;
+mod log_file;
 mod notify;
 mod orphan_guard;
 mod output;
@@ -29,12 +30,14 @@ mod summary;
 mod supervisor;
 
 pub use launch_file::EXAMPLE as EXAMPLE_LAUNCH_FILE;
+pub use log_file::{LogEntry, LogFolder, LogReader, LogStream};
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use placement::Placement;
 pub use plan::{ComponentNames, SystemNames};
 
 use children::{Event, Role};
 use ending::Ending;
+use log_file::LogFile;
 use nix::sys::signal::Signal;
 use orphan_guard::{OrphanGuard, stop_signals};
 use output::Output;
@@ -42,7 +45,7 @@ use plan::RunPlan;
 use policy::Policy;
 use program::{Build, Component};
 use reports::Reports;
-use scl_terminal::Problem;
+use scl_terminal::{Problem, print_err};
 use sockets::Sockets;
 use std::io;
 use std::path::PathBuf;
@@ -82,7 +85,7 @@ pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<boo
     let plan = plan::plan_run(options, component_names)?;
     let builds = plan.builds.iter().map(Build::label);
     let names = builds.chain(plan.components.iter().map(|component| component.name.as_str()));
-    let output = Arc::new(Output::new(names.map(str::to_owned).collect()));
+    let output = Arc::new(Output::new(names.map(str::to_owned).collect(), open_logs(&plan)));
     handle_stop_signals().map_err(|error| vec![Problem::new(format!("cannot handle signals: {error}"))])?;
     // Before the first thread, which inherits it: a thread that does not block them would end the process.
     let blocked = stop_signals().thread_block();
@@ -91,6 +94,17 @@ pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<boo
     let ended = run_plan(&plan, options, &output, &reports);
     reports.finish(options.grace);
     ended
+}
+
+/// The log of each component. A log that cannot be written is reported, and the component runs without.
+fn open_logs(plan: &RunPlan) -> Vec<Option<LogFile>> {
+    let system = plan.system.as_deref();
+    let folder = system.and_then(|system| LogFolder::of(system, &|variable| std::env::var_os(variable)));
+    let open = |component: &Component| {
+        let log = LogFile::open(folder.as_ref()?, &component.name);
+        log.map_err(|report| print_err(&format!("scl: {report}; its output is not logged\n"))).ok()
+    };
+    plan.components.iter().map(open).collect()
 }
 
 /// Programs inherit which signals are ignored, but not which are handled. A shell that starts `scl run` in the background

@@ -1,8 +1,10 @@
 //! The output of all components on one screen: whole lines, each with the name of its component before it.
 
+use super::log_file::{LogFile, LogStream};
 use anstream::ColorChoice;
 use owo_colors::{AnsiColors, OwoColorize};
 use std::io::{self, BufRead, BufReader, Read, Write};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// Maximum length of a line in bytes. Longer ones are split, so that output without line breaks cannot exhaust memory.
@@ -39,16 +41,29 @@ pub(crate) struct Output {
     colour_err: bool,
     /// One lock for both streams: on a terminal they share the screen.
     writing: Mutex<()>,
+    /// In the order of the names; `None` for those without a log.
+    logs: Vec<Option<Log>>,
+}
+
+/// A component's log, and how often each of its streams was begun, which numbers its processes.
+#[derive(Debug)]
+struct Log {
+    file: LogFile,
+    runs: [AtomicU64; 2],
 }
 
 impl Output {
-    /// Output for programs of these names, in colour if the stream is a terminal that supports it.
-    pub(crate) fn new(names: Vec<String>) -> Self {
+    /// Output for programs of these names, in colour if the stream is a terminal that supports it. `logs` are the logs of
+    /// the last of them; the others have none.
+    pub(crate) fn new(names: Vec<String>, logs: Vec<Option<LogFile>>) -> Self {
         let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
         let wants_colour = |choice| !matches!(choice, ColorChoice::Never);
         let colour_out = wants_colour(anstream::AutoStream::choice(&io::stdout()));
         let colour_err = wants_colour(anstream::AutoStream::choice(&io::stderr()));
-        Self { names, width, colour_out, colour_err, writing: Mutex::new(()) }
+        let unlogged = names.len().saturating_sub(logs.len());
+        let log = |file: Option<LogFile>| file.map(|file| Log { file, runs: Default::default() });
+        let logs = (0..unlogged).map(|_| None).chain(logs.into_iter().map(log)).collect();
+        Self { names, width, colour_out, colour_err, writing: Mutex::new(()), logs }
     }
 
     /// Copies every line of a program's stream, with its name before it, until the stream ends.
@@ -62,9 +77,14 @@ impl Output {
         let mut reader = BufReader::with_capacity(64 * 1024, from);
         let prefix = format!("{} | ", self.painted_name(program, stream)).into_bytes();
         let mut line = prefix.clone();
+        let log = self.logs[program].as_ref().map(|log| (log, log.begin(stream)));
         while matches!(reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line), Ok(1..)) {
             if !line.ends_with(b"\n") {
                 line.push(b'\n');
+            }
+            // First, because a terminal may block.
+            if let Some((log, run)) = log {
+                self.log(&log.file, stream, run, &line[prefix.len()..line.len() - 1]);
             }
             self.write(stream, &line)?;
             line.truncate(prefix.len());
@@ -84,6 +104,17 @@ impl Output {
         let _ = self.write(Stream::Err, line.as_bytes());
     }
 
+    /// The first failure of each log is reported; the programs go on.
+    fn log(&self, file: &LogFile, stream: Stream, run: u64, text: &[u8]) {
+        let stream = match stream {
+            Stream::Out => LogStream::Stdout,
+            Stream::Err => LogStream::Stderr,
+        };
+        if let Err(report) = file.write(stream, run, text) {
+            self.write_report(&format!("scl: {report}\n"));
+        }
+    }
+
     fn painted_name(&self, program: usize, stream: Stream) -> String {
         let name = format!("{:width$}", self.names[program], width = self.width);
         let coloured = match stream {
@@ -101,6 +132,13 @@ impl Output {
             Stream::Out => write_whole(&mut io::stdout().lock(), line),
             Stream::Err => write_whole(&mut io::stderr().lock(), line),
         }
+    }
+}
+
+impl Log {
+    /// The number of the process whose stream begins.
+    fn begin(&self, stream: Stream) -> u64 {
+        self.runs[stream as usize].fetch_add(1, Ordering::Relaxed) + 1
     }
 }
 

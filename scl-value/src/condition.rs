@@ -14,12 +14,12 @@ use thiserror::Error;
 
 /// A condition on a message.
 ///
-/// Comparisons are `==`, `!=`, `<`, `<=`, `>`, `>=` between fields, numbers, texts in quotes, `true`, `false` and `null`,
-/// and `contains` for texts, lists and the keys of maps. They are combined with `not`, `and`, `or` and parentheses. A field
-/// alone is true if its value is.
+/// Comparisons are `==`, `!=`, `<`, `<=`, `>`, `>=` between fields, numbers, texts in quotes, `true`, `false` and
+/// `null`, and `contains` for texts, lists and the keys of maps. They are combined with `not`, `and`, `or` and
+/// parentheses. A field alone is true if its value is.
 ///
-/// A comparison of a field that the message does not have is false, and so is one of values that cannot be compared, such
-/// as a text with a number, except `!=`.
+/// A comparison of a field that the message does not have is false, and so is one of values that cannot be compared,
+/// such as a text with a number, except `!=`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Condition {
     root: Node,

@@ -117,9 +117,9 @@ impl MessageType {
 
     /// Writes a message.
     ///
-    /// It accepts everything that `decode` returns, and what protobuf's JSON accepts: names in lowerCamelCase, numbers as
-    /// texts, bytes in base64, enum values by name or number. Opaque messages are written from bytes, `{hex: 01ff}` or
-    /// `{text: hello}`.
+    /// It accepts everything that `decode` returns, and what protobuf's JSON accepts: names in lowerCamelCase, numbers
+    /// as texts, bytes in base64, enum values by name or number. Opaque messages are written from bytes, `{hex: 01ff}`
+    /// or `{text: hello}`.
     ///
     /// # Errors
     /// The value is not one of the type: the error names the field and what is expected there.
@@ -146,8 +146,8 @@ impl MessageType {
         Some(protobuf::template(self.descriptor()?))
     }
 
-    /// The paths of all fields of a message that are no messages themselves, as columns of a table; `None` if the type is
-    /// not known.
+    /// The paths of all fields of a message that are no messages themselves, as columns of a table; `None` if the type
+    /// is not known.
     pub fn columns(&self) -> Option<Vec<FieldPath>> {
         Some(protobuf::columns(self.descriptor()?))
     }

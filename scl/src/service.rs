@@ -16,6 +16,7 @@ pub(crate) use member::{Member, Waiting};
 use crate::environment::Variables;
 use crate::sync::lock;
 use socket::Socket;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, Weak};
 use std::time::{Duration, Instant};
 
@@ -45,15 +46,20 @@ pub(crate) struct Service {
     /// How soon the manager must hear that the process is alive, if it wants to.
     watchdog: Option<Duration>,
     reported: Mutex<Reported>,
+    /// Whether the manager did not take the last change.
+    untold: AtomicBool,
 }
 
 #[derive(Default)]
 struct Reported {
     members: Vec<Weak<Member>>,
+    /// What the manager has been told: it may not take a notification, which is then tried again.
     ready: bool,
     status: String,
     stopping: bool,
     alive: Option<Instant>,
+    /// Whether a stop was requested.
+    stops: bool,
 }
 
 impl Service {
@@ -70,7 +76,7 @@ impl Service {
     }
 
     fn new(socket: Socket, watchdog: Option<Duration>) -> Self {
-        Self { socket, watchdog, reported: Mutex::default() }
+        Self { socket, watchdog, reported: Mutex::default(), untold: AtomicBool::new(false) }
     }
 
     fn join(self: &Arc<Self>, follows_calls: bool) -> Arc<Member> {
@@ -80,28 +86,32 @@ impl Service {
     }
 
     fn report_stopping(&self) {
-        if !std::mem::replace(&mut lock(&self.reported).stopping, true) {
-            self.socket.send("STOPPING=1\n");
-        }
+        lock(&self.reported).stops = true;
+        self.report_changes();
     }
 
-    /// Reports what has changed of the readiness of the members.
-    fn report_readiness(&self) {
+    /// Reports what has changed of the readiness of the members, and whatever the manager did not take before.
+    fn report_changes(&self) {
         let mut reported = lock(&self.reported);
         let members = reported.members();
-        let status = status(&members);
+        let stopping = reported.stops;
         let mut text = String::new();
-        if !reported.ready && members.iter().all(|member| member.was_ready()) {
-            reported.ready = true;
+        if stopping && !reported.stopping {
+            text.push_str("STOPPING=1\n");
+        }
+        let ready = reported.ready || (!members.is_empty() && members.iter().all(|member| member.was_ready()));
+        if ready && !reported.ready {
             text.push_str("READY=1\n");
         }
+        let status = if members.is_empty() { reported.status.clone() } else { status(&members) };
         if reported.status != status {
             text.push_str(&format!("STATUS={status}\n"));
-            reported.status = status;
         }
-        if !text.is_empty() {
-            self.socket.send(&text);
+        let is_told = text.is_empty() || self.socket.send(&text);
+        if is_told {
+            (reported.ready, reported.status, reported.stopping) = (ready, status, stopping);
         }
+        self.untold.store(!is_told, Ordering::Relaxed);
     }
 
     /// Reports that the process is alive, if all members have been since the last time and that is not too short ago.

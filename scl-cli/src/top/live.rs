@@ -40,7 +40,7 @@ async fn show(mut watch: Watch, period: Duration, order: Order) -> io::Result<()
     ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
     ticks.tick().await;
     loop {
-        screen.terminal.draw(|frame| draw(frame, &view))?;
+        screen.draw(|frame| draw(frame, &view))?;
         let action = tokio::select! {
             _ = interrupt.recv() => Action::Quit,
             _ = terminate.recv() => Action::Quit,
@@ -73,9 +73,12 @@ async fn show(mut watch: Watch, period: Duration, order: Order) -> io::Result<()
 fn read_events() -> UnboundedReceiver<Event> {
     let (sender, receiver) = unbounded_channel();
     thread::spawn(move || {
-        while let Ok(event) = event::read() {
-            if sender.send(event).is_err() {
-                break;
+        while !sender.is_closed() {
+            match event::read() {
+                Ok(event) => drop(sender.send(event)),
+                // By a signal, for example after the program was suspended.
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(_) => break,
             }
         }
     });

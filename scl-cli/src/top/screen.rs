@@ -1,16 +1,20 @@
 //! The terminal while it is taken over: it is given back on every way out.
 
-use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 use ratatui::crossterm::cursor::Show;
 use ratatui::crossterm::execute;
-use ratatui::crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode};
+use ratatui::crossterm::terminal::{
+    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, size,
+};
+use ratatui::layout::Rect;
+use ratatui::{Frame, Terminal, TerminalOptions, Viewport};
 use std::io::{self, Stdout, stdout};
 use std::panic;
 
 /// The terminal in raw mode and with its alternate screen. Dropping it restores the terminal.
 pub(super) struct Screen {
-    pub(super) terminal: Terminal<CrosstermBackend<Stdout>>,
+    terminal: Terminal<CrosstermBackend<Stdout>>,
+    size: (u16, u16),
 }
 
 impl Screen {
@@ -21,9 +25,18 @@ impl Screen {
             restore();
             print(info);
         }));
-        take_over().inspect_err(|_| restore())?;
-        let terminal = Terminal::new(CrosstermBackend::new(stdout())).inspect_err(|_| restore())?;
-        Ok(Self { terminal })
+        take_over().and_then(|()| Self::of_size(size()?)).inspect_err(|_| restore())
+    }
+
+    /// Draws, in the size that the terminal has now.
+    pub(super) fn draw(&mut self, draw: impl FnOnce(&mut Frame<'_>)) -> io::Result<()> {
+        let now = size()?;
+        if now != self.size {
+            execute!(stdout(), Clear(ClearType::All))?;
+            self.terminal = Self::terminal(now)?;
+            self.size = now;
+        }
+        self.terminal.draw(draw).map(drop)
     }
 
     /// Gives the terminal back while `pause` runs, and draws everything anew afterwards.
@@ -31,7 +44,19 @@ impl Screen {
         restore();
         pause();
         take_over()?;
-        self.terminal.clear()
+        self.terminal = Self::terminal(self.size)?;
+        Ok(())
+    }
+
+    fn of_size(size: (u16, u16)) -> io::Result<Self> {
+        Ok(Self { terminal: Self::terminal(size)?, size })
+    }
+
+    /// Of a fixed size, because ratatui asks the terminal for its cursor when it follows the size by itself, and would wait
+    /// for the answer that the thread of the keys reads.
+    fn terminal((width, height): (u16, u16)) -> io::Result<Terminal<CrosstermBackend<Stdout>>> {
+        let viewport = Viewport::Fixed(Rect::new(0, 0, width, height));
+        Terminal::with_options(CrosstermBackend::new(stdout()), TerminalOptions { viewport })
     }
 }
 
@@ -48,6 +73,6 @@ fn take_over() -> io::Result<()> {
 
 fn restore() {
     // Whatever fails here, the rest is still worth trying; the terminal may be gone.
-    let _ = execute!(stdout(), LeaveAlternateScreen, Show);
     let _ = disable_raw_mode();
+    let _ = execute!(stdout(), LeaveAlternateScreen, Show);
 }

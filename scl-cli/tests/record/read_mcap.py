@@ -10,11 +10,11 @@ from mcap_protobuf.decoder import DecoderFactory
 FIELDS = {"/source/measurements": "speed", "/source/position": "latitude"}
 
 
-def read(reader):
+def read(reader, **options):
     topics = {}
     complete = True
     try:
-        for schema, channel, message in reader.iter_messages():
+        for schema, channel, message in reader.iter_messages(**options):
             topic = topics.setdefault(
                 channel.topic,
                 {
@@ -47,7 +47,8 @@ def decode(schema, channel, message, field):
 DECODERS = DecoderFactory()
 
 with open(sys.argv[1], "rb") as file:
-    stream, complete = read(NonSeekingReader(file))
+    # Sorting would read all of a file before the first message.
+    stream, complete = read(NonSeekingReader(file), log_time_order=False)
 
 indexed = None
 if complete:

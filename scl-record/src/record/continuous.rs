@@ -14,6 +14,9 @@ use std::time::{Duration, Instant};
 /// A crash of the recorder loses at most one second: this, and the time until the queue is examined again.
 const FLUSH: Duration = Duration::from_millis(800);
 
+/// What has happened when a file cannot be written.
+const STOPPED: &str = "recording stopped";
+
 /// How a recording is distributed over files.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Split {
@@ -142,7 +145,7 @@ impl Continuous {
 
     fn start_file(&mut self, contents: &Contents) -> Result<(), Problem> {
         let (path, file) = self.names.create_next()?;
-        let started = contents.start_file(path.clone(), file).map_err(|error| problem_of(&error, &path))?;
+        let started = contents.start_file(path.clone(), file).map_err(|error| problem_of(STOPPED, &error, &path))?;
         self.file = Some(started);
         (self.started, self.flushed) = (Instant::now(), Instant::now());
         Ok(())
@@ -152,7 +155,7 @@ impl Continuous {
     fn with_file(&mut self, action: impl FnOnce(&mut RecordingFile) -> Result<(), WriteError>) -> Result<(), Problem> {
         let Some(file) = &mut self.file else { return Ok(()) };
         let Err(error) = action(file) else { return Ok(()) };
-        let problem = problem_of(&error, file.path());
+        let problem = problem_of(STOPPED, &error, file.path());
         match error {
             WriteError::Full(_) => self.finish_file()?,
             WriteError::Failed(_) => self.abandon_file(),
@@ -174,7 +177,7 @@ impl Continuous {
                 Ok(())
             }
             Err(error) => {
-                let problem = problem_of(&error, file.path());
+                let problem = problem_of(STOPPED, &error, file.path());
                 self.abandon_file();
                 Err(problem)
             }

@@ -10,6 +10,9 @@ use scl_terminal::Problem;
 use std::collections::VecDeque;
 use std::time::Duration;
 
+/// What has happened when the ring cannot be written.
+const INCOMPLETE: &str = "the ring was not written completely";
+
 /// The messages of the last seconds.
 pub(crate) struct Ring {
     window_ns: u64,
@@ -48,7 +51,8 @@ impl Ring {
     pub(crate) fn save(&mut self, contents: &Contents) -> Result<WrittenFile, Problem> {
         self.forget_before(now_ns().saturating_sub(self.window_ns));
         let (path, file) = self.names.create_next()?;
-        let mut recording = contents.start_file(path.clone(), file).map_err(|error| problem_of(&error, &path))?;
+        let mut recording =
+            contents.start_file(path.clone(), file).map_err(|error| problem_of(INCOMPLETE, &error, &path))?;
         let copied = self.copy_to(&mut recording);
         let finished = match copied {
             Err(WriteError::Failed(_)) => None,
@@ -60,7 +64,7 @@ impl Ring {
             None => (recording.abandon(), copied.err()),
         };
         self.written.push(written.clone());
-        error.map_or(Ok(written), |error| Err(problem_of(&error, &path)))
+        error.map_or(Ok(written), |error| Err(problem_of(INCOMPLETE, &error, &path)))
     }
 
     /// The files that were written, and a last one if that was asked for.

@@ -92,8 +92,8 @@ pub(crate) fn store(
     Outcome { files, deleted, totals, problem: problem.or(at_end) }
 }
 
-/// What went wrong, in words for the user.
-pub(crate) fn problem_of(error: &WriteError, path: &Path) -> Problem {
+/// What went wrong, in words for the user, after `what` was not completed: `recording stopped`.
+pub(crate) fn problem_of(what: &str, error: &WriteError, path: &Path) -> Problem {
     let path = path.display();
     match error {
         WriteError::Full(error) => {
@@ -103,14 +103,14 @@ pub(crate) fn problem_of(error: &WriteError, path: &Path) -> Problem {
                 Some(Errno::NOSPC) => "the disk is full".to_owned(),
                 _ => error.to_string(),
             };
-            Problem::new(format!("recording stopped: {reason}")).at(path.to_string())
+            Problem::new(format!("{what}: {reason}")).at(path.to_string())
         }
         WriteError::Failed(error) => {
             let text = match error {
                 McapError::Io(error) => error.to_string(),
                 other => other.to_string(),
             };
-            Problem::new(format!("recording stopped: cannot write: {text}"))
+            Problem::new(format!("{what}: cannot write: {text}"))
                 .at(path.to_string())
                 .help(format!("`scl recover {path}` rebuilds the index of what was written"))
         }
@@ -181,9 +181,13 @@ fn handle(store: &mut Store, contents: &mut Contents, command: Command, totals: 
                 Store::Continuous(continuous) => continuous.flush().map(|()| None),
                 Store::Ring(ring) => ring.save(contents).map(Some),
             };
-            // If that failed for a ring, it goes on: there may be room the next time. A recording notices by itself.
+            let flushed = match (&saved, store) {
+                (Err(problem), Store::Continuous(_)) => Err(problem.clone()),
+                // A ring goes on: there may be room the next time.
+                _ => Ok(()),
+            };
             let _asker_is_gone = answer.send(saved);
-            Ok(())
+            flushed
         }
     }
 }

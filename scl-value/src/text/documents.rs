@@ -3,7 +3,8 @@
 use super::yaml::{ReadError, read_yaml};
 use crate::value::Value;
 
-/// Splits lines into messages: a line that is a whole list or map, as in JSON lines, and everything between lines of `---`.
+/// Splits lines into messages: a line that is a whole list or map, as in JSON lines, and everything between lines of
+/// `---`.
 ///
 /// ```
 /// let mut documents = scl_value::Documents::default();

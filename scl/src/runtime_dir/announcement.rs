@@ -207,6 +207,7 @@ fn text(json: &Value, key: &str) -> Option<String> {
 mod tests {
     use super::*;
     use crate::spec::{GateKind, GateOptions, LinkSpec, Schema, WhenFull};
+    use scl_plan::{ConnectionPlan, GatePlan, Payload};
 
     const fn link(peer_component: &'static str, endpoint: &'static str) -> LinkSpec {
         LinkSpec {
@@ -233,6 +234,59 @@ mod tests {
             contract: "aaaa",
             options: GateOptions::DEFAULT,
             links,
+        }
+    }
+
+    #[test]
+    fn the_announcement_of_a_huge_component_can_be_read() {
+        let names = || (0..10_000).map(|index| format!("component_with_a_usual_name_{index}"));
+        let plan = Plan {
+            system: "nav".to_owned(),
+            component: "gps".to_owned(),
+            declared_at: "nav.yaml:1:2".to_owned(),
+            schema: None,
+            gates: vec![GatePlan {
+                name: "position".to_owned(),
+                kind: GateKind::Pub,
+                payload: Payload::Message("nav.Position".to_owned()),
+                codec: "protobuf".to_owned(),
+                declared_at: "nav.yaml:3:4".to_owned(),
+                endpoint: None,
+                tap: Some("gps.position.tap".to_owned()),
+                contract: "aaaabbbb".to_owned(),
+                options: GateOptions::DEFAULT,
+                connections: names().map(|peer| connection(&peer)).collect(),
+            }],
+        };
+        let endpoint = |peer: String| AnnouncedEndpoint {
+            gate: "position".to_owned(),
+            kind: "pub".to_owned(),
+            endpoint: format!("gps.position--{peer}.position.aaaabbbb"),
+            contract: "aaaabbbb".to_owned(),
+            payload: "nav.Position".to_owned(),
+            codec: "protobuf".to_owned(),
+            peers: vec![format!("{peer}.position")],
+            ..AnnouncedEndpoint::default()
+        };
+        let mut announcement = Announcement::of_this_process("gps");
+        announcement.endpoints = names().map(endpoint).collect();
+        announcement.plan = Some(plan.clone());
+        let text = format!("{:#}\n", announcement.to_json());
+        assert!(text.len() as u64 <= LIMIT, "{} bytes", text.len());
+        let read = Announcement::from_json(&serde_json::from_str(&text).unwrap()).unwrap();
+        assert_eq!((read.plan, read.endpoints), (Some(plan), announcement.endpoints));
+    }
+
+    fn connection(peer: &str) -> ConnectionPlan {
+        ConnectionPlan {
+            peer_component: peer.to_owned(),
+            peer_gate: "position".to_owned(),
+            endpoint: format!("gps.position--{peer}.position.aaaabbbb"),
+            contract: "aaaabbbb".to_owned(),
+            required: true,
+            queue: 100,
+            when_full: WhenFull::DropOldest,
+            max_size: 1 << 26,
         }
     }
 

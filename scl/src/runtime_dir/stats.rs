@@ -4,39 +4,9 @@
 //! answer: it works while the component hangs, and after it was killed. A component that closes removes its file. The
 //! environment variable `SCL_STATS` sets the period (`500ms` by default), or switches the file off (`off`).
 //!
-//! # Format
-//!
-//! All numbers are little endian; times are nanoseconds since 1970 (`CLOCK_REALTIME`) unless stated otherwise.
-//!
-//! | offset | type | field |
-//! |---|---|---|
-//! | 0 | 8 bytes | `SCLSTATS` |
-//! | 8 | u32 | version of the format: 1 |
-//! | 12 | u32 | length of the file in bytes |
-//! | 16 | u64 | **begin**: number of the write that was begun last |
-//! | 24 | u64 | time of the write |
-//! | 32 | u64 | period between two writes, in nanoseconds |
-//! | 40 | u64 | when the component was opened, in milliseconds: `started_ms` of its announcement |
-//! | 48 | u32 | process id, as `pid` of its announcement |
-//! | 52 | u32 | flags; bit 0: all required peers are connected. The others are 0 |
-//! | 56 | u32 | number of gates |
-//! | 60 | u32 | 0 |
-//! | 64 | | the gates, in the order of the plan |
-//! | length - 8 | u64 | **end**: number of the write that was completed last |
-//!
-//! A gate is 104 bytes and its connections:
-//!
-//! | offset | type | field |
-//! |---|---|---|
-//! | 0 | 11 × u64 | `sent`, `received`, `dropped_oldest`, `dropped_newest`, `dropped_for_observers`, `tap_dropped`, `lost`, `rejected`, `bytes`, `waiting`, `peers`: see [`GateFigures`] |
-//! | 88 | u64 | when a message last moved, or 0 |
-//! | 96 | u32 | number of connections |
-//! | 100 | u32 | 0 |
-//! | 104 | 40 bytes each | the connections in the order of the plan: 5 × u64 `connected` (0 or 1), `waiting`, `taken`, `dropped`, `lost`: see [`ConnectionFigures`] |
-//!
-//! A writer writes *begin*, then everything from offset 24 to *end*, then *end*, each with a `pwrite` of its own. A reader
-//! reads in the opposite order: *end*, then the whole file, then *begin* again. If the two numbers are equal, what it has
-//! read is whole; otherwise it tries again.
+//! `docs/stats.md` describes the format, for readers in other languages. A writer writes a counter at the begin of the
+//! block, then the figures, then the same counter at the end; a reader reads in the opposite order, so that equal counters
+//! prove that what it has read is whole.
 
 mod file;
 mod layout;

@@ -102,8 +102,8 @@ impl Member {
             readiness.missing = missing;
             changed
         };
-        if changed {
-            self.service.report_readiness();
+        if changed || self.service.untold.load(Ordering::Relaxed) {
+            self.service.report_changes();
         }
     }
 

@@ -22,10 +22,9 @@ impl Socket {
         Ok(Self(socket))
     }
 
-    /// Sends a datagram, or drops it if the manager does not read.
-    pub(super) fn send(&self, text: &str) {
-        if let Err(error) = send(&self.0, text.as_bytes(), SendFlags::NOSIGNAL | SendFlags::DONTWAIT) {
-            tracing::debug!(%error, text, "the service manager does not take a notification");
-        }
+    /// Sends a datagram. Returns false if the manager does not take it now.
+    pub(super) fn send(&self, text: &str) -> bool {
+        let sent = send(&self.0, text.as_bytes(), SendFlags::NOSIGNAL | SendFlags::DONTWAIT);
+        sent.inspect_err(|error| tracing::debug!(%error, text, "the service manager takes no notification")).is_ok()
     }
 }

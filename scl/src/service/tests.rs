@@ -133,6 +133,21 @@ fn a_manager_that_does_not_read_holds_up_nobody() {
 }
 
 #[test]
+fn what_the_manager_did_not_take_is_reported_again() {
+    let manager = Manager::new(Some(LONG));
+    let member = manager.service.join(false);
+    // More than its queue holds.
+    (0..1000).for_each(|_| member.tick(|| false));
+    member.report_missing(names(&[]));
+    manager.service.report_stopping();
+    assert!(manager.heard().ends_with("WATCHDOG=1\n"));
+    member.report_missing(names(&[]));
+    assert_eq!(manager.heard(), "STOPPING=1\nREADY=1\nSTATUS=all required peers are connected\n");
+    member.report_missing(names(&[]));
+    assert_eq!(manager.heard(), "");
+}
+
+#[test]
 fn settings_are_read_or_passed_over() {
     let own = std::process::id().to_string();
     let cases = [

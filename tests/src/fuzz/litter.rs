@@ -32,7 +32,7 @@ const PIECES: [&[u8]; 18] = [
     b"ggggggggggggggggggggggggggggggggggggggggggggggggggggggggggggg",
 ];
 
-const CONTENTS: [&[u8]; 12] = [
+const CONTENTS: [&[u8]; 13] = [
     b"",
     b"1\n",
     b"-1",
@@ -44,6 +44,7 @@ const CONTENTS: [&[u8]; 12] = [
     b"{\"component\":\"sink\",\"pid\":1,\"started_ms\":18446744073709551615,\"program\":\"\",\"endpoints\":[]}",
     b"{\"component\":\"sink\",\"pid\":1,\"started_ms\":1,\"program\":\"\\u0000\",\"endpoints\":[{}]}",
     b"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[",
+    b"SCLSTATS\x01\0\0\0\x18\0\0\0\0\0\0\0\0\0\0\0",
     b"\xff\xfe",
 ];
 

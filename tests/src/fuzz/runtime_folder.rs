@@ -3,7 +3,7 @@
 use super::litter;
 use arbitrary::{Result, Unstructured};
 use scl::runtime_dir::internals::{Address, ComponentLock, bind_ipc, bind_tcp, check_peer, explain_missing, find};
-use scl::runtime_dir::{Announcement, RuntimeDir, RuntimeDirError, SystemDir};
+use scl::runtime_dir::{Announcement, ComponentStats, RuntimeDir, RuntimeDirError, SystemDir};
 use scl::{Component, OpenOptions};
 use std::collections::BTreeMap;
 use std::fs::{self, Permissions};
@@ -14,8 +14,17 @@ use tempfile::TempDir;
 scl::topology!("topologies/six_kinds.yaml", only = [sink]);
 
 /// Names that are used in the folder, or nearly.
-const NAMES: [&str; 8] =
-    ["sink.lock", "sink.json", "sink.jobs.00000000", "sink.answer.1a2b3c4d", "source.json", ".00000a", "sink", "six"];
+const NAMES: [&str; 9] = [
+    "sink.lock",
+    "sink.json",
+    "sink.stats",
+    "sink.jobs.00000000",
+    "sink.answer.1a2b3c4d",
+    "source.json",
+    ".00000a",
+    "sink",
+    "six",
+];
 
 /// Fills a runtime folder as the bytes say, and does there what a component does. Each step succeeds or says what is in
 /// its way, and nothing outside of the folder is touched.
@@ -83,6 +92,13 @@ impl Scene {
             "XDG_RUNTIME_DIR" => Some(self.root.path().join("session").into()),
             _ => None,
         };
+        if let Some(Some(dir)) = self.told(RuntimeDir::existing(&variable)) {
+            for system in dir.systems().unwrap_or_default() {
+                if let Some(Some(dir)) = self.told(dir.existing_system(&system)) {
+                    dir.components().unwrap_or_default().iter().for_each(|name| drop(dir.state(name)));
+                }
+            }
+        }
         let located = RuntimeDir::locate(&variable).and_then(|dir| dir.system("six"));
         let Some(dir) = self.told(located) else { return };
         self.look_around(&dir);
@@ -110,6 +126,7 @@ impl Scene {
             }
             let component = name.split('.').next().unwrap_or_default();
             let _any = (Announcement::read(dir, component), ComponentLock::holder(dir, component));
+            let _any = (ComponentStats::read(dir, component), dir.state(component), dir.schema(component));
         }
         for (gate, link) in Sink::SPEC.gates.iter().flat_map(|gate| gate.links.iter().map(move |link| (gate, link))) {
             let _peer = ComponentLock::take(dir, link.peer_component);

@@ -147,11 +147,11 @@ fn narrow_terminals_leave_columns_out_and_shorten_names() {
         12,
         &expect![[r#"
         rover  3 of 4 components runni
-        C  STATE         CPU       MEM
-        …  ready        2.1%  3.75 MiB
-        …  hangs        0.0%  3.78 MiB
-        …  not ready  150.0%  3.81 MiB
-        …  stopped         -         -
+        COMPONENT   STATE         CPU
+        controller  ready        2.1%
+        logger      hangs        0.0%
+        sensor      not ready  150.0%
+        viewer      stopped         -
 
         GATE         RATE  DROP  PEERS
         controller…  1.00     0    1/1

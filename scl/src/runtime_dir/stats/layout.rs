@@ -1,4 +1,4 @@
-//! The bytes of a stats file, as the module above describes them.
+//! The bytes of a stats file, as `docs/stats.md` describes them.
 
 use super::{ComponentStats, ConnectionFigures, GateFigures};
 use bytes::{Buf, BufMut};

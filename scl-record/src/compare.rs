@@ -1,0 +1,95 @@
+//! Comparing two recordings: the same messages in the same order, gate by gate.
+//!
+//! Times are not compared unless asked for, so a recording can be compared with one of its replay at another rate. A message
+//! that one recording has and the other lacks is found by what follows it, so one lost message is one difference.
+
+mod align;
+mod report;
+mod side;
+mod values;
+
+pub use report::{CompareReport, Difference, DifferenceKind, GateComparison};
+
+use crate::format::Topic;
+use crate::recording::Recording;
+use align::Alignment;
+use scl_terminal::{Problem, closest_name, escape, quoted_list};
+use scl_value::FieldPath;
+use side::{Contents, Side};
+use std::collections::BTreeSet;
+use std::time::Duration;
+use values::Rules;
+
+/// What is compared, and how exactly.
+#[derive(Debug, Clone, Default)]
+pub struct CompareOptions {
+    /// Compare these gates only; empty: all.
+    pub gates: Vec<String>,
+    /// Compare these fields only; empty: all.
+    pub fields: Vec<FieldPath>,
+    /// How much numbers may differ.
+    pub within: f64,
+    /// How much numbers may differ, in parts of the larger one.
+    pub relative: f64,
+    /// How much the times of messages, since the first of their gate, may differ; `None`: they are not compared.
+    pub times_within: Option<Duration>,
+    /// How many differences are kept for each gate.
+    pub shown: usize,
+}
+
+/// Compares two recordings. `progress` is told the position in the first one.
+///
+/// # Errors
+/// A recording cannot be read; they have no such gate, or its types differ; no message has such a field; there is nothing
+/// to compare.
+pub fn compare(
+    first: &Recording,
+    second: &Recording,
+    options: &CompareOptions,
+    progress: &dyn Fn(Duration),
+) -> Result<CompareReport, Problem> {
+    let contents = [Contents::read(first)?, Contents::read(second)?];
+    let topics = choose_topics(&contents, options)?;
+    contents[0].check_types(&contents[1], &topics)?;
+    let mut sides = [Side::new(first, &contents[0], &topics), Side::new(second, &contents[1], &topics)];
+    let mut rules = Rules::new(options);
+    let mut alignments: Vec<_> = topics.iter().map(|topic| Alignment::new(topic, options)).collect();
+    // Also topics of which nothing has to be read.
+    for (index, alignment) in alignments.iter_mut().enumerate() {
+        alignment.advance(&mut sides, index, &mut rules);
+    }
+    // The side that has less in memory is read, so that both stay side by side.
+    while let Some(side) = sides.iter_mut().filter(|side| !side.is_at_end()).min_by_key(|side| side.queued_bytes()) {
+        if let Some(index) = side.read()? {
+            alignments[index].advance(&mut sides, index, &mut rules);
+        }
+        progress(sides[0].position());
+    }
+    rules.check_fields()?;
+    let gates: Vec<_> = alignments.into_iter().map(Alignment::finish).collect();
+    if gates.iter().all(|gate| gate.messages() == 0) {
+        let names = [first.name(), second.name()];
+        let message = format!("there is nothing to compare: no messages in `{}` and `{}`", names[0], names[1]);
+        return Err(Problem::new(message));
+    }
+    Ok(CompareReport { gates })
+}
+
+/// The topics that are compared: of the named gates, or all.
+fn choose_topics(contents: &[Contents; 2], options: &CompareOptions) -> Result<Vec<Topic>, Problem> {
+    let all: BTreeSet<&Topic> = contents.iter().flat_map(Contents::topics).collect();
+    let names: BTreeSet<String> = all.iter().map(|topic| topic.gate_name()).collect();
+    for gate in options.gates.iter().filter(|gate| !names.contains(*gate)) {
+        let problem = Problem::new(format!("neither recording has messages of a gate `{}`", escape(gate)));
+        return Err(match closest_name(gate, names.iter().map(String::as_str)) {
+            Some(close) => problem.help(format!("did you mean `{close}`?")),
+            None if names.is_empty() => problem.help("record the gate, or compare other recordings"),
+            None => problem.note(format!("gates: {}", quoted_list(names.iter().map(String::as_str)))),
+        });
+    }
+    let is_chosen = |topic: &&Topic| options.gates.is_empty() || options.gates.contains(&topic.gate_name());
+    Ok(all.into_iter().filter(is_chosen).cloned().collect())
+}
+
+#[cfg(test)]
+mod tests;

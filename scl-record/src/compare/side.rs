@@ -1,0 +1,174 @@
+//! One of the two recordings: what it contains, and its messages by gate.
+
+use crate::format::Topic;
+use crate::recording::{Messages, RecordedChannel, RecordedMessage, Recording};
+use bytes::Bytes;
+use scl_terminal::Problem;
+use scl_value::MessageType;
+use std::collections::{BTreeMap, VecDeque};
+use std::time::Duration;
+
+/// The topics of a recording.
+pub(super) struct Contents {
+    name: String,
+    /// With the first of its channels and the number of messages.
+    topics: BTreeMap<Topic, (RecordedChannel, u64)>,
+    start_ns: u64,
+}
+
+impl Contents {
+    /// Reads a recording once, to know how many messages there will be.
+    pub(super) fn read(recording: &Recording) -> Result<Self, Problem> {
+        let mut messages = recording.messages();
+        let mut counts = Vec::new();
+        let mut start_ns = None;
+        while let Some(message) = messages.next()? {
+            counts.resize(counts.len().max(message.channel + 1), 0);
+            counts[message.channel] += 1;
+            start_ns.get_or_insert(message.sent_ns);
+        }
+        counts.resize(messages.channels().len(), 0);
+        let mut topics = BTreeMap::new();
+        for (channel, count) in messages.channels().iter().zip(counts) {
+            topics.entry(channel.topic.clone()).or_insert_with(|| (channel.clone(), 0)).1 += count;
+        }
+        Ok(Self { name: recording.name(), topics, start_ns: start_ns.unwrap_or_default() })
+    }
+
+    pub(super) fn topics(&self) -> impl Iterator<Item = &Topic> {
+        self.topics.keys()
+    }
+
+    /// Checks that both recordings have messages of the same types.
+    pub(super) fn check_types(&self, other: &Self, topics: &[Topic]) -> Result<(), Problem> {
+        let both =
+            topics.iter().filter_map(|topic| Some((topic, &self.topics.get(topic)?.0, &other.topics.get(topic)?.0)));
+        for (topic, own, others) in both {
+            if own.type_and_codec() != others.type_and_codec() {
+                return Err(Problem::new(format!(
+                    "`{}` cannot be compared: it is {} in `{}`, but {} in `{}`",
+                    topic.gate_name(),
+                    own.type_and_codec(),
+                    self.name,
+                    others.type_and_codec(),
+                    other.name
+                ))
+                .help("compare other gates with `--gate`"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A message that waits for its counterpart.
+#[derive(Debug, Clone)]
+pub(super) struct Waiting {
+    pub(super) payload: Bytes,
+    /// Index in [`Side::types`].
+    pub(super) channel: usize,
+    /// Number of the message among those of its topic.
+    pub(super) index: u64,
+    pub(super) sent_ns: u64,
+}
+
+/// The messages of one recording, by compared topic.
+pub(super) struct Side {
+    messages: Messages,
+    topics: Vec<Topic>,
+    queues: Vec<VecDeque<Waiting>>,
+    /// Of each topic, messages not read yet, and read.
+    left: Vec<u64>,
+    read: Vec<u64>,
+    /// By channel, the index of its topic if that is compared, and how its messages are read.
+    by_channel: Vec<Option<usize>>,
+    types: Vec<MessageType>,
+    queued_bytes: usize,
+    is_at_end: bool,
+    start_ns: u64,
+    position: Duration,
+}
+
+impl Side {
+    pub(super) fn new(recording: &Recording, contents: &Contents, topics: &[Topic]) -> Self {
+        let left = topics.iter().map(|topic| contents.topics.get(topic).map_or(0, |(_, count)| *count));
+        let left: Vec<u64> = left.collect();
+        Self {
+            messages: recording.messages(),
+            topics: topics.to_vec(),
+            queues: topics.iter().map(|_| VecDeque::new()).collect(),
+            is_at_end: left.iter().all(|left| *left == 0),
+            read: vec![0; left.len()],
+            left,
+            by_channel: Vec::new(),
+            types: Vec::new(),
+            queued_bytes: 0,
+            start_ns: contents.start_ns,
+            position: Duration::ZERO,
+        }
+    }
+
+    /// Reads one message; returns the index of its topic, if that is compared.
+    pub(super) fn read(&mut self) -> Result<Option<usize>, Problem> {
+        let Some(message) = self.messages.next()? else {
+            self.is_at_end = true;
+            return Ok(None);
+        };
+        self.position = self.since_start(message.sent_ns);
+        for channel in &self.messages.channels()[self.types.len()..] {
+            self.by_channel.push(self.topics.iter().position(|topic| *topic == channel.topic));
+            self.types.push(message_type(channel));
+        }
+        let RecordedMessage { channel, sent_ns, payload, .. } = message;
+        let Some(topic) = self.by_channel[channel] else { return Ok(None) };
+        let index = self.read[topic];
+        self.read[topic] += 1;
+        self.left[topic] -= 1;
+        self.is_at_end = self.left.iter().all(|left| *left == 0);
+        self.queued_bytes += payload.len();
+        self.queues[topic].push_back(Waiting { payload, channel, index, sent_ns });
+        Ok(Some(topic))
+    }
+
+    /// The messages of a topic that wait for their counterparts.
+    pub(super) fn queue(&self, topic: usize) -> &VecDeque<Waiting> {
+        &self.queues[topic]
+    }
+
+    pub(super) fn pop(&mut self, topic: usize) -> Option<Waiting> {
+        let message = self.queues[topic].pop_front()?;
+        self.queued_bytes -= message.payload.len();
+        Some(message)
+    }
+
+    /// Whether no more messages of a topic will be read.
+    pub(super) fn is_complete(&self, topic: usize) -> bool {
+        self.left[topic] == 0
+    }
+
+    pub(super) fn is_at_end(&self) -> bool {
+        self.is_at_end
+    }
+
+    pub(super) fn queued_bytes(&self) -> usize {
+        self.queued_bytes
+    }
+
+    /// How the messages of a channel are read.
+    pub(super) fn message_type(&self, channel: usize) -> &MessageType {
+        &self.types[channel]
+    }
+
+    pub(super) fn since_start(&self, sent_ns: u64) -> Duration {
+        Duration::from_nanos(sent_ns.saturating_sub(self.start_ns))
+    }
+
+    pub(super) fn position(&self) -> Duration {
+        self.position
+    }
+}
+
+fn message_type(channel: &RecordedChannel) -> MessageType {
+    let (type_name, codec) = (channel.metadata.type_name.as_deref(), &channel.metadata.codec);
+    MessageType::new(type_name, codec, channel.descriptors())
+        .unwrap_or_else(|error| MessageType::opaque(error.to_string()))
+}

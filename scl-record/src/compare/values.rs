@@ -1,0 +1,206 @@
+//! Whether two messages are equal, and where they differ.
+
+use super::CompareOptions;
+use super::side::{Side, Waiting};
+use scl_terminal::{Problem, escape};
+use scl_value::{FieldPath, Opaque, Value, to_json};
+
+/// How much of a value is shown.
+const SHOWN: usize = 60;
+
+/// Which fields are compared, and how exactly.
+pub(super) struct Rules {
+    fields: Vec<FieldPath>,
+    /// Whether any message had the field.
+    found: Vec<bool>,
+    within: f64,
+    relative: f64,
+}
+
+/// The first field in which two messages differ.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct FieldDifference {
+    /// Empty for the message itself.
+    pub(super) field: FieldPath,
+    /// Both values as JSON; `None` if the message has no such field.
+    pub(super) values: [Option<String>; 2],
+}
+
+impl Rules {
+    pub(super) fn new(options: &CompareOptions) -> Self {
+        Self {
+            fields: options.fields.clone(),
+            found: vec![false; options.fields.len()],
+            within: options.within,
+            relative: options.relative,
+        }
+    }
+
+    /// Compares two messages; `None` if they are equal.
+    pub(super) fn difference(&mut self, sides: &[Side; 2], messages: [&Waiting; 2]) -> Option<FieldDifference> {
+        let [first, second] = messages;
+        if first.payload == second.payload && self.found.iter().all(|found| *found) {
+            return None;
+        }
+        let types = [sides[0].message_type(first.channel), sides[1].message_type(second.channel)];
+        let decoded = [types[0].decode(&first.payload), types[1].decode(&second.payload)];
+        let [Ok(one), Ok(other)] = decoded else { return bytes_difference(messages) };
+        if let (Value::Opaque(_), _) | (_, Value::Opaque(_)) = (&one, &other) {
+            return bytes_difference(messages);
+        }
+        if self.fields.is_empty() {
+            return self.value_difference(FieldPath::default(), Some(&one), Some(&other));
+        }
+        let mut difference = None;
+        for index in 0..self.fields.len() {
+            let field = self.fields[index].clone();
+            let values = [field.find(&one), field.find(&other)];
+            self.found[index] |= values.iter().any(Option::is_some);
+            if difference.is_none() {
+                difference = self.value_difference(field, values[0], values[1]);
+            }
+        }
+        difference
+    }
+
+    /// Checks that each of the named fields was in a message: a misspelt one would never differ.
+    pub(super) fn check_fields(&self) -> Result<(), Problem> {
+        match self.fields.iter().zip(&self.found).find(|(_, found)| !**found) {
+            Some((field, _)) => Err(Problem::new(format!("no compared message has a field `{field}`"))
+                .help("`scl compare` without `--field` names the fields that differ")),
+            None => Ok(()),
+        }
+    }
+
+    fn value_difference(
+        &self,
+        field: FieldPath,
+        one: Option<&Value>,
+        other: Option<&Value>,
+    ) -> Option<FieldDifference> {
+        match (one, other) {
+            (Some(Value::Map(ones)), Some(Value::Map(others))) => {
+                let keys = ones.iter().map(|(key, _)| key);
+                let more = others.iter().map(|(key, _)| key).filter(|key| !ones.iter().any(|(known, _)| known == *key));
+                let value = |map: &'_ [(Value, Value)], key: &Value| map.iter().position(|(known, _)| known == key);
+                keys.chain(more).find_map(|key| {
+                    let name = key_text(key);
+                    let one = value(ones, key).map(|index| &ones[index].1);
+                    let other = value(others, key).map(|index| &others[index].1);
+                    self.value_difference(field.clone().field(&name), one, other)
+                })
+            }
+            (Some(Value::List(ones)), Some(Value::List(others))) => {
+                (0..ones.len().max(others.len())).find_map(|index| {
+                    self.value_difference(field.clone().element(index), ones.get(index), others.get(index))
+                })
+            }
+            (Some(one), Some(other)) if self.are_equal(one, other) => None,
+            (None, None) => None,
+            _ => Some(FieldDifference { field, values: [one.map(shown), other.map(shown)] }),
+        }
+    }
+
+    fn are_equal(&self, one: &Value, other: &Value) -> bool {
+        if one == other {
+            return true;
+        }
+        let (Some(one), Some(other)) = (number(one), number(other)) else { return false };
+        let larger = one.abs().max(other.abs());
+        let tolerance = self.within.max(self.relative * larger);
+        // Decimal numbers that differ by just the tolerance may differ by somewhat more in binary.
+        let rounding = 4.0 * f64::EPSILON * larger;
+        let is_near = tolerance > 0.0 && (one - other).abs() <= tolerance + rounding;
+        is_near || one.is_nan() && other.is_nan() || one == other && is_exact(one)
+    }
+}
+
+fn bytes_difference(messages: [&Waiting; 2]) -> Option<FieldDifference> {
+    if messages[0].payload == messages[1].payload {
+        return None;
+    }
+    let values = messages.map(|message| {
+        let Opaque { length, hex, .. } = Opaque::new(&message.payload, "");
+        Some(cut(&format!("{length} bytes: {hex}")))
+    });
+    Some(FieldDifference { field: FieldPath::default(), values })
+}
+
+fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Int(number) => Some(*number as f64),
+        Value::Uint(number) => Some(*number as f64),
+        Value::Float(number) => Some(*number),
+        _ => None,
+    }
+}
+
+/// Whether whole numbers of this size are still apart as floating point numbers.
+fn is_exact(number: f64) -> bool {
+    number.abs() < (1_u64 << 53) as f64
+}
+
+fn key_text(key: &Value) -> String {
+    match key {
+        Value::Text(text) => text.clone(),
+        key => to_json(key),
+    }
+}
+
+/// A value as JSON, safe for a terminal and not too long.
+pub(super) fn shown(value: &Value) -> String {
+    cut(&to_json(value))
+}
+
+fn cut(text: &str) -> String {
+    let text = escape(text);
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.into_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn differs(rules: &Rules, one: Value, other: Value) -> Option<String> {
+        let FieldDifference { field, values } =
+            rules.value_difference(FieldPath::default(), Some(&one), Some(&other))?;
+        let [one, other] = values.map(|value| value.unwrap_or_else(|| "nothing".to_owned()));
+        Some(format!("{field}: {one} {other}"))
+    }
+
+    #[test]
+    fn numbers_are_equal_within_the_tolerances_and_all_else_exactly() {
+        let exact = Rules::new(&CompareOptions::default());
+        let near = Rules::new(&CompareOptions { within: 0.1, ..CompareOptions::default() });
+        let relative = Rules::new(&CompareOptions { relative: 0.01, ..CompareOptions::default() });
+        let pose = |x: f64| Value::fields([("pose", Value::List(vec![x.into(), 2.0.into()]))]);
+        let big = 1_u64 << 60;
+        let cases = [
+            (&exact, pose(1.0), pose(1.0), None),
+            (&exact, pose(1.0), pose(1.000_001), Some("pose[0]: 1.0 1.000001")),
+            (&near, pose(1.0), pose(1.1), None),
+            (&near, pose(1.0), pose(1.11), Some("pose[0]: 1.0 1.11")),
+            (&near, pose(f64::NAN), pose(f64::NAN), None),
+            (&relative, pose(1000.0), pose(1009.0), None),
+            (&relative, pose(1000.0), pose(1011.0), Some("pose[0]: 1000.0 1011.0")),
+            (&exact, Value::Int(2), Value::Float(2.0), None),
+            (
+                &exact,
+                Value::Uint(u64::MAX),
+                Value::Uint(u64::MAX - 1),
+                Some(".: 18446744073709551615 18446744073709551614"),
+            ),
+            (&exact, big.into(), (big + 1).into(), Some(".: 1152921504606846976 1152921504606846977")),
+            (&near, "1".into(), "1.01".into(), Some(".: \"1\" \"1.01\"")),
+            (&near, Value::List(vec![]), Value::List(vec![Value::Int(1)]), Some("[0]: nothing 1")),
+            (&near, Value::fields([("a", Value::Int(1))]), Value::fields([("b", Value::Int(1))]), Some("a: 1 nothing")),
+            (&near, Value::Null, false.into(), Some(".: null false")),
+        ];
+        for (rules, one, other, expected) in cases {
+            assert_eq!(differs(rules, one.clone(), other.clone()).as_deref(), expected, "{one:?} {other:?}");
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! One line of a log, written and read.
+
+use scl_terminal::timestamp;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+use std::time::SystemTime;
+
+/// One of the two output streams of a component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LogStream {
+    /// Standard output.
+    Stdout,
+    /// Standard error.
+    Stderr,
+}
+
+impl LogStream {
+    /// `stdout` or `stderr`.
+    pub fn word(self) -> &'static str {
+        match self {
+            LogStream::Stdout => "stdout",
+            LogStream::Stderr => "stderr",
+        }
+    }
+}
+
+/// A line that a component has printed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LogEntry {
+    /// When it was read, in RFC 3339 and UTC.
+    pub time: String,
+    /// The component.
+    pub component: String,
+    /// Where it was printed.
+    pub stream: LogStream,
+    /// The number of the component's process since the log began.
+    pub run: u64,
+    /// The line without its end. If it is [`escaped`](Self::escaped), each byte that is not UTF-8 is `\xff` and each
+    /// backslash is `\\`.
+    pub text: String,
+    /// Whether the line had bytes that are not UTF-8.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub escaped: bool,
+    /// Number of bytes of the line that are missing after `text`, because it was too long.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub cut_bytes: u64,
+}
+
+impl LogEntry {
+    /// Reads a line of a log file. `None` for anything else, such as a line that a full disk has cut.
+    pub(super) fn from_line(line: &[u8]) -> Option<Self> {
+        serde_json::from_slice(line).ok()
+    }
+}
+
+/// A line to be written.
+pub(super) struct Entry<'a> {
+    pub(super) time: SystemTime,
+    pub(super) component: &'a str,
+    pub(super) stream: LogStream,
+    pub(super) run: u64,
+    pub(super) text: &'a [u8],
+}
+
+impl Entry<'_> {
+    /// The line with its end; at most `longest` bytes of the text are kept.
+    pub(super) fn to_line(&self, longest: usize) -> String {
+        let kept = &self.text[..cut(self.text, longest)];
+        let (text, escaped) = match std::str::from_utf8(kept) {
+            Ok(text) => (text.to_owned(), false),
+            Err(_) => (escape_reversibly(kept), true),
+        };
+        let entry = LogEntry {
+            time: timestamp(self.time),
+            component: self.component.to_owned(),
+            stream: self.stream,
+            run: self.run,
+            text,
+            escaped,
+            cut_bytes: (self.text.len() - kept.len()) as u64,
+        };
+        // Strings and numbers always become JSON.
+        serde_json::to_string(&entry).unwrap_or_default() + "\n"
+    }
+}
+
+/// Where to cut, so that no character is cut in two.
+fn cut(text: &[u8], longest: usize) -> usize {
+    if text.len() <= longest {
+        return text.len();
+    }
+    let is_inside = |&at: &usize| text[at] & 0b1100_0000 == 0b1000_0000;
+    // A character has four bytes at most; anything longer is no text.
+    (longest.saturating_sub(3)..=longest).rev().find(|at| !is_inside(at)).unwrap_or(longest)
+}
+
+fn escape_reversibly(bytes: &[u8]) -> String {
+    let mut text = String::with_capacity(bytes.len() + 16);
+    for chunk in bytes.utf8_chunks() {
+        text.push_str(&chunk.valid().replace('\\', "\\\\"));
+        for byte in chunk.invalid() {
+            // Writing to a string cannot fail.
+            let _ = write!(text, "\\x{byte:02x}");
+        }
+    }
+    text
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
+fn is_zero(value: &u64) -> bool {
+    *value == 0
+}
