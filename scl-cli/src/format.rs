@@ -28,13 +28,6 @@ impl FormatArgument {
 }
 
 /// Prints the one value of a query, over several lines.
-#[cfg_attr(not(feature = "observe"), allow(dead_code, reason = "used by the queries"))]
 pub(crate) fn print_json(value: &Value) {
     print_out(&escape_json(&format!("{value:#}\n")));
-}
-
-/// Prints an object of a stream on one line.
-#[allow(dead_code, reason = "used by the commands that print streams")]
-pub(crate) fn print_json_line(value: &Value) {
-    print_out(&escape_json(&format!("{value}\n")));
 }

@@ -86,3 +86,20 @@ async fn states_are_read_anew() {
     std::fs::remove_dir_all(world.runtime_dir()).unwrap();
     assert!(states().is_empty());
 }
+
+#[tokio::test]
+async fn a_killed_peer_is_no_place_to_observe() {
+    let world = World::new();
+    let (_sensor, controller) = (world.open("sensor").await, world.open("controller").await);
+    // A killed process leaves its announcement behind; this one closes, and the file is put back.
+    let file = world.runtime_dir().join("rover/controller.json");
+    let announcement = std::fs::read(&file).unwrap();
+    drop(controller);
+    std::fs::write(&file, announcement).unwrap();
+    let system = world.find(None).unwrap();
+    assert_eq!(system.component("controller").unwrap().state_word(), "dead");
+    let problem = system.gate("sensor.jobs").unwrap_err().to_string();
+    assert!(problem.contains("none of its peers is running"), "{problem}");
+    let problem = system.gate("controller.jobs").unwrap_err().to_string();
+    assert!(problem.contains("component `controller` is not running") && problem.contains("was killed or crashed"));
+}
