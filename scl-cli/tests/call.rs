@@ -91,8 +91,17 @@ connections:
   - [controller.raw, screen.raw]
 ";
     let rover = Rover::of(topology);
-    expect![[r#""#]].assert_eq(&rover.error(&["call", "controller.commands"], 2));
-    expect![[r#""#]].assert_eq(&rover.error(&["call", "controller.raw", "--template"], 2));
+    expect![[r#"
+        error: several components that ask at `controller.commands` are not running
+          = help: choose one with `--as screen`
+          = note: not running: `screen`, `remote`
+    "#]]
+    .assert_eq(&rover.error(&["call", "controller.commands"], 2));
+    expect![[r#"
+        error: the type of the requests of `controller.raw` is not known
+          = note: they are `bytes`, in `raw`, without `schemas:`
+    "#]]
+    .assert_eq(&rover.error(&["call", "controller.raw", "--template"], 2));
 }
 
 #[test]
