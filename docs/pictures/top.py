@@ -18,7 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SCL = ROOT / "target/debug/scl"
 COMPONENTS = ["sensor", "controller", "actuator", "user_interface"]
-COLUMNS, LINES = 80, 18
+COLUMNS, LINES = 80, 20
 CHARACTER, LINE = 8.4, 18
 COLOURS = {"1": "#cc6666", "2": "#8ec07c", "3": "#e5c07b"}
 

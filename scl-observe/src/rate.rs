@@ -242,9 +242,12 @@ mod tests {
         frames.iter().map(|&(sequence, ms)| Some((Message, sequence, ms))).collect()
     }
 
+    /// What it shows, sequence and milliseconds of each message, the figures.
+    type Case<'c> = (&'c str, &'c [(u64, u64)], &'c str);
+
     #[test]
     fn rates_periods_and_gaps_come_from_numbers_and_time_stamps() {
-        let cases: &[(&str, &[(u64, u64)], &str)] = &[
+        let cases: &[Case<'_>] = &[
             ("nothing", &[], "0 - - 0"),
             ("one message has no rate", &[(7, 0)], "1 - - 0"),
             ("three messages are two periods", &[(7, 0), (8, 100), (9, 300)], "3 6.7 100..200 0"),
