@@ -34,6 +34,8 @@ mod info;
 #[cfg(feature = "observe")]
 mod list;
 mod load;
+#[cfg(feature = "run")]
+mod log;
 #[cfg(feature = "observe")]
 mod measure;
 #[cfg(feature = "observe")]
@@ -116,6 +118,8 @@ enum Command {
     Info(info::InfoArguments),
     #[cfg(feature = "observe")]
     List(list::ListArguments),
+    #[cfg(feature = "run")]
+    Log(log::LogArguments),
     #[cfg(feature = "new")]
     New(new::NewArguments),
     Plan(plan::PlanArguments),
@@ -181,6 +185,8 @@ fn main() -> ExitCode {
         Command::Info(arguments) => info::info(&arguments),
         #[cfg(feature = "observe")]
         Command::List(arguments) => list::list(&arguments),
+        #[cfg(feature = "run")]
+        Command::Log(arguments) => log::log(&arguments),
         #[cfg(feature = "new")]
         Command::New(arguments) => new::new(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),

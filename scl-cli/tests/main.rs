@@ -40,6 +40,8 @@ mod json;
 mod languages;
 #[cfg(feature = "observe")]
 mod list;
+#[cfg(feature = "run")]
+mod log;
 mod lsp;
 #[cfg(feature = "new")]
 mod new;

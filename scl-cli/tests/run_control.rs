@@ -75,6 +75,7 @@ fn everything_is_stopped_and_the_run_ends() {
     check(&system, &["stop"], 0, stopped, "");
     let (status, _, err) = run.finish();
     assert_eq!(status.code(), Some(0), "{err}");
+    assert!(err.contains("scl: requested: `scl stop`\n"), "{err}");
     assert_eq!(sockets(&system), Vec::<PathBuf>::new());
     check(&system, &["stop"], 2, "", "error: no `scl run` is running\n  = help: start the system with `scl run`\n\n");
 }

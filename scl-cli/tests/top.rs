@@ -22,7 +22,7 @@ fn a_table_lists_components_and_gates() {
 #[test]
 fn json_has_the_figures_of_the_stats_files() {
     let rover = Rover::start();
-    let top = rover.json(&["top", "--once", "--period", "2s"]);
+    let top = rover.json(&["top", "--once", "--period", "2s", "--format", "json"]);
     assert_eq!(top["system"], "rover");
     for component in COMPONENTS {
         let rows = top["components"].as_array().unwrap();
@@ -43,7 +43,7 @@ fn json_has_the_figures_of_the_stats_files() {
 #[test]
 fn rows_are_sorted() {
     let rover = Rover::start();
-    let top = rover.json(&["top", "--once", "--sort", "memory"]);
+    let top = rover.json(&["top", "--once", "--sort", "memory", "--format", "json"]);
     let memory: Vec<_> = top["components"].as_array().unwrap().iter().map(|row| row["memory_bytes"].as_u64()).collect();
     assert!(memory.is_sorted_by(|one, other| one >= other), "{memory:?}");
 }

@@ -22,8 +22,8 @@ pub struct ObservedGate {
     pub peers: Vec<String>,
     /// The protobuf messages that its program was built with: a serialized `google.protobuf.FileDescriptorSet`.
     pub schema: Option<Bytes>,
-    /// Where its messages are seen: its own tap, or, for a `sub`, `req` or `push` gate, those of its running peers, where
-    /// messages of their other peers are seen too.
+    /// Where its messages are seen: its own tap, or, for a `sub`, `req` or `push` gate, those of its running peers,
+    /// where messages of their other peers are seen, too.
     pub taps: Vec<Tap>,
 }
 

@@ -17,6 +17,10 @@ use std::process::{Child, Stdio};
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::thread;
+use std::time::{Duration, Instant};
+
+/// How long a killed process may need to end.
+const LAST_BREATH: Duration = Duration::from_millis(200);
 
 /// What the other threads tell the supervisor.
 #[derive(Debug)]
@@ -119,6 +123,15 @@ impl Drop for Running {
     fn drop(&mut self) {
         self.signal(Signal::SIGKILL);
         let _ = self.process.wait();
+    }
+}
+
+/// Waits until the last process of a killed group has gone, so that what they held (a component's lock, a port) is free.
+/// Not for long: processes that nobody reaps stay.
+pub(crate) fn wait_for_group(group: Pid) {
+    let until = Instant::now() + LAST_BREATH;
+    while killpg(group, None).is_ok() && Instant::now() < until {
+        thread::sleep(Duration::from_millis(1));
     }
 }
 

@@ -2,8 +2,8 @@
 
 mod process;
 
-use super::children::{Event, Role, Running, Start};
-use super::control::Asked;
+use super::children::{Event, Role, Running, Start, wait_for_group};
+use super::control::{Asked, Command};
 use super::ending::Ending;
 use super::lifecycle::{Action, Input, State};
 use super::notify::{Notified, NotifySocket};
@@ -151,6 +151,13 @@ impl<'a> Supervisor<'a> {
 
     fn take_request(&mut self, run: &mut Run<'_>, asked: Asked) {
         let names: Vec<&str> = run.members.iter().map(|member| member.name).collect();
+        let chosen = asked.request.components.iter().filter(|name| names.contains(&name.as_str()));
+        let chosen: String = chosen.map(|name| format!(" {name}")).collect();
+        match asked.request.command {
+            Command::List => {}
+            Command::Stop => self.surroundings.reports.announce(&format!("requested: `scl stop{chosen}`")),
+            Command::Restart => self.surroundings.reports.announce(&format!("requested: `scl restart{chosen}`")),
+        }
         for event in run.requests.take(asked, &names, &run.state) {
             self.apply(run, event);
         }
@@ -188,8 +195,10 @@ impl<'a> Supervisor<'a> {
         if let Some(process) = &mut self.processes[index] {
             let late = std::mem::take(&mut process.reports);
             late.iter().for_each(|text| self.surroundings.reports.report(member.label, text));
+            let group = process.running.group();
+            self.discard(index);
+            wait_for_group(group);
         }
-        self.discard(index);
         let notify = self.notify.filter(|_| member.role == Role::Component);
         let notify = notify.map(|socket| Notified { socket, alive_within: member.policy.alive_within });
         let start = Start { process: self.next_process, label: member.label, role: member.role, notify };

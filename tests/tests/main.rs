@@ -36,7 +36,6 @@ mod sizes;
 mod stats;
 mod strangers;
 mod subscribers;
-mod systemd;
 mod taps;
 mod threads;
 mod unit;

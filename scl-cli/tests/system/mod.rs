@@ -65,6 +65,8 @@ impl System {
     pub(crate) fn scl(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_scl"));
         command.args(arguments).current_dir(self.folder.path()).stdin(Stdio::null());
+        // Where `scl run` writes logs.
+        command.env("XDG_STATE_HOME", self.path("state"));
         for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
             command.env_remove(name);
         }

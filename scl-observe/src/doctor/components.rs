@@ -16,7 +16,8 @@ pub(super) fn check(examined: &Examined<'_>) -> Vec<Finding> {
     if findings.is_empty() {
         findings.push(match (running, examined.systems.len()) {
             (0, _) => Finding::note(CHECK, "none is running"),
-            (running, systems) => Finding::ok(CHECK, format!("running: {running}, in {systems} systems")),
+            (running, 1) => Finding::ok(CHECK, format!("{running} running in 1 system")),
+            (running, systems) => Finding::ok(CHECK, format!("{running} running in {systems} systems")),
         });
     }
     findings

@@ -95,7 +95,9 @@ impl Scene {
         if let Some(Some(dir)) = self.told(RuntimeDir::existing(&variable)) {
             for system in dir.systems().unwrap_or_default() {
                 if let Some(Some(dir)) = self.told(dir.existing_system(&system)) {
-                    dir.components().unwrap_or_default().iter().for_each(|name| drop(dir.state(name)));
+                    let components = dir.components().unwrap_or_default();
+                    assert!(components.iter().all(|name| !name.contains('/')));
+                    let _any: Vec<_> = components.iter().map(|name| dir.state(name)).collect();
                 }
             }
         }

@@ -31,8 +31,9 @@ fn programs_in_every_language_are_seen() {
             });
         }
         if notifies {
-            manager.expect("READY=1");
+            // Until its first call, and not while it waits for commands.
             manager.expect("WATCHDOG=1");
+            manager.expect("READY=1");
             left.terminate();
             manager.expect("STOPPING=1");
         } else {

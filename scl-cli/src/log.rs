@@ -1,0 +1,223 @@
+//! `scl log`: what a component has printed, also after it and `scl run` have ended.
+
+use crate::format::FormatArgument;
+use crate::load::{MaxSize, load_file};
+use clap::{Args, ValueEnum};
+use scl_run::{LogEntry, LogFolder, LogReader, LogStream};
+use scl_terminal::{Problem, closest_name, escape, escape_json, parse_duration, print_err, quoted_list, timestamp};
+use std::collections::VecDeque;
+use std::env;
+use std::ffi::OsString;
+use std::io::{self, IsTerminal, Write, stdout};
+use std::path::Path;
+use std::process::ExitCode;
+use std::thread::sleep;
+use std::time::{Duration, SystemTime};
+
+/// Exit code: there is no such log, or it cannot be read.
+const COULD_NOT_READ: u8 = 2;
+
+/// Number of lines before those that are followed.
+const LINES_BEFORE: usize = 10;
+
+/// How often a followed log is examined.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// Show what a component has printed under `scl run`, also after both have ended.
+///
+/// The log is in files below `$XDG_STATE_HOME/scl`, or `~/.local/state/scl`; the newest 12 to 16 MiB of each component are kept.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl log sensor                          everything that is kept
+  scl log sensor -n 100                   the last 100 lines
+  scl log sensor -f                       what it prints from now on, and ten lines before
+  scl log sensor --since 5min --stream stderr
+  scl log sensor --format json | jq -r 'select(.run == 3) | .text'
+
+Exit code: 0 shown, 2 there is no such log.")]
+pub(crate) struct LogArguments {
+    /// The component.
+    #[arg(value_name = "COMPONENT")]
+    component: String,
+    /// Wait for further lines until Ctrl-C.
+    #[arg(long, short)]
+    follow: bool,
+    /// Show the last lines only.
+    #[arg(long, short = 'n', value_name = "LINES")]
+    lines: Option<usize>,
+    /// Show lines of this last time only, for example `5min`.
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    since: Option<Duration>,
+    /// Show lines of this stream only.
+    #[arg(long, value_enum, value_name = "STREAM")]
+    stream: Option<StreamArgument>,
+    /// The system [default: $SCL_SYSTEM, or that of ./topology.yaml, or the only one with logs].
+    #[arg(long, value_name = "NAME")]
+    system: Option<String>,
+    #[command(flatten)]
+    format: FormatArgument,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum StreamArgument {
+    /// Standard output.
+    Stdout,
+    /// Standard error.
+    Stderr,
+}
+
+/// The body of `scl log`.
+pub(crate) fn log(arguments: &LogArguments) -> ExitCode {
+    match show(arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            print_err(&problem.to_string());
+            ExitCode::from(COULD_NOT_READ)
+        }
+    }
+}
+
+fn show(arguments: &LogArguments) -> Result<(), Problem> {
+    let system = find_system(arguments.system.as_deref())?;
+    let folder = LogFolder::of(&system, &variable).ok_or_else(|| no_folder(&system))?;
+    if !folder.components().contains(&arguments.component) {
+        return Err(no_log(&system, &folder, &arguments.component));
+    }
+    let unreadable = |error| Problem::new(format!("cannot read the log of `{}`: {error}", arguments.component));
+    let mut reader = LogReader::new(&folder, &arguments.component);
+    let mut printer = Printer::new(arguments);
+    print_existing(arguments, &mut reader, &mut printer).map_err(unreadable)?;
+    // Until a signal, or until nobody reads any more.
+    while arguments.follow && !printer.is_closed {
+        match reader.next_entry().map_err(unreadable)? {
+            Some(entry) => printer.print(&entry),
+            None => sleep(LOOK),
+        }
+    }
+    Ok(())
+}
+
+/// Prints what there is, or the last lines of it.
+fn print_existing(arguments: &LogArguments, reader: &mut LogReader, printer: &mut Printer) -> io::Result<()> {
+    let kept = arguments.lines.or((arguments.follow && arguments.since.is_none()).then_some(LINES_BEFORE));
+    let mut last = VecDeque::new();
+    while let Some(entry) = reader.next_entry()?.filter(|_| !printer.is_closed) {
+        match kept {
+            None => printer.print(&entry),
+            Some(kept) if printer.filter.wants(&entry) => {
+                last.push_back(entry);
+                last.drain(..last.len().saturating_sub(kept));
+            }
+            Some(_) => {}
+        }
+    }
+    last.iter().for_each(|entry| printer.print(entry));
+    Ok(())
+}
+
+/// Which entries are asked for.
+struct Filter {
+    /// As in the entries. Times in this form sort as text.
+    earliest: Option<String>,
+    stream: Option<StreamArgument>,
+}
+
+impl Filter {
+    fn wants(&self, entry: &LogEntry) -> bool {
+        let is_late = self.earliest.as_ref().is_none_or(|earliest| entry.time >= *earliest);
+        is_late && self.stream.is_none_or(|stream| stream.is(entry.stream))
+    }
+}
+
+/// Writes entries, and says where another process of the component begins.
+struct Printer {
+    filter: Filter,
+    is_json: bool,
+    run: Option<u64>,
+    /// Whether control characters are shown as escapes. In a pipe, programs get what was printed.
+    escapes: bool,
+    /// Whether the reader of our output has gone.
+    is_closed: bool,
+}
+
+impl Printer {
+    fn new(arguments: &LogArguments) -> Self {
+        let earliest = arguments.since.map(|since| {
+            let now = SystemTime::now();
+            timestamp(now.checked_sub(since).unwrap_or(SystemTime::UNIX_EPOCH))
+        });
+        let filter = Filter { earliest, stream: arguments.stream };
+        let escapes = stdout().is_terminal();
+        Self { filter, is_json: arguments.format.is_json(), run: None, escapes, is_closed: false }
+    }
+
+    fn print(&mut self, entry: &LogEntry) {
+        if self.filter.wants(entry) {
+            let text = self.text(entry);
+            let mut out = stdout().lock();
+            self.is_closed |= out.write_all(text.as_bytes()).and_then(|()| out.flush()).is_err();
+        }
+    }
+
+    fn text(&mut self, entry: &LogEntry) -> String {
+        if self.is_json {
+            // Strings and numbers always become JSON.
+            return format!("{}\n", escape_json(&serde_json::to_string(entry).unwrap_or_default()));
+        }
+        let is_other = self.run.replace(entry.run).is_some_and(|run| run != entry.run);
+        let run = if is_other { format!("-- process {} --\n", entry.run) } else { String::new() };
+        let text = if self.escapes { escape(&entry.text) } else { entry.text.as_str().into() };
+        let cut = if entry.cut_bytes > 0 { format!("… ({} bytes more)", entry.cut_bytes) } else { String::new() };
+        format!("{run}{} {} {text}{cut}\n", entry.time, entry.stream.word())
+    }
+}
+
+impl StreamArgument {
+    fn is(self, stream: LogStream) -> bool {
+        matches!((self, stream), (Self::Stdout, LogStream::Stdout) | (Self::Stderr, LogStream::Stderr))
+    }
+}
+
+fn variable(name: &str) -> Option<OsString> {
+    env::var_os(name)
+}
+
+fn find_system(name: Option<&str>) -> Result<String, Problem> {
+    let own = || variable("SCL_SYSTEM").filter(|name| !name.is_empty()).and_then(|name| name.into_string().ok());
+    if let Some(name) = name.map(str::to_owned).or_else(own).or_else(system_of_folder) {
+        return Ok(name);
+    }
+    match &LogFolder::systems(&variable)[..] {
+        [only] => Ok(only.clone()),
+        [] => Err(Problem::new("no system has logs").help("`scl run` writes them")),
+        several => Err(Problem::new("several systems have logs")
+            .help(format!("name one: `--system {}`, or set `SCL_SYSTEM`", several[0]))
+            .note(format!("systems: {}", quoted_list(several.iter().map(String::as_str))))),
+    }
+}
+
+/// The system of the topology file in the working folder, if that is one without mistakes.
+fn system_of_folder() -> Option<String> {
+    let file = Path::new("topology.yaml");
+    let loaded = file.is_file().then(|| load_file(file, MaxSize::default()))?;
+    Some(loaded.topology?.system().to_owned())
+}
+
+fn no_folder(system: &str) -> Problem {
+    Problem::new(format!("there are no logs of a system `{}`", escape(system))).help(
+        "set `HOME` or `XDG_STATE_HOME` to an absolute path, and name a system with letters, digits and underscores",
+    )
+}
+
+fn no_log(system: &str, folder: &LogFolder, component: &str) -> Problem {
+    let problem = Problem::new(format!("there is no log of component `{}` of system `{system}`", escape(component)));
+    let components = folder.components();
+    let names = || components.iter().map(String::as_str);
+    let problem = match closest_name(component, names()) {
+        Some(close) => problem.help(format!("did you mean `{close}`?")),
+        None => problem.help("`scl run` writes logs of the components that it starts"),
+    };
+    let problem = problem.note(format!("looked in `{}`", folder.path().display()));
+    if components.is_empty() { problem } else { problem.note(format!("logs: {}", quoted_list(names()))) }
+}
