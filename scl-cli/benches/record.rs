@@ -1,7 +1,7 @@
 //! What `scl record` costs: its processor time for ten gates at 1 kHz, and the delay of the gates beside without it.
 //!
-//! `cargo bench -p scl-cli --bench record`. Two processes, a source and a sink, are connected by ten gates; a recorder runs
-//! in every second phase.
+//! `cargo bench -p scl-cli --bench record`. Two processes, a source and a sink, are connected by ten gates; a recorder
+//! runs in every second phase.
 
 use scl::plan::SystemPlan;
 use scl::untyped::Component;

@@ -1,8 +1,8 @@
 //! Recording: from the taps of a running system into MCAP files.
 //!
-//! One thread reads the taps ([`collector`]) and never waits for the disk; another one writes ([`storage`]). Between them is
-//! a queue with a limit in bytes. What finds no room there, or was dropped by a gate because the recorder read slowly, is
-//! counted as lost. The gates are not delayed in any case.
+//! One thread reads the taps ([`collector`]) and never waits for the disk; another one writes ([`storage`]). Between
+//! them is a queue with a limit in bytes. What finds no room there, or was dropped by a gate because the recorder read
+//! slowly, is counted as lost. The gates are not delayed in any case.
 
 mod collector;
 mod contents;
@@ -107,7 +107,8 @@ fn open_store(
             let trigger = TriggerListener::open(system)?;
             let id = std::process::id();
             notes.say(&format!(
-                "keeping the last {:?} of `{name}` in memory; `scl record --trigger` or SIGUSR1 to process {id} writes them",
+                "keeping the last {:?} of `{name}` in memory; \
+                 `scl record --trigger` or SIGUSR1 to process {id} writes them",
                 ring.window
             ));
             Ok((Store::Ring(Ring::new(names, ring.window, options.memory, ring.save_at_end)), Some(trigger)))

@@ -22,15 +22,15 @@ pub struct Recovered {
     pub path: PathBuf,
     /// Messages in it.
     pub messages: u64,
-    /// Bytes of the damaged recording outside of complete records. Of a chunk that is cut off, messages may have been kept
-    /// nevertheless.
+    /// Bytes of the damaged recording outside of complete records. Of a chunk that is cut off, messages may have been
+    /// kept nevertheless.
     pub dropped: u64,
     /// Whether the recording was complete before, so that it was left as it is.
     pub was_complete: bool,
 }
 
-/// Recovers `input`, in place unless there is an `output`. The new file is written beside its final name and then renamed,
-/// so that there always is one of the two.
+/// Recovers `input`, in place unless there is an `output`. The new file is written beside its final name and then
+/// renamed, so that there always is one of the two.
 ///
 /// # Errors
 /// The input cannot be read, is no recording, or is being recorded; the output exists or cannot be written.

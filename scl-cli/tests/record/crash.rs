@@ -56,9 +56,12 @@ fn signals_write_what_has_arrived() {
     for signal in ["-TERM", "-HUP"] {
         let recorder = source.record(&["g0"], &["--overwrite", "--sync", "100ms"]);
         let sent = source.send_numbers(50);
+        let file = source.rover.path("flight.mcap");
+        wait_until("everything has arrived", || {
+            sequences(&file, "/source/g0", sent.start).last() == Some(&(sent.end - 1))
+        });
         recorder.signal(signal);
         assert_eq!(recorder.finish().0, Some(0), "{signal}");
-        let file = source.rover.path("flight.mcap");
         assert_eq!(sequences(&file, "/source/g0", sent.start), sent.collect::<Vec<_>>(), "{signal}");
         summary(&file);
     }

@@ -21,8 +21,14 @@ fn ten_gates_at_a_thousand_messages_a_second_are_recorded_completely() {
         names.iter().for_each(|gate| source.send(gate, &number.to_le_bytes()));
         thread::sleep(Duration::from_millis(1));
     }
-    let report = recorder.stop_json();
     let file = source.rover.path("flight.mcap");
+    wait_until("the last message is recorded", || {
+        let recorded = messages(&file);
+        let last =
+            |gate: &&&str| recorded.iter().rfind(|it| it.topic == format!("/source/{gate}")).map(|it| it.sequence);
+        names.iter().filter(|gate| last(gate).map(u64::from) == Some(source.sent(gate) - 1)).count() == names.len()
+    });
+    let report = recorder.stop_json();
     let counts = counts(&file);
     for gate in names {
         let topic = format!("/source/{gate}");

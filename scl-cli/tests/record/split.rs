@@ -41,6 +41,13 @@ fn record_500(source: &mut Source, arguments: &[&str]) -> Value {
     for number in 0..500_u64 {
         source.send("g0", &number.to_le_bytes().repeat(128));
     }
+    let last = source.sent("g0") - 1;
+    wait_until("the last message is recorded", || {
+        recorder.signal("-USR1");
+        let files = fs::read_dir(source.rover.path("")).unwrap().flatten().map(|entry| entry.path());
+        let newest = files.filter(|path| path.extension().is_some_and(|it| it == "mcap")).max();
+        messages(&newest.unwrap()).last().is_some_and(|message| u64::from(message.sequence) == last)
+    });
     let report = recorder.stop_json();
     let (recorded, lost) = figures(&report, "source.g0");
     assert!(recorded >= 500 && lost == 0, "{report}");

@@ -17,7 +17,8 @@ pub struct Encoding<'a> {
 }
 
 impl<'a> Encoding<'a> {
-    /// The encoding of one codec and type; `descriptors` is the serialized `FileDescriptorSet` of the component's messages.
+    /// The encoding of one codec and type; `descriptors` is the serialized `FileDescriptorSet` of the component's
+    /// messages.
     pub fn new(codec: &'a str, type_name: Option<&'a str>, descriptors: Option<&'a [u8]>) -> Self {
         let Some(schema_name) = type_name else {
             // Bytes are what they are, whatever codec the system has for its other gates.

@@ -23,8 +23,8 @@ use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
 const SHOW: Duration = Duration::from_millis(500);
 
 /// At the end: how long nothing may arrive until nothing more is expected, and how long to look in any case.
-const ARRIVAL: Duration = Duration::from_millis(10);
-const LAST_LOOK: Duration = Duration::from_millis(200);
+const ARRIVAL: Duration = Duration::from_millis(50);
+const LAST_LOOK: Duration = Duration::from_millis(500);
 
 /// The signals that concern a recorder.
 pub(crate) struct Signals {

@@ -62,8 +62,8 @@ pub(crate) struct Progress {
     pub(crate) bytes: AtomicU64,
 }
 
-/// Stores what comes from the queue until that ends or the disk is full; `stopped` is dropped as soon as nothing more is
-/// stored.
+/// Stores what comes from the queue until that ends or the disk is full; `stopped` is dropped as soon as nothing more
+/// is stored.
 pub(crate) fn store(
     mut store: Store,
     mut contents: Contents,

@@ -1,6 +1,7 @@
 //! Telling a running recorder with a ring to write it: a socket in the folder of the system.
 //!
-//! `<recorder's process id>.recorder`; who connects gets one line, `ok PATH` or `error TEXT`, when the file is complete.
+//! `<recorder's process id>.recorder`; who connects gets one line, `ok PATH` or `error TEXT`, when the file is
+//! complete.
 
 use scl_observe::System;
 use scl_terminal::Problem;

@@ -8,7 +8,8 @@ use std::io::{self, Read};
 /// Opcode and length.
 const PREFIX: usize = 9;
 
-/// Records, and chunks after decompression, that are longer are taken for garbage: reading allocates as much as they say.
+/// Records, and chunks after decompression, that are longer are taken for garbage: reading allocates as much as they
+/// say.
 const LONGEST: u64 = 1 << 30;
 
 /// The records of the data section, one after the other, up to its end or to where the file is cut off.
