@@ -8,8 +8,10 @@
 //!     <component>.<gate>.<contract>              the socket of a `rep` or `pull` gate
 //!     <component>.<gate>.tap                     the socket where tools observe a gate
 //!     <endpoint>.tcp                             `127.0.0.1:<port>`, in place of a socket
-//!     <component>.stats                              what it has done lately, see ComponentStats
+//!     <component>.stats                          what it has done lately, see ComponentStats
 //!     <hash>.schema                              the protobuf messages that a program was built with
+//!     run.<pid>.control, run.<pid>.notify        the sockets of an `scl run`
+//!     <pid>.recorder                             the socket of a recorder that waits for its trigger
 //! ```
 //!
 //! The runtime folder is the first of these that applies: `$SCL_RUNTIME_DIR`; `$XDG_RUNTIME_DIR/scl`; `scl-<uid>` in
