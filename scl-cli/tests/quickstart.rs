@@ -59,7 +59,9 @@ fn a_replayed_recording_gives_the_same_set_points() {
     let compared = quickstart.scl(&[&arguments[..], &["--format", "json"]].concat()).output().unwrap();
     let report: serde_json::Value = serde_json::from_slice(&compared.stdout).unwrap();
     let count = |key: &str| report["gates"][0][key].as_u64().unwrap();
-    assert!(count("paired") > 15 && count("different") == 0, "{report}");
+    // Which of a command and a measurement of the same moment comes first, only the controller could tell.
+    let commands = 3;
+    assert!(count("paired") > 15 && count("different") <= commands, "{report}");
     // The recorder sees the sensor somewhat after the controller does. On a busy machine a gate with `queue: 1` may also pass
     // over a measurement, in either run.
     assert!(10 * (count("missing") + count("additional")) <= 2 * count("paired"), "{report}");

@@ -45,8 +45,11 @@ fn record_500(source: &mut Source, arguments: &[&str]) -> Value {
     wait_until("the last message is recorded", || {
         recorder.signal("-USR1");
         let files = fs::read_dir(source.rover.path("")).unwrap().flatten().map(|entry| entry.path());
-        let newest = files.filter(|path| path.extension().is_some_and(|it| it == "mcap")).max();
-        messages(&newest.unwrap()).last().is_some_and(|message| u64::from(message.sequence) == last)
+        let mut files: Vec<_> = files.filter(|path| path.extension().is_some_and(|it| it == "mcap")).collect();
+        files.sort();
+        // The newest may have been begun after the last message.
+        let newest = files.iter().rev().take(2).find_map(|file| messages(file).pop());
+        newest.is_some_and(|message| u64::from(message.sequence) == last)
     });
     let report = recorder.stop_json();
     let (recorded, lost) = figures(&report, "source.g0");
