@@ -3,6 +3,7 @@
 
 mod asynchronous;
 mod blocking;
+mod changes;
 mod ending_calls;
 mod ending_race;
 mod errors;

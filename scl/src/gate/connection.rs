@@ -30,6 +30,8 @@ pub(crate) struct Connection {
     watcher: Option<Waker>,
     /// Number of connects and disconnects so far.
     changes: u64,
+    /// Who was connected when that was last reported: the peer, and the number of others.
+    reported: (bool, usize),
     account: Account,
     /// Whether the queue has been dropping messages since it was last empty.
     dropping: bool,
@@ -69,6 +71,7 @@ impl Connection {
             waiting_flushes: Vec::new(),
             watcher: None,
             changes: 0,
+            reported: (false, 0),
             account: Account::default(),
             dropping: false,
             detached: false,
@@ -84,11 +87,11 @@ impl Connection {
         if !self.task.will_wake(cx.waker()) {
             self.task = cx.waker().clone();
         }
-        let before = (self.peer.is_some(), self.foreign.len());
         self.accept_and_read(cx);
         self.hand_over();
-        let after = (self.peer.is_some(), self.foreign.len());
-        if before != after {
+        // Also what a sending call has noticed since the last time.
+        let connected = (self.peer.is_some(), self.foreign.len());
+        if std::mem::replace(&mut self.reported, connected) != connected {
             self.report_change();
         }
     }

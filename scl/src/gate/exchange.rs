@@ -219,11 +219,12 @@ impl End {
         let waker = self.waker.clone();
         let cx = &mut Context::from_waker(&waker);
         if let Some(body) = unsent.take() {
-            if self.link.poll_connected(cx).is_pending() {
+            let connected = self.link.poll_connected(cx);
+            self.report_change();
+            if connected.is_pending() {
                 *unsent = Some(body);
                 return Poll::Pending;
             }
-            self.report_change();
             if let Err(body) = self.link.request(cx, id, body) {
                 // The connection broke at this very moment; the next poll starts to reconnect.
                 *unsent = Some(body);

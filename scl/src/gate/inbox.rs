@@ -160,7 +160,6 @@ impl Inbox {
     /// Takes in what has arrived while the program is busy elsewhere. Returns true if a message waits.
     fn drive(&mut self) -> bool {
         self.take_in();
-        self.report_changes();
         self.report_ready();
         !self.queue.is_empty() || self.catching_up
     }
@@ -295,7 +294,13 @@ impl Inbox {
         let count = self.links.len();
         for offset in 0..count {
             let link = (self.next + offset) % count;
-            if let Poll::Ready(frame) = self.links[link].poll_recv(cx) {
+            let polled = self.links[link].poll_recv(cx);
+            // By whoever polls: a call that waits is woken instead of the task, and connects.
+            let peers = self.links[link].peers();
+            if std::mem::replace(&mut self.connected[link], peers) != peers {
+                self.changes.report();
+            }
+            if let Poll::Ready(frame) = polled {
                 self.next = (link + 1) % count;
                 self.received += 1;
                 self.received_over[link] += 1;
@@ -331,16 +336,6 @@ impl Inbox {
     fn catch_up(&mut self) {
         let within = if self.newest_only { CATCH_UP } else { Duration::ZERO };
         self.links.iter_mut().for_each(|link| link.catch_up(within));
-    }
-
-    fn report_changes(&mut self) {
-        let mut changed = false;
-        for (link, known) in self.links.iter().zip(&mut self.connected) {
-            changed |= std::mem::replace(known, link.peers()) != link.peers();
-        }
-        if changed {
-            self.changes.report();
-        }
     }
 
     /// The required peers that are not connected, of a gate with one link per peer.
