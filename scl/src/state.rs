@@ -4,6 +4,7 @@
 mod calls;
 mod flush;
 mod monitor;
+mod owner;
 mod reported;
 mod runtime;
 #[cfg(test)]
@@ -12,6 +13,7 @@ mod tests;
 pub(crate) use calls::WakeCall;
 pub(crate) use flush::{Flush, LINGER, SendingEnd};
 pub(crate) use monitor::stats_period;
+pub(crate) use owner::Owner;
 pub(crate) use runtime::{Driven, OwnedRuntime};
 
 use monitor::Monitor;
@@ -24,7 +26,7 @@ use crate::service::{self, Member};
 use crate::spec::{ComponentSpec, GateSpec};
 use crate::sync::{AbortOnDrop, lock};
 use std::future::poll_fn;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, Weak};
 use std::task::{Context, Poll, Waker};
 use std::time::{Duration, Instant};
@@ -57,6 +59,8 @@ pub(crate) struct ComponentState {
     member: Option<Arc<Member>>,
     /// Tells it.
     reporting: OnceLock<AbortOnDrop>,
+    /// Number of [`Owner`]s.
+    owners: AtomicUsize,
     /// Keeps the registration if the runtime folder is removed.
     _keeper: AbortOnDrop,
     /// Dropped last: once the lock is released, another process may run this component.
@@ -71,7 +75,7 @@ struct Registered {
 
 /// What generated code holds of a component besides its gates.
 #[derive(Clone)]
-pub struct ComponentHandle(pub(crate) Arc<ComponentState>);
+pub struct ComponentHandle(pub(crate) Owner);
 
 struct SetOnDrop(Arc<AtomicBool>);
 
@@ -130,6 +134,7 @@ impl ComponentState {
             _stats: stats,
             member,
             reporting: OnceLock::new(),
+            owners: AtomicUsize::new(0),
             _keeper: keeper,
             registration,
         }
@@ -298,6 +303,8 @@ impl Drop for ComponentState {
                 tracing::warn!("component `{}` was dropped with messages left: {left}", self.spec.name);
             }
         }
+        // Their tasks have been aborted, but one may be in the middle of a poll. Sockets must be gone before the lock is.
+        ends.iter().for_each(owner::await_other_users);
     }
 }
 

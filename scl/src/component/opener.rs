@@ -10,14 +10,14 @@ use crate::options::OpenOptions;
 use crate::registration::Registration;
 use crate::runtime_dir::{RuntimeDir, SystemDir};
 use crate::spec::{ComponentSpec, GateSpec, LinkSpec, WhenFull};
-use crate::state::{ComponentState, OwnedRuntime, stats_period};
+use crate::state::{ComponentState, OwnedRuntime, Owner, stats_period};
 use crate::time::Watchdog;
 use crate::transport::{Endpoint, Sender, Transport, TransportError};
 use std::sync::{Arc, Mutex};
 
 /// Opens the gates of one component; only generated code calls it.
 pub struct Opener {
-    state: Arc<ComponentState>,
+    state: Owner,
     transport: Arc<dyn Transport>,
 }
 
@@ -32,7 +32,7 @@ impl Opener {
             Some(transport) => (Registration::without_files(), transport),
             None => register(spec, options)?,
         };
-        let state = Arc::new(ComponentState::new(spec, registration, runtime));
+        let state = Owner::new(ComponentState::new(spec, registration, runtime));
         state.start_reporting();
         Ok(Self { state, transport })
     }
@@ -42,7 +42,7 @@ impl Opener {
         let spec = self.gate(index);
         let connections = self.connections(spec, |transport, endpoint| transport.publish(endpoint))?;
         let tap = self.tap(spec)?;
-        let gate = Outgoing::new::<C>(Arc::clone(&self.state), spec, connections, tap);
+        let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, tap);
         self.follow(index, gate.figures());
         Ok(Pub::new(gate))
     }
@@ -52,7 +52,7 @@ impl Opener {
         let spec = self.gate(index);
         let connections = self.connections(spec, |transport, endpoint| transport.push(endpoint))?;
         // The puller has the tap.
-        let gate = Outgoing::new::<C>(Arc::clone(&self.state), spec, connections, GateTap::new(None));
+        let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, GateTap::new(None));
         self.follow(index, gate.figures());
         Ok(Push::new(gate))
     }
@@ -63,7 +63,7 @@ impl Opener {
         let subscribe = |link| self.transport.subscribe(&self.connecting(spec, link));
         let links = spec.links.iter().map(subscribe).collect::<Result<_, _>>();
         let links = links.map_err(|source| self.refused(spec, source))?;
-        let gate = Incoming::new::<C>(Arc::clone(&self.state), spec, links, GateTap::new(None));
+        let gate = Incoming::new::<C>(self.state.clone(), spec, links, GateTap::new(None));
         self.follow(index, gate.figures());
         Ok(Sub::new(gate))
     }
@@ -74,7 +74,7 @@ impl Opener {
         let link = self.transport.pull(&endpoint(spec.endpoint, spec));
         let link = link.map_err(|source| self.refused(spec, source))?;
         let tap = self.tap(spec)?;
-        let gate = Incoming::new::<C>(Arc::clone(&self.state), spec, vec![link], tap);
+        let gate = Incoming::new::<C>(self.state.clone(), spec, vec![link], tap);
         self.follow(index, gate.figures());
         Ok(Pull::new(gate))
     }
@@ -85,7 +85,7 @@ impl Opener {
         let link = spec.links.first().map(|link| self.transport.request(&self.connecting(spec, link))).transpose();
         let link = link.map_err(|source| self.refused(spec, source))?;
         let watchdog = Watchdog::new().map_err(|source| OpenError::Timer { gate: self.name(spec), source })?;
-        let gate = Req::new::<C>(Arc::clone(&self.state), spec, link, watchdog);
+        let gate = Req::new::<C>(self.state.clone(), spec, link, watchdog);
         self.follow(index, gate.figures());
         Ok(gate)
     }
@@ -96,14 +96,14 @@ impl Opener {
         let link = self.transport.reply(&endpoint(spec.endpoint, spec));
         let link = link.map_err(|source| self.refused(spec, source))?;
         let tap = self.tap(spec)?;
-        let gate = Rep::new::<C>(Arc::clone(&self.state), spec, link, tap);
+        let gate = Rep::new::<C>(self.state.clone(), spec, link, tap);
         self.follow(index, gate.figures());
         Ok(gate)
     }
 
     /// What the component holds besides its gates.
     pub fn handle(&self) -> ComponentHandle {
-        ComponentHandle(Arc::clone(&self.state))
+        ComponentHandle(self.state.clone())
     }
 
     fn follow(&self, index: usize, figures: FigureSource) {

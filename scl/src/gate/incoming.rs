@@ -8,7 +8,7 @@ use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, GateName, Missing, Peers, RecvError, RecvTimeoutError};
 use crate::figures::FigureSource;
 use crate::spec::GateSpec;
-use crate::state::ComponentState;
+use crate::state::Owner;
 use crate::sync::lock;
 use crate::transport::Receiver;
 use bytes::Bytes;
@@ -22,12 +22,12 @@ pub(crate) struct Incoming<T> {
     inbox: SharedInbox,
     decode: fn(Bytes) -> Result<T, DecodeError>,
     /// Dropped after the ends, which are this component's only as long as it holds its lock.
-    pub(crate) state: Arc<ComponentState>,
+    pub(crate) state: Owner,
 }
 
 impl<T> Incoming<T> {
     pub(crate) fn new<C: Codec<T>>(
-        state: Arc<ComponentState>,
+        state: Owner,
         spec: &'static GateSpec,
         links: Vec<Box<dyn Receiver>>,
         tap: GateTap,

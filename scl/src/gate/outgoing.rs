@@ -9,7 +9,7 @@ use crate::codec::Codec;
 use crate::error::{GateName, Missing, PeerName, SendError, SendTimeoutError, TrySendError};
 use crate::figures::FigureSource;
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
-use crate::state::{ComponentState, SendingEnd};
+use crate::state::{Owner, SendingEnd};
 use crate::sync::lock;
 use bytes::Bytes;
 use std::future::poll_fn;
@@ -35,12 +35,12 @@ pub(crate) struct Outgoing<T> {
     reported: u64,
     /// Counts the gate itself, whose connections may live longer.
     open: Arc<()>,
-    pub(crate) state: Arc<ComponentState>,
+    pub(crate) state: Owner,
 }
 
 impl<T> Outgoing<T> {
     pub(crate) fn new<C: Codec<T>>(
-        state: Arc<ComponentState>,
+        state: Owner,
         spec: &'static GateSpec,
         connections: Vec<Arc<Mutex<Connection>>>,
         tap: GateTap,

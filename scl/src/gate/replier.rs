@@ -10,7 +10,7 @@ use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, GateName, Missing, PeerName, Peers, RecvError, RecvTimeoutError, ReplyError};
 use crate::figures::FigureSource;
 use crate::spec::{GateSpec, LinkSpec};
-use crate::state::ComponentState;
+use crate::state::Owner;
 use crate::sync::lock;
 use crate::transport::{IncomingRequest, Replier, ReplyPath};
 use bytes::Bytes;
@@ -52,12 +52,12 @@ struct Replies<B> {
     /// The requester that accepts the shortest replies.
     strictest: Option<&'static LinkSpec>,
     /// Dropped after the end, which is this component's only as long as it holds its lock.
-    state: Arc<ComponentState>,
+    state: Owner,
 }
 
 impl<A, B> Rep<A, B> {
     pub(crate) fn new<C: Codec<A> + Codec<B>>(
-        state: Arc<ComponentState>,
+        state: Owner,
         spec: &'static GateSpec,
         link: Box<dyn Replier>,
         tap: GateTap,

@@ -9,7 +9,7 @@ use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, CallError, GateName, Missing, PeerName, Peers};
 use crate::figures::FigureSource;
 use crate::spec::GateSpec;
-use crate::state::ComponentState;
+use crate::state::Owner;
 use crate::time::Watchdog;
 use crate::transport::Requester;
 use bytes::Bytes;
@@ -42,12 +42,12 @@ pub struct Req<A, B> {
     decode: fn(Bytes) -> Result<B, DecodeError>,
     last_id: u64,
     /// Dropped after the end, which is this component's only as long as it holds its lock.
-    state: Arc<ComponentState>,
+    state: Owner,
 }
 
 impl<A, B> Req<A, B> {
     pub(crate) fn new<C: Codec<A> + Codec<B>>(
-        state: Arc<ComponentState>,
+        state: Owner,
         spec: &'static GateSpec,
         link: Option<Box<dyn Requester>>,
         watchdog: Watchdog,

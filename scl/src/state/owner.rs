@@ -1,0 +1,88 @@
+//! Shared ownership of a component by its handle and its gates. The last owner closes the component on its own thread.
+
+use super::ComponentState;
+use std::ops::Deref;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How long the last owner waits for tasks that use the component at this moment, each for no longer than one poll.
+const LAST_USE: Duration = Duration::from_secs(1);
+const PAUSE: Duration = Duration::from_micros(20);
+
+/// A component, as its handle and its gates hold it.
+///
+/// Tasks and other threads hold the component for a moment, too. If one of them dropped it last, it would be closed there,
+/// perhaps after the program has tried to open it again, or not at all because the program has ended.
+#[derive(Debug)]
+pub(crate) struct Owner(Arc<ComponentState>);
+
+impl Owner {
+    /// The first owner of a component.
+    pub(crate) fn new(state: ComponentState) -> Self {
+        state.owners.store(1, Ordering::SeqCst);
+        Self(Arc::new(state))
+    }
+}
+
+impl Clone for Owner {
+    fn clone(&self) -> Self {
+        self.owners.fetch_add(1, Ordering::SeqCst);
+        Self(Arc::clone(&self.0))
+    }
+}
+
+impl Deref for Owner {
+    type Target = Arc<ComponentState>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
+impl Drop for Owner {
+    fn drop(&mut self) {
+        // In a forked child, nobody would finish what tasks had begun.
+        if self.owners.fetch_sub(1, Ordering::SeqCst) != 1 || self.is_inherited() {
+            return;
+        }
+        await_other_users(&self.0);
+    }
+}
+
+/// Waits until nobody else holds a value of which tasks have only weak references, so that dropping it drops its contents.
+pub(super) fn await_other_users<T: ?Sized>(value: &Arc<T>) {
+    let started = Instant::now();
+    while Arc::strong_count(value) > 1 && started.elapsed() < LAST_USE {
+        thread::sleep(PAUSE);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::registration::Registration;
+    use crate::spec::ComponentSpec;
+
+    static SPEC: ComponentSpec =
+        ComponentSpec { system: "nav", name: "gps", declared_at: "nav.yaml:1:2", gates: &[], schema: None };
+
+    #[tokio::test]
+    async fn the_last_owner_outlives_those_who_use_the_component_for_a_moment() {
+        let owner = Owner::new(ComponentState::new(&SPEC, Registration::without_files(), None));
+        let (another, used) = (owner.clone(), Arc::clone(&owner));
+        drop(owner);
+        let weak = Arc::downgrade(&used);
+        let user = thread::spawn(move || {
+            // The owner waits as soon as it is counted out.
+            while used.owners.load(Ordering::SeqCst) > 0 {
+                thread::yield_now();
+            }
+            drop(used);
+        });
+        drop(another);
+        assert_eq!(weak.strong_count(), 0);
+        user.join().unwrap();
+    }
+}
