@@ -9,6 +9,7 @@
 use crate::error::{BlockingError, OpenError};
 use crate::sync::lock;
 use std::future::poll_fn;
+use std::io;
 use std::pin::pin;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -34,6 +35,8 @@ pub(crate) struct OwnedRuntime {
 #[derive(Debug)]
 struct Shared {
     runtime: SharedRuntime,
+    /// What futures are polled with by the call that drives the runtime, and by no other.
+    driver: Waker,
     /// Number of calls that drive the runtime or want to.
     callers: AtomicUsize,
     /// Whether the idle thread drives the runtime, and must be told to give it back.
@@ -83,8 +86,10 @@ impl OwnedRuntime {
         let failed = |source| OpenError::Runtime { component, source };
         let runtime = Builder::new_current_thread().enable_all().build().map_err(failed)?;
         let handle = runtime.handle().clone();
+        let driver = waker_of_driver(&runtime).map_err(failed)?;
         let shared = Arc::new(Shared {
             runtime: SharedRuntime(Some(runtime)),
+            driver,
             callers: AtomicUsize::new(0),
             idle_drives: AtomicBool::new(false),
             wanted: Notify::new(),
@@ -176,24 +181,40 @@ impl Shared {
     /// The future's result; if it had nothing to wait for, then after a turn of the runtime where one is due.
     async fn with_a_turn<F: Future>(&self, future: F) -> F::Output {
         let mut future = pin!(future);
-        let mut waited = false;
+        let mut had_turn = false;
         let ready = poll_fn(|cx| {
             let polled = future.as_mut().poll(cx);
-            waited |= polled.is_pending();
+            had_turn |= polled.is_pending() && self.is_driven_with(cx);
             polled
         })
         .await;
-        let now = self.opened.elapsed();
-        let due = now.saturating_sub(self.last_turn.get()) >= TURN;
-        if waited || due {
-            self.last_turn.set(now);
-        }
-        if due && !waited {
+        if !had_turn && self.is_turn_due() {
             // The first turn polls the I/O driver; the second runs the tasks it woke.
-            give_a_turn().await;
-            give_a_turn().await;
+            had_turn = self.give_a_turn().await && self.give_a_turn().await;
+        }
+        if had_turn {
+            self.last_turn.set(self.opened.elapsed());
         }
         ready
+    }
+
+    /// Like tokio's `yield_now`, which allocates memory. Returns false if that was no turn, because another call has the
+    /// runtime, and perhaps waits for its own socket: only turns of the runtime may count as such.
+    async fn give_a_turn(&self) -> bool {
+        let mut had_turn = None;
+        poll_fn(|cx| match had_turn {
+            Some(had_turn) => Poll::Ready(had_turn),
+            None => {
+                had_turn = Some(self.is_driven_with(cx));
+                cx.waker().wake_by_ref();
+                Poll::Pending
+            }
+        })
+        .await
+    }
+
+    fn is_driven_with(&self, cx: &Context<'_>) -> bool {
+        cx.waker().will_wake(&self.driver)
     }
 
     fn drive_while_idle(&self) {
@@ -268,17 +289,14 @@ impl Drop for Called<'_> {
     }
 }
 
-/// Like tokio's `yield_now`, which allocates memory.
-async fn give_a_turn() {
-    let mut had_turn = false;
-    poll_fn(|cx| {
-        if std::mem::replace(&mut had_turn, true) {
-            return Poll::Ready(());
-        }
-        cx.waker().wake_by_ref();
-        Poll::Pending
+/// What a runtime that nobody else uses yet polls the future of its driver with.
+fn waker_of_driver(runtime: &Runtime) -> io::Result<Waker> {
+    thread::scope(|threads| {
+        // On a thread of its own, because this one may be inside another runtime.
+        let clone = || runtime.block_on(poll_fn(|cx| Poll::Ready(cx.waker().clone())));
+        let cloned = thread::Builder::new().spawn_scoped(threads, clone)?.join();
+        cloned.map_err(|_panic| io::Error::other("the runtime cannot be driven"))
     })
-    .await;
 }
 
 /// Waits on a plain thread while the runtime of the component runs elsewhere.
@@ -327,6 +345,7 @@ pub(super) fn refuse_inside_async() -> Result<(), BlockingError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::Barrier;
 
     #[test]
     fn calls_that_wait_for_nothing_give_the_runtime_its_turns() {
@@ -346,6 +365,54 @@ mod tests {
             })
         };
         assert!(call_until_it_ran());
+    }
+
+    #[test]
+    fn it_can_be_started_inside_another_runtime() {
+        let outer = Builder::new_current_thread().build().unwrap();
+        assert!(outer.block_on(async { OwnedRuntime::start("sensor").is_ok() }));
+    }
+
+    #[test]
+    fn only_a_call_that_drives_the_runtime_gives_it_a_turn() {
+        let owned = OwnedRuntime::start("sensor").unwrap();
+        // The idle thread drives the runtime never or until the first call.
+        let _held = lock(&owned.shared.rest);
+        let make_due = || {
+            owned.shared.last_turn.set(Duration::ZERO);
+            while !owned.shared.is_turn_due() {
+                std::hint::spin_loop();
+            }
+        };
+        let (stands, released) = (Barrier::new(2), Barrier::new(2));
+        thread::scope(|threads| {
+            // As a call does that waits for its own socket.
+            threads.spawn(|| {
+                owned.block_on(poll_fn(|cx| {
+                    if !owned.shared.is_driven_with(cx) {
+                        cx.waker().wake_by_ref();
+                        return Poll::Pending;
+                    }
+                    stands.wait();
+                    Poll::Ready(released.wait())
+                }))
+            });
+            stands.wait();
+            make_due();
+            owned.take_turn();
+            owned.block_on(tokio::task::yield_now()).unwrap();
+            let is_due = owned.shared.is_turn_due();
+            released.wait();
+            assert!(is_due, "another thread holds the runtime");
+        });
+        let gave_a_turn = |call: &dyn Fn()| {
+            make_due();
+            let before = owned.shared.last_turn.get();
+            call();
+            owned.shared.last_turn.get() > before
+        };
+        assert!(gave_a_turn(&|| owned.take_turn()));
+        assert!(gave_a_turn(&|| owned.block_on(tokio::task::yield_now()).unwrap()));
     }
 
     #[test]
