@@ -140,7 +140,9 @@ fn message(run: usize, number: usize) -> Bytes {
 }
 
 fn hang_in_early_runs(run: usize, number: usize) {
-    while run <= HANGING_RUNS && number == MESSAGES {
-        spin_loop();
+    if run <= HANGING_RUNS && number == MESSAGES {
+        loop {
+            spin_loop();
+        }
     }
 }
