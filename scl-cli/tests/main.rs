@@ -60,6 +60,8 @@ mod rover;
 mod run_build;
 #[cfg(feature = "run")]
 mod run_control;
+#[cfg(all(feature = "run", feature = "observe"))]
+mod run_hang;
 #[cfg(feature = "run")]
 mod run_mistakes;
 #[cfg(feature = "run")]

@@ -39,11 +39,13 @@ pub struct Observer {
 /// What happens at a tap.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TapEvent {
-    /// The observer is connected: from about now on it sees every message.
+    /// The component shows this observer every message that passes the gate from now on. What passed shortly before this
+    /// event may be observed, too.
     Connected,
     /// A message, request or reply.
     Observed(Observation),
-    /// The component has closed, was killed, or cannot be understood. The observer connects again by itself.
+    /// The component has closed, was killed, or cannot be understood. Follows [`Connected`](Self::Connected) only. The
+    /// observer connects again by itself.
     Disconnected,
 }
 

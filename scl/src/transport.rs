@@ -198,7 +198,8 @@ pub struct Disconnected;
 /// The listening end of a tap. Observers come and go; none of them ever delays the gate.
 pub trait Tap: Send {
     /// Accepts observers and continues writing. Returns true if at least one is connected; only then is it worth
-    /// calling [`observe`](Self::observe).
+    /// calling [`observe`](Self::observe). An observer that learns during this call that it is connected is shown
+    /// everything from now on: what is sent meanwhile comes after this call.
     fn drive(&mut self, cx: &mut Context<'_>) -> bool;
 
     /// Sends a message of two frames, `payload` and `meta`, to each observer, or drops it for those that read slowly.

@@ -62,20 +62,6 @@ async fn observed(observer: &mut Observer) -> Observation {
     }
 }
 
-/// Publishes until the observer sees something: a subscription takes effect a little after the connection.
-async fn catch_up(observer: &mut Observer, raw: &mut scl::Pub<Bytes>) {
-    loop {
-        raw.send(&Bytes::from_static(b"probe")).await.unwrap();
-        if let Ok(event) = tokio::time::timeout(Duration::from_millis(5), observer.next()).await {
-            assert!(matches!(&event, TapEvent::Observed(seen) if seen.payload == "probe"), "{event:?}");
-            break;
-        }
-    }
-    while let Ok(event) = tokio::time::timeout(Duration::from_millis(50), observer.next()).await {
-        assert!(matches!(&event, TapEvent::Observed(seen) if seen.payload == "probe"), "{event:?}");
-    }
-}
-
 /// The promise: messages, requests and replies are observed with what belongs to them, whoever started first.
 #[test]
 fn everything_at_a_gate_is_observed() {
@@ -88,7 +74,6 @@ fn everything_at_a_gate_is_observed() {
             assert_eq!(next(tap).await, TapEvent::Connected);
         }
         let mut raw = sensor.publisher("raw").unwrap();
-        catch_up(&mut raw_tap, &mut raw).await;
         let before = now_ns();
         for text in ["", "one", "two"] {
             raw.send(&Bytes::from(text)).await.unwrap();
@@ -127,10 +112,42 @@ fn a_component_that_restarts_is_observed_again() {
             let mut sensor = stage.open("sensor").await;
             assert_eq!(next(&mut tap).await, TapEvent::Connected);
             let mut raw = sensor.publisher("raw").unwrap();
-            catch_up(&mut tap, &mut raw).await;
+            raw.send(&Bytes::from_static(b"one")).await.unwrap();
+            assert_eq!(observed(&mut tap).await.payload, "one");
             drop((raw, sensor));
             assert_eq!(next(&mut tap).await, TapEvent::Disconnected);
         }
+    });
+}
+
+/// The promise: whatever is sent after `Connected` was seen is observed, however soon.
+#[test]
+fn everything_after_connected_is_observed() {
+    on_each_medium(async |stage| {
+        let plan = plan("sensor");
+        let options = stage.options.clone();
+        let (connected, connections) = std::sync::mpsc::channel::<u32>();
+        // A thread of its own, so that it sends at any moment of what the component's runtime does.
+        let sender = std::thread::spawn(move || {
+            let mut sensor = Component::open_blocking_with(&plan, options).unwrap();
+            let mut raw = sensor.publisher("raw").unwrap();
+            // Spinning, not to lose the time of a wake-up.
+            loop {
+                match connections.try_recv() {
+                    Ok(number) => raw.try_send(&Bytes::copy_from_slice(&number.to_le_bytes())).unwrap(),
+                    Err(std::sync::mpsc::TryRecvError::Empty) => std::hint::spin_loop(),
+                    Err(std::sync::mpsc::TryRecvError::Disconnected) => break,
+                }
+            }
+        });
+        for number in 0..500_u32 {
+            let mut tap = stage.observe("sensor.raw");
+            assert_eq!(next(&mut tap).await, TapEvent::Connected);
+            connected.send(number).unwrap();
+            assert_eq!(observed(&mut tap).await.payload, number.to_le_bytes()[..]);
+        }
+        drop(connected);
+        sender.join().unwrap();
     });
 }
 
@@ -144,7 +161,6 @@ fn bursts_and_long_messages_are_observed_completely() {
         let mut sensor = stage.open("sensor").await;
         assert_eq!(next(&mut tap).await, TapEvent::Connected);
         let mut raw = sensor.publisher("raw").unwrap();
-        catch_up(&mut tap, &mut raw).await;
         for number in 0..BURST {
             raw.try_send(&Bytes::copy_from_slice(&number.to_le_bytes())).unwrap();
         }
@@ -169,7 +185,6 @@ fn waiting_is_cancel_safe() {
         let mut sensor = stage.open("sensor").await;
         while tokio::time::timeout(Duration::from_micros(100), tap.next()).await != Ok(TapEvent::Connected) {}
         let mut raw = sensor.publisher("raw").unwrap();
-        catch_up(&mut tap, &mut raw).await;
         let mut last = None;
         for number in 0..1000_u32 {
             raw.send(&Bytes::copy_from_slice(&number.to_le_bytes())).await.unwrap();

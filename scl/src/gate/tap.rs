@@ -93,7 +93,10 @@ impl Shared {
         if !end.task.will_wake(cx.waker()) {
             end.task = cx.waker().clone();
         }
-        self.observed.store(end.tap.drive(cx), Ordering::Release);
+        // Before a new observer is told that it is connected, so that a message sent at once waits for the lock and is shown.
+        self.observed.store(true, Ordering::Release);
+        let is_observed = end.tap.drive(cx);
+        self.observed.store(is_observed, Ordering::Release);
     }
 
     fn observe(&self, what: Observed, call_id: u64, payload: &Bytes) {

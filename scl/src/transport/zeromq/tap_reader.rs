@@ -2,7 +2,7 @@
 
 use super::connection::{Closed, Connection};
 use super::dialler::Dialler;
-use super::zmtp::{Item, Message, SUBSCRIBE_ALL, SclReady, SocketType, bodies};
+use super::zmtp::{Command, Item, Message, SUBSCRIBE_ALL_AND_PING, SclReady, SocketType, bodies};
 use crate::runtime_dir::SystemDir;
 use crate::tap::{Observation, ObservedKind, TapEvent};
 use crate::transport::Endpoint;
@@ -18,8 +18,23 @@ const META: usize = 32;
 
 pub(crate) struct TapReader {
     dialler: Dialler,
-    tap: Option<Connection>,
+    tap: Option<Subscribed>,
     rejected: u64,
+}
+
+/// A connection on which everything has been subscribed to.
+struct Subscribed {
+    connection: Connection,
+    /// Whether the tap has shown that it knows the subscription, and the observer was told.
+    is_confirmed: bool,
+    /// A message that has shown it.
+    first: Option<Observation>,
+}
+
+/// What a tap says.
+enum Said {
+    Pong,
+    Observed(Observation),
 }
 
 impl TapReader {
@@ -38,33 +53,61 @@ impl TapReader {
     }
 
     pub(crate) fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<TapEvent> {
-        let Some(tap) = &mut self.tap else {
-            let (mut connection, _ready) = ready!(self.dialler.poll_connected(cx));
-            // Not earlier: libzmq closes a connection on which this arrives together with READY.
-            let _reported_by_reading = connection.write(SUBSCRIBE_ALL);
-            self.tap = Some(connection);
-            return Poll::Ready(TapEvent::Connected);
-        };
-        match ready!(poll_observed(tap, &mut self.rejected, cx)) {
-            Ok(observed) => Poll::Ready(TapEvent::Observed(observed)),
-            Err(error) => {
-                tracing::debug!(endpoint = %self.dialler.endpoint().name, %error, "lost the tap");
-                self.tap = None;
-                Poll::Ready(TapEvent::Disconnected)
+        loop {
+            let Some(tap) = &mut self.tap else {
+                let (connection, _ready) = ready!(self.dialler.poll_connected(cx));
+                self.tap = Some(Subscribed::new(connection));
+                continue;
+            };
+            match ready!(tap.poll_event(&mut self.rejected, cx)) {
+                Ok(event) => return Poll::Ready(event),
+                Err(error) => {
+                    tracing::debug!(endpoint = %self.dialler.endpoint().name, %error, "lost the tap");
+                    if self.tap.take().is_some_and(|tap| tap.is_confirmed) {
+                        return Poll::Ready(TapEvent::Disconnected);
+                    }
+                }
             }
         }
     }
 }
 
-fn poll_observed(tap: &mut Connection, rejected: &mut u64, cx: &mut Context<'_>) -> Poll<Result<Observation, Closed>> {
-    loop {
-        if !tap.is_written() {
-            tap.flush(cx)?;
+impl Subscribed {
+    fn new(mut connection: Connection) -> Self {
+        // Not earlier: libzmq closes a connection on which this arrives together with READY.
+        let _reported_by_reading = connection.write(SUBSCRIBE_ALL_AND_PING);
+        Self { connection, is_confirmed: false, first: None }
+    }
+
+    fn poll_event(&mut self, rejected: &mut u64, cx: &mut Context<'_>) -> Poll<Result<TapEvent, Closed>> {
+        if let Some(first) = self.first.take() {
+            return Poll::Ready(Ok(TapEvent::Observed(first)));
         }
-        if let Item::Message(message) = ready!(tap.poll_item(cx))? {
-            match decode(&message) {
-                Some(observed) => return Poll::Ready(Ok(observed)),
-                None => *rejected += 1,
+        loop {
+            let said = ready!(self.poll_said(rejected, cx))?;
+            let was_confirmed = std::mem::replace(&mut self.is_confirmed, true);
+            match said {
+                Said::Observed(observed) if was_confirmed => return Poll::Ready(Ok(TapEvent::Observed(observed))),
+                Said::Observed(observed) => self.first = Some(observed),
+                Said::Pong if was_confirmed => continue,
+                Said::Pong => {}
+            }
+            return Poll::Ready(Ok(TapEvent::Connected));
+        }
+    }
+
+    fn poll_said(&mut self, rejected: &mut u64, cx: &mut Context<'_>) -> Poll<Result<Said, Closed>> {
+        loop {
+            if !self.connection.is_written() {
+                self.connection.flush(cx)?;
+            }
+            match ready!(self.connection.poll_item(cx))? {
+                Item::Command(Command::Pong) => return Poll::Ready(Ok(Said::Pong)),
+                Item::Message(message) => match decode(&message) {
+                    Some(observed) => return Poll::Ready(Ok(Said::Observed(observed))),
+                    None => *rejected += 1,
+                },
+                Item::Command(_) | Item::Ready(_) => {}
             }
         }
     }

@@ -10,6 +10,9 @@ const CONTEXT: usize = 16;
 /// The message by which a 3.0 subscriber subscribes to everything.
 pub(in crate::transport::zeromq) const SUBSCRIBE_ALL: &[u8] = b"\0\x01\x01";
 
+/// The same, and a heartbeat whose answer tells that the subscription is in force.
+pub(in crate::transport::zeromq) const SUBSCRIBE_ALL_AND_PING: &[u8] = b"\0\x01\x01\x04\x07\x04PING\0\0";
+
 /// From a sending end: the window is full, and newer messages wait for an acknowledgement.
 pub(in crate::transport::zeromq) const BEHIND: &[u8] = b"\x04\x0d\x0cX-SCL-BEHIND";
 /// From a sending end: acknowledge everything sent before this.
@@ -21,6 +24,8 @@ pub(in crate::transport::zeromq) enum Command {
     Subscription(Subscription),
     /// A heartbeat to be answered with its context.
     Ping(Bytes),
+    /// The answer to a heartbeat.
+    Pong,
     /// The peer closes the connection for this reason.
     Error(String),
     /// Number of messages that the peer has taken so far.
@@ -72,6 +77,7 @@ impl Command {
                 content.truncate(CONTEXT);
                 Self::Ping(content)
             }
+            b"PONG" => Self::Pong,
             b"ERROR" => Self::Error(error_text(&content)),
             _ => Self::Unknown,
         })
