@@ -38,7 +38,6 @@ mod load;
 mod log;
 #[cfg(feature = "observe")]
 mod measure;
-#[cfg(feature = "observe")]
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]
