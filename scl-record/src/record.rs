@@ -1,6 +1,6 @@
 //! Recording: from the taps of a running system into MCAP files.
 //!
-//! One thread reads the taps ([`collector`]) and never waits for the disk; another one writes ([`storage`]). Between
+//! One thread reads the taps (`collector`) and never waits for the disk; another one writes (`storage`). Between
 //! them is a queue with a limit in bytes. What finds no room there, or was dropped by a gate because the recorder read
 //! slowly, is counted as lost. The gates are not delayed in any case.
 
