@@ -12,7 +12,7 @@ use tokio::time::timeout;
 /// When to send once more.
 const AGAIN: Duration = Duration::from_millis(50);
 
-/// The next event that is no message.
+/// The next event other than a message.
 async fn next_change(taps: &mut Taps) -> String {
     loop {
         if let Some(change) = shown(taps.next().await).filter(|it| !it.contains(": ")) {

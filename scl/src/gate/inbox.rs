@@ -295,7 +295,7 @@ impl Inbox {
         for offset in 0..count {
             let link = (self.next + offset) % count;
             let polled = self.links[link].poll_recv(cx);
-            // By whoever polls: a call that waits is woken instead of the task, and connects.
+            // Every poll reports: a waiting call is woken instead of the task, and completes the connection.
             let peers = self.links[link].peers();
             if std::mem::replace(&mut self.connected[link], peers) != peers {
                 self.changes.report();
