@@ -151,6 +151,14 @@ fn without_a_limit_of_speed_nothing_is_lost_however_slow_the_subscriber_is() {
 }
 
 #[test]
+fn played_components_take_what_others_of_them_send() {
+    let rover = Rover::new();
+    rover.record("flight.mcap", &vec![(MEASUREMENTS, 0, "1"); 5000]);
+    let report = rover.replay_json(&["flight.mcap", "--rate", "max"]);
+    assert_eq!((&report["sent"], &report["not_taken"]), (&5000.into(), &serde_json::json!([])), "{report}");
+}
+
+#[test]
 fn requests_are_repeated_and_answered() {
     let rover = Rover::new();
     let (request, reply) = ("/controller/commands/request", "/controller/commands/reply");

@@ -164,11 +164,6 @@ impl Players {
             }
             let _ended = task.await;
         }
-        // After the requests, which a played replier may have to answer.
-        self.receiving.iter().for_each(JoinHandle::abort);
-        for task in self.receiving {
-            let _ended = task.await;
-        }
         let timeout = match (was_stopped, self.is_lossless) {
             (true, _) => SHORT_LINGER,
             (false, true) => NO_LIMIT,
@@ -184,6 +179,11 @@ impl Players {
                     reason: if left.running { "it did not take them in time" } else { "it is not running" },
                 }));
             }
+        }
+        // Last, because played components also receive and answer what others of them send.
+        self.receiving.iter().for_each(JoinHandle::abort);
+        for task in self.receiving {
+            let _ended = task.await;
         }
         let answers = self.answering.into_iter().map(|(gate, counts)| AnswerReport {
             gate,
