@@ -7,6 +7,7 @@ use crate::system::System;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 
 const ROVER: &str = "\
 # yaml-language-server: $schema=topology.schema.json
@@ -111,7 +112,13 @@ fn a_file_adds_its_gates_even_with_errors() {
 
 /// The server's program, installed below the target folder once; `None`, visibly, without npm or without a registry.
 fn language_server() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("yaml-language-server");
+    // Tests that install it at the same time would leave half of each.
+    static PROGRAM: OnceLock<Option<PathBuf>> = OnceLock::new();
+    PROGRAM.get_or_init(install_language_server).clone()
+}
+
+fn install_language_server() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("yaml-language-server-1.25.0");
     let program = folder.join("node_modules/yaml-language-server/bin/yaml-language-server");
     let has_node = Command::new("node").arg("--version").stdout(Stdio::null()).status().is_ok_and(|it| it.success());
     if !has_node {
@@ -119,12 +126,15 @@ fn language_server() -> Option<PathBuf> {
         return None;
     }
     if !program.is_file() {
+        let installed = folder.with_extension("new");
         let mut install = Command::new("npm");
-        install.args(["install", "--no-audit", "--no-fund", "yaml-language-server@1.25.0", "--prefix"]).arg(&folder);
+        install.args(["install", "--no-audit", "--no-fund", "yaml-language-server@1.25.0", "--prefix"]).arg(&installed);
         if !install.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|it| it.success()) {
             println!("skipped: `npm` cannot install yaml-language-server here");
             return None;
         }
+        // In one step, so that an installation that was cut off is not taken for a whole one.
+        std::fs::rename(&installed, &folder).unwrap();
     }
     Some(program)
 }
