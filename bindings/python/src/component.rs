@@ -154,13 +154,7 @@ impl Component {
     /// A file descriptor for event loops: of calls that were polled with it, or, with `all_gates`, of all gates.
     fn readiness(&self, all_gates: bool) -> PyResult<Readiness> {
         self.shared.check_open()?;
-        let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
-        let component = component.as_ref().ok_or_else(|| self.shared.closed())?;
-        let readiness = match all_gates {
-            true => component.readiness().map_err(|error| Failure::of_box(&error)),
-            false => component.readiness_of(&[]).map_err(|error| Failure::of_box(error.inner())),
-        };
-        Ok(Readiness::new(readiness?))
+        Ok(self.new_readiness(all_gates)?)
     }
 
     #[getter]
@@ -170,6 +164,18 @@ impl Component {
 
     fn __repr__(&self) -> String {
         format!("<component {} of {}>", self.shared.component, self.shared.system)
+    }
+}
+
+impl Component {
+    fn new_readiness(&self, all_gates: bool) -> Result<Readiness, Failure> {
+        let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
+        let component = component.as_ref().ok_or_else(|| self.shared.closed())?;
+        let readiness = match all_gates {
+            true => component.readiness().map_err(|error| Failure::of_box(&error)),
+            false => component.readiness_of(&[]).map_err(|error| Failure::of_box(error.inner())),
+        };
+        readiness.map(Readiness::new)
     }
 }
 

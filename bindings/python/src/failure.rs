@@ -1,5 +1,6 @@
 //! Errors on their way to Python: the class of `scl._errors`, and the text.
 
+use crate::process::stay_detached_if_exiting;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
@@ -50,9 +51,11 @@ pub(crate) fn no_panic<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T
     })
 }
 
+/// Not to be used while a lock is held: the end of the interpreter keeps all other threads here.
 impl From<Failure> for PyErr {
     fn from(failure: Failure) -> Self {
         Python::attach(|py| {
+            stay_detached_if_exiting(py);
             let class = py.import("scl._errors").and_then(|errors| errors.getattr(failure.class));
             match class.and_then(|class| Ok(class.cast_into::<PyType>()?)) {
                 Ok(class) => PyErr::from_type(class, failure.text),

@@ -11,8 +11,9 @@ static EXITING: OnceLock<ThreadId> = OnceLock::new();
 
 /// Says that this thread is about to end the interpreter.
 ///
-/// Threads that wait in a call are daemon threads then, which Python ends where they are. They must not return into an
-/// interpreter that is gone, so they stay where they are until the process ends.
+/// All other threads are daemon threads then, which Python ends where they are. A call of such a thread must not return into
+/// an interpreter that is gone, nor fail because the components are being closed, so it stays where it is until the process
+/// ends.
 #[pyfunction]
 pub(crate) fn exiting() {
     let _is_set = EXITING.set(thread::current().id());
@@ -20,9 +21,20 @@ pub(crate) fn exiting() {
 
 /// Never returns once another thread is about to end the interpreter.
 pub(crate) fn stay_if_exiting() {
-    while EXITING.get().is_some_and(|ending| *ending != thread::current().id()) {
+    while is_ended_by_another() {
         thread::sleep(Duration::MAX);
     }
+}
+
+/// As [`stay_if_exiting`], for a thread that has the interpreter.
+pub(crate) fn stay_detached_if_exiting(py: Python<'_>) {
+    if is_ended_by_another() {
+        py.detach(stay_if_exiting);
+    }
+}
+
+fn is_ended_by_another() -> bool {
+    EXITING.get().is_some_and(|ending| *ending != thread::current().id())
 }
 
 /// Drops a value that may wait for peers, without the interpreter where there is one.

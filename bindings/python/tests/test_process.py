@@ -72,7 +72,16 @@ def test_multiprocessing_children_are_told_so(system: System) -> None:
 
 @pytest.mark.parametrize(
     "wait",
-    ["sink.readings.recv()", "list(sink.jobs)", "sink.answer.recv()", "sink.wait()", "sink.ready()"],
+    [
+        "sink.readings.recv()",
+        "list(sink.jobs)",
+        "sink.answer.recv()",
+        "sink.wait()",
+        "sink.ready()",
+        # Calls that begin while the component is closed.
+        "while True: sink.readings.try_recv()",
+        "while True: sink.readings.is_connected",
+    ],
 )
 def test_the_interpreter_ends_while_a_daemon_thread_waits(system: System, wait: str) -> None:
     program = system.python(f"""
