@@ -139,7 +139,7 @@ impl Example {
                 self.succeed(&mut command);
             }
         }
-        let python = workspace.join("target/languages/venv/bin/python");
+        let python = workspace.join("target/examples/venv/bin/python");
         for listing in listings(&readme, "python") {
             let program = format!("import ast; ast.parse({listing:?})");
             self.succeed(Command::new(&python).args(["-c", &program]));

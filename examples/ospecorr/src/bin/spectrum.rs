@@ -1,0 +1,8 @@
+//! To be written.
+
+use ospecorr::Spectrum;
+
+#[scl::main]
+fn main(_component: Spectrum) -> scl::Result<()> {
+    Ok(())
+}

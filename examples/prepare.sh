@@ -1,0 +1,98 @@
+# For the `build` scripts of the examples, which source it in their folder: what their programs need of this repository. In a project of your
+# own SCL is installed, and none of this is needed.
+#
+# Sets `repository`, `out` (where compiled programs go, in a folder for each example), `target` (what cargo builds into),
+# `venv` and `SCL`.
+
+repository=$(cd ../.. && pwd)
+out=$repository/target/examples/${PWD##*/}
+venv=$repository/target/examples/venv
+# `scl run` says where it is; otherwise it is installed.
+SCL=${SCL:-scl}
+export SCL
+# `EXAMPLES_PROFILE=release` builds with optimizations.
+profile=${EXAMPLES_PROFILE:-dev}
+case $profile in
+dev) profile_folder=debug ;;
+*) profile_folder=$profile ;;
+esac
+
+# need DEBIAN_PACKAGE COMMAND...: notes the package if the command fails. `all_there` ends with what to install.
+missing=
+need() {
+    package=$1
+    shift
+    "$@" >/dev/null 2>&1 || missing="$missing $package"
+}
+all_there() {
+    [ -z "$missing" ] || { echo "error: missing:$missing; on Debian: apt-get install$missing" >&2; exit 1; }
+}
+
+need_c() {
+    need gcc command -v cc
+    need make command -v make
+    need pkg-config command -v pkg-config
+    need protobuf-compiler command -v protoc
+    need protobuf-c-compiler command -v protoc-c
+    need libprotobuf-c-dev pkg-config --exists libprotobuf-c
+    all_there
+}
+need_cpp() {
+    need g++ command -v c++
+    need make command -v make
+    need cmake command -v cmake
+    need pkg-config command -v pkg-config
+    need protobuf-compiler command -v protoc
+    need libprotobuf-dev pkg-config --exists protobuf
+    all_there
+}
+need_python() {
+    need python3-venv python3 -c "import ensurepip, venv"
+    all_there
+}
+
+# Where cargo builds: `target`, unless it is told otherwise.
+find_target() {
+    target=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/$profile_folder
+}
+
+build_rust() {
+    cargo build --locked --profile "$profile" "$@"
+    find_target
+}
+
+# The C library, as `cargo cinstall -p scl-c` installs it.
+build_c_library() {
+    build_rust -p scl-c
+    SCL_CFLAGS="-I$repository/bindings/c/include"
+    SCL_LIBS="-L$target -lscl -Wl,-rpath,$target"
+    export SCL_CFLAGS SCL_LIBS
+}
+
+# cmake_build SOURCE BUILD [ARGUMENT...]
+cmake_build() {
+    source=$1
+    build=$2
+    shift 2
+    cmake -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release -Dscl_DIR="$repository/bindings/cpp/cmake" \
+        -DSCL_LIBRARY="$target/libscl.so" -DSCL_EXECUTABLE="$(command -v "$SCL")" "$@" >/dev/null
+    cmake --build "$build" --parallel
+}
+
+# A virtual environment with the package `scl`, and with the packages of a file if one is given.
+build_python_package() {
+    if [ ! -x "$venv/bin/maturin" ]; then
+        python3 -m venv "$venv"
+        "$venv/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.16,<2"
+    fi
+    if [ -n "${1-}" ] && ! cmp -s "$1" "$out/requirements.txt"; then
+        "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$1"
+        cp "$1" "$out/requirements.txt"
+    fi
+    # As `pip install bindings/python` does, but faster when repeated.
+    release=
+    [ "$profile" = dev ] || release=--release
+    VIRTUAL_ENV="$venv" "$venv/bin/maturin" develop $release --manifest-path "$repository/bindings/python/Cargo.toml" >/dev/null
+}
+
+mkdir -p "$out"

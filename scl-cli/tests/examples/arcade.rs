@@ -1,0 +1,1 @@
+//! Flights of `examples/arcade`.

@@ -1,0 +1,1 @@
+//! `examples/ospecorr` on a band with a primary user.
