@@ -1,6 +1,6 @@
 /* The GPS receiver: measures the simulated world, and publishes five fixes a second. */
 #include "arcade_scl.h"
-#include "parameters.h"
+#include "parameter_table.h"
 #include "receiver.h"
 
 #include <getopt.h>
@@ -78,7 +78,7 @@ static void report(Arcade__FixQuality *last, const Arcade__Fix *fix) {
 static void read_parameters(arcade_gps_sensor *gates, receiver_parameters *parameters) {
     Arcade__Parameters *message;
     if (arcade_gps_sensor_parameters_latest(gates, &message) == SCL_OK) {
-        parameters_read(TABLE, TABLE_LENGTH, message, parameters);
+        parameter_table_read(TABLE, TABLE_LENGTH, message, parameters);
         arcade_gps_sensor_parameters_free(message);
     }
 }
@@ -90,7 +90,7 @@ static scl_status run(arcade_gps_sensor *gates, options options) {
     Arcade__World *world;
     Arcade__Fix fix;
     bool silent = false;
-    parameters_set_defaults(TABLE, TABLE_LENGTH, &parameters);
+    parameter_table_set_defaults(TABLE, TABLE_LENGTH, &parameters);
     while (true) {
         scl_status status = arcade_gps_sensor_world_recv(gates, &world, SILENCE);
         if (status == SCL_TIMEOUT) {

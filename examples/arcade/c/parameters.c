@@ -1,24 +1,23 @@
-/* Values that `configuration` keeps. */
+/* The values of the autopilot that can be changed while it runs. */
 #include "parameters.h"
 
-#include <string.h>
+static const parameter TABLE[] = {
+#define ENTRY(field, name, default_value) {name, offsetof(parameters, field), default_value},
+    PARAMETERS(ENTRY)
+#undef ENTRY
+};
+enum { TABLE_LENGTH = sizeof TABLE / sizeof *TABLE };
 
-static void set(void *values, const parameter *entry, double value) {
-    memcpy((char *)values + entry->offset, &value, sizeof value);
+parameters parameters_default(void) {
+    parameters values;
+    parameter_table_set_defaults(TABLE, TABLE_LENGTH, &values);
+    return values;
 }
 
-void parameters_set_defaults(const parameter *table, size_t count, void *values) {
-    for (size_t index = 0; index < count; index++) {
-        set(values, &table[index], table[index].default_value);
-    }
+void parameters_read(parameters *self, const Arcade__Parameters *message) {
+    parameter_table_read(TABLE, TABLE_LENGTH, message, self);
 }
 
-void parameters_read(const parameter *table, size_t count, const Arcade__Parameters *message, void *values) {
-    for (size_t index = 0; index < count; index++) {
-        for (size_t sent = 0; sent < message->n_parameters; sent++) {
-            if (strcmp(table[index].name, message->parameters[sent]->name) == 0) {
-                set(values, &table[index], message->parameters[sent]->value);
-            }
-        }
-    }
+home parameters_home(const parameters *self) {
+    return (home){self->home_latitude, self->home_longitude, self->home_altitude};
 }

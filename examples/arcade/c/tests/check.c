@@ -27,7 +27,7 @@ int main(void) {
     test_noise();
     test_geodesy();
     test_receiver();
-    test_parameters();
+    test_parameter_table();
     test_resume();
     printf("%u checks, %u failed\n", checked, failed);
     return failed == 0 ? 0 : 1;

@@ -5,7 +5,7 @@
 void test_noise(void);
 void test_geodesy(void);
 void test_receiver(void);
-void test_parameters(void);
+void test_parameter_table(void);
 void test_resume(void);
 
 #endif

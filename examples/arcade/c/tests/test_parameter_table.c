@@ -1,6 +1,6 @@
 /* Reading parameters. */
 #include "check.h"
-#include "parameters.h"
+#include "parameter_table.h"
 #include "tests.h"
 
 typedef struct gains {
@@ -12,9 +12,9 @@ static const parameter TABLE[] = {
     {"gain.i", offsetof(gains, integral), 0.5},
 };
 
-void test_parameters(void) {
+void test_parameter_table(void) {
     gains gains;
-    parameters_set_defaults(TABLE, 2, &gains);
+    parameter_table_set_defaults(TABLE, 2, &gains);
     CHECK(gains.proportional == 2.0 && gains.integral == 0.5);
 
     Arcade__Parameter of_others = ARCADE__PARAMETER__INIT, integral = ARCADE__PARAMETER__INIT;
@@ -26,7 +26,7 @@ void test_parameters(void) {
     Arcade__Parameters message = ARCADE__PARAMETERS__INIT;
     message.n_parameters = 2;
     message.parameters = sent;
-    parameters_read(TABLE, 2, &message, &gains);
+    parameter_table_read(TABLE, 2, &message, &gains);
     CHECK(gains.proportional == 2.0);
     CHECK(gains.integral == 0.75);
 }
