@@ -9,6 +9,7 @@
 use super::parameters::Parameters;
 use super::quaternion::Quaternion;
 use super::vector::{Vec3, limit};
+use crate::arcade::height::Range;
 use crate::arcade::{Fix, FixQuality, Height};
 use crate::geodesy;
 
@@ -106,9 +107,9 @@ impl PositionEstimator {
         let past = self.past(height.time_us);
         let elapsed = step(self.height_us, height.time_us);
         self.height_us = height.time_us;
-        let measured = match height.ultrasonic {
+        let measured = match height.range {
             // It measures along the body's z axis.
-            Some(range) if range.is_finite() => {
+            Some(Range::Ultrasonic(range)) if range.is_finite() => {
                 let measured = range * past.upright;
                 let change = height.barometer - measured - self.barometer_offset;
                 self.barometer_offset += change * limit(parameters.barometer_correction * elapsed, 1.0);
