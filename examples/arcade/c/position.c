@@ -54,9 +54,9 @@ static double step(uint64_t last_us, uint64_t time_us) {
 }
 
 /* The height above ground by either sensor. While the ultrasonic sensor is in range, the barometer is calibrated by it. */
-static double measured_height(position_estimator *self, const Arcade__Height *height, double upright, double elapsed,
+static double measured_height(position_estimator *self, const height_reading *height, double upright, double elapsed,
                               const parameters *parameters) {
-    if (height->range_case != ARCADE__HEIGHT__RANGE_ULTRASONIC || !isfinite(height->ultrasonic)) {
+    if (!height->in_range || !isfinite(height->ultrasonic)) {
         return height->barometer - self->barometer_offset;
     }
     double measured = height->ultrasonic * upright; /* it measures along the body's z axis */
@@ -65,7 +65,7 @@ static double measured_height(position_estimator *self, const Arcade__Height *he
     return measured;
 }
 
-void position_correct_height(position_estimator *self, const Arcade__Height *height, const parameters *parameters) {
+void position_correct_height(position_estimator *self, const height_reading *height, const parameters *parameters) {
     past_estimate past = past_at(self, height->time_us);
     double elapsed = step(self->height_us, height->time_us);
     self->height_us = height->time_us;
@@ -84,8 +84,8 @@ static void start_at(position_estimator *self, vector position, vector velocity)
     self->velocity = (vector){velocity.x, velocity.y, self->velocity.z};
 }
 
-void position_correct_fix(position_estimator *self, const Arcade__Fix *fix, const parameters *parameters) {
-    if (fix->quality == ARCADE__FIX_QUALITY__FIX_QUALITY_NONE) {
+void position_correct_fix(position_estimator *self, const fix_reading *fix, const parameters *parameters) {
+    if (!fix->valid) {
         return;
     }
     geodetic_position degrees = {.latitude = fix->latitude, .longitude = fix->longitude};

@@ -4,6 +4,7 @@
 
 #include "parameters.h"
 #include "quaternion.h"
+#include "readings.h"
 
 static const double GRAVITY = 9.81; /* m/s^2 */
 
@@ -34,10 +35,10 @@ void position_predict(position_estimator *self, uint64_t time_us, vector force, 
 void position_coast(position_estimator *self, uint64_t time_us, quaternion attitude, double elapsed);
 
 /* Takes in a height. Above the ultrasonic sensor's range the barometer counts, by what it showed before. */
-void position_correct_height(position_estimator *self, const Arcade__Height *height, const parameters *parameters);
+void position_correct_height(position_estimator *self, const height_reading *height, const parameters *parameters);
 
 /* Takes in a fix: its horizontal position and velocity. Heights by GPS are worse than by the other sensors. */
-void position_correct_fix(position_estimator *self, const Arcade__Fix *fix, const parameters *parameters);
+void position_correct_fix(position_estimator *self, const fix_reading *fix, const parameters *parameters);
 
 /* Returns false before the first fix and long after the last one. */
 bool position_is_valid(const position_estimator *self, uint64_t time_us);

@@ -1,3 +1,6 @@
 //! The Rust parts of the ARCADE aircraft: the simulated world, and an autopilot that is the twin of the one in C.
 
+pub mod autopilot;
+pub mod geodesy;
+
 scl::topology!("topology.yaml", testable = true);
