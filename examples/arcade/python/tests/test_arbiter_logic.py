@@ -1,10 +1,10 @@
 """Who commands: the mission, the ground station or safety."""
 
 import pytest
-from arbiter_world import ACCEPTED, GROUND, MISSION, SAFETY, World, command
 
 from arbiter_events import ParametersSeen, Tick
 from arbiter_logic import LEAD_US
+from arbiter_world import ACCEPTED, GROUND, MISSION, SAFETY, World, command
 from arcade_scl import Action as Order
 from arcade_scl import Authority, CommandResult, Mode, Parameter, Parameters, PowerLevel
 from command_ids import HOME, LANDING

@@ -3,9 +3,9 @@
 import math
 
 import pytest
-from arbiter_world import GROUND, MISSION, World, command
 
 import parameters
+from arbiter_world import GROUND, MISSION, World, command
 from arcade_scl import Action, Authority, Command, Flight, Mode, Power, PowerLevel, Vector
 from request_checks import refusal
 
