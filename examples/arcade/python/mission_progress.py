@@ -39,16 +39,19 @@ class Progress:
         others = command_of_others(arbitration)
         if self.index is None and not self.find_step(flight, others, decision):
             return decision
+        leg = self.legs[self.index or 0]
+        landed = flight.mode == Mode.MODE_GROUNDED
+        if landed and leg.airborne and not (isinstance(leg.step.task, Land) and flight.command_id == leg.id):
+            # Whoever landed the vehicle may have handed it over since.
+            why = because(others or self.interruption)
+            decision.lines.append(f"stopped at step {leg.number}: the vehicle is on the ground{why}")
+            decision.exit_code = 1
+            return decision
         if others != self.interruption:
             decision.lines.append(f"waiting: {others}" if others else "going on")
             self.interruption = others
             self.repeat_us = flight.time_us  # the command of the step has lost its effect
-        leg = self.legs[self.index or 0]
-        landed = flight.mode == Mode.MODE_GROUNDED
-        if landed and leg.airborne and not (isinstance(leg.step.task, Land) and flight.command_id == leg.id):
-            decision.lines.append(f"stopped at step {leg.number}: the vehicle is on the ground{because(others)}")
-            decision.exit_code = 1
-        elif not others:
+        if not others:
             self.pursue(leg, flight, decision)
         return decision
 

@@ -130,10 +130,11 @@ def test_a_mission_waits_while_others_command(others: Arbitration, line: str) ->
     assert again.command.id == 101
 
 
-def test_a_mission_ends_with_1_when_safety_has_landed_the_vehicle() -> None:
+@pytest.mark.parametrize("now", [SAFETY, Arbitration(reason="on the ground")])
+def test_a_mission_ends_with_1_when_safety_has_landed_the_vehicle(now: Arbitration) -> None:
     progress = resumed(101, 0, 0, 5)
     progress.update(flight(110, 1_000_000, 0, 0, 5), SAFETY)
-    decision = progress.update(grounded(120, 1_000_000), SAFETY)
+    decision = progress.update(grounded(120, 1_000_000), now)
     reason = "stopped at step 2: the vehicle is on the ground: safety commands the vehicle: power is low"
     assert decision == Decision([reason], exit_code=1)
 
