@@ -6,26 +6,14 @@ coulomb counting, which the voltage corrects where the count started wrong.
 
 import math
 from bisect import bisect_right
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from arcade_scl import Battery
 
-# Open-circuit voltage of one cell by its charge, typical of lithium-polymer cells at room temperature.
-OPEN_CIRCUIT = (
-    (0.00, 3.27),
-    (0.05, 3.61),
-    (0.10, 3.69),
-    (0.20, 3.73),
-    (0.30, 3.77),
-    (0.40, 3.80),
-    (0.50, 3.84),
-    (0.60, 3.87),
-    (0.70, 3.95),
-    (0.80, 4.02),
-    (0.90, 4.11),
-    (1.00, 4.20),
-)
+# Open-circuit voltage of one cell at tenths of its charge, from empty to full, at room temperature.
+VOLTAGES = (3.30, 3.61, 3.69, 3.71, 3.75, 3.80, 3.84, 3.91, 3.98, 4.08, 4.20)
+CHARGES = tuple(tenths / 10 for tenths in range(11))
 SMOOTHING = 3.0  # s, time constant: gusts change the current faster than this
 DOUBT = 0.1  # V for each cell: the curve is flat, and cells of one type differ by about half of this
 IDLE_CURRENT = 0.05  # A: less is noise of the sensor, and would make years of the time left
@@ -33,18 +21,19 @@ IDLE_CURRENT = 0.05  # A: less is noise of the sensor, and would make years of t
 
 def open_circuit_voltage(charge: float) -> float:
     """The voltage of an idle cell, V."""
-    return _interpolate(charge, OPEN_CIRCUIT)
+    return interpolate(charge, CHARGES, VOLTAGES)
 
 
 def charge_by_voltage(voltage: float) -> float:
     """The charge, 0 to 1, of an idle cell. Coarse, because the curve is flat."""
-    return _interpolate(voltage, [(volt, charge) for charge, volt in OPEN_CIRCUIT])
+    return interpolate(voltage, VOLTAGES, CHARGES)
 
 
-def _interpolate(x: float, points: tuple[tuple[float, float], ...] | list[tuple[float, float]]) -> float:
-    upper = min(max(bisect_right([point[0] for point in points], x), 1), len(points) - 1)
-    (x0, y0), (x1, y1) = points[upper - 1], points[upper]
-    return y0 + (y1 - y0) * (min(max(x, x0), x1) - x0) / (x1 - x0)
+def interpolate(x: float, xs: Sequence[float], ys: Sequence[float]) -> float:
+    """Linear between the points, constant beyond them. numpy's would take half a second to import, also after a crash."""
+    right = min(max(bisect_right(xs, x), 1), len(xs) - 1)
+    part = (x - xs[right - 1]) / (xs[right] - xs[right - 1])
+    return ys[right - 1] + (ys[right] - ys[right - 1]) * min(max(part, 0.0), 1.0)
 
 
 def implausible(reading: Battery, cells: float) -> str | None:
