@@ -7,8 +7,10 @@ mod checks;
 mod flight;
 mod periods;
 mod recording;
+mod replay;
 
 use crate::{built, lock_machine};
+use ::arcade::arcade::{Arbitration, Authority};
 use checks::waypoints;
 use flight::{Flight, Flown, Position};
 use periods::Periods;
@@ -34,10 +36,11 @@ fn a_survey_is_flown_and_its_recording_gives_the_same_set_points() {
     let timer = Timer::start(&mut flight, "survey");
     assert_eq!(flight.fly(|_, _| {}), "ended with exit code 0", "{}", flight.log);
     let flown = flight.end();
-    flown.check_survey();
+    flown.check("survey.yaml");
     flown.recording.check_beats(0);
     assert!(!flown.log.contains("restarting"), "{}", flown.log);
     timer.report(&flown);
+    replay::check("survey", &[]);
 }
 
 #[test]
@@ -61,7 +64,7 @@ fn every_part_is_killed_once_and_the_flight_goes_on() {
         assert_eq!(flight.process_id(component).is_some(), component != "uav_mission", "{component}\n{}", flight.log);
     }
     let flown = flight.end();
-    flown.check_survey();
+    flown.check("survey.yaml");
     for (_, _, component) in KILLS {
         let line = format!("`{component}` was restarted once; last reason: killed by signal 9 (SIGKILL)");
         assert!(flown.log.contains(&line), "{component}\n{}", flown.log);
@@ -73,16 +76,53 @@ fn every_part_is_killed_once_and_the_flight_goes_on() {
     timer.report(&flown);
 }
 
+#[test]
+fn with_little_charge_the_arbiter_brings_the_aircraft_home() {
+    let _machine = lock_machine();
+    let mut flight = Flight::start("low-battery", &["--profile", "low-battery"]);
+    let ending = flight.fly(|_, _| {});
+    flight.land();
+    let flown = flight.end();
+    assert_eq!(ending, "ended with exit code 1", "{}", flown.log);
+    flown.recording.check_landing();
+    flown.recording.check_attitude();
+    flown.recording.check_beats(0);
+    let is_safety = |arbitration: &&Arbitration| arbitration.authority() == Authority::Safety;
+    let decided = flown.recording.arbitration.iter().find(is_safety);
+    assert!(decided.is_some_and(|it| it.reason.starts_with("low power")), "{decided:?}\n{}", flown.log);
+    // The mission has failed, but nothing else.
+    assert!(flown.log.contains("scl: non-essential component `uav_mission` failed"), "{}", flown.log);
+    assert_eq!(flown.code, Some(0), "{}", flown.log);
+}
+
+#[test]
+fn the_autopilot_in_rust_takes_the_place_of_the_one_in_c() {
+    hop("rust-autopilot");
+}
+
+#[test]
+fn a_receiver_at_a_serial_line_takes_the_place_of_the_gps_sensor() {
+    hop("nmea");
+}
+
+/// A short flight with another profile.
+fn hop(profile: &str) {
+    let _machine = lock_machine();
+    let mut flight = Flight::start(profile, &["--profile", profile, "--profile", "hop"]);
+    assert_eq!(flight.fly(|_, _| {}), "ended with exit code 0", "{}", flight.log);
+    flight.end().check("hop.yaml");
+}
+
 /// A later step of the mission is past every distance.
 fn is_past(position: &Position, step: u64, distance: f64) -> bool {
     position.command_id > step || (position.command_id == step && position.distance <= distance)
 }
 
 impl Flown {
-    /// All waypoints of the survey, and a soft landing at home.
+    /// All waypoints of the mission, and a landing at home.
     #[track_caller]
-    fn check_survey(&self) {
-        self.recording.check_waypoints(&waypoints("survey.yaml"));
+    fn check(&self, mission: &str) {
+        self.recording.check_waypoints(&waypoints(mission));
         self.recording.check_landing();
         self.recording.check_attitude();
         assert_eq!(self.code, Some(0), "{}", self.log);

@@ -65,8 +65,7 @@ impl Flight {
         let (sender, events) = channel();
         // It begins first, so that no message is missing.
         let record = ["record", "--system", "arcade", "--overwrite", "--format", "json", "-o", file.to_str().unwrap()];
-        let mut recorder = command(&system, &record).stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-        drain_after_line(recorder.stderr.take().unwrap());
+        let recorder = spawn_recorder(&mut command(&system, &record));
         let folder = example("arcade");
         let arguments = [&["run", folder.to_str().unwrap()], arguments].concat();
         let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -126,6 +125,11 @@ impl Flight {
                 }
             }
         }
+    }
+
+    /// Flies until the vehicle stands on the ground.
+    pub(super) fn land(&mut self) {
+        while !matches!(self.next(), Event::Position(position) if position.mode == "MODE_GROUNDED") {}
     }
 
     /// The process of a component that runs.
@@ -197,7 +201,7 @@ impl Position {
 }
 
 /// `scl` in the folder of the example, whose topology and launch file the recording gets.
-fn command(system: &System, arguments: &[&str]) -> Command {
+pub(super) fn command(system: &System, arguments: &[&str]) -> Command {
     let mut command = system.scl(arguments);
     command.current_dir(example("arcade"));
     for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS", "SCL_LOG"] {
@@ -206,11 +210,14 @@ fn command(system: &System, arguments: &[&str]) -> Command {
     command
 }
 
-/// Waits for the first line, and reads the others so that the program never waits for that.
-fn drain_after_line(stream: impl Read + Send + 'static) {
-    let mut lines = BufReader::new(stream).lines();
+/// Starts a recorder, and waits until it waits for components.
+pub(super) fn spawn_recorder(command: &mut Command) -> Child {
+    let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines();
     lines.next().unwrap().unwrap();
+    // So that it can print the others.
     std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
+    recorder
 }
 
 fn send_lines(stream: impl Read + Send + 'static, sender: &Sender<Event>, event: fn(String) -> Event) {

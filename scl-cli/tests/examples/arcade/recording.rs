@@ -3,11 +3,10 @@
 use ::arcade::arcade::{Arbitration, Beat, Flight, World};
 use mcap::{Message, MessageStream};
 use prost::Message as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The messages of a flight, in the order in which they were sent.
 pub(super) struct Recording {
-    pub(super) file: PathBuf,
     pub(super) world: Vec<World>,
     pub(super) flight: Vec<Flight>,
     pub(super) arbitration: Vec<Arbitration>,
@@ -27,7 +26,6 @@ impl Recording {
     pub(super) fn read(file: &Path) -> Self {
         let bytes = std::fs::read(file).unwrap();
         let mut recording = Self {
-            file: file.to_owned(),
             world: Vec::new(),
             flight: Vec::new(),
             arbitration: Vec::new(),
