@@ -221,11 +221,14 @@ impl FlightController {
         }
     }
 
-    /// Whether a state saved at `self.time_us` can be carried on with at the time of a reading.
-    pub fn can_resume(&self, reading_us: u64) -> bool {
-        self.navigator.mode != Mode::Grounded
-            && reading_us > self.time_us
-            && reading_us - self.time_us <= LONGEST_GAP_US
+    /// Carries on in the air from a saved state, if it is recent at the time of the first reading.
+    pub fn resumed(mut self, reading_us: u64) -> Option<Self> {
+        let recent = reading_us > self.time_us && reading_us - self.time_us <= LONGEST_GAP_US;
+        if self.navigator.mode == Mode::Grounded || !recent {
+            return None;
+        }
+        self.restarts += 1;
+        Some(self)
     }
 }
 

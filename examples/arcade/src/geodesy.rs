@@ -50,11 +50,10 @@ mod tests {
 
     #[test]
     fn a_degree_of_latitude_has_the_length_of_the_tables() {
-        // 111.25 km at 50.7 degrees north, and longitude 70.6 km.
-        let (_, north) = to_metres(Home { altitude: 0.0, ..HOME }, HOME.latitude + 1.0, HOME.longitude);
-        let (east, _) = to_metres(Home { altitude: 0.0, ..HOME }, HOME.latitude, HOME.longitude + 1.0);
-        assert!((north - 111_242.0).abs() < 20.0, "{north}");
-        assert!((east - 70_640.0).abs() < 20.0, "{east}");
+        let home = Home { latitude: 45.0, longitude: 10.0, altitude: 0.0 };
+        let (east, north) = to_metres(home, 46.0, 11.0);
+        assert!((north - 111_131.7).abs() < 0.1, "{north}");
+        assert!((east - 78_846.8).abs() < 0.1, "{east}");
     }
 
     #[test]

@@ -2,5 +2,8 @@
 
 pub mod autopilot;
 pub mod geodesy;
+pub mod sensors;
+pub mod simulation;
+pub mod world;
 
 scl::topology!("topology.yaml", testable = true);

@@ -29,6 +29,17 @@ int main(void) {
     test_receiver();
     test_parameter_table();
     test_resume();
+    test_quaternion();
+    test_attitude();
+    test_position();
+    test_trajectory();
+    test_control();
+    test_mixer();
+    test_landing();
+    test_commands();
+    test_pending();
+    test_navigation();
+    test_flight_controller();
     printf("%u checks, %u failed\n", checked, failed);
     return failed == 0 ? 0 : 1;
 }
