@@ -82,8 +82,8 @@ def test_only_the_channel_of_a_strong_signal_is_occupied() -> None:
         tone = np.exp(2j * np.pi * ((channel + 0.5) / CHANNELS - 0.5) * np.arange(LENGTH)) * 100
         found = detector.detect(np.asarray(noise(random) + tone, np.complex64), CHANNELS)
         assert [number for number, report in enumerate(found) if report.occupied] == [channel]
-        # 40 dB more than the noise in the band, of which a channel has an eighth.
-        assert found[channel].power_db == pytest.approx(40 + decibels(1), abs=0.6)
+        # 40 dB above the noise of the band, of which a channel has an eighth.
+        assert found[channel].power_db == pytest.approx(40 + decibels(CHANNELS), abs=0.6)
 
 
 def test_powers_are_in_the_order_of_the_band() -> None:
