@@ -7,7 +7,7 @@
 
 // What the link can do, whichever channel it uses.
 struct Capability {
-    double rate = 100'000;     // bytes a second: 1 bit/s per Hz in a channel of 1 MHz, and a fifth of quiet periods
+    double rate = 90'000;      // bytes a second: 1 bit/s per Hz of 1 MHz, without quiet periods and redundancy
     double shortest_gap = 0.1; // seconds that a change of the channel may take
 };
 

@@ -2,9 +2,10 @@
 
 import argparse
 import asyncio
+import math
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from contextlib import suppress
 
 import scl
@@ -14,6 +15,12 @@ from quality import Pace, QualityMonitor, Requirement, SpectrumClock
 
 REQUEST_PERIOD = 0.5
 REPORT_PERIOD = 0.1
+# About three frames collide when a primary user arrives. Nobody sends them again; in their place, a tenth more are sent
+# than required, as an erasure code would do.
+REDUNDANCY = 1.1
+FRAMES_PER_SECOND = 100
+# Bytes: 4 ms on the air, at 1 bit/s per Hz in a channel of 1 MHz.
+LONGEST_FRAME = 500
 
 
 class RequirementsRefused(Exception):
@@ -23,10 +30,10 @@ class RequirementsRefused(Exception):
 class Stream:
     """A stream of frames over the link, and what is known of it."""
 
-    def __init__(self, application: Application, required: Requirement, frame_length: int) -> None:
+    def __init__(self, application: Application, required: Requirement) -> None:
         self._application = application
         self._required = required
-        self._frame = bytes(frame_length)
+        self._frame = bytes(min(math.ceil(required.rate / FRAMES_PER_SECOND), LONGEST_FRAME))
         self._accepted = asyncio.Event()
         self._clock = SpectrumClock()
         self._monitor = QualityMonitor(required)
@@ -36,7 +43,7 @@ class Stream:
     async def run(self) -> None:
         """Until a stop is requested, or the requirements are refused."""
         tasks = (self._require(), self._send(), self._receive(), self._follow(), self._report())
-        await asyncio.gather(*tasks)
+        await asyncio.gather(*map(until_stopped, tasks))
 
     async def _require(self) -> None:
         """Asks again and again: a link optimizer that was restarted does not know the requirements."""
@@ -58,7 +65,7 @@ class Stream:
     async def _send(self) -> None:
         """Sends numbered frames at the required rate."""
         await self._accepted.wait()
-        pace = Pace(len(self._frame) / self._required.rate, time.monotonic())
+        pace = Pace(len(self._frame) / (self._required.rate * REDUNDANCY), time.monotonic())
         while True:
             # Waits while the radio takes no frames, because it is silent or not there.
             await self._application.frames.send_async(Frame(number=self._sent, data=self._frame))
@@ -80,7 +87,6 @@ class Stream:
         """Tells which channel the link uses."""
         channel: int | None = None
         async for link in self._application.link:
-            self._clock.update(link.time_us, time.monotonic())
             if link.transmit and link.channel != channel:
                 print(describe_change(channel, link))
                 channel = link.channel
@@ -108,6 +114,12 @@ class Stream:
                 say(f"not served: {quality.rate:.0f} of {self._required.rate:.0f} bytes/s", key="not served")
             due += REPORT_PERIOD
             await asyncio.sleep(due - time.monotonic())
+
+
+async def until_stopped(task: Coroutine[None, None, None]) -> None:
+    """Ends when a stop is requested, as loops over gates do, so that `gather` ends in order."""
+    with suppress(scl.Stopped):
+        await task
 
 
 def describe_change(before: int | None, link: LinkState) -> str:
@@ -141,10 +153,10 @@ def positive(largest: float) -> Callable[[str], float]:
     return parse
 
 
-async def run(required: Requirement, frame_length: int) -> None:
+async def run(required: Requirement) -> None:
     """Opens the component and runs the stream."""
     async with Application() as application:
-        await Stream(application, required, frame_length).run()
+        await Stream(application, required).run()
 
 
 def main() -> int:
@@ -154,13 +166,11 @@ def main() -> int:
     parser.add_argument(
         "--longest-gap", type=positive(60), default=0.2, metavar="SECONDS", help="without a frame (0.2)"
     )
-    # 4 ms on the air, at 1 bit/s per Hz in a channel of 1 MHz.
-    parser.add_argument("--frame", type=positive(500), default=200, metavar="BYTES", help="the length of a frame (200)")
     arguments = parser.parse_args()
     required = Requirement(arguments.rate, arguments.longest_gap)
     with suppress(KeyboardInterrupt):
         try:
-            asyncio.run(run(required, max(int(arguments.frame), 1)))
+            asyncio.run(run(required))
         except RequirementsRefused as error:
             print(f"error: the link optimizer refuses the requirements: {error}", file=sys.stderr)
             return 1

@@ -51,21 +51,24 @@ class QualityMonitor:
 
 
 class SpectrumClock:
-    """The time of the simulated spectrum, which is known when a message arrives, and goes on as the local clock does."""
+    """The time of the simulated spectrum, which is known when a message arrives, and then goes on as the local clock does.
+
+    It may fall behind the local clock, where the simulation is paused, so the newest message always sets it.
+    """
 
     def __init__(self) -> None:
-        self._time_us = 0
-        self._local = 0.0
+        self._newest: tuple[int, float] | None = None
 
     def update(self, time_us: int, local: float) -> None:
-        """A message with a time has arrived; `local` in seconds. Older messages do not set the clock back."""
-        restarted = time_us < self.now(local) - 1_000_000
-        if time_us > self.now(local) or restarted or self._time_us == 0:
-            self._time_us, self._local = time_us, local
+        """A message was sent at `time_us`, and arrived at a local time in seconds."""
+        self._newest = (time_us, local)
 
     def now(self, local: float) -> int:
-        """The time at a local time in seconds."""
-        return self._time_us + int((local - self._local) * 1e6) if self._time_us else 0
+        """The time at a local time in seconds; 0 before the first message."""
+        if self._newest is None:
+            return 0
+        time_us, arrived = self._newest
+        return time_us + int((local - arrived) * 1e6)
 
 
 class Pace:
