@@ -19,7 +19,7 @@ typedef struct autopilot {
 /* Reads what the process before this one has saved. `gates` and `state` are open. */
 void autopilot_begin(autopilot *self);
 
-/* Works until a stop request or a failure. */
-scl_status autopilot_run(autopilot *self);
+/* Waits for readings and requests, at most 100 ms, and handles what there is. Returns `SCL_OK`, or why the program has to end. */
+scl_status autopilot_turn(autopilot *self);
 
 #endif

@@ -183,20 +183,16 @@ static void report_silence(autopilot *self) {
     self->silent = silent;
 }
 
-scl_status autopilot_run(autopilot *self) {
-    while (true) {
-        uint64_t ready;
-        scl_status status =
-            arcade_autopilot_wait(&self->gates, ARCADE_AUTOPILOT_IMU | ARCADE_AUTOPILOT_CONTROL, SILENCE, &ready);
-        if (status == SCL_OK) {
-            status = take_readings(self);
-        }
-        if (status == SCL_OK) {
-            status = answer_requests(self);
-        }
-        if (status != SCL_OK && status != SCL_TIMEOUT) {
-            return status;
-        }
-        report_silence(self);
+scl_status autopilot_turn(autopilot *self) {
+    uint64_t ready;
+    scl_status status =
+        arcade_autopilot_wait(&self->gates, ARCADE_AUTOPILOT_IMU | ARCADE_AUTOPILOT_CONTROL, SILENCE, &ready);
+    if (status == SCL_OK) {
+        status = take_readings(self);
     }
+    if (status == SCL_OK) {
+        status = answer_requests(self);
+    }
+    report_silence(self);
+    return status == SCL_TIMEOUT ? SCL_OK : status;
 }
