@@ -61,6 +61,7 @@ TABLE = (
     Spec("power.hysteresis", 0.05, 0, 0.2, "1", "rise above these that ends the level"),
     Spec("power.cells", 3, 1, 12, "cells", "lithium-polymer cells in series"),
     Spec("power.resistance", 0.02, 0, 0.5, "ohm", "internal resistance of the battery"),
+    Spec("power.hover_current", 12, 0.1, 200, "A", "current in the air, for estimates before take-off"),
     Spec("home.latitude", 50.6866, -89, 89, "degrees", "latitude of home, north positive"),
     Spec("home.longitude", 10.919, -180, 180, "degrees", "longitude of home, east positive"),
     Spec("home.altitude", 480, -400, 6000, "m", "altitude of home above mean sea level"),
