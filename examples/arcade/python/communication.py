@@ -28,7 +28,11 @@ class Link:
         self.commands: asyncio.Queue[tuple[str, Answer]] = asyncio.Queue(maxsize=16)
 
     async def run(self) -> None:
-        await asyncio.gather(self.report(), self.obey())
+        """Works until the program is asked to stop. A task must not end by `Stopped`: asyncio would print a traceback."""
+        obeying = asyncio.create_task(self.obey())
+        with suppress(scl.Stopped):
+            await self.report()
+        obeying.cancel()
 
     async def report(self) -> None:
         """One line a second, whoever is silent."""
@@ -53,9 +57,10 @@ class Link:
 
     async def obey(self) -> None:
         """One command after the other, so that each answer belongs to the one before it."""
-        while True:
-            text, answer = await self.commands.get()
-            answer(await self.carry_out(text))
+        with suppress(scl.Stopped):
+            while True:
+                text, answer = await self.commands.get()
+                answer(await self.carry_out(text))
 
     async def carry_out(self, text: str) -> str:
         order = understand(text)

@@ -52,16 +52,20 @@ class Program:
             self.take(Requested(source, number, request.message))
 
     async def tick(self) -> None:
-        while True:
-            self.take(Tick())
-            self.publish()
-            await asyncio.sleep(PERIOD)
+        # A task must not end by `Stopped`: asyncio would print a traceback.
+        with suppress(scl.Stopped):
+            while True:
+                self.take(Tick())
+                self.publish()
+                await asyncio.sleep(PERIOD)
 
     async def ask(self, command: Command, timeout: float) -> None:
         try:
             self.take(Answered(await self.component.autopilot.call_async(command, timeout)))
         except (scl.Timeout, scl.PeerLost, scl.DecodeError) as error:
             self.take(Answered(None, str(error)))
+        except scl.Stopped:
+            return
 
     def take(self, event: Event) -> None:
         for action in self.logic.step(time.monotonic(), event):
