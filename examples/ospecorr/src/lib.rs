@@ -4,6 +4,7 @@
 
 pub mod band;
 pub mod radio;
+pub mod resource_map;
 pub mod spectrum;
 
 scl::topology!("topology.yaml", testable = true);
