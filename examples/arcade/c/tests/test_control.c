@@ -17,7 +17,7 @@ static void at_the_set_point_the_thrust_carries_the_weight(void) {
     CHECK_NEAR(fabs(demand.roll) + fabs(demand.pitch) + fabs(demand.yaw), 0.0, 1e-12);
 }
 
-/* A target east of a vehicle that looks north is to its right, so it has to roll to the right: negative. */
+/* A target east of a vehicle that looks north is to its right, so its left side has to rise: positive roll. */
 static void the_vehicle_tilts_towards_the_target(void) {
     parameters parameters = parameters_default();
     velocity_controller velocity = {0};
@@ -26,9 +26,9 @@ static void the_vehicle_tilts_towards_the_target(void) {
     quaternion north = quaternion_from_angles((vector){.z = east.yaw});
     thrust thrust = control_velocity(&velocity, &east, (vector){0}, (vector){0}, false, &parameters, BEAT);
     vector angles = quaternion_angles(thrust.attitude);
-    CHECK_NEAR(angles.x, -atan2(thrust.force.x, GRAVITY), 1e-9);
+    CHECK_NEAR(angles.x, atan2(thrust.force.x, GRAVITY), 1e-9);
     CHECK_NEAR(angles.y, 0.0, 1e-9);
-    CHECK(control_rates(&rates, &thrust, north, (vector){0}, false, &parameters, BEAT).roll < 0.0);
+    CHECK(control_rates(&rates, &thrust, north, (vector){0}, false, &parameters, BEAT).roll > 0.0);
 }
 
 static void the_tilt_is_limited(void) {

@@ -1,6 +1,7 @@
 //! The height sensors: ultrasonic near the ground, and a barometer.
 
 use crate::arcade::Height;
+use crate::arcade::height::Range;
 use crate::world::World;
 use crate::world::noise::{Noise, Wander};
 use glam::DVec3;
@@ -35,7 +36,7 @@ impl HeightSensors {
         let range = (height / upright + self.noise.normal(ULTRASONIC_NOISE)).max(0.0);
         let heard = upright > ULTRASONIC_UPRIGHT && range <= ULTRASONIC_RANGE;
         let barometer = height + self.drift.value + self.noise.normal(BAROMETER_NOISE);
-        Height { time_us, ultrasonic: heard.then_some(range), barometer }
+        Height { time_us, range: heard.then_some(Range::Ultrasonic(range)), barometer }
     }
 }
 
@@ -55,13 +56,14 @@ mod tests {
 
     #[test]
     fn the_ultrasonic_sensor_measures_along_its_axis() {
-        assert!(measured(3.0, 0.2).ultrasonic.is_some_and(|range| (range - 3.0 / 0.2f64.cos()).abs() < 0.1));
+        let along_the_axis = |Range::Ultrasonic(range)| (range - 3.0 / 0.2f64.cos()).abs() < 0.1;
+        assert!(measured(3.0, 0.2).range.is_some_and(along_the_axis));
     }
 
     #[test]
     fn it_is_absent_when_too_high_or_too_tilted() {
-        assert_eq!(measured(6.2, 0.0).ultrasonic, None);
-        assert_eq!(measured(3.0, 0.6).ultrasonic, None);
+        assert_eq!(measured(6.2, 0.0).range, None);
+        assert_eq!(measured(3.0, 0.6).range, None);
         assert!((measured(8.0, 0.0).barometer - 8.0).abs() < 0.5);
     }
 }
