@@ -157,7 +157,7 @@ mod tests {
 
     async fn send_frames(peer: &mut SpectrumPeer, count: u32) -> scl::Result<()> {
         for number in 0..count {
-            peer.bursts.send(&Frame { number, data: vec![0; 100].into() }).await?;
+            peer.bursts.send(&Frame { number, data: vec![0; 100] }).await?;
         }
         Ok(())
     }
