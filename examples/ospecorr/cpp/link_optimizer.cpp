@@ -114,14 +114,13 @@ ospecorr::RequirementsResult judge(const ospecorr::Requirements& requirements) {
 
 } // namespace
 
-void run(ospecorr::LinkOptimizer optimizer) {
-    scl::handle_stop();
+void run(ospecorr::LinkOptimizer optimizer, const std::function<bool()>& is_stopped) {
     SpectrumMobility mobility;
     StatisticsReader statistics(std::move(optimizer.map));
     RadioControl radio(optimizer.radio);
     LinkReport report(optimizer.link);
     std::uint64_t time_us = 0;
-    while (!scl::stop_requested()) {
+    while (!is_stopped()) {
         scl::wait(turn, optimizer.occupancy, optimizer.requirements);
         auto now = std::chrono::steady_clock::now();
         mobility.learn(statistics.newest());
