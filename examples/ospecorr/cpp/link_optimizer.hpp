@@ -6,4 +6,4 @@
 #include <functional>
 
 // Runs until it is stopped; then it silences the radio.
-void run(ospecorr::LinkOptimizer optimizer, const std::function<bool()>& is_stopped);
+void run(ospecorr::LinkOptimizer optimizer, const std::function<bool()> &is_stopped);

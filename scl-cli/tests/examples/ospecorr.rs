@@ -12,8 +12,8 @@ use recording::Recording;
 use serde_json::{Value, json};
 use session::Session;
 
-/// The parts of Figure 7, each with the time at which it is killed, in seconds of the band's clock. Primary users come at 4 s, 8 s and
-/// so on; the radio is on its new channel when the next part is killed.
+/// The parts of Figure 7, each with the time at which it is killed, in seconds of the band's clock. Primary users come at
+/// 4 s, 8 s and so on, so the radio is on its new channel by then.
 const KILLS: [(f64, &str); 5] = [
     (9.5, "signal_detector"),
     (13.5, "link_optimizer"),
@@ -61,7 +61,7 @@ fn every_part_is_killed_once_and_the_radio_goes_on() {
 #[track_caller]
 fn check(name: &str, recording: &Recording, outages: &[Outage], log: &str) {
     let silences = silences(&recording.truth);
-    // A restarted part takes as long as its program needs to start; what happens meanwhile is stated, and checked no further than that.
+    // A restart takes as long as the program needs to start; what happens meanwhile is stated, but not limited.
     let (excluded, counted): (Vec<_>, Vec<_>) =
         silences.iter().partition(|it| outages.iter().any(|outage| outage.disturbs(it.arrival_us)));
     let slots: Vec<u64> = counted.iter().map(|it| it.slots()).collect();
@@ -76,7 +76,10 @@ fn check(name: &str, recording: &Recording, outages: &[Outage], log: &str) {
     sorted.sort_unstable();
     let median_ms = sorted[sorted.len() / 2] * SLOT_US / 1000;
     let collided = recording.truth.last().unwrap().lost;
-    println!("{name}: slots until silence {slots:?}, median {median_ms} ms; not counted: {} beside outages", excluded.len());
+    println!(
+        "{name}: slots until silence {slots:?}, median {median_ms} ms; not counted: {} beside outages",
+        excluded.len()
+    );
     println!("{name}: served for {:.1} % of the time, {collided} frames collided", share * 100.0);
     for outage in outages {
         println!("{name}: {outage}");

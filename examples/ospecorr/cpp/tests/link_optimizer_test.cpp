@@ -49,9 +49,9 @@ class Running {
         }
     }
 
-    // Sends a block (`x` is occupied) again and again, until the radio is configured like this: `2 on` is to transmit on
-    // channel 2.
-    void observe_until(const std::string& block, const std::string& expected) {
+    // Sends a block (`x` is occupied) again and again, until the radio is configured like this: `2 on` is to transmit
+    // on channel 2.
+    void observe_until(const std::string &block, const std::string &expected) {
         do {
             ospecorr::Occupancy occupancy;
             occupancy.set_time_us(time_us_ += 20'000);
@@ -62,7 +62,8 @@ class Running {
         } while (next_configuration() != expected);
     }
 
-    // Takes the next configuration of the radio, and accepts it unless it is for a channel that the radio does not have.
+    // Takes the next configuration of the radio, and accepts it unless it is for a channel that the radio does not
+    // have.
     std::string next_configuration() {
         auto request = peer.radio.recv();
         bool accepted = request->channel() != missing_channel || !request->transmit();
@@ -75,7 +76,7 @@ class Running {
     }
 
     // Reads the states of the link up to one with this reason.
-    ospecorr::LinkState link_with(const std::string& reason) {
+    ospecorr::LinkState link_with(const std::string &reason) {
         while (true) {
             auto link = peer.link.recv();
             if (link.reason() == reason) {

@@ -83,7 +83,11 @@ impl fmt::Display for Outage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { component, from_us, .. } = self;
         let seconds = *from_us as f64 / 1e6;
-        write!(f, "`{component}` was killed at {seconds:.1} s, and its next message came {} ms later", self.milliseconds())
+        write!(
+            f,
+            "`{component}` was killed at {seconds:.1} s, and its next message came {} ms later",
+            self.milliseconds()
+        )
     }
 }
 

@@ -31,7 +31,10 @@ impl Recording {
             "/spectrum/truth" => self.truth.push(Truth::decode(data).unwrap()),
             "/application/service" => self.service.push(Service::decode(data).unwrap()),
             // One gate of each of the other parts.
-            "/signal_detector/occupancy" | "/link_optimizer/link" | "/radio/state" | "/resource_map/queries/request" => {}
+            "/signal_detector/occupancy"
+            | "/link_optimizer/link"
+            | "/radio/state"
+            | "/resource_map/queries/request" => {}
             _ => return,
         }
         if message.sequence == 0 {

@@ -1,4 +1,5 @@
-//! A session of `examples/ospecorr` as real processes: `scl run` runs it, `scl record` writes it down, `scl echo` tells the time.
+//! A session of `examples/ospecorr` as real processes: `scl run` runs it, `scl record` writes it down, `scl echo` tells
+//! the time.
 
 use super::recording::Recording;
 use crate::system::{System, kill};
@@ -81,7 +82,7 @@ impl Session {
         }
     }
 
-    /// Kills a component, and waits until another process has taken its place. Returns the time of the band before that.
+    /// Kills a component, and waits until another process has taken its place. Returns the time of the kill.
     pub(super) fn kill(&self, component: &str) -> u64 {
         let first = self.process_id(component).unwrap_or_else(|| panic!("`{component}` is not running\n{}", self.log));
         kill("-KILL", first.try_into().unwrap());
