@@ -29,10 +29,10 @@ pub struct SerialPort {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SerialError {
-    #[error("cannot open a pseudo-terminal: {0}")]
+    #[error("cannot open a pseudo-terminal")]
     Terminal(#[from] Errno),
-    #[error("cannot create the link `{}`: {source}\n  = help: choose another path with `--serial`", path.display())]
-    Link { path: PathBuf, source: io::Error },
+    #[error("cannot create the link `{}`: {error}\n  = help: choose another path with `--serial`", path.display())]
+    Link { path: PathBuf, error: io::Error },
 }
 
 impl SerialPort {
@@ -50,7 +50,7 @@ impl SerialPort {
         settings.make_raw();
         tcsetattr(&slave, OptionalActions::Now, &settings)?;
         fcntl_setfl(&master, OFlags::RDWR | OFlags::NONBLOCK)?;
-        create(link, &device).map_err(|source| SerialError::Link { path: link.to_owned(), source })?;
+        create(link, &device).map_err(|error| SerialError::Link { path: link.to_owned(), error })?;
         Ok(Self { master, slave, device, link: link.to_owned() })
     }
 
