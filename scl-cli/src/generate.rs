@@ -22,6 +22,7 @@ const COULD_NOT_RUN: u8 = 2;
 Examples:
   scl generate --for c                              rover_scl.h and rover_scl.c of ./topology.yaml
   scl generate --for python rover.yaml -o src       src/rover_scl.py
+  scl generate --for cpp --testable -o gen          also rover::Sensor::test(), for unit tests
   scl generate --for zmq | jq '.components'         endpoints, socket types, message types
   scl generate --for cpp -o gen --check             fails if gen/rover.scl.hpp is not up to date
 
@@ -43,6 +44,9 @@ pub(crate) struct GenerateArguments {
     /// Generate only this component; may be repeated.
     #[arg(long = "component", value_name = "NAME")]
     components: Vec<String>,
+    /// For unit tests, also generate `test()` of each component, which opens it together with the other ends of its gates.
+    #[arg(long)]
+    testable: bool,
     /// Write nothing; fail if a file is not up to date.
     #[arg(long)]
     check: bool,
@@ -86,6 +90,9 @@ pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
         print_err(&text);
         return ExitCode::FAILURE;
     }
+    if arguments.testable {
+        system.make_testable();
+    }
     let files = match scl_generate::generate(&system, arguments.target()) {
         Ok(files) => files,
         Err(clashes) => {
@@ -122,6 +129,9 @@ impl GenerateArguments {
         match self {
             Self { target, format: Some(_), .. } if *target != Language::Zmq => {
                 Some("`--format` is for `--for zmq` only")
+            }
+            Self { target: Language::Zmq, testable: true, .. } => {
+                Some("`--testable` is for `--for c`, `--for cpp` and `--for python` only")
             }
             Self { depfile: Some(_), .. } if self.is_printed() => Some("`--depfile` needs a folder: add `-o DIR`"),
             _ => None,

@@ -3,6 +3,7 @@
 //! A gate whose codec is protobuf and whose message is in `schemas:` has functions for the message structs of
 //! protobuf-c; any other gate has functions for bytes.
 
+mod component_functions;
 mod content;
 mod function;
 mod gate;
@@ -31,11 +32,18 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     for message in messages(system) {
         protobuf_c::declared(&message.dotted).into_iter().for_each(|name| declare(C, name, Origin::message(&message)));
     }
-    for component in &system.components {
+    for component in system.components_and_counterparts() {
         let prefix = prefix(system, component);
         declare(C, prefix.clone(), Origin::component(component));
-        for call in ["open", "ready", "close", "wait"] {
-            declare(C, format!("{prefix}_{call}"), Origin::component(component));
+        for call in ["open", "test", "ready", "close", "wait"] {
+            let is_declared = match call {
+                "open" => component.counterpart_of.is_none(),
+                "test" => component.counterpart.is_some(),
+                _ => true,
+            };
+            if is_declared {
+                declare(C, format!("{prefix}_{call}"), Origin::component(component));
+            }
         }
         for gate in &component.gates {
             let origin = Origin::gate(component, gate);
@@ -65,8 +73,7 @@ fn prefix(system: &System, component: &Component) -> String {
 
 /// The messages with structs, each once.
 fn messages(system: &System) -> Vec<crate::MessageUse> {
-    let gates = system.components.iter().flat_map(|component| &component.gates);
-    let used = gates.flat_map(|gate| gate.types.iter().filter(|used| Content::of(gate, used).is_struct()));
+    let used = system.gates().flat_map(|gate| gate.types.iter().filter(|used| Content::of(gate, used).is_struct()));
     let by_name: BTreeMap<&str, &crate::MessageUse> = used.map(|used| (used.dotted.as_str(), used)).collect();
     by_name.into_values().cloned().collect()
 }

@@ -38,11 +38,16 @@ enum Kind {
 
 impl Origin {
     pub(crate) fn component(component: &Component) -> Self {
-        Self { what: format!("component `{}`", component.name), span: Some(component.span), kind: Kind::Component }
+        let (what, kind) = match &component.counterpart_of {
+            None => (format!("component `{}`", component.name), Kind::Component),
+            Some(tested) => (format!("the counterpart of `{tested}`"), Kind::Generated),
+        };
+        Self { what, span: Some(component.span), kind }
     }
 
     pub(crate) fn gate(component: &Component, gate: &Gate) -> Self {
-        Self { what: format!("gate `{}.{}`", component.name, gate.name), span: Some(gate.span), kind: Kind::Gate }
+        let owner = component.counterpart_of.as_ref().unwrap_or(&component.name);
+        Self { what: format!("gate `{owner}.{}`", gate.name), span: Some(gate.span), kind: Kind::Gate }
     }
 
     /// A message that a gate carries.

@@ -28,14 +28,19 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         origin: Origin::component(component),
     };
     let mut declarations = messages::declarations(system, &namespace, &inside);
-    declarations.extend(system.components.iter().map(component));
-    declarations.extend(system.components.iter().flat_map(|component| {
-        component.gates.iter().map(|gate| Declaration {
-            scope: format!("the C++ struct `{namespace}::{}`", component.class_name),
+    declarations.extend(system.components_and_counterparts().map(component));
+    for component in system.components_and_counterparts() {
+        let scope = format!("the C++ struct `{namespace}::{}`", component.class_name);
+        if component.counterpart.is_some() {
+            let origin = Origin::generated("function `test`");
+            declarations.push(Declaration { scope: scope.clone(), name: "test".to_owned(), origin });
+        }
+        declarations.extend(component.gates.iter().map(|gate| Declaration {
+            scope: scope.clone(),
             name: member(gate),
             origin: Origin::gate(component, gate),
-        })
-    }));
+        }));
+    }
     declarations
 }
 
@@ -48,7 +53,7 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     out.line("#pragma once");
     out.blank();
     out.line("#include <scl.hpp>");
-    let gates = || system.components.iter().flat_map(|component| &component.gates);
+    let gates = || system.gates();
     if gates().any(|gate| carries_messages(gate) && gate.plan.codec == "json") {
         out.line("#include <scl/json.hpp>");
     }
@@ -71,7 +76,7 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     out.line(format!("inline constexpr ::std::string_view plan = {};", plan_text::literal(&system.plan_json())));
     out.blank();
     out.line("} // namespace scl_generated");
-    for component in &system.components {
+    for component in system.components_and_counterparts() {
         out.blank();
         write_component(&mut out, component, &messages);
     }
@@ -90,19 +95,49 @@ fn write_component(out: &mut Writer, component: &Component, messages: &Messages)
     let default = format!("The component `{}`.", component.name);
     write_comment(out, component.doc.as_deref().unwrap_or(&default));
     out.block(format!("struct {class} : ::scl::Component {{"), "};", |out| {
-        out.line("/// Opens the component. Throws `scl::Taken` if it is already running.");
-        out.line(format!("explicit {class}(const ::scl::Options& options = {{}})"));
-        out.line(format!("    : ::scl::Component(scl_generated::plan, \"{}\", options) {{}}", component.name));
+        write_opening(out, component);
         for gate in &component.gates {
             out.blank();
-            write_gate(out, gate, messages);
+            write_gate(out, gate, component.counterpart_of.is_some(), messages);
         }
     });
 }
 
-fn write_gate(out: &mut Writer, gate: &Gate, messages: &Messages) {
+/// The functions that open the component.
+fn write_opening(out: &mut Writer, component: &Component) {
+    let (class, name) = (&component.class_name, &component.name);
+    if let Some(tested) = &component.counterpart_of {
+        out.line(format!("/// For the function `test` of the component `{tested}`."));
+        out.line(format!(
+            "explicit {class}(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), \"{name}\") {{}}"
+        ));
+        return;
+    }
+    out.line("/// Opens the component. Throws `scl::Taken` if it is already running.");
+    out.line(format!("explicit {class}(const ::scl::Options& options = {{}})"));
+    out.line(format!("    : ::scl::Component(scl_generated::plan, \"{name}\", options) {{}}"));
+    if let Some(peer) = component.counterpart.as_deref().map(|peer| &peer.class_name) {
+        out.blank();
+        out.line(
+            "/// Opens the component for a unit test, together with the other ends of its gates, without processes,",
+        );
+        out.line("/// sockets or files.");
+        out.block(format!("static ::std::pair<{class}, {peer}> test() {{"), "}", |out| {
+            out.line(format!("return ::scl::open_test<{class}, {peer}>(scl_generated::plan, \"{name}\");"));
+        });
+        out.blank();
+        out.line("/// For `test`.");
+        out.line(format!(
+            "explicit {class}(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), \"{name}\") {{}}"
+        ));
+    }
+}
+
+fn write_gate(out: &mut Writer, gate: &Gate, is_counterpart: bool, messages: &Messages) {
     gate.doc.iter().for_each(|doc| write_comment(out, doc));
-    write_comment(out, &peers(gate));
+    if !is_counterpart {
+        write_comment(out, &peers(gate));
+    }
     if let Some(note) = bytes_note(gate) {
         write_comment(out, &note);
     }

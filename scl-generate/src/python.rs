@@ -32,8 +32,12 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     let declare = |name: &str, origin| Declaration { scope: scope.clone(), name: name.to_owned(), origin };
     let mut found: Vec<Declaration> =
         names::OWN.iter().map(|name| declare(name, Origin::generated(format!("`{name}` of the module")))).collect();
-    for component in &system.components {
+    for component in system.components_and_counterparts() {
         let class = names::class(component);
+        if component.counterpart.is_some() {
+            let origin = Origin::generated("method `test`");
+            found.push(Declaration { scope: format!("class `{class}`"), name: "test".to_owned(), origin });
+        }
         found.extend(component.gates.iter().map(|gate| Declaration {
             scope: format!("class `{class}`"),
             name: names::gate(gate),
@@ -41,7 +45,7 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         }));
         found.push(declare(&class, Origin::component(component)));
     }
-    let used: Vec<_> = system.components.iter().flat_map(|it| &it.gates).flat_map(|gate| &gate.types).collect();
+    let used: Vec<_> = system.gates().flat_map(|gate| &gate.types).collect();
     found.extend(names.top_level().map(|(name, full_name)| {
         let used = used.iter().find(|used| used.dotted == full_name);
         declare(name, used.map_or_else(|| Origin::other_message(full_name), |used| Origin::message(used)))
@@ -55,7 +59,7 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     let names = Names::of(system, &schema);
     let imports = Imports::default();
     let mut body = Writer::new("    ");
-    for component in &system.components {
+    for component in system.components_and_counterparts() {
         component::write(system, component, &names, &imports, &mut body);
     }
     let messages = message::Messages { schema: &schema, names: &names, imports: &imports };
@@ -68,7 +72,8 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     out.line(format!("\"\"\"Components and messages of the system `{}`.\"\"\"", docs::escape(&system.name)));
     out.line("\nfrom __future__ import annotations\n\nfrom typing import TYPE_CHECKING\n\nimport scl as _scl\n");
     imports.write(&mut out);
-    let exported = system.components.iter().map(names::class).chain(names.top_level().map(|(name, _)| name.to_owned()));
+    let components = system.components_and_counterparts().map(names::class);
+    let exported = components.chain(names.top_level().map(|(name, _)| name.to_owned()));
     let quoted = exported.collect::<BTreeSet<_>>().into_iter().map(|name| Doc::text(format!("\"{name}\"")));
     let all = Doc::concat([Doc::text("__all__ = "), Doc::group("[", quoted.collect(), "]")]);
     out.line(Layout::at(0).print(&all));

@@ -37,6 +37,10 @@ pub struct Component {
     pub gates: Vec<Gate>,
     /// The plan, whose `gates` are those of [`Gate::plan`]. Its places name the file without its folder.
     pub plan: Plan,
+    /// The other ends of its gates, for unit tests, after [`System::make_testable`]. It has no counterpart itself.
+    pub counterpart: Option<Box<Component>>,
+    /// The component that this one is the counterpart of.
+    pub counterpart_of: Option<String>,
 }
 
 /// A gate with all that its program needs.
@@ -81,6 +85,23 @@ impl System {
         })
     }
 
+    /// Adds the counterparts of all components, for unit tests.
+    pub fn make_testable(&mut self) {
+        for component in &mut self.components {
+            component.counterpart = Some(Box::new(component.opposite()));
+        }
+    }
+
+    /// The components, each after its counterpart if it has one.
+    pub fn components_and_counterparts(&self) -> impl Iterator<Item = &Component> {
+        self.components.iter().flat_map(|component| component.counterpart.as_deref().into_iter().chain([component]))
+    }
+
+    /// The gates of all these.
+    pub(crate) fn gates(&self) -> impl Iterator<Item = &Gate> {
+        self.components_and_counterparts().flat_map(|component| &component.gates)
+    }
+
     /// The name in `snake_case`, for names of files, modules, namespaces and prefixes. It may be a keyword.
     pub fn snake_name(&self) -> String {
         let name = scl_topology::rust_name::gate_field(&self.name);
@@ -117,6 +138,28 @@ impl Component {
             span: component.span(),
             gates: gates.map(|(&id, plan)| Gate::of(topology.gate(id), plan)).collect(),
             plan,
+            counterpart: None,
+            counterpart_of: None,
+        }
+    }
+
+    fn opposite(&self) -> Self {
+        let plan = self.plan.counterpart();
+        let gates = self.gates.iter().zip(&plan.gates).map(|(gate, plan)| Gate {
+            doc: Some(format!("The other end of `{}.{}`.", self.name, gate.name)),
+            plan: plan.clone(),
+            ..gate.clone()
+        });
+        Self {
+            name: plan.component.clone(),
+            class_name: format!("{}Peer", self.class_name),
+            snake_name: format!("{}_peer", self.snake_name),
+            doc: Some(format!("The other ends of all gates of `{}`, for its unit tests.", self.name)),
+            span: self.span,
+            gates: gates.collect(),
+            plan,
+            counterpart: None,
+            counterpart_of: Some(self.name.clone()),
         }
     }
 }

@@ -167,7 +167,7 @@ fn compare(left: &Value, right: &Value) -> Option<Ordering> {
     }
     match (integer(left), integer(right)) {
         (Some(left), Some(right)) => Some(left.cmp(&right)),
-        _ => number(left)?.partial_cmp(&number(right)?),
+        _ => left.as_number()?.partial_cmp(&right.as_number()?),
     }
 }
 
@@ -176,15 +176,6 @@ fn integer(value: &Value) -> Option<i128> {
     match value {
         Value::Int(number) => Some((*number).into()),
         Value::Uint(number) => Some((*number).into()),
-        _ => None,
-    }
-}
-
-fn number(value: &Value) -> Option<f64> {
-    match value {
-        Value::Int(number) => Some(*number as f64),
-        Value::Uint(number) => Some(*number as f64),
-        Value::Float(number) => Some(*number),
         _ => None,
     }
 }

@@ -73,6 +73,16 @@ impl Value {
         by_name.or_else(|| entries.iter().find(|(key, _)| key_text(key) == name)).map(|(_, value)| value)
     }
 
+    /// The value of a number of any kind, to be compared with others. Whole numbers from 2^53 on are rounded.
+    pub fn as_number(&self) -> Option<f64> {
+        match self {
+            Value::Int(number) => Some(*number as f64),
+            Value::Uint(number) => Some(*number as f64),
+            Value::Float(number) => Some(*number),
+            _ => None,
+        }
+    }
+
     /// What this is, for messages: `a number`.
     pub(crate) fn kind(&self) -> &'static str {
         match self {

@@ -37,6 +37,8 @@
 //! ```
 
 mod closer;
+#[cfg(feature = "memory")]
+mod counterpart;
 mod driver;
 mod error;
 mod gate;

@@ -219,6 +219,22 @@ scl_status scl_open(const char *plan_json,
                     scl_component **opened);
 
 /**
+ * Opens a component for a unit test, together with its counterpart, which has the opposite end of each gate under the same
+ * name: where the component receives, its counterpart sends. Both are connected within this process, without sockets or
+ * files, so any number of tests may run at the same time. Signals and the environment have no effect.
+ *
+ * The first three arguments are those of scl_open. On success, `*opened` and `*peer` are the new components, each to be
+ * closed with scl_close; otherwise they are NULL.
+ *
+ * Errors: SCL_PLAN, SCL_NAME (the plan has no such component), SCL_SYSTEM, SCL_ARGUMENT.
+ */
+scl_status scl_open_test(const char *plan_json,
+                         size_t plan_len,
+                         const char *component,
+                         scl_component **opened,
+                         scl_component **peer);
+
+/**
  * Waits until all required peers are connected. A timeout of 0 only looks, a negative one waits without limit.
  *
  * Errors: SCL_TIMEOUT (the text names the missing peers and says why), SCL_STOPPED, SCL_CLOSED, SCL_HANDLE.

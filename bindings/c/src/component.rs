@@ -7,7 +7,7 @@ use crate::options::Options;
 use crate::registry::Registry;
 use crate::status::*;
 use scl::host;
-use scl::plan::{SystemPlan, nearest};
+use scl::plan::{Plan, SystemPlan, nearest};
 use scl::untyped::{Closer, Component, GateError, Readiness};
 use std::ffi::{c_char, c_void};
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
@@ -75,6 +75,39 @@ pub unsafe extern "C" fn scl_open(
     })
 }
 
+/// Opens a component for a unit test, together with its counterpart, which has the opposite end of each gate under the same
+/// name: where the component receives, its counterpart sends. Both are connected within this process, without sockets or
+/// files, so any number of tests may run at the same time. Signals and the environment have no effect.
+///
+/// The first three arguments are those of scl_open. On success, `*opened` and `*peer` are the new components, each to be
+/// closed with scl_close; otherwise they are NULL.
+///
+/// Errors: SCL_PLAN, SCL_NAME (the plan has no such component), SCL_SYSTEM, SCL_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_open_test(
+    plan_json: *const c_char,
+    plan_len: usize,
+    component: *const c_char,
+    opened: *mut *mut scl_component,
+    peer: *mut *mut scl_component,
+) -> scl_status {
+    border::status(|| {
+        if std::ptr::eq(opened, peer) && !opened.is_null() {
+            return Err(Failure::argument("`opened` and `peer` are the same pointer"));
+        }
+        // SAFETY: the caller's duty; NULL is refused, and they are different.
+        let (opened, peer) = unsafe { (border::result(opened, "opened")?, border::result(peer, "peer")?) };
+        (*opened, *peer) = (std::ptr::null_mut(), std::ptr::null_mut());
+        // SAFETY: as before.
+        let (plan, name) = unsafe {
+            (border::bytes(plan_json.cast::<c_void>(), plan_len, "plan_json")?, border::text(component, "component")?)
+        };
+        let handles = open_test(plan, name)?;
+        [*opened, *peer] = handles.map(|handle| handle as *mut scl_component);
+        Ok(())
+    })
+}
+
 /// Waits until all required peers are connected. A timeout of 0 only looks, a negative one waits without limit.
 ///
 /// Errors: SCL_TIMEOUT (the text names the missing peers and says why), SCL_STOPPED, SCL_CLOSED, SCL_HANDLE.
@@ -117,17 +150,46 @@ pub unsafe extern "C" fn scl_gate_by_name(component: *mut scl_component, name: *
 }
 
 fn open(plan: &[u8], name: &str, options: &Options) -> Result<usize, Failure> {
+    let system = read(plan)?;
+    let plan = find_plan(&system, name)?;
+    set_up(options)?;
+    insert(Component::open_blocking_with(plan, options.for_opening())?)
+}
+
+fn open_test(plan: &[u8], name: &str) -> Result<[usize; 2], Failure> {
+    let system = read(plan)?;
+    let plan = find_plan(&system, name)?;
+    host::start_log()?;
+    let (component, peer) = Component::test_blocking(plan)?;
+    let component = insert(component)?;
+    match insert(peer) {
+        Ok(peer) => Ok([component, peer]),
+        Err(failure) => {
+            close(component, Wait::No)?;
+            Err(failure)
+        }
+    }
+}
+
+fn read(plan: &[u8]) -> Result<SystemPlan, Failure> {
     let utf8 = |error| Failure::new(SCL_PLAN, format!("the plan is not UTF-8: {error}"));
     let text = std::str::from_utf8(plan).map_err(utf8)?;
-    let system = SystemPlan::from_json(text).map_err(|error| Failure::of(SCL_PLAN, &error))?;
-    let plan = system.component(name).map_err(|error| Failure::of(SCL_NAME, &error))?;
-    set_up(options)?;
-    let mut component = Component::open_blocking_with(plan, options.for_opening())?;
+    SystemPlan::from_json(text).map_err(|error| Failure::of(SCL_PLAN, &error))
+}
+
+fn find_plan<'p>(system: &'p SystemPlan, name: &str) -> Result<&'p Plan, Failure> {
+    system.component(name).map_err(|error| Failure::of(SCL_NAME, &error))
+}
+
+/// Gives handles to a component and its gates.
+fn insert(mut component: Component) -> Result<usize, Failure> {
+    let spec = component.spec();
+    let (name, gates) = (spec.name, spec.gates);
     let mut opened = Opened::new(name, component.closer());
-    for gate in &plan.gates {
-        let inserted = component.gate(&gate.name).map_err(Failure::from).and_then(|gate| gate::insert(name, gate));
+    for gate in gates {
+        let inserted = component.gate(gate.name).map_err(Failure::from).and_then(|gate| gate::insert(name, gate));
         match inserted {
-            Ok(handle) => opened.gates.push((gate.name.clone(), handle)),
+            Ok(handle) => opened.gates.push((gate.name.to_owned(), handle)),
             Err(failure) => {
                 opened.remove_gates();
                 return Err(failure);

@@ -4,7 +4,7 @@
 #   scl::c     the C library: scl.h and libscl
 #   scl::scl   the C++ headers over it: scl.hpp
 # Commands:
-#   scl_generate(TARGET TOPOLOGY [COMPONENTS NAME...])   see sclGenerate.cmake
+#   scl_generate(TARGET TOPOLOGY [COMPONENTS NAME...] [TESTABLE])   see sclGenerate.cmake
 # Cache variables, for what is not found by itself:
 #   SCL_INCLUDE_DIR, SCL_CPP_INCLUDE_DIR   the folders of scl.h and scl.hpp
 #   SCL_LIBRARY                            libscl.so or libscl.a

@@ -1,20 +1,21 @@
 # scl_generate: a program that runs components of a topology.
 
-# scl_generate(TARGET TOPOLOGY [COMPONENTS NAME...])
+# scl_generate(TARGET TOPOLOGY [COMPONENTS NAME...] [TESTABLE])
 #
 # Checks the topology file, generates <system>.scl.hpp with the components (by default all), compiles the topology's
-# schemas with protoc, and lets the target include and link all of that.
+# schemas with protoc, and lets the target include and link all of that. With TESTABLE, the components have the function
+# `test()`, for unit tests.
 #
 # The check and the header are made when CMake configures, which a build repeats after a change of the topology file, of
 # a schema, or of the program `scl`. Files that would not change are left alone, so nothing that includes them is
 # compiled again.
 function(scl_generate target topology)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "COMPONENTS")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "TESTABLE" "" "COMPONENTS")
   if(NOT TARGET "${target}")
     message(FATAL_ERROR "scl_generate: there is no target `${target}`; call add_executable(${target} ...) before")
   elseif(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "scl_generate: unknown argument `${arg_UNPARSED_ARGUMENTS}`; \
-usage: scl_generate(TARGET TOPOLOGY COMPONENTS NAME...)")
+usage: scl_generate(TARGET TOPOLOGY COMPONENTS NAME... TESTABLE)")
   elseif("COMPONENTS" IN_LIST arg_KEYWORDS_MISSING_VALUES)
     message(FATAL_ERROR "scl_generate: `COMPONENTS` without names; \
 name components of the topology, or leave the word out")
@@ -26,14 +27,17 @@ or set SCL_EXECUTABLE to its path")
   get_filename_component(home "${topology}" DIRECTORY)
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/scl/${target}")
 
-  set(components "")
+  set(options "")
   foreach(component IN LISTS arg_COMPONENTS)
-    list(APPEND components --component "${component}")
+    list(APPEND options --component "${component}")
   endforeach()
+  if(arg_TESTABLE)
+    list(APPEND options --testable)
+  endif()
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${topology}" "${SCL_EXECUTABLE}")
   # The checker's text goes to standard error as it is.
   execute_process(
-    COMMAND "${SCL_EXECUTABLE}" generate --for cpp "${topology}" -o "${folder}" ${components}
+    COMMAND "${SCL_EXECUTABLE}" generate --for cpp "${topology}" -o "${folder}" ${options}
     RESULT_VARIABLE failed
     OUTPUT_QUIET)
   if(failed)

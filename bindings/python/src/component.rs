@@ -26,6 +26,13 @@ pub(crate) struct Component {
     gates: Vec<Py<Gate>>,
     /// `None` once closed.
     component: Mutex<Option<untyped::Component>>,
+    is_test: bool,
+}
+
+/// A component whose gates were taken out.
+struct WithGates {
+    gates: Vec<untyped::Gate>,
+    component: untyped::Component,
 }
 
 #[pymethods]
@@ -47,18 +54,25 @@ impl Component {
             no_panic(|| {
                 host::notify_service_manager();
                 host::apply_real_time()?;
-                let mut opened = untyped::Component::open_blocking_with(plan, options)?;
-                let gates = plan.gates.iter().map(|gate| opened.gate(&gate.name));
-                let gates = gates.collect::<Result<Vec<_>, _>>();
-                Ok((gates.map_err(|error| Failure::new("OpenError", text_with_causes(&error)))?, opened))
+                WithGates::of(untyped::Component::open_blocking_with(plan, options)?, plan)
             })
         });
-        let (gates, opened) = opened?;
-        let shared = Arc::new(Shared::new(&opened, &plan.component, &plan.system));
-        let gates = plan.gates.iter().zip(gates);
-        let gates = gates.map(|(plan, gate)| Py::new(py, Gate::new(plan.clone(), Arc::clone(&shared), gate)));
-        let gates = gates.collect::<PyResult<Vec<_>>>()?;
-        Ok(Self { shared, gates, component: Mutex::new(Some(opened)) })
+        Self::new(py, plan, opened?, false)
+    }
+
+    /// Opens a component for a unit test, together with its counterpart.
+    #[staticmethod]
+    fn open_test(py: Python<'_>, plan: &Plan, component: &str) -> PyResult<(Self, Self)> {
+        let plan = plan.component(component)?;
+        let counterpart = plan.counterpart();
+        let opened = py.detach(|| {
+            no_panic(|| {
+                let (component, peer) = untyped::Component::test_blocking(plan)?;
+                Ok((WithGates::of(component, plan)?, WithGates::of(peer, &counterpart)?))
+            })
+        });
+        let (component, peer) = opened?;
+        Ok((Self::new(py, plan, component, true)?, Self::new(py, &counterpart, peer, true)?))
     }
 
     #[getter]
@@ -162,12 +176,34 @@ impl Component {
         self.shared.is_closed()
     }
 
+    /// Whether it is one of the two components of a unit test.
+    #[getter]
+    fn is_test(&self) -> bool {
+        self.is_test
+    }
+
     fn __repr__(&self) -> String {
         format!("<component {} of {}>", self.shared.component, self.shared.system)
     }
 }
 
+impl WithGates {
+    fn of(mut component: untyped::Component, plan: &scl::plan::Plan) -> Result<Self, Failure> {
+        let gates = plan.gates.iter().map(|gate| component.gate(&gate.name)).collect::<Result<_, _>>();
+        Ok(Self { gates: gates.map_err(|error| Failure::new("OpenError", text_with_causes(&error)))?, component })
+    }
+}
+
 impl Component {
+    fn new(py: Python<'_>, plan: &scl::plan::Plan, opened: WithGates, is_test: bool) -> PyResult<Self> {
+        let WithGates { gates, component } = opened;
+        let shared = Arc::new(Shared::new(&component, &plan.component, &plan.system));
+        let gates = plan.gates.iter().zip(gates);
+        let gates = gates.map(|(plan, gate)| Py::new(py, Gate::new(plan.clone(), Arc::clone(&shared), gate)));
+        let gates = gates.collect::<PyResult<Vec<_>>>()?;
+        Ok(Self { shared, gates, component: Mutex::new(Some(component)), is_test })
+    }
+
     fn new_readiness(&self, all_gates: bool) -> Result<Readiness, Failure> {
         let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
         let component = component.as_ref().ok_or_else(|| self.shared.closed())?;

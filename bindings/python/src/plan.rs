@@ -59,6 +59,13 @@ impl Plan {
         Ok(facts.collect())
     }
 
+    /// The plan of the other ends of a component's gates, with the messages of the component.
+    fn counterpart(&self, component: &str) -> PyResult<Self> {
+        let plan = self.component(component)?;
+        let counterpart = scl::plan::Plan { schema: plan.schema.clone(), ..plan.counterpart() };
+        Ok(Self { plan: SystemPlan { system: self.plan.system.clone(), components: vec![counterpart] } })
+    }
+
     /// The messages of all components: serialized `google.protobuf.FileDescriptorSet`s.
     #[getter]
     fn schemas<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyBytes>> {

@@ -1,6 +1,6 @@
 //! `<system>_scl.h`.
 
-use super::function::Function;
+use super::component_functions::component_functions;
 use super::{content, gate, messages, prefix, protobuf_c, source, wait};
 use crate::comment;
 use crate::system::{Component, Gate, System};
@@ -39,7 +39,7 @@ pub(super) fn text(system: &System) -> String {
     includes(system).into_iter().for_each(|header| out.line(format!("#include \"{header}\"")));
     out.line(format!("\n{CONVENTIONS}\n\n{STRICTNESS}\n"));
     out.line("#ifdef __cplusplus\nextern \"C\" {\n#endif");
-    system.components.iter().for_each(|component| write_component(system, component, &mut out));
+    system.components_and_counterparts().for_each(|component| write_component(system, component, &mut out));
     out.line("\n#ifdef __cplusplus\n}\n#endif\n");
     out.line(format!("#endif /* {guard} */"));
     out.finish()
@@ -56,7 +56,10 @@ fn write_component(system: &System, component: &Component, out: &mut Writer) {
     let prefix = prefix(system, component);
     out.blank();
     let headline = format!("Component `{}` ({})", component.name, component.plan.declared_at);
-    write_comment(&headline, component.doc.as_deref(), out);
+    match (&component.counterpart_of, &component.doc) {
+        (Some(_), Some(doc)) => write_comment(doc, None, out),
+        (_, doc) => write_comment(&headline, doc.as_deref(), out),
+    }
     out.block(format!("typedef struct {prefix} {{"), &format!("}} {prefix};"), |out| {
         out.line("scl_component *component;");
         if component.gates.is_empty() {
@@ -67,32 +70,21 @@ fn write_component(system: &System, component: &Component, out: &mut Writer) {
         });
     });
     out.blank();
-    component_functions(&prefix).iter().for_each(|function| function.declare(out));
+    component_functions(system, component).iter().for_each(|function| function.declare(out));
     component.gates.iter().for_each(|gate| write_gate(&prefix, component, gate, out));
     write_wait(&prefix, component, out);
-}
-
-/// The functions that every component has, without their bodies.
-pub(super) fn component_functions(prefix: &str) -> [Function; 3] {
-    let function = |call: &str, doc: &'static str, parameter: &str| Function {
-        doc,
-        result: "scl_status",
-        name: format!("{prefix}_{call}"),
-        parameters: vec![format!("{prefix} *self"), parameter.to_owned()],
-        body: Vec::new(),
-    };
-    [
-        function("open", "Opens the component; `options_json` may be NULL, see scl_open.", "const char *options_json"),
-        function("ready", "Waits until all required peers are connected, see scl_ready.", "int64_t timeout_ns"),
-        function("close", "Hands over what was sent, and closes the component, see scl_close.", "int64_t timeout_ns"),
-    ]
 }
 
 fn write_gate(prefix: &str, component: &Component, of: &Gate, out: &mut Writer) {
     out.blank();
     let (kind, carries) = (of.plan.kind.word(), content::described(of));
     let headline = format!("Gate `{}.{}` ({}): {kind}, {carries}", component.name, of.name, of.plan.declared_at);
-    write_comment(&headline, of.doc.as_deref(), out);
+    match &component.counterpart_of {
+        None => write_comment(&headline, of.doc.as_deref(), out),
+        Some(tested) => {
+            write_comment(&format!("The other end of `{tested}.{}`: {kind}, {carries}", of.name), None, out);
+        }
+    }
     if let Some(name) = gate::request_struct(prefix, of) {
         out.block(format!("typedef struct {name} {{"), &format!("}} {name};"), |out| {
             gate::request_members(of).iter().for_each(|member| out.line(member));

@@ -9,7 +9,7 @@ use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
 /// The helpers that this system needs; compilers warn of unused ones.
 pub(super) fn needed(system: &System) -> Vec<&'static str> {
     let any = |wanted: &dyn Fn(GateKind, bool, bool) -> bool| {
-        system.components.iter().flat_map(|component| &component.gates).any(|gate| {
+        system.gates().any(|gate| {
             let [first, second] = Content::both(gate).map(|content| content.is_struct());
             wanted(gate.plan.kind, first, second)
         })
@@ -20,12 +20,14 @@ pub(super) fn needed(system: &System) -> Vec<&'static str> {
     let receives = any(&|kind, first, _| matches!(kind, Sub | Pull) && first);
     let is_answered = any(&|kind, _, second| kind == Req && second);
     let is_asked = any(&|kind, first, _| kind == Rep && first);
-    let waits = system.components.iter().any(|component| !wait::gates(component).is_empty());
+    let is_tested = system.components.iter().any(|component| component.counterpart.is_some());
+    let waits = system.components_and_counterparts().any(|component| !wait::gates(component).is_empty());
     let messages = messages(system);
     let mut names = messages.iter().map(|message| message.dotted.as_str());
     let is_recursive = system.descriptors.as_ref().is_some_and(|files| is_any_recursive(files, &mut names));
     let all = [
         (true, OPEN),
+        (is_tested, OPEN_TEST),
         (sends || asks || replies, PACK),
         (sends, SEND),
         (asks, CALL),
@@ -40,13 +42,26 @@ pub(super) fn needed(system: &System) -> Vec<&'static str> {
 }
 
 const OPEN: &str = "\
-static scl_status open_component(const char *name, const char *options_json, scl_component **component)
+static scl_status check_library(void)
 {
     if (scl_abi() != SCL_ABI) {
         return scl_fail(SCL_FAILED, \"the library has another version than the `scl.h` that this program was compiled \"
                                     \"with; compile it again\");
     }
-    return scl_open(plan, sizeof plan - 1, name, options_json, component);
+    return SCL_OK;
+}
+
+static scl_status open_component(const char *name, const char *options_json, scl_component **component)
+{
+    scl_status status = check_library();
+    return status != SCL_OK ? status : scl_open(plan, sizeof plan - 1, name, options_json, component);
+}";
+
+const OPEN_TEST: &str = "\
+static scl_status open_test(const char *name, scl_component **component, scl_component **peer)
+{
+    scl_status status = check_library();
+    return status != SCL_OK ? status : scl_open_test(plan, sizeof plan - 1, name, component, peer);
 }";
 
 const PACK: &str = "\

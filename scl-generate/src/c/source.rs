@@ -1,6 +1,7 @@
 //! `<system>_scl.c`.
 
-use super::{gate, header, helpers, messages, prefix, wait};
+use super::component_functions::component_functions;
+use super::{gate, helpers, messages, prefix, wait};
 use crate::comment;
 use crate::system::{Component, System};
 use crate::writer::Writer;
@@ -18,7 +19,7 @@ pub(super) fn text(system: &System) -> String {
     });
     write_plan(system, &mut out);
     helpers::needed(system).into_iter().for_each(|helper| out.line(format!("\n{helper}")));
-    system.components.iter().for_each(|component| write_component(system, component, &mut out));
+    system.components_and_counterparts().for_each(|component| write_component(system, component, &mut out));
     out.finish()
 }
 
@@ -43,7 +44,7 @@ fn write_plan(system: &System, out: &mut Writer) {
 }
 
 /// A text as a literal of C. A question mark could begin a trigraph.
-fn literal(text: &str) -> String {
+pub(super) fn literal(text: &str) -> String {
     let mut literal = String::from("\"");
     for letter in text.chars() {
         match letter {
@@ -57,46 +58,9 @@ fn literal(text: &str) -> String {
 
 fn write_component(system: &System, component: &Component, out: &mut Writer) {
     let prefix = prefix(system, component);
-    let bodies = [open_body(component), ready_body(), close_body()];
-    for (mut function, body) in header::component_functions(&prefix).into_iter().zip(bodies) {
-        function.body = body;
-        function.define(out);
-    }
+    component_functions(system, component).iter().for_each(|function| function.define(out));
     for gate in &component.gates {
         gate::functions(&prefix, gate).iter().for_each(|function| function.define(out));
     }
     wait::function(&prefix, component).iter().for_each(|function| function.define(out));
-}
-
-fn open_body(component: &Component) -> Vec<String> {
-    let name = literal(&component.name);
-    let mut body = gate::refuse_null("self");
-    body.push("memset(self, 0, sizeof *self);".to_owned());
-    body.push(format!("scl_status status = open_component({name}, options_json, &self->component);"));
-    if !component.gates.is_empty() {
-        body.push("if (status == SCL_OK) {".to_owned());
-        for gate in &component.gates {
-            let (member, name) = (gate::member(gate), literal(&gate.name));
-            body.push(format!("    self->gates.{member} = scl_gate_by_name(self->component, {name});"));
-        }
-        body.push("}".to_owned());
-    }
-    body.push("return status;".to_owned());
-    body
-}
-
-fn ready_body() -> Vec<String> {
-    vec!["return scl_ready(self == NULL ? NULL : self->component, timeout_ns);".to_owned()]
-}
-
-/// The handles end with the component; cleared, they cannot be used by mistake.
-fn close_body() -> Vec<String> {
-    let close = [
-        "scl_status status = scl_close(self->component, timeout_ns);",
-        "if (status != SCL_FORKED) {",
-        "    memset(self, 0, sizeof *self);",
-        "}",
-        "return status;",
-    ];
-    gate::refuse_null("self").into_iter().chain(close.map(str::to_owned)).collect()
 }

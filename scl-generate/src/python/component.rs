@@ -10,13 +10,8 @@ use scl_plan::GateKind;
 
 /// Writes the class with its gates.
 pub(super) fn write(system: &System, component: &Component, names: &Names, imports: &Imports, out: &mut Writer) {
-    let arguments = vec![
-        Doc::text("_scl.GeneratedComponent"),
-        Doc::text("plan=_PLAN"),
-        Doc::text(format!("component=\"{}\"", component.name)),
-    ];
     let class = Doc::text(format!("class {}", names::class(component)));
-    let head = Doc::concat([class, Doc::group("(", arguments, ")"), Doc::text(":")]);
+    let head = Doc::concat([class, Doc::group("(", arguments(component), ")"), Doc::text(":")]);
     out.line(format!("\n\n{}", Layout::at(0).print(&head)));
     out.indented(|out| {
         docs::write(&docs::of_component(system, component), out);
@@ -24,9 +19,22 @@ pub(super) fn write(system: &System, component: &Component, names: &Names, impor
             let annotation = annotation(gate, names, imports);
             let line = Doc::concat([Doc::text(format!("{}: ", names::gate(gate))), annotation]);
             out.line(format!("\n{}", Layout::at(1).print(&line)));
-            docs::write(&docs::of_gate(gate, unsupported(gate).as_deref()), out);
+            docs::write(&docs::of_gate(component, gate, unsupported(gate).as_deref()), out);
         }
     });
+}
+
+/// The bases of the class, and the arguments that its base takes.
+fn arguments(component: &Component) -> Vec<Doc> {
+    if component.counterpart_of.is_some() {
+        return vec![Doc::text("_scl.Counterpart")];
+    }
+    let opened = [Doc::text("plan=_PLAN"), Doc::text(format!("component=\"{}\"", component.name))];
+    let Some(peer) = component.counterpart.as_deref().map(names::class) else {
+        return [vec![Doc::text("_scl.GeneratedComponent")], opened.into()].concat();
+    };
+    let base = Doc::concat([Doc::text("_scl.TestableComponent"), Doc::group("[", vec![Doc::text(peer.clone())], "]")]);
+    [vec![base], opened.into(), vec![Doc::text(format!("counterpart={peer}"))]].concat()
 }
 
 fn annotation(gate: &Gate, names: &Names, imports: &Imports) -> Doc {

@@ -39,6 +39,9 @@ pub(super) fn escape(text: &str) -> String {
 
 /// The docstring of a class.
 pub(super) fn of_component(system: &System, component: &Component) -> String {
+    if component.counterpart_of.is_some() {
+        return component.doc.clone().unwrap_or_default();
+    }
     let declared = format!(
         "The component `{}` of `{}`, declared at `{}`.",
         component.name, system.name, component.plan.declared_at
@@ -47,11 +50,12 @@ pub(super) fn of_component(system: &System, component: &Component) -> String {
 }
 
 /// The docstring of an attribute: the gate's `doc`, what it carries, between which gates, and unusual options.
-pub(super) fn of_gate(gate: &Gate, unsupported: Option<&str>) -> String {
+pub(super) fn of_gate(component: &Component, gate: &Gate, unsupported: Option<&str>) -> String {
     let mut parts: Vec<String> = gate.doc.iter().map(|doc| doc.trim().to_owned()).collect();
     parts.push(format!("`{}`: {}.", gate.plan.kind.word(), sentence(gate)));
     let options = options(gate);
-    if !options.is_empty() {
+    // A counterpart has others than the topology file says: it drops and refuses nothing.
+    if !options.is_empty() && component.counterpart_of.is_none() {
         parts.push(format!("Options: {}.", options.join(", ")));
     }
     parts.extend(unsupported.map(|reason| format!("Python cannot open this gate: {reason}.")));

@@ -93,7 +93,7 @@ impl Names {
             types: HashMap::new(),
             messages: BTreeMap::new(),
             enums: BTreeMap::new(),
-            attributes: system.components.iter().flat_map(|it| &it.gates).map(gate).collect(),
+            attributes: system.gates().map(gate).collect(),
         };
         let ambiguous = ambiguous_names(schema);
         for file in &schema.files {

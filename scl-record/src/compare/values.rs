@@ -105,7 +105,7 @@ impl Rules {
         if one == other {
             return true;
         }
-        let (Some(one), Some(other)) = (number(one), number(other)) else { return false };
+        let (Some(one), Some(other)) = (one.as_number(), other.as_number()) else { return false };
         let larger = one.abs().max(other.abs());
         let tolerance = self.within.max(self.relative * larger);
         // Decimal numbers that differ by just the tolerance may differ by somewhat more in binary.
@@ -121,15 +121,6 @@ fn bytes_difference(messages: [&Waiting; 2]) -> Option<FieldDifference> {
     }
     let values = messages.map(|message| Some(shown_bytes(&message.payload)));
     Some(FieldDifference { field: FieldPath::default(), values })
-}
-
-fn number(value: &Value) -> Option<f64> {
-    match value {
-        Value::Int(number) => Some(*number as f64),
-        Value::Uint(number) => Some(*number as f64),
-        Value::Float(number) => Some(*number),
-        _ => None,
-    }
 }
 
 /// Whether whole numbers of this size are still apart as floating point numbers.

@@ -207,11 +207,17 @@ impl Reader<'_> {
             self.report(shape::gate::comma_between_types(&gate, answer));
             return gate;
         }
-        for option in fields.list.iter().filter(|other| other.key_span != kind.key_span) {
+        let path = format!("{owner}.{}", gate.name.value);
+        let rest_of_doc = rest_of_doc(&fields);
+        if let (Some(doc), [first, .., last] | [first @ last]) = (fields.get("doc"), rest_of_doc) {
+            let text = doc.value.span.to(last.key_span);
+            self.report(shape::gate_key::comma_in_doc(first.key_span, text, self.source, &path));
+        }
+        let is_rest = |field: &Field<'_>| rest_of_doc.iter().any(|rest| rest.key_span == field.key_span);
+        for option in fields.list.iter().filter(|field| field.key_span != kind.key_span && !is_rest(field)) {
             if super::option::is_key(option.key) {
                 gate.options.extend(self.option(*option));
             } else if !is_kind(option.key) {
-                let path = format!("{owner}.{}", gate.name.value);
                 self.report(shape::gate_key::diagnose(*option, kind.key, &path));
             }
         }
@@ -266,6 +272,16 @@ impl Reader<'_> {
         // A type in quotes is the same type; the place is that of the whole value.
         (is_plain(kind.value) || !payload.value.trim().is_empty()).then_some(payload)
     }
+}
+
+/// `{pub: Type, doc: One, two}`: the keys after the first comma of a text without quotes.
+fn rest_of_doc<'f, 'n>(fields: &'f Fields<'n>) -> &'f [Field<'n>] {
+    let is_doc = |field: &Field<'_>| field.key == "doc" && is_plain(field.value) && !field.value.is_null();
+    let Some(doc) = fields.list.iter().position(is_doc) else { return &[] };
+    let rest = &fields.list[doc + 1..];
+    let is_option = |field: &Field<'_>| is_kind(field.key) || super::option::is_key(field.key);
+    let is_text = |field: &Field<'_>| field.value.is_null() && is_plain(field.key_node) && !is_option(field);
+    &rest[..rest.iter().take_while(|field| is_text(field)).count()]
 }
 
 /// `{pub Type, queue 4}`: a key that lacks its colon, so that its value belongs to it.

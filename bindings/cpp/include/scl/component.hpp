@@ -7,6 +7,7 @@
 #include <scl/log.hpp>
 #include <scl/open_components.hpp>
 #include <scl/options.hpp>
+#include <scl/test_end.hpp>
 #include <scl/time.hpp>
 #include <scl/uncaught.hpp>
 
@@ -30,12 +31,7 @@ class Component {
     /// Throws `Taken` if the component is already running, and `Error` if the runtime folder or the plan cannot be
     /// used.
     Component(std::string_view plan_json, const std::string& name, const Options& options = {}) : Component(name) {
-        if (scl_abi() != SCL_ABI) {
-            detail::raise(Errc::failed, "this program was compiled with version " + std::to_string(SCL_ABI) +
-                                            " of the interface of SCL and loaded a library of version " +
-                                            std::to_string(scl_abi()) +
-                                            "; compile it again, or install the other library");
-        }
+        detail::check_library();
         if (options.signals) {
             detail::UncaughtErrors::handle();
         }
@@ -44,14 +40,21 @@ class Component {
         detail::OpenComponents::instance().add(handle_);
     }
 
+    /// Takes over one of the two components of a unit test.
+    Component(TestEnd&& end, const std::string& name) : Component(name) {
+        handle_ = end.release();
+        linger_ = 0;
+    }
+
     Component(Component&& other) noexcept
-        : handle_(std::exchange(other.handle_, nullptr)), name_(std::move(other.name_)) {}
+        : handle_(std::exchange(other.handle_, nullptr)), name_(std::move(other.name_)), linger_(other.linger_) {}
 
     Component& operator=(Component&& other) noexcept {
         if (this != &other) {
             destroy();
             handle_ = std::exchange(other.handle_, nullptr);
             name_ = std::move(other.name_);
+            linger_ = other.linger_;
         }
         return *this;
     }
@@ -107,13 +110,25 @@ class Component {
     }
 
     void destroy() noexcept {
-        if (finish(detail::linger) != SCL_OK) {
+        // What a unit test leaves unread is worth no time and no warning.
+        if (finish(linger_) != SCL_OK && linger_ > 0) {
             detail::log_warning(scl_error());
         }
     }
 
     scl_component* handle_ = nullptr;
     std::string name_;
+    std::int64_t linger_ = detail::linger;
 };
+
+/// Opens a component for a unit test, together with its counterpart. Generated code calls it.
+template <class Tested, class Counterpart>
+std::pair<Tested, Counterpart> open_test(std::string_view plan_json, const std::string& name) {
+    detail::check_library();
+    TestEnd component, counterpart;
+    detail::check(
+        scl_open_test(plan_json.data(), plan_json.size(), name.c_str(), component.result(), counterpart.result()));
+    return {Tested(std::move(component)), Counterpart(std::move(counterpart))};
+}
 
 } // namespace scl

@@ -238,6 +238,15 @@ inline void check(scl_status status) {
     }
 }
 
+/// Throws if the library is of another version than the headers.
+inline void check_library() {
+    if (scl_abi() != SCL_ABI) {
+        raise(Errc::failed, "this program was compiled with version " + std::to_string(SCL_ABI) +
+                                " of the interface of SCL and loaded a library of version " +
+                                std::to_string(scl_abi()) + "; compile it again, or install the other library");
+    }
+}
+
 } // namespace detail
 
 inline const std::error_category& error_category() noexcept {

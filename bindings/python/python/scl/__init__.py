@@ -39,14 +39,17 @@ from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Request, Sub
 from scl._generated import GeneratedComponent
 from scl._native import __version__
 from scl._signals import stop_requested
+from scl._testing import Counterpart, DynamicCounterpart, TestableComponent, test
 
 __all__ = [
     "Answered",
     "Busy",
     "Closed",
     "Component",
+    "Counterpart",
     "DecodeError",
     "DynamicComponent",
+    "DynamicCounterpart",
     "EncodeError",
     "Error",
     "Forked",
@@ -68,6 +71,7 @@ __all__ = [
     "RequesterGone",
     "Stopped",
     "Sub",
+    "TestableComponent",
     "Timeout",
     "TooLong",
     "TopologyError",
@@ -81,4 +85,5 @@ __all__ = [
     "open",
     "open_plan",
     "stop_requested",
+    "test",
 ]

@@ -19,6 +19,9 @@ Transport = Literal["ipc", "tcp"]
 
 _KINDS: dict[str, type[Any]] = {"pub": Pub, "sub": Sub, "req": Req, "rep": Rep, "push": Push, "pull": Pull}
 
+Facts = dict[str, tuple[str, list[codec.Codec]]]
+"""The attribute and the codecs of each gate."""
+
 _STEP = 0.2
 """How long a task that waits for peers keeps a thread after it was cancelled, in seconds."""
 
@@ -43,9 +46,21 @@ class Component:
         """
         plan = _native.Plan(plan) if isinstance(plan, str) else plan
         # Before anything is opened: no peer sees a component that cannot run.
-        facts = _facts_of(plan, name)
+        facts = facts_of(plan, name)
         _process.prepare(signals)
-        self._native = _native.Component.open(plan, name, runtime_dir=runtime_dir, system=system, transport=transport)
+        self._adopt(
+            _native.Component.open(plan, name, runtime_dir=runtime_dir, system=system, transport=transport), facts
+        )
+
+    @classmethod
+    def _of(cls, native: _native.Component, facts: Facts) -> Self:
+        """A component that is open already."""
+        component = cls.__new__(cls)
+        component._adopt(native, facts)
+        return component
+
+    def _adopt(self, native: _native.Component, facts: Facts) -> None:
+        self._native = native
         _process.close_at_exit(self._native)
         loops = Loops(self._native)
         found: dict[str, Gate] = {}
@@ -205,7 +220,7 @@ def _attribute_of(gate: str) -> str:
     return f"gate{gate}" if gate.startswith("_") else gate
 
 
-def _facts_of(plan: _native.Plan, component: str) -> dict[str, tuple[str, list[codec.Codec]]]:
+def facts_of(plan: _native.Plan, component: str) -> Facts:
     """Returns the attribute and the codecs of each gate: one codec, or those of request and reply."""
     messages = codec.messages_of_descriptors(plan.schemas) if plan.schemas else None
     facts = {}

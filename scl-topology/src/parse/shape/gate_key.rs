@@ -6,6 +6,7 @@ use crate::diagnostic::Severity;
 use crate::grammar::{OPTIONS, option};
 use crate::parse::fields::Field;
 use crate::rule::{Examples, Rule};
+use crate::source::{SourceFile, Span};
 use crate::suggest::similar;
 use crate::topology::GateKind;
 use crate::wording::all_of;
@@ -50,6 +51,18 @@ pub(in crate::parse) fn diagnose(field: Field<'_>, kind: &str, path: &str) -> Di
     }
 }
 
+/// `{pub: Fix, doc: One, two}`: `two` is a key, because the text has no quotes. `text` is all of it.
+pub(in crate::parse) fn comma_in_doc(key: Span, text: Span, source: &SourceFile, path: &str) -> Diagnostic {
+    let message = format!("the text of `doc` in gate `{path}` ends at its comma");
+    let problem = RULE.at(message, key, "read as a key of the gate");
+    let words = &source.text()[text.start as usize..text.end as usize];
+    // In double quotes, these would have to be written otherwise.
+    if words.contains(['"', '\\', '\n']) {
+        return problem.help("put the text in single quotes");
+    }
+    problem.help(format!("put it in quotes: `doc: \"{words}\"`")).fix(text, format!("\"{words}\""))
+}
+
 /// A word on the kinds that have an option, where this kind has not.
 fn only_of(key: &str, kind: &str) -> String {
     let kinds = option(key).map_or(&[][..], |option| option.kinds);
@@ -63,8 +76,47 @@ fn only_of(key: &str, kind: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::RULE;
-    use crate::parse::testing::check;
+    use crate::diagnostic::render;
+    use crate::parse::testing::{check, parse_text};
     use expect_test::expect;
+
+    #[test]
+    fn a_comma_in_a_text_without_quotes() {
+        let texts = ["doc: One, two, and three.", "doc: It says \"one\", two.", "doc: One, que: 4"];
+        let problems = texts.map(|text| {
+            let gate = format!("      - measurements: {{pub: Measurement, {text}}}");
+            let (_, problems, sources) =
+                parse_text(&format!("components:\n  - name: sensor\n    gates:\n{gate}\nconnections: []\n"));
+            problems.iter().map(|problem| render(problem, &sources) + "\n").collect::<String>()
+        });
+        expect![[r#"
+            error: [SCL0212] the text of `doc` in gate `sensor.measurements` ends at its comma
+             --> topology.yaml:4:52
+              |
+            4 |       - measurements: {pub: Measurement, doc: One, two, and three.}
+              |                                                    ^^^ read as a key of the gate
+              |
+              = help: put it in quotes: `doc: "One, two, and three."`
+
+            error: [SCL0212] the text of `doc` in gate `sensor.measurements` ends at its comma
+             --> topology.yaml:4:62
+              |
+            4 |       - measurements: {pub: Measurement, doc: It says "one", two.}
+              |                                                              ^^^^ read as a key of the gate
+              |
+              = help: put the text in single quotes
+
+            error: [SCL0212] unknown key `que` in gate `sensor.measurements`
+             --> topology.yaml:4:52
+              |
+            4 |       - measurements: {pub: Measurement, doc: One, que: 4}
+              |                                                    ^^^
+              |
+              = help: a key with a similar name exists: `queue`, for `sub` and `pull` gates
+              = note: keys of a `pub` gate: `pub`, `doc`, `codec`, `backpressure`, `unconnected`
+        "#]]
+        .assert_eq(&problems.join("\n"));
+    }
 
     #[test]
     fn example() {
