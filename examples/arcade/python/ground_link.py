@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
+import command_ids
 from arcade_scl import Arbitration, Authority, Fix, FixQuality, Flight, Mode, Power, PowerLevel
 
 T = TypeVar("T")
@@ -115,9 +116,8 @@ def understand(text: str) -> Order | str:
             return USAGE
 
 
-FIRST_ID, LAST_ID = 10_000, 999_999  # of the ground station's commands; larger ones are those of safety
-
-
 def next_id(in_effect: int) -> int:
     """An id that differs from that of the command in effect, also after a restart of this program."""
-    return in_effect + 1 if FIRST_ID <= in_effect < LAST_ID else FIRST_ID
+    authority, asked, _ = command_ids.split(in_effect)
+    ids = command_ids.RANGES[Authority.AUTHORITY_GROUND]
+    return asked + 1 if authority == Authority.AUTHORITY_GROUND and asked + 1 in ids else ids.start

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 import power_management
-from arcade_scl import Battery, Parameter, Parameters, Power, PowerLevel, PowerManagement, PowerManagementPeer
+from arcade_scl import Battery, Blackbox, Parameter, Parameters, Power, PowerLevel, PowerManagement, PowerManagementPeer
 from battery import open_circuit_voltage
 from black_box import BlackBox
 from conftest import HANG_LIMIT, running, until
@@ -66,19 +66,36 @@ def test_a_reading_of_nan_is_reported_and_changes_nothing(peer: PowerManagementP
     assert power(peer, lambda _: True).level == OK
 
 
-def test_a_black_box_that_takes_nothing_delays_nobody(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_black_box_that_is_stuck_delays_nobody(capsys: pytest.CaptureFixture[str]) -> None:
     component, peer = PowerManagement.test()
     black_box = BlackBox(component.records, "power_management")
-    while black_box.dropped < 10:
-        black_box.note("full", 1.0)
-    while peer.records.try_recv() is not None:
-        pass
-    black_box.note("empty")
-    assert black_box.dropped == 0
-    # What the gate itself has kept comes first.
-    texts = [until(lambda: peer.records.recv(timeout=HANG_LIMIT), lambda it: it.text != "full").text]
-    assert texts == ["10 records were dropped before this one"]
-    assert peer.records.recv(timeout=HANG_LIMIT).text == "empty"
-    printed = capsys.readouterr()
-    assert printed.err.count("the black box takes no records") == 1
-    assert printed.out.count("takes records again") == 1
+    black_box.note("first")
+    assert peer.records.recv(timeout=HANG_LIMIT).text == "first"
+    while black_box.lost < 10:
+        black_box.note("full")
+    # What the gates have kept comes first.
+    while black_box.reported < black_box.lost:
+        peer.records.recv(timeout=HANG_LIMIT)
+        black_box.note("full")
+    found = 0.0
+    while found < black_box.lost:
+        report = until(lambda: peer.records.recv(timeout=HANG_LIMIT), lambda it: it.text != "full")
+        assert report.text == f"records lost by power_management: {report.value:g}"
+        found += report.value
+    assert found == black_box.lost
+    assert capsys.readouterr().err.startswith("the black box takes no records; they get lost until it does")
+
+
+@pytest.mark.usefixtures("own_system")
+def test_a_black_box_that_is_away_delays_nobody(capsys: pytest.CaptureFixture[str]) -> None:
+    with PowerManagement(signals=False) as component:
+        black_box = BlackBox(component.records, "power_management")
+        for number in range(110):
+            black_box.note(f"{number}")
+        assert capsys.readouterr().err == "the black box takes no records; they get lost until it does\n"
+        with Blackbox(signals=False) as restarted:
+            assert restarted.records.recv(timeout=HANG_LIMIT).text == "10"
+            black_box.note("again")
+            until(lambda: restarted.records.recv(timeout=HANG_LIMIT), lambda it: it.text == "again")
+            report = restarted.records.recv(timeout=HANG_LIMIT)
+            assert (report.text, report.value) == ("records lost by power_management: 10", 10)

@@ -89,22 +89,21 @@ impl PositionEstimator {
         self.next = (self.next + 1) % HISTORY;
     }
 
-    /// The newest estimate that is not newer than `time_us`, or else the oldest one.
-    fn past(&self, time_us: u64) -> Past {
-        let mut found = self.history[(self.next + HISTORY - 1) % HISTORY];
-        for age in 2..=HISTORY {
-            let older = self.history[(self.next + HISTORY - age) % HISTORY];
-            if found.time_us <= time_us || older.time_us == 0 {
-                break;
+    /// The newest estimate that is not newer than `time_us`. None if it is older than all of them, for example because it
+    /// is of the time before a restart.
+    fn past(&self, time_us: u64) -> Option<Past> {
+        for age in 1..=HISTORY {
+            let past = self.history[(self.next + HISTORY - age) % HISTORY];
+            if past.time_us != 0 && past.time_us <= time_us {
+                return Some(past);
             }
-            found = older;
         }
-        found
+        None
     }
 
     /// Takes in a height. Above the ultrasonic sensor's range the barometer counts, by what it showed before.
     pub fn correct_height(&mut self, height: &Height, parameters: &Parameters) {
-        let past = self.past(height.time_us);
+        let Some(past) = self.past(height.time_us) else { return };
         let elapsed = step(self.height_us, height.time_us);
         self.height_us = height.time_us;
         let measured = match height.range {
@@ -145,7 +144,7 @@ impl PositionEstimator {
             self.fix_us = fix.time_us;
             return;
         }
-        let past = self.past(fix.time_us);
+        let Some(past) = self.past(fix.time_us) else { return };
         let elapsed = step(self.fix_us, fix.time_us);
         self.fix_us = fix.time_us;
         let mut position_error = position - past.position;
