@@ -288,7 +288,7 @@ components:
   f: {repaly: a.mcap}
 ",
         &expect![[r#"
-            error: `restart` is `never`, `on_failure` or `always`, not `on-failure`
+            error: `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `on-failure`
              --> launch.yaml:5:5
               = help: did you mean `restart: on_failure`?
 
@@ -323,7 +323,7 @@ components:
             error: `working_directory` is a path, not ``
              --> launch.yaml:14:5
 
-            error: `restart` is `never`, `on_failure` or `always`, not `true`
+            error: `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `true`
              --> launch.yaml:15:20
 
             error: `restart_delay` is a range like `100ms..5s`, or one time, not `5s..1s`
@@ -365,7 +365,7 @@ components:
              --> launch.yaml:1:45
               = note: the keys are `alive_within`, `cpu`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
-            error: `restart` is `never`, `on_failure` or `always`, not `sometimes`
+            error: `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `sometimes`
              --> launch.yaml:1:25
 
         "#]],

@@ -41,6 +41,22 @@ scl: component `sensor` was restarted twice; last reason: killed by signal 9 (SI
 }
 
 #[test]
+fn an_exit_code_is_not_abnormal() {
+    check(
+        "[ $n -gt 2 ] && exit 7; kill -KILL $$",
+        "restart: on_abnormal",
+        3,
+        1,
+        "\
+sensor  killed by signal 9 (SIGKILL) after N s
+sensor  restarting in 1ms
+sensor  ended with exit code 7 after N s
+scl: component `sensor` failed: ended with exit code 7; it was restarted twice
+",
+    );
+}
+
+#[test]
 fn always_is_also_after_an_end_in_order() {
     let expected = "\
 sensor  ended with exit code 0 after N s

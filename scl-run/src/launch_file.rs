@@ -25,7 +25,7 @@ components:
   sensor:
     build: make sensor                 # optional: what makes the program
     command: [./sensor, --rate, 100]   # a list is executed as it is
-    restart: on_failure                # never (default), on_failure or always
+    restart: on_failure                # never (default), on_abnormal, on_failure or always
     ready_within: 5s                   # else it has failed
     alive_within: 500ms                # watchdog
     cpu: [2, 3]

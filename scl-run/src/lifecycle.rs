@@ -253,11 +253,18 @@ impl Lifecycle {
             Some(StopReason::Everything(_)) if ending.is_in_order(asked_by) => self.end(Verdict::InOrder),
             Some(StopReason::Everything(_)) => self.end(Verdict::Failed),
             Some(StopReason::Failed) => self.start_again(now),
+            Some(StopReason::Own) | None if self.is_final(ending) => self.end(Verdict::Failed),
             Some(StopReason::Own) | None if !ending.is_in_order(None) => self.start_again(now),
             Some(StopReason::Own) | None if self.policy.restart == Restart::Always => self.start_again(now),
             Some(StopReason::Own) | None => self.end(Verdict::InOrder),
         };
         [vec![report], next].concat()
+    }
+
+    /// Returns true for an exit code by which the program itself says that it has failed, if that is not to be tried again.
+    fn is_final(&self, ending: Ending) -> bool {
+        let is_code = matches!(ending, Ending::Exited(_)) && !ending.is_in_order(None);
+        is_code && self.policy.restart == Restart::OnAbnormal
     }
 
     fn take_failure(&mut self, now: Time, text: String) -> Vec<Action> {

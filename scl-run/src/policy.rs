@@ -24,6 +24,8 @@ pub(crate) enum Restart {
     /// Its first end is the last.
     #[default]
     Never,
+    /// After a signal, a missed limit or a failed start, but not after an exit code.
+    OnAbnormal,
     /// After a failure.
     OnFailure,
     /// Also after it has ended in order.
@@ -46,8 +48,12 @@ pub(crate) struct RestartLimit {
 
 impl Restart {
     /// The words of launch files.
-    pub(crate) const WORDS: [(&'static str, Restart); 3] =
-        [("never", Restart::Never), ("on_failure", Restart::OnFailure), ("always", Restart::Always)];
+    pub(crate) const WORDS: [(&'static str, Restart); 4] = [
+        ("never", Restart::Never),
+        ("on_abnormal", Restart::OnAbnormal),
+        ("on_failure", Restart::OnFailure),
+        ("always", Restart::Always),
+    ];
 }
 
 impl Default for RestartDelay {

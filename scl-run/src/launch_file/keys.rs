@@ -70,8 +70,8 @@ fn alternatives(words: &[&str]) -> String {
 const TRANSPORTS: &[&str] = &["ipc", "tcp"];
 
 const RESTARTS: &[&str] = &{
-    let [(never, _), (on_failure, _), (always, _)] = Restart::WORDS;
-    [never, on_failure, always]
+    let [(never, _), (on_abnormal, _), (on_failure, _), (always, _)] = Restart::WORDS;
+    [never, on_abnormal, on_failure, always]
 };
 
 const KEY: Key = Key { name: "", also: &[], form: Form::Command, default: "", meaning: "", in_defaults: false };

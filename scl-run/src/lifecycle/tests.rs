@@ -60,6 +60,8 @@ fn the_policy_decides_which_end_is_followed_by_a_start() {
     check(restarting(Restart::OnFailure), &[(7, EXIT_0)], &[end(0, 7)], State::Ended(Verdict::InOrder));
     check(restarting(Restart::OnFailure), &[(7, EXIT_3)], &[end(3, 7), soon.clone()], waiting(107));
     check(restarting(Restart::Always), &[(7, EXIT_0)], &[end(0, 7), soon.clone()], waiting(107));
+    check(restarting(Restart::OnAbnormal), &[(7, EXIT_0)], &[end(0, 7)], State::Ended(Verdict::InOrder));
+    check(restarting(Restart::OnAbnormal), &[(7, EXIT_3)], &[end(3, 7)], State::Ended(Verdict::Failed));
     let again = [(7, EXIT_3), (106, Input::Time), (107, Input::Time), (108, Input::Started), (208, EXIT_3)];
     let actions = [end(3, 7), soon, Action::Start, end(3, 100), report("restarting in 200ms")];
     check(restarting(Restart::OnFailure), &again, &actions, waiting(408));

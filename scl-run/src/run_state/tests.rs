@@ -87,7 +87,7 @@ impl World {
 }
 
 fn policy() -> impl Strategy<Value = Policy> {
-    let restart = prop::sample::select(vec![Restart::Never, Restart::OnFailure, Restart::Always]);
+    let restart = prop::sample::select(vec![Restart::Never, Restart::OnAbnormal, Restart::OnFailure, Restart::Always]);
     let limit = || prop::option::of((1..2000_u64).prop_map(Duration::from_millis));
     (restart, any::<bool>(), 0..4_usize, 0..3000_u64, limit(), limit()).prop_map(
         |(restart, essential, count, stop_within, ready_within, alive_within)| Policy {

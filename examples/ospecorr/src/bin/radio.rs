@@ -1,8 +1,8 @@
-//! To be written.
+//! The radio.
 
 use ospecorr::Radio;
 
 #[scl::main]
-fn main(_component: Radio) -> scl::Result<()> {
-    Ok(())
+async fn main(radio: Radio) -> scl::Result<()> {
+    ospecorr::radio::run(radio).await
 }

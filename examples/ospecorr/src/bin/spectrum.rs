@@ -1,8 +1,10 @@
-//! To be written.
+//! The simulated band. See `--help`.
 
+use clap::Parser;
 use ospecorr::Spectrum;
+use ospecorr::spectrum::{Options, run};
 
 #[scl::main]
-fn main(_component: Spectrum) -> scl::Result<()> {
-    Ok(())
+async fn main(spectrum: Spectrum) -> scl::Result<()> {
+    run(spectrum, Options::parse()).await
 }

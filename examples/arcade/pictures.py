@@ -1,0 +1,202 @@
+"""Draws a recorded flight: track over ground, height, battery, and the period of the control loop.
+
+    pictures.py flight.mcap --kills kills.json -o pictures
+
+The kills are a list such as [{"component": "autopilot", "time_us": 21500000}].
+"""
+
+import argparse
+import json
+import sys
+from collections import defaultdict
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+from mcap.exceptions import McapError
+from mcap.reader import make_reader
+from mcap_protobuf.decoder import DecoderFactory
+
+matplotlib.use("Agg")  # draws without a display
+
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+RATE = 300  # beats per second
+TOPICS = {
+    "world": "/simulator/world",
+    "fix": "/gps_sensor/fix",
+    "flight": "/autopilot/flight",
+    "beats": "/autopilot/beats",
+    "battery": "/simulator/battery",
+    "power": "/power_management/power",
+}
+MODE_FLYING = 2
+BLUE, ORANGE, GREY, RED = "#1f6fb4", "#e07b1a", "#8a8a8a", "#c0392b"
+
+
+@dataclass(frozen=True)
+class Kill:
+    component: str
+    time: float  # s of the vehicle's clock
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Messages by the short names of their topics."""
+
+    messages: dict[str, list[Any]]
+    kills: list[Kill]
+
+    def values(self, name: str, value: Callable[[Any], float]) -> list[float]:
+        return [value(message) for message in self.messages[name]]
+
+    def times(self, name: str) -> list[float]:
+        return self.values(name, lambda message: message.time_us / 1e6)
+
+
+def read(file: Path, kills: Path | None) -> Recording:
+    names = {topic: name for name, topic in TOPICS.items()}
+    messages: dict[str, list[Any]] = defaultdict(list)
+    with file.open("rb") as stream:
+        reader = make_reader(stream, decoder_factories=[DecoderFactory()])
+        for _, channel, _, message in reader.iter_decoded_messages(topics=list(names)):
+            messages[names[channel.topic]].append(message)
+    missing = [topic for topic, name in names.items() if not messages[name]]
+    if missing:
+        raise ValueError(f"nothing was recorded of {', '.join(missing)}")
+    entries = json.loads(kills.read_text()) if kills else []
+    return Recording(messages, [Kill(entry["component"], entry["time_us"] / 1e6) for entry in entries])
+
+
+def draw_track(recording: Recording) -> Figure:
+    figure, axes = plt.subplots(figsize=(7, 5.6), layout="constrained")
+    targets = dict.fromkeys(
+        (round(flight.target.x, 2), round(flight.target.y, 2))
+        for flight in recording.messages["flight"]
+        if flight.mode == MODE_FLYING
+    )
+    for number, (east, north) in enumerate(targets, start=1):
+        axes.add_patch(plt.Circle((east, north), 1.0, color=ORANGE, alpha=0.25, label="1 m" if number == 1 else None))
+        axes.annotate(str(number), (east, north), xytext=(9, 9), textcoords="offset points", color=ORANGE)
+    plot_track(axes, recording, "flight", "estimate of the autopilot", color=BLUE, linewidth=1, linestyle="--")
+    plot_track(axes, recording, "world", "true position", color="black", linewidth=1.3)
+    axes.plot(0, 0, marker="+", color=RED, markersize=14, linestyle="none", label="home")
+    axes.set(xlabel="east of home (m)", ylabel="north of home (m)", title="Track over ground", aspect="equal")
+    axes.margins(0.08)
+    axes.grid(alpha=0.3)
+    axes.legend(loc="center", fontsize=8)
+    return figure
+
+
+def plot_track(axes: Axes, recording: Recording, name: str, label: str, **style: Any) -> None:
+    east = recording.values(name, lambda message: message.position.x)
+    axes.plot(east, recording.values(name, lambda message: message.position.y), label=label, **style)
+
+
+def draw_height(recording: Recording) -> Figure:
+    figure, axes = plt.subplots(figsize=(8, 3.6), layout="constrained")
+    set_point = recording.values("flight", lambda flight: flight.target.z if flight.mode else 0.0)
+    axes.step(recording.times("flight"), set_point, where="post", color=ORANGE, linewidth=1.2, label="set-point")
+    true = recording.values("world", lambda world: world.position.z)
+    axes.plot(recording.times("world"), true, color="black", linewidth=1.3, label="true height")
+    axes.set(xlabel="time since the start (s)", ylabel="height above home (m)", title="Height")
+    axes.legend(loc="lower center", fontsize=8)
+    finish(axes, recording)
+    return figure
+
+
+def draw_battery(recording: Recording) -> Figure:
+    figure, (charge, current) = plt.subplots(2, figsize=(8, 4.4), sharex=True, layout="constrained")
+    left = recording.values("power", lambda power: 100 * power.charge_left)
+    charge.plot(recording.times("power"), left, color=BLUE)
+    charge.set(ylabel="charge left (%)", title="Battery")
+    times = recording.times("battery")
+    current.plot(times, recording.values("battery", lambda battery: battery.current), color=ORANGE)
+    current.set(xlabel="time since the start (s)", ylabel="current (A)")
+    current.yaxis.label.set_color(ORANGE)
+    voltage = current.twinx()
+    voltage.plot(times, recording.values("battery", lambda battery: battery.voltage), color=BLUE)
+    voltage.set_ylabel("voltage (V)", color=BLUE)
+    charge.grid(alpha=0.3)
+    current.grid(alpha=0.3)
+    return figure
+
+
+def draw_periods(recording: Recording) -> Figure:
+    figure, axes = plt.subplots(figsize=(8, 3.8), layout="constrained")
+    beats = list(periods(recording.messages["beats"]))
+    axes.plot(*zip(*beats, strict=True), marker=".", markersize=1.5, linestyle="none", color=BLUE, rasterized=True)
+    axes.axhline(1e3 / RATE, color=GREY, linewidth=0.8)
+    late = 1.5e3 / RATE
+    axes.axhline(late, color=ORANGE, linewidth=0.8, linestyle="--")
+    axes.annotate("late", (1, late), xycoords=("axes fraction", "data"), xytext=(4, -3), textcoords="offset points", color=ORANGE)
+    for start, end in pauses(recording.messages["flight"], recording.messages["beats"]):
+        axes.axvspan(start, end, color=RED, alpha=0.5)
+    axes.set(xlabel="time since the start (s)", ylabel="period (ms)", title="Period of the control loop")
+    axes.set_ylim(0, max(2e3 / RATE, 1.05 * max(period for _, period in beats)))
+    finish(axes, recording)
+    return figure
+
+
+def periods(beats: list[Any]) -> Iterator[tuple[float, float]]:
+    """Times in s and periods in ms of consecutive beats; the autopilot was not started again between them."""
+    for before, beat in zip(beats, beats[1:], strict=False):
+        if beat.time_us - before.time_us < 1.5e6 / RATE:
+            yield beat.time_us / 1e6, (beat.began_ns - before.began_ns) / 1e6
+
+
+def pauses(flights: list[Any], beats: list[Any]) -> Iterator[tuple[float, float]]:
+    """From when to when the autopilot did not run, because it was started again in the air."""
+    restarted = [b.time_us for a, b in zip(flights, flights[1:], strict=False) if b.restarts > a.restarts]
+    for time in restarted:
+        before = [beat.time_us for beat in beats if beat.time_us < time - 1e5]
+        yield max(before) / 1e6, time / 1e6
+
+
+def finish(axes: Axes, recording: Recording) -> None:
+    """Marks the kills."""
+    axes.grid(alpha=0.3)
+    for kill in recording.kills:
+        axes.axvline(kill.time, color=RED, linewidth=0.8, linestyle=":")
+        axes.annotate(
+            kill.component,
+            (kill.time, 0.98),
+            xycoords=("data", "axes fraction"),
+            xytext=(-2, 0),
+            textcoords="offset points",
+            rotation=90,
+            ha="right",
+            va="top",
+            color=RED,
+            fontsize=7.5,
+        )
+
+
+PICTURES = {"track": draw_track, "height": draw_height, "battery": draw_battery, "period": draw_periods}
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("recording", type=Path, help="what `scl record` has written")
+    parser.add_argument("--kills", type=Path, help="a JSON file that says what was killed when")
+    parser.add_argument("-o", "--output", type=Path, default=Path("pictures"), help="the folder of the pictures")
+    arguments = parser.parse_args()
+    try:
+        recording = read(arguments.recording, arguments.kills)
+        arguments.output.mkdir(parents=True, exist_ok=True)
+        for name, draw in PICTURES.items():
+            file = arguments.output / f"{name}.png"
+            draw(recording).savefig(file, dpi=130)
+            print(file)
+    except (OSError, ValueError, KeyError, McapError) as error:
+        print(f"error: cannot draw {arguments.recording}: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

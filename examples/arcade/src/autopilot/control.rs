@@ -1,0 +1,165 @@
+//! Control: a cascade from position to velocity, attitude and angular rates.
+//!
+//! Position P, velocity PI with feed-forward, attitude P on quaternions, rates PID, as PX4's multicopter controllers; the
+//! attitude law is that of Brescianini, Hehn and D'Andrea, Nonlinear Quadrocopter Attitude Control, 2013. Integrators stop
+//! where an actuator has reached its limit (Astrom and Hagglund, PID Controllers, 1995, section 3.5).
+
+use super::mixer::Demand;
+use super::parameters::Parameters;
+use super::position::GRAVITY;
+use super::quaternion::Quaternion;
+use super::trajectory::SetPoint;
+use super::vector::{Vec3, limit};
+
+/// Of rates set by the attitude controller, rad/s.
+const MAX_RATE: f64 = 3.5;
+/// Of the integral of angular rates, as a difference of motor set-points.
+const MAX_TORQUE_INTEGRAL: f64 = 0.1;
+/// Of the integral of velocity, m/s^2.
+const MAX_ACCELERATION_INTEGRAL: f64 = 4.0;
+/// The differentiated rates pass a low-pass filter with this time constant, s.
+const DERIVATIVE_TIME: f64 = 0.008;
+
+/// The thrust that the position controller asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thrust {
+    /// As specific force, m/s^2, in the world's axes.
+    pub force: Vec3,
+    /// With the body's z axis along the force.
+    pub attitude: Quaternion,
+}
+
+/// From position to specific force.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct VelocityController {
+    /// m/s^2.
+    pub integral: Vec3,
+}
+
+impl VelocityController {
+    /// `level`: the horizontal position is unknown, so only what the integral has learned of the wind is held against it.
+    pub fn update(
+        &mut self,
+        set_point: &SetPoint,
+        position: Vec3,
+        velocity: Vec3,
+        level: bool,
+        parameters: &Parameters,
+        elapsed: f64,
+    ) -> Thrust {
+        let wanted = wanted_velocity(set_point, position, parameters);
+        let mut error = wanted - velocity;
+        let mut force = set_point.acceleration + self.integral;
+        force.z += parameters.climb_p * error.z + GRAVITY;
+        if level {
+            error = Vec3::new(0.0, 0.0, error.z);
+            force.x = self.integral.x;
+            force.y = self.integral.y;
+        }
+        force.x += parameters.velocity_p * error.x;
+        force.y += parameters.velocity_p * error.y;
+
+        let limited = limit_force(force, parameters);
+        self.integrate(error, limited - force, parameters, elapsed);
+        Thrust { force: limited, attitude: attitude_along(limited, set_point.yaw) }
+    }
+
+    /// Grows the integral unless that would push further beyond a limit that was reached.
+    fn integrate(&mut self, error: Vec3, cut: Vec3, parameters: &Parameters, elapsed: f64) {
+        let horizontal = parameters.velocity_i * elapsed;
+        self.integral.x += if cut.x * error.x < 0.0 { 0.0 } else { error.x * horizontal };
+        self.integral.y += if cut.y * error.y < 0.0 { 0.0 } else { error.y * horizontal };
+        self.integral.z += if cut.z * error.z < 0.0 { 0.0 } else { error.z * (parameters.climb_i * elapsed) };
+        self.integral.x = limit(self.integral.x, MAX_ACCELERATION_INTEGRAL);
+        self.integral.y = limit(self.integral.y, MAX_ACCELERATION_INTEGRAL);
+        self.integral.z = limit(self.integral.z, MAX_ACCELERATION_INTEGRAL);
+    }
+}
+
+/// The velocity that leads back to the set-point while it moves.
+fn wanted_velocity(set_point: &SetPoint, position: Vec3, parameters: &Parameters) -> Vec3 {
+    let error = set_point.position - position;
+    let mut wanted = Vec3::new(
+        set_point.velocity.x + parameters.position_p * error.x,
+        set_point.velocity.y + parameters.position_p * error.y,
+        set_point.velocity.z + parameters.height_p * error.z,
+    );
+    let speed = wanted.horizontal();
+    if speed > parameters.limit_speed {
+        wanted.x *= parameters.limit_speed / speed;
+        wanted.y *= parameters.limit_speed / speed;
+    }
+    wanted.z = limit(wanted.z, parameters.limit_climb);
+    wanted
+}
+
+/// Limits the vertical force by the motors' thrust, and then the horizontal force by the tilt.
+fn limit_force(force: Vec3, parameters: &Parameters) -> Vec3 {
+    let per_thrust = GRAVITY / parameters.thrust_hover;
+    let z = force.z.clamp(parameters.thrust_minimum * per_thrust, parameters.thrust_maximum * per_thrust);
+    let most = z * parameters.limit_tilt.to_radians().tan();
+    let horizontal = force.horizontal();
+    let kept = if horizontal > most { most / horizontal } else { 1.0 };
+    Vec3::new(force.x * kept, force.y * kept, z)
+}
+
+/// The attitude with the body's z axis along `force`, turned to `yaw`.
+fn attitude_along(force: Vec3, yaw: f64) -> Quaternion {
+    let up = force * (1.0 / force.length());
+    let tilt = Quaternion { w: 1.0 + up.z, x: -up.y, y: up.x, z: 0.0 }.normalized();
+    tilt.multiply(Quaternion::from_angles(Vec3::new(0.0, 0.0, yaw)))
+}
+
+/// From attitude to torques.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RateController {
+    /// Differences of motor set-points.
+    pub integral: Vec3,
+    /// Of the last beat, rad/s.
+    pub rates: Vec3,
+    /// Filtered, rad/s^2.
+    pub derivative: Vec3,
+}
+
+impl RateController {
+    pub fn update(
+        &mut self,
+        thrust: &Thrust,
+        attitude: Quaternion,
+        rates: Vec3,
+        saturated: bool,
+        parameters: &Parameters,
+        elapsed: f64,
+    ) -> Demand {
+        let error = wanted_rates(thrust.attitude, attitude, parameters) - rates;
+        if !saturated {
+            self.integral.x += error.x * (parameters.rate_i * elapsed);
+            self.integral.y += error.y * (parameters.rate_i * elapsed);
+            self.integral.z += error.z * (parameters.yaw_rate_i * elapsed);
+            self.integral.x = limit(self.integral.x, MAX_TORQUE_INTEGRAL);
+            self.integral.y = limit(self.integral.y, MAX_TORQUE_INTEGRAL);
+            self.integral.z = limit(self.integral.z, MAX_TORQUE_INTEGRAL);
+        }
+        let slope = (rates - self.rates) * (1.0 / elapsed);
+        self.derivative += (slope - self.derivative) * (elapsed / (DERIVATIVE_TIME + elapsed));
+        self.rates = rates;
+        // The part of the force that the motors give now, while the body still turns to its direction.
+        let along = thrust.force.dot(attitude.up()) * (parameters.thrust_hover / GRAVITY);
+        Demand {
+            thrust: along.clamp(parameters.thrust_minimum, parameters.thrust_maximum),
+            roll: parameters.rate_p * error.x + self.integral.x - parameters.rate_d * self.derivative.x,
+            pitch: parameters.rate_p * error.y + self.integral.y - parameters.rate_d * self.derivative.y,
+            yaw: parameters.yaw_rate_p * error.z + self.integral.z,
+        }
+    }
+}
+
+/// Rates that turn the body to the wanted attitude, in body axes.
+fn wanted_rates(wanted: Quaternion, attitude: Quaternion, parameters: &Parameters) -> Vec3 {
+    let error = attitude.conjugate().multiply(wanted).rotation_vector();
+    Vec3::new(
+        limit(parameters.attitude_p * error.x, MAX_RATE),
+        limit(parameters.attitude_p * error.y, MAX_RATE),
+        limit(parameters.yaw_p * error.z, parameters.limit_yaw_rate.to_radians()),
+    )
+}

@@ -1,0 +1,173 @@
+//! Estimation of position and velocity: complementary filters of acceleration, GPS and height sensors.
+//!
+//! Accelerations are integrated, which is exact for seconds; slow measurements correct what drifts (Higgins, A Comparison of
+//! Complementary and Kalman Filtering, 1975). The vertical filter is of third order with equal poles, so that it also learns
+//! the bias of the acceleration (ArduPilot's `AP_InertialNav`). A measurement is compared with the estimate of the time at
+//! which it was taken, from a ring of past estimates (Larsen et al., Incorporation of Time Delayed Measurements in a
+//! Discrete-time Kalman Filter, 1998).
+
+use super::parameters::Parameters;
+use super::quaternion::Quaternion;
+use super::vector::{Vec3, limit};
+use crate::arcade::height::Range;
+use crate::arcade::{Fix, FixQuality, Height};
+use crate::geodesy;
+
+pub const GRAVITY: f64 = 9.81; // m/s^2
+
+/// Estimates are kept for 0.85 s at 300 Hz.
+const HISTORY: usize = 256;
+/// Without a fix for this long, the position is no longer valid.
+const FIX_TIMEOUT_US: u64 = 5_000_000;
+/// The filters' longest step, s: after a gap one measurement must not count for many.
+const LONGEST_STEP: f64 = 0.4;
+/// No working accelerometer has a larger error, m/s^2.
+const MAX_BIAS: f64 = 1.0;
+
+/// What was estimated at one beat.
+#[derive(Clone, Copy, Debug, Default)]
+struct Past {
+    time_us: u64,
+    position: Vec3,
+    velocity: Vec3,
+    /// The cosine of the angle between the body's z axis and the vertical.
+    upright: f64,
+}
+
+/// What is known about position and velocity, in metres and m/s, x east, y north, z up from home.
+#[derive(Clone, Debug)]
+pub struct PositionEstimator {
+    pub position: Vec3,
+    pub velocity: Vec3,
+    /// Of the acceleration in the world's axes, m/s^2.
+    pub bias: Vec3,
+    /// What the barometer shows too much, m.
+    pub barometer_offset: f64,
+    /// When the last fix was measured; 0 before the first.
+    pub fix_us: u64,
+    /// When the last height was measured; 0 before the first.
+    pub height_us: u64,
+    history: [Past; HISTORY],
+    /// The index in `history` of the next estimate.
+    next: usize,
+}
+
+impl Default for PositionEstimator {
+    fn default() -> Self {
+        Self {
+            position: Vec3::ZERO,
+            velocity: Vec3::ZERO,
+            bias: Vec3::ZERO,
+            barometer_offset: 0.0,
+            fix_us: 0,
+            height_us: 0,
+            history: [Past::default(); HISTORY],
+            next: 0,
+        }
+    }
+}
+
+impl PositionEstimator {
+    /// Integrates the specific force in body axes over the `elapsed` seconds before `time_us`.
+    pub fn predict(&mut self, time_us: u64, force: Vec3, attitude: Quaternion, elapsed: f64) {
+        let gravity = Vec3::new(0.0, 0.0, GRAVITY);
+        let acceleration = attitude.rotate(force) - gravity - self.bias;
+        self.position += self.velocity * elapsed + acceleration * (0.5 * elapsed * elapsed);
+        self.velocity += acceleration * elapsed;
+        self.remember(time_us, attitude);
+    }
+
+    /// Carries on over a gap in the readings, at constant velocity.
+    pub fn coast(&mut self, time_us: u64, attitude: Quaternion, elapsed: f64) {
+        self.position += self.velocity * elapsed;
+        self.remember(time_us, attitude);
+    }
+
+    fn remember(&mut self, time_us: u64, attitude: Quaternion) {
+        let upright = attitude.up().z;
+        self.history[self.next] = Past { time_us, position: self.position, velocity: self.velocity, upright };
+        self.next = (self.next + 1) % HISTORY;
+    }
+
+    /// The newest estimate that is not newer than `time_us`. None if it is older than all of them, for example because it
+    /// is of the time before a restart.
+    fn past(&self, time_us: u64) -> Option<Past> {
+        for age in 1..=HISTORY {
+            let past = self.history[(self.next + HISTORY - age) % HISTORY];
+            if past.time_us != 0 && past.time_us <= time_us {
+                return Some(past);
+            }
+        }
+        None
+    }
+
+    /// Takes in a height. Above the ultrasonic sensor's range the barometer counts, by what it showed before.
+    pub fn correct_height(&mut self, height: &Height, parameters: &Parameters) {
+        let Some(past) = self.past(height.time_us) else { return };
+        let elapsed = step(self.height_us, height.time_us);
+        self.height_us = height.time_us;
+        let measured = match height.range {
+            // It measures along the body's z axis.
+            Some(Range::Ultrasonic(range)) if range.is_finite() => {
+                let measured = range * past.upright;
+                let change = height.barometer - measured - self.barometer_offset;
+                self.barometer_offset += change * limit(parameters.barometer_correction * elapsed, 1.0);
+                measured
+            }
+            _ => height.barometer - self.barometer_offset,
+        };
+        let error = measured - past.position.z;
+        if !error.is_finite() {
+            return;
+        }
+        let bandwidth = parameters.height_correction;
+        self.position.z += error * (3.0 * bandwidth * elapsed);
+        self.velocity.z += error * (3.0 * bandwidth * bandwidth * elapsed);
+        let bias = self.bias.z - error * (bandwidth * bandwidth * bandwidth * elapsed);
+        self.bias.z = limit(bias, MAX_BIAS);
+    }
+
+    /// Takes in a fix: its horizontal position and velocity. Heights by GPS are worse than by the other sensors.
+    pub fn correct_fix(&mut self, fix: &Fix, parameters: &Parameters) {
+        if fix.quality() == FixQuality::None {
+            return;
+        }
+        let (east, north) = geodesy::to_metres(parameters.home(), fix.latitude, fix.longitude);
+        let position = Vec3::new(east, north, 0.0);
+        let velocity = Vec3::new(fix.east_speed, fix.north_speed, 0.0);
+        if !position.is_finite() || !velocity.is_finite() {
+            return;
+        }
+        if self.fix_us == 0 {
+            self.position = Vec3::new(position.x, position.y, self.position.z);
+            self.velocity = Vec3::new(velocity.x, velocity.y, self.velocity.z);
+            self.fix_us = fix.time_us;
+            return;
+        }
+        let Some(past) = self.past(fix.time_us) else { return };
+        let elapsed = step(self.fix_us, fix.time_us);
+        self.fix_us = fix.time_us;
+        let mut position_error = position - past.position;
+        let mut velocity_error = velocity - past.velocity;
+        position_error.z = 0.0;
+        velocity_error.z = 0.0;
+        self.position += position_error * limit(parameters.position_correction * elapsed, 1.0);
+        self.velocity += velocity_error * limit(parameters.velocity_correction * elapsed, 1.0);
+        let bias = self.bias - velocity_error * (parameters.bias_correction * elapsed);
+        self.bias = Vec3::new(limit(bias.x, MAX_BIAS), limit(bias.y, MAX_BIAS), bias.z);
+    }
+
+    /// Returns false before the first fix and long after the last one.
+    pub fn is_valid(&self, time_us: u64) -> bool {
+        self.fix_us != 0 && time_us <= self.fix_us + FIX_TIMEOUT_US
+    }
+}
+
+/// The seconds from the last measurement to this one, within what the filters bear.
+fn step(last_us: u64, time_us: u64) -> f64 {
+    if last_us == 0 || time_us <= last_us {
+        return 0.0;
+    }
+    let elapsed = (time_us - last_us) as f64 * 1e-6;
+    if elapsed > LONGEST_STEP { LONGEST_STEP } else { elapsed }
+}

@@ -1,0 +1,45 @@
+//! The inertial unit: accelerometers, gyroscopes, and the unit's own angles.
+
+use super::vector;
+use crate::arcade::Inertial;
+use crate::world::World;
+use crate::world::noise::Noise;
+use glam::DVec3;
+
+/// White noise of each reading; most of it is vibration.
+const ACCELERATION_NOISE: f64 = 0.15; // m/s^2
+const RATE_NOISE: f64 = 0.01; // rad/s
+const ANGLE_NOISE: f64 = 0.01; // rad
+/// Constant for a flight.
+const ACCELERATION_BIAS: f64 = 0.05; // m/s^2
+const RATE_BIAS: f64 = 0.01; // rad/s
+
+/// The unit's errors.
+#[derive(Debug)]
+pub struct InertialUnit {
+    noise: Noise,
+    acceleration_bias: DVec3,
+    rate_bias: DVec3,
+}
+
+impl InertialUnit {
+    pub fn new(seed: u64) -> Self {
+        let mut noise = Noise::new(seed, "inertial");
+        let acceleration_bias = noise.vector(ACCELERATION_BIAS);
+        let rate_bias = noise.vector(RATE_BIAS);
+        Self { noise, acceleration_bias, rate_bias }
+    }
+
+    pub fn measure(&mut self, time_us: u64, world: &World) -> Inertial {
+        let noise = &mut self.noise;
+        let acceleration = world.specific_force + self.acceleration_bias + noise.vector(ACCELERATION_NOISE);
+        let rates = world.body.rates + self.rate_bias + noise.vector(RATE_NOISE);
+        let angles = world.body.angles() + noise.vector(ANGLE_NOISE);
+        Inertial {
+            time_us,
+            acceleration: Some(vector(acceleration)),
+            rates: Some(vector(rates)),
+            angles: Some(vector(angles)),
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! The battery's sensor: voltage, current and a charge counter.
+
+use crate::arcade;
+use crate::world::battery::Battery;
+use crate::world::noise::Noise;
+
+const VOLTAGE_NOISE: f64 = 0.02; // V
+const CURRENT_NOISE: f64 = 0.1; // A
+
+/// The sensor's errors.
+#[derive(Debug)]
+pub struct PowerSensor {
+    noise: Noise,
+}
+
+impl PowerSensor {
+    pub fn new(seed: u64) -> Self {
+        Self { noise: Noise::new(seed, "power") }
+    }
+
+    pub fn measure(&mut self, time_us: u64, battery: &Battery) -> arcade::Battery {
+        arcade::Battery {
+            time_us,
+            voltage: battery.voltage() + self.noise.normal(VOLTAGE_NOISE),
+            current: (battery.current + self.noise.normal(CURRENT_NOISE)).max(0.0),
+            used: battery.used,
+            capacity: battery.capacity,
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! Writes observations into the database, and goes on when that fails.
+//!
+//! | trouble | what follows |
+//! |---|---|
+//! | locked by another process | observations stay in memory, up to a limit, and are written later |
+//! | full | the oldest observations make room for new ones |
+//! | corrupt | the file is moved aside, and a new one begins |
+//! | another program's, or of another version | [`Refused`]: nothing is changed |
+//! | anything else | as if it were locked; when the file is first opened: [`Refused`] |
+
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::{fs, io, mem};
+
+use super::database::{Database, OpenError, Trouble};
+use super::statistics::{Observation, Summary};
+use crate::ospecorr::Statistics;
+use crate::ospecorr::occupancy::Channel;
+
+/// How long observations are kept, in seconds.
+pub const KEPT: f64 = 3600.0;
+
+/// Blocks that are kept in memory while the database cannot be written: a minute of them.
+const MOST_HELD: usize = 3000;
+
+/// Where the database is, and how large it may become.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// The file.
+    pub path: PathBuf,
+    /// Its largest size.
+    pub max_bytes: u64,
+}
+
+/// The file is not this program's to use.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "cannot use the database `{path}`: {reason}\n  = help: choose another file with --database, or move this one away"
+)]
+pub struct Refused {
+    path: String,
+    reason: String,
+}
+
+/// Writes blocks of observations and answers queries.
+pub struct Recorder {
+    settings: Settings,
+    /// `None` until it could be opened.
+    database: Option<Database>,
+    was_opened: bool,
+    /// Blocks that are not written yet, in the order of their times.
+    held: VecDeque<Block>,
+    newest_us: i64,
+    lost: u64,
+    trouble: Option<Trouble>,
+    made_room: MadeRoom,
+    report: Box<dyn FnMut(String) + Send>,
+}
+
+struct Block {
+    time_us: i64,
+    channels: Vec<Channel>,
+}
+
+/// Whether observations were removed because the database is full. When that does not help, because the disk itself is
+/// full, it is not done again: there would soon be none left.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum MadeRoom {
+    Never,
+    Helped,
+    InVain,
+}
+
+impl Recorder {
+    /// Calls `report` with a line about each event.
+    pub fn new(settings: Settings, report: impl FnMut(String) + Send + 'static) -> Self {
+        Self {
+            settings,
+            database: None,
+            was_opened: false,
+            held: VecDeque::new(),
+            newest_us: 0,
+            lost: 0,
+            trouble: None,
+            made_room: MadeRoom::Never,
+            report: Box::new(report),
+        }
+    }
+
+    /// Adds a block, to be written by the next [`flush`](Self::flush).
+    pub fn add(&mut self, time_us: i64, channels: Vec<Channel>) {
+        // Each block has a time of its own, also when the clock was set back.
+        self.newest_us = time_us.max(self.newest_us + 1);
+        self.held.push_back(Block { time_us: self.newest_us, channels });
+        if self.held.len() > MOST_HELD {
+            self.held.pop_front();
+            self.lost += 1;
+        }
+    }
+
+    /// Writes what was added, in one transaction. What cannot be written now is tried again next time.
+    ///
+    /// # Errors
+    /// The file is not this program's to use.
+    pub fn flush(&mut self, now_us: i64) -> Result<(), Refused> {
+        if self.held.is_empty() && self.database.is_some() {
+            return Ok(());
+        }
+        let mut result = self.write(now_us);
+        match result.as_ref().err().and_then(trouble) {
+            Some(Trouble::Corrupt) => {
+                self.set_aside(&result)?;
+                result = self.write(now_us);
+            }
+            Some(Trouble::Full) if self.made_room != MadeRoom::InVain => {
+                self.make_room();
+                result = self.write(now_us);
+                self.made_room = if result.is_ok() { MadeRoom::Helped } else { MadeRoom::InVain };
+            }
+            _ => {}
+        }
+        match result {
+            Ok(()) => {
+                if self.made_room == MadeRoom::InVain {
+                    self.made_room = MadeRoom::Helped;
+                }
+                self.end_trouble();
+                Ok(())
+            }
+            Err(OpenError::Sqlite(error)) if self.was_opened || Trouble::of(&error) == Trouble::Locked => {
+                self.begin_trouble(&error);
+                Ok(())
+            }
+            Err(error) => Err(self.refused(&error)),
+        }
+    }
+
+    /// The statistics of the last `seconds`, also of blocks that are not written yet.
+    pub fn answer(&self, seconds: f64, now_us: i64) -> Statistics {
+        self.summarize(seconds, now_us).unwrap_or_else(|error| Statistics { channels: Vec::new(), error })
+    }
+
+    fn summarize(&self, seconds: f64, now_us: i64) -> Result<Statistics, String> {
+        if !(seconds > 0.0 && seconds <= KEPT) {
+            return Err(format!("seconds must be above 0 and at most {KEPT}, not {seconds}"));
+        }
+        let from_us = now_us.saturating_sub((seconds * 1e6) as i64);
+        let database = self.database.as_ref().ok_or("the database is not open yet")?;
+        let mut summary = Summary::default();
+        let read = database.read(from_us, |observation| summary.add(observation));
+        read.map_err(|error| format!("the database cannot be read: {error}"))?;
+        self.observations().filter(|it| it.time_us >= from_us).for_each(|it| summary.add(it));
+        Ok(Statistics { channels: summary.finish(), error: String::new() })
+    }
+
+    fn write(&mut self, now_us: i64) -> Result<(), OpenError> {
+        if self.database.is_none() {
+            self.database = Some(Database::open(&self.settings.path, self.settings.max_bytes)?);
+            self.was_opened = true;
+        }
+        if let Some(mut database) = self.database.take() {
+            let written = database.write(self.observations(), now_us - (KEPT * 1e6) as i64);
+            self.database = Some(database);
+            written?;
+        }
+        self.held.clear();
+        Ok(())
+    }
+
+    /// Those that are not written yet. A detector may report what SQLite has no number for; that is left out.
+    fn observations(&self) -> impl Iterator<Item = Observation> {
+        self.held.iter().flat_map(|block| {
+            let numbered = (0..).zip(&block.channels).filter(|(_, it)| it.power_db.is_finite());
+            numbered.map(|(channel, it)| Observation {
+                time_us: block.time_us,
+                channel,
+                power_db: it.power_db,
+                occupied: it.occupied,
+            })
+        })
+    }
+
+    /// Moves the file to `<file>.corrupt-<n>`, and its log as well, which belongs to it.
+    fn set_aside(&mut self, result: &Result<(), OpenError>) -> Result<(), Refused> {
+        self.database = None;
+        let path = &self.settings.path;
+        let moved = (1..).map(|n| ending(path, &format!(".corrupt-{n}"))).find(|it| !it.exists());
+        let moved = moved.unwrap_or_default();
+        for log in ["-wal", "-shm"] {
+            // Usually there is none: SQLite removes it when it closes the file.
+            let _ = fs::rename(ending(path, log), ending(&moved, log));
+        }
+        fs::rename(path, &moved).map_err(|error| self.refused(&cannot_move(&moved, &error)))?;
+        let error = result.as_ref().err().map(ToString::to_string).unwrap_or_default();
+        self.say(&format!("is corrupt ({error}); it is now `{}`, and a new one begins", moved.display()));
+        Ok(())
+    }
+
+    fn make_room(&mut self) {
+        if self.made_room == MadeRoom::Never {
+            self.say("is full; from now on the oldest observations make room for new ones");
+        }
+        if let Some(database) = &mut self.database
+            && let Err(error) = database.remove_oldest()
+        {
+            self.say(&format!("cannot be pruned: {error}"));
+        }
+    }
+
+    fn begin_trouble(&mut self, error: &rusqlite::Error) {
+        let trouble = Some(Trouble::of(error));
+        if self.trouble != trouble {
+            self.trouble = trouble;
+            self.say(&format!("cannot be written: {error}; keeping up to {MOST_HELD} blocks in memory"));
+        }
+    }
+
+    fn end_trouble(&mut self) {
+        let lost = mem::take(&mut self.lost);
+        if self.trouble.take().is_some() {
+            self.say(&format!("is written again; {lost} blocks were lost"));
+        }
+    }
+
+    fn say(&mut self, what: &str) {
+        (self.report)(format!("the database `{}` {what}", self.settings.path.display()));
+    }
+
+    fn refused(&self, reason: &dyn std::error::Error) -> Refused {
+        Refused { path: self.settings.path.display().to_string(), reason: reason.to_string() }
+    }
+}
+
+fn trouble(error: &OpenError) -> Option<Trouble> {
+    match error {
+        OpenError::Sqlite(error) => Some(Trouble::of(error)),
+        _ => None,
+    }
+}
+
+fn cannot_move(to: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("it is corrupt, and cannot be moved to `{}`: {error}", to.display()))
+}
+
+/// `path` with more at its end.
+fn ending(path: &Path, more: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(more);
+    name.into()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,239 @@
+//! A flight of `examples/arcade` as real processes: `scl run` flies, `scl record` writes it down, `scl echo` tells where it is.
+
+use super::recording::Recording;
+use crate::system::{System, kill};
+use crate::{built, example};
+use scl_tests::wait_until;
+use serde_json::Value;
+use std::fmt::Write as _;
+use std::io::{BufRead, BufReader, Read};
+use std::os::unix::fs::DirBuilderExt as _;
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Duration;
+
+/// A test that hears nothing for longer has failed.
+const HANG_LIMIT: Duration = Duration::from_secs(120);
+
+/// No mission takes longer, in seconds of the vehicle's clock.
+const LONGEST_FLIGHT: f64 = 240.0;
+
+/// A running system with its recorder. Dropping it ends all processes.
+pub(super) struct Flight {
+    system: System,
+    run: Child,
+    recorder: Child,
+    others: Vec<Child>,
+    file: PathBuf,
+    events: Receiver<Event>,
+    /// What `scl run` has printed.
+    pub(super) log: String,
+}
+
+/// What a test waits for.
+pub(super) enum Event {
+    /// A line of `scl run`, on standard output or standard error.
+    Line(String),
+    /// What the autopilot says of its flight.
+    Position(Position),
+}
+
+/// Where the autopilot believes to be.
+pub(super) struct Position {
+    pub(super) time_us: u64,
+    pub(super) mode: String,
+    pub(super) command_id: u64,
+    /// To the target, in metres.
+    pub(super) distance: f64,
+}
+
+/// A flight that is over.
+pub(super) struct Flown {
+    pub(super) recording: Recording,
+    /// All that `scl run` has printed.
+    pub(super) log: String,
+    /// The exit code of `scl run`.
+    pub(super) code: Option<i32>,
+}
+
+impl Flight {
+    /// Builds and starts the aircraft with more arguments of `scl run`, and waits until all components are ready. The recording gets this name.
+    pub(super) fn start(name: &str, arguments: &[&str]) -> Self {
+        let system = aircraft_folder();
+        std::fs::create_dir_all(built("arcade")).unwrap();
+        let file = built("arcade").join(name).with_extension("mcap");
+        let (sender, events) = channel();
+        // It begins first, so that no message is missing.
+        let record = ["record", "--system", "arcade", "--overwrite", "--format", "json", "-o", file.to_str().unwrap()];
+        let recorder = spawn_recorder(&mut command(&system, &record));
+        let folder = example("arcade");
+        let arguments = [&["run", folder.to_str().unwrap()], arguments].concat();
+        let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        send_lines(run.stdout.take().unwrap(), &sender, Event::Line);
+        send_lines(run.stderr.take().unwrap(), &sender, Event::Line);
+        let mut flight = Self { system, run, recorder, others: Vec::new(), file, events, log: String::new() };
+        flight.wait_for_line("scl: all components are ready");
+        let echo = ["echo", "autopilot.flight", "--system", "arcade", "--format", "json"];
+        let mut echo = flight.command(&echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+        send_lines(echo.stdout.take().unwrap(), &sender, |line| Event::Position(Position::parse(&line)));
+        flight.others.push(echo);
+        flight
+    }
+
+    /// Starts a program that runs beside the flight.
+    pub(super) fn start_beside(&mut self, mut program: Command) {
+        self.others.push(program.stdin(Stdio::null()).spawn().unwrap());
+    }
+
+    /// `scl`, looking at this system.
+    pub(super) fn command(&self, arguments: &[&str]) -> Command {
+        command(&self.system, arguments)
+    }
+
+    pub(super) fn wait_for_line(&mut self, part: &str) {
+        while !matches!(self.next(), Event::Line(line) if line.contains(part)) {}
+    }
+
+    /// What happens next.
+    pub(super) fn next(&mut self) -> Event {
+        let event = self.events.recv_timeout(HANG_LIMIT);
+        let event = event.unwrap_or_else(|_| panic!("nothing happens any more\n{}", self.log));
+        match &event {
+            Event::Line(line) => {
+                writeln!(self.log, "{line}").unwrap();
+                assert!(!line.contains("not restarted:"), "{}", self.log);
+            }
+            Event::Position(position) => {
+                let seconds = position.time_us as f64 / 1e6;
+                assert!(seconds < LONGEST_FLIGHT, "still in the air after {seconds} s\n{}", self.log);
+            }
+        }
+        event
+    }
+
+    /// Flies until the mission has ended, and returns how: `ended with exit code 0`.
+    pub(super) fn fly(&mut self, mut on_the_way: impl FnMut(&Self, &Position)) -> String {
+        loop {
+            match self.next() {
+                Event::Position(position) => on_the_way(self, &position),
+                Event::Line(line) => {
+                    // The lines of its program begin with `uav_mission       | `.
+                    let words = line.strip_prefix("uav_mission").map(str::trim_start);
+                    if let Some(ending) = words.filter(|words| words.starts_with("ended with exit code")) {
+                        return ending.rsplit_once(" after").unwrap().0.to_owned();
+                    }
+                }
+            }
+        }
+    }
+
+    /// Flies until the vehicle stands on the ground.
+    pub(super) fn land(&mut self) {
+        while !matches!(self.next(), Event::Position(position) if position.mode == "MODE_GROUNDED") {}
+    }
+
+    /// The process of a component that runs.
+    pub(super) fn process_id(&self, component: &str) -> Option<u64> {
+        let output = self.command(&["list", "--system", "arcade", "--format", "json"]).output().unwrap();
+        let list: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let is_it = |it: &&Value| it["name"] == component && it["state"] == "running";
+        list["components"].as_array().unwrap().iter().find(is_it)?["pid"].as_u64()
+    }
+
+    /// Kills a component, and waits until another process has taken its place.
+    pub(super) fn kill(&self, component: &str) {
+        let first = self.process_id(component).unwrap_or_else(|| panic!("`{component}` is not running\n{}", self.log));
+        kill("-KILL", first.try_into().unwrap());
+        wait_until(&format!("`{component}` runs again"), || self.process_id(component).is_some_and(|it| it != first));
+    }
+
+    /// Presses Ctrl-C, and reads what was recorded.
+    pub(super) fn end(mut self) -> Flown {
+        kill("-INT", self.run.id());
+        let code = self.run.wait().unwrap().code();
+        for other in &mut self.others {
+            kill("-INT", other.id());
+            other.wait().unwrap();
+        }
+        // Up to the end of everything that prints.
+        for event in &self.events {
+            if let Event::Line(line) = event {
+                writeln!(self.log, "{line}").unwrap();
+            }
+        }
+        kill("-INT", self.recorder.id());
+        let mut report = String::new();
+        self.recorder.stdout.take().unwrap().read_to_string(&mut report).unwrap();
+        assert!(self.recorder.wait().unwrap().success(), "{report}");
+        Flown { recording: Recording::read(&self.file), log: std::mem::take(&mut self.log), code }
+    }
+}
+
+impl Drop for Flight {
+    fn drop(&mut self) {
+        for process in self.others.iter_mut().chain([&mut self.run, &mut self.recorder]) {
+            // One that has ended meanwhile is no problem here.
+            let _ = process.kill();
+            let _ = process.wait();
+        }
+    }
+}
+
+impl Position {
+    fn parse(line: &str) -> Self {
+        let echoed: Value = serde_json::from_str(line).unwrap();
+        let message = &echoed["message"];
+        let integer = |name: &str| match &message[name] {
+            Value::String(digits) => digits.parse().unwrap(),
+            number => number.as_u64().unwrap(),
+        };
+        let difference = |axis: &str| {
+            let coordinate = |name: &str| message[name][axis].as_f64().unwrap_or_default();
+            coordinate("target") - coordinate("position")
+        };
+        Self {
+            time_us: integer("time_us"),
+            mode: message["mode"].as_str().unwrap().to_owned(),
+            command_id: integer("command_id"),
+            distance: ["x", "y", "z"].map(|axis| difference(axis).powi(2)).iter().sum::<f64>().sqrt(),
+        }
+    }
+}
+
+/// A folder for a system that does not run yet, but can be recorded: `scl record` wants the system's runtime folder.
+pub(super) fn aircraft_folder() -> System {
+    let system = System::of_files(&[]);
+    std::fs::DirBuilder::new().recursive(true).mode(0o700).create(system.path("runtime/arcade")).unwrap();
+    system
+}
+
+/// `scl` in the folder of the example, whose topology and launch file the recording gets.
+pub(super) fn command(system: &System, arguments: &[&str]) -> Command {
+    let mut command = system.scl(arguments);
+    command.current_dir(example("arcade"));
+    for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS", "SCL_LOG"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+/// Starts a recorder, and waits until it waits for components.
+pub(super) fn spawn_recorder(command: &mut Command) -> Child {
+    let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines();
+    println!("{}", lines.next().unwrap().unwrap());
+    // So that it can print the others.
+    std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
+    recorder
+}
+
+fn send_lines(stream: impl Read + Send + 'static, sender: &Sender<Event>, event: fn(String) -> Event) {
+    let sender = sender.clone();
+    std::thread::spawn(move || {
+        for line in BufReader::new(stream).lines().map_while(Result::ok) {
+            // The test may have ended.
+            let _ = sender.send(event(line));
+        }
+    });
+}
