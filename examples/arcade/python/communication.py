@@ -12,7 +12,7 @@ from typing import cast
 import scl
 
 from arcade_scl import Action, Command, Communication, ParameterChange
-from gates import newest
+from gates import newest, until_first_ends
 from ground_link import GoHome, LandHere, SetParameter, Vehicle, next_id, understand
 
 Answer = Callable[[str], None]  # takes the answer to a command
@@ -28,14 +28,10 @@ class Link:
         self.commands: asyncio.Queue[tuple[str, Answer]] = asyncio.Queue(maxsize=16)
 
     async def run(self) -> None:
-        """Works until the program is asked to stop. A task must not end by `Stopped`: asyncio would print a traceback."""
-        obeying = asyncio.create_task(self.obey())
-        with suppress(scl.Stopped):
-            await self.report()
-        obeying.cancel()
+        await until_first_ends(self.report(), self.obey())
 
     async def report(self) -> None:
-        """One line a second, whoever is silent."""
+        """One line a second, also while other components are silent."""
         while True:
             await asyncio.sleep(1.0 - time.monotonic() % 1.0)
             self.look()
@@ -57,10 +53,9 @@ class Link:
 
     async def obey(self) -> None:
         """One command after the other, so that each answer belongs to the one before it."""
-        with suppress(scl.Stopped):
-            while True:
-                text, answer = await self.commands.get()
-                answer(await self.carry_out(text))
+        while True:
+            text, answer = await self.commands.get()
+            answer(await self.carry_out(text))
 
     async def carry_out(self, text: str) -> str:
         order = understand(text)
