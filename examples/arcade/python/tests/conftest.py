@@ -18,6 +18,7 @@ HANG_LIMIT = 60.0  # s; only a test that would hang otherwise ever reaches it
 
 T = TypeVar("T")
 Finished = subprocess.CompletedProcess[str]
+RunProgram = Callable[..., Finished]
 
 
 @pytest.fixture
@@ -30,10 +31,17 @@ def own_system(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         yield
 
 
-def run_program(*arguments: str) -> Finished:
+@pytest.fixture
+def run_program(own_system: None) -> RunProgram:
     """Runs Python in the folder of the programs, until it ends."""
-    command = [sys.executable, *arguments]
-    return subprocess.run(command, check=False, cwd=PYTHON_FOLDER, capture_output=True, text=True, timeout=HANG_LIMIT)
+
+    def run(*arguments: str) -> Finished:
+        command = [sys.executable, *arguments]
+        return subprocess.run(
+            command, check=False, cwd=PYTHON_FOLDER, capture_output=True, text=True, timeout=HANG_LIMIT
+        )
+
+    return run
 
 
 @contextlib.contextmanager

@@ -10,7 +10,7 @@ import configuration
 import parameters
 from arcade_scl import Configuration, ConfigurationPeer, ParameterChange, Parameters
 from configuration import Store
-from conftest import HANG_LIMIT, run_program, running, until
+from conftest import HANG_LIMIT, RunProgram, running, until
 
 
 @contextlib.contextmanager
@@ -68,8 +68,7 @@ def test_a_file_that_cannot_be_written_is_told_in_the_reply(tmp_path: Path) -> N
         )
 
 
-@pytest.mark.usefixtures("own_system")
-def test_a_corrupt_file_ends_the_program_before_it_starts(tmp_path: Path) -> None:
+def test_a_corrupt_file_ends_the_program_before_it_starts(tmp_path: Path, run_program: RunProgram) -> None:
     file = tmp_path / "p.yaml"
     file.write_text("fence.radius: 5000\nfence.hight: 20\n")
     finished = run_program("configuration.py", "--file", str(file))
@@ -80,7 +79,6 @@ def test_a_corrupt_file_ends_the_program_before_it_starts(tmp_path: Path) -> Non
     ]
 
 
-@pytest.mark.usefixtures("own_system")
-def test_wrong_arguments() -> None:
+def test_wrong_arguments(run_program: RunProgram) -> None:
     assert run_program("configuration.py", "--fil").returncode == 2
     assert run_program("configuration.py", "--help").returncode == 0

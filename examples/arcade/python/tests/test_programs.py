@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from conftest import HANG_LIMIT, PYTHON_FOLDER, run_program
+from conftest import HANG_LIMIT, PYTHON_FOLDER, RunProgram
 
 pytestmark = pytest.mark.usefixtures("own_system")
 
@@ -35,7 +35,7 @@ asyncio.run(mission_arbiter.main())
 
 
 @pytest.mark.parametrize("component", BROKEN)
-def test_a_program_that_raises_fails_with_a_traceback(component: str) -> None:
+def test_a_program_that_raises_fails_with_a_traceback(component: str, run_program: RunProgram) -> None:
     finished = run_program("-c", BROKEN[component])
     assert finished.returncode == 1
     assert finished.stderr.startswith("Traceback")
