@@ -234,6 +234,20 @@ mod tests {
     }
 
     #[test]
+    fn the_range_of_a_tilted_vehicle_is_not_its_height() {
+        let mut estimator = PositionEstimator { position: Vec3::new(0.0, 0.0, 5.0), ..PositionEstimator::default() };
+        let attitude = Quaternion::from_angles(Vec3::new(0.3, 0.2, 0.0));
+        let range = 5.0 / (0.3_f64.cos() * 0.2_f64.cos());
+        for beat in 1..=300 {
+            estimator.coast(beat * BEAT_US, attitude, BEAT);
+            let range = Some(Range::Ultrasonic(range));
+            let height = Height { time_us: beat * BEAT_US, range, barometer: 5.0 };
+            estimator.correct_height(&height, &Parameters::default());
+        }
+        assert!((estimator.position.z - 5.0).abs() < 1e-9, "{:?}", estimator.position);
+    }
+
+    #[test]
     fn the_first_fix_sets_the_position_and_old_fixes_invalidate_it() {
         let mut estimator = PositionEstimator::default();
         assert!(!estimator.is_valid(1_000_000));
