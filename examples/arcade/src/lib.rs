@@ -9,7 +9,7 @@
 //! | [`autopilot`] | estimation, navigation and control, once for each inertial reading |
 //! | [`flight_loop`] | the program: gates and the state file |
 //!
-//! All but the two programs is free of clocks, gates and threads, so `tests/flight` flies faster than real time.
+//! All but the two programs are free of clocks, gates and threads, so `tests/flight` flies faster than real time.
 
 pub mod autopilot;
 pub mod flight_loop;
