@@ -58,9 +58,9 @@ class Vehicle:
             state = "time -, mode -, east -, north -, height -"
         else:
             p = flight.position
-            where = f"east {p.x:.1f}, north {p.y:.1f}" if flight.position_valid else "east -, north -"
+            where = f"east {p.x:z.1f}, north {p.y:z.1f}" if flight.position_valid else "east -, north -"
             mode = MODES.get(flight.mode, "-")
-            state = f"time {flight.time_us / 1e6:.1f} s, mode {mode}, {where}, height {p.z:.1f} m"
+            state = f"time {flight.time_us / 1e6:.1f} s, mode {mode}, {where}, height {p.z:z.1f} m"
         charge = f"{power.charge_left:.0%}{LEVELS.get(power.level, '')}" if power else "-"
         command = AUTHORITIES.get(arbitration.authority, "-") if arbitration else "-"
         if arbitration and arbitration.authority == Authority.AUTHORITY_SAFETY:

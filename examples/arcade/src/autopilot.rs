@@ -105,7 +105,7 @@ impl FlightController {
     pub fn step(&mut self, reading: &Inertial) -> Option<Outputs> {
         let now = reading.time_us;
         if now + LONGEST_GAP_US < self.time_us {
-            // The world began anew.
+            // The vehicle's clock has started again.
             *self = Self { parameters: self.parameters, ..Self::default() };
         }
         if now <= self.time_us {

@@ -14,6 +14,8 @@ use std::time::Duration;
 /// When the simulation could not run for more steps than these, 20 ms, it goes on from there: many steps at once would be
 /// a flight without control.
 const MAX_MISSED: u64 = 6;
+/// Time begins when all parts are there, or without those that are not there by then.
+const PATIENCE: Duration = Duration::from_secs(20);
 const NMEA_PERIOD: u64 = (RATE / gps::RATE) as u64; // steps
 
 /// Runs the simulation until the program is stopped.
@@ -24,6 +26,9 @@ pub async fn run(mut gates: Simulator, settings: Settings, serial: Option<Serial
     let mut simulation = Simulation::new(&settings);
     let mut receiver = SerialReceiver { port: serial, receiver: Receiver::new(settings.seed) };
     let mut watch = Watch::default();
+    if let Err(missing) = gates.ready(PATIENCE).await {
+        println!("beginning without all parts: {missing}");
+    }
     let mut tick = scl::time::interval(Duration::from_secs(1) / RATE)?;
     loop {
         tick.tick().await?;

@@ -66,7 +66,7 @@ impl Flight {
         let (sender, events) = channel();
         // It begins first, so that no message is missing.
         let record = ["record", "--system", "arcade", "--overwrite", "--format", "json", "-o", file.to_str().unwrap()];
-        let recorder = spawn_recorder(&mut command(&system, &record));
+        let recorder = spawn_recorder(&mut command(&system, &record), "recording `arcade`");
         let folder = example("arcade");
         let arguments = [&["run", folder.to_str().unwrap()], arguments].concat();
         let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -218,13 +218,13 @@ pub(super) fn command(system: &System, arguments: &[&str]) -> Command {
     command
 }
 
-/// Starts a recorder, and waits until it waits for components.
-pub(super) fn spawn_recorder(command: &mut Command) -> Child {
+/// Starts a recorder, and waits until it prints this.
+pub(super) fn spawn_recorder(command: &mut Command, begun: &str) -> Child {
     let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines();
-    println!("{}", lines.next().unwrap().unwrap());
+    let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines().map(Result::unwrap);
+    assert!(lines.any(|line| line.contains(begun)), "{command:?} does not record");
     // So that it can print the others.
-    std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
+    std::thread::spawn(move || lines.for_each(drop));
     recorder
 }
 
