@@ -13,15 +13,15 @@ using mobility::Time;
 
 namespace {
 
-constexpr auto turn = 20ms;          // the longest time without a look at the clock: one slot
+constexpr auto turn = 20ms; // the longest time without a look at the clock: one slot
 constexpr auto publish_every = 100ms;
-// The radio falls silent when its configuration is not repeated for 500 ms. Repeated often, it also finds a radio that was
-// restarted, which does not know its channel.
+// The radio falls silent when its configuration is not repeated for 500 ms. Repeating it often also reaches a radio
+// that was restarted, which does not know its channel.
 constexpr auto configure_every = 50ms;
 
-std::vector<bool> occupied_channels(const ospecorr::Occupancy& occupancy) {
+std::vector<bool> occupied_channels(const ospecorr::Occupancy &occupancy) {
     std::vector<bool> occupied;
-    for (const auto& channel : occupancy.channels()) {
+    for (const auto &channel : occupancy.channels()) {
         occupied.push_back(channel.occupied());
     }
     return occupied;
@@ -30,9 +30,9 @@ std::vector<bool> occupied_channels(const ospecorr::Occupancy& occupancy) {
 // Tells the radio what was decided: at once after a change, and again and again.
 class RadioControl {
   public:
-    explicit RadioControl(scl::Req<ospecorr::Configuration, ospecorr::Configured>& gate) : gate_(gate) {}
+    explicit RadioControl(scl::Req<ospecorr::Configuration, ospecorr::Configured> &gate) : gate_(gate) {}
 
-    void apply(Time now, SpectrumMobility& mobility) {
+    void apply(Time now, SpectrumMobility &mobility) {
         auto wanted = std::pair(mobility.channel().value_or(0), mobility.transmit());
         if (is_applied_ && wanted == applied_ && now - applied_at_ < configure_every) {
             return;
@@ -63,7 +63,7 @@ class RadioControl {
     }
 
   private:
-    scl::Req<ospecorr::Configuration, ospecorr::Configured>& gate_;
+    scl::Req<ospecorr::Configuration, ospecorr::Configured> &gate_;
     std::pair<mobility::Channel, bool> applied_;
     bool is_applied_ = false;
     Time applied_at_;
@@ -73,9 +73,9 @@ class RadioControl {
 // Publishes the state of the link, ten times a second and when it changes.
 class LinkReport {
   public:
-    explicit LinkReport(scl::Pub<ospecorr::LinkState>& gate) : gate_(gate) {}
+    explicit LinkReport(scl::Pub<ospecorr::LinkState> &gate) : gate_(gate) {}
 
-    void publish(Time now, std::uint64_t time_us, const SpectrumMobility& mobility) {
+    void publish(Time now, std::uint64_t time_us, const SpectrumMobility &mobility) {
         auto state = std::tuple(mobility.channel(), mobility.transmit(), mobility.reason());
         bool changed = state != published_;
         if (!changed && now - published_at_ < publish_every) {
@@ -96,16 +96,16 @@ class LinkReport {
     }
 
   private:
-    static std::string describe(const SpectrumMobility& mobility) {
+    static std::string describe(const SpectrumMobility &mobility) {
         return mobility.transmit() ? "channel " + std::to_string(*mobility.channel()) : "silent";
     }
 
-    scl::Pub<ospecorr::LinkState>& gate_;
+    scl::Pub<ospecorr::LinkState> &gate_;
     std::optional<std::tuple<std::optional<mobility::Channel>, bool, std::string>> published_;
     Time published_at_;
 };
 
-ospecorr::RequirementsResult judge(const ospecorr::Requirements& requirements) {
+ospecorr::RequirementsResult judge(const ospecorr::Requirements &requirements) {
     ospecorr::RequirementsResult result;
     result.set_reason(refusal(requirements.rate(), requirements.longest_gap()));
     result.set_accepted(result.reason().empty());
@@ -114,14 +114,13 @@ ospecorr::RequirementsResult judge(const ospecorr::Requirements& requirements) {
 
 } // namespace
 
-void run(ospecorr::LinkOptimizer optimizer) {
-    scl::handle_stop();
+void run(ospecorr::LinkOptimizer optimizer, const std::function<bool()> &is_stopped) {
     SpectrumMobility mobility;
     StatisticsReader statistics(std::move(optimizer.map));
     RadioControl radio(optimizer.radio);
     LinkReport report(optimizer.link);
     std::uint64_t time_us = 0;
-    while (!scl::stop_requested()) {
+    while (!is_stopped()) {
         scl::wait(turn, optimizer.occupancy, optimizer.requirements);
         auto now = std::chrono::steady_clock::now();
         mobility.learn(statistics.newest());

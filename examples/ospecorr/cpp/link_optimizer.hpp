@@ -3,5 +3,7 @@
 
 #include "ospecorr.scl.hpp"
 
-// Runs until a stop is requested; then it silences the radio.
-void run(ospecorr::LinkOptimizer optimizer);
+#include <functional>
+
+// Runs until it is stopped; then it silences the radio.
+void run(ospecorr::LinkOptimizer optimizer, const std::function<bool()> &is_stopped);

@@ -5,5 +5,7 @@
 
 int main() {
     setlinebuf(stdout);
-    run(ospecorr::LinkOptimizer());
+    // So that the radio can still be silenced at the end.
+    scl::handle_stop();
+    run(ospecorr::LinkOptimizer(), scl::stop_requested);
 }

@@ -20,8 +20,9 @@ inline std::string refusal(double rate, double longest_gap, Capability capabilit
         std::snprintf(text, sizeof text, "%.0f bytes/s are more than the %.0f bytes/s that a channel carries", rate,
                       capability.rate);
     } else if (!(longest_gap >= capability.shortest_gap)) {
-        std::snprintf(text, sizeof text, "a longest gap of %g s is shorter than the %g s that a change of the channel takes",
-                      longest_gap, capability.shortest_gap);
+        std::snprintf(text, sizeof text,
+                      "a longest gap of %g s is shorter than the %g s that a change of the channel takes", longest_gap,
+                      capability.shortest_gap);
     }
     return text;
 }

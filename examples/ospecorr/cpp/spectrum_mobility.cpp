@@ -55,7 +55,7 @@ void SpectrumMobility::tick(Time now) {
     }
 }
 
-void SpectrumMobility::refused(Time now, const std::string& reason) {
+void SpectrumMobility::refused(Time now, const std::string &reason) {
     if (channel_) {
         leave(now, "the radio refuses " + name(*channel_) + ": " + reason);
     }
@@ -77,11 +77,11 @@ void SpectrumMobility::decide(Time now) {
         }
         return;
     }
-    // One decision of the detector is enough to fall silent, because silence protects the primary user and costs one slot. It
-    // takes a second one of three to leave: a single one may be a false alarm, and a primary user that pauses for a block
-    // is still there.
+    // One decision of the detector is enough to fall silent: that protects the primary user, and costs one slot. It
+    // takes a second one of three to leave: a single one may be a false alarm, and a primary user that pauses for a
+    // block is still there.
     auto alarms =
-        std::count_if(blocks_.begin(), blocks_.end(), [&](const auto& block) { return bool(block[*channel_]); });
+        std::count_if(blocks_.begin(), blocks_.end(), [&](const auto &block) { return bool(block[*channel_]); });
     if (alarms >= 2) {
         leave(now, name(*channel_) + " is occupied");
     } else {
@@ -89,7 +89,7 @@ void SpectrumMobility::decide(Time now) {
     }
 }
 
-void SpectrumMobility::leave(Time now, const std::string& why) {
+void SpectrumMobility::leave(Time now, const std::string &why) {
     if (channel_) {
         seen_[*channel_].left = now;
     }
@@ -110,7 +110,7 @@ void SpectrumMobility::leave(Time now, const std::string& why) {
     reason_ = why;
 }
 
-void SpectrumMobility::silence(const std::string& why) {
+void SpectrumMobility::silence(const std::string &why) {
     transmit_ = false;
     reason_ = why;
 }
@@ -120,7 +120,7 @@ std::optional<Channel> SpectrumMobility::choose(Time now, bool also_left) const 
     std::optional<Channel> best;
     std::tuple<double, double> best_cost;
     for (Channel candidate = 0; candidate < seen_.size(); candidate++) {
-        const auto& left = seen_[candidate].left;
+        const auto &left = seen_[candidate].left;
         if (!is_free(candidate) || (left && !also_left && now - *left < settings_.avoid_left)) {
             continue;
         }
@@ -137,7 +137,7 @@ std::optional<Channel> SpectrumMobility::choose(Time now, bool also_left) const 
 
 bool SpectrumMobility::is_free(Channel channel) const {
     return !blocks_.empty() &&
-           std::none_of(blocks_.begin(), blocks_.end(), [&](const auto& block) { return bool(block[channel]); });
+           std::none_of(blocks_.begin(), blocks_.end(), [&](const auto &block) { return bool(block[channel]); });
 }
 
 // From the resource map, or from what was seen here if the map does not answer.
@@ -145,7 +145,7 @@ Statistics SpectrumMobility::past(Time now, Channel channel) const {
     if (channel < statistics_.size()) {
         return statistics_[channel];
     }
-    const auto& seen = seen_[channel];
+    const auto &seen = seen_[channel];
     auto idle_since = seen.last_occupied.value_or(first_block_.value_or(now));
     return {seen.blocks > 0 ? seen.occupied / seen.blocks : 0, seconds(now - idle_since)};
 }

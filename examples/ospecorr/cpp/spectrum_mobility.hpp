@@ -47,18 +47,18 @@ class SpectrumMobility {
     void tick(Time now);
 
     // The radio does not work on this channel.
-    void refused(Time now, const std::string& reason);
+    void refused(Time now, const std::string &reason);
 
     // The decision: where to be, and whether to transmit there.
     std::optional<Channel> channel() const { return channel_; }
     bool transmit() const { return transmit_; }
-    const std::string& reason() const { return reason_; }
+    const std::string &reason() const { return reason_; }
     std::uint32_t changes() const { return changes_; }
 
   private:
     void decide(Time now);
-    void leave(Time now, const std::string& why);
-    void silence(const std::string& why);
+    void leave(Time now, const std::string &why);
+    void silence(const std::string &why);
     std::optional<Channel> choose(Time now, bool also_left) const;
     bool is_free(Channel channel) const;
     Statistics past(Time now, Channel channel) const;

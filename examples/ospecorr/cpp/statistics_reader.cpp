@@ -51,7 +51,7 @@ std::string StatisticsReader::ask() {
     auto reply = map_.call(query, error);
     std::vector<mobility::Statistics> statistics;
     if (reply && reply->error().empty()) {
-        for (const auto& channel : reply->channels()) {
+        for (const auto &channel : reply->channels()) {
             statistics.push_back({channel.occupied(), channel.mean_idle()});
         }
     }

@@ -15,8 +15,8 @@ class StatisticsReader {
 
     explicit StatisticsReader(Gate map) : map_(std::move(map)), thread_([this] { run(); }) {}
     ~StatisticsReader();
-    StatisticsReader(const StatisticsReader&) = delete;
-    StatisticsReader& operator=(const StatisticsReader&) = delete;
+    StatisticsReader(const StatisticsReader &) = delete;
+    StatisticsReader &operator=(const StatisticsReader &) = delete;
 
     // Those of all channels; empty if the resource map has not answered the last query.
     std::vector<mobility::Statistics> newest() const;

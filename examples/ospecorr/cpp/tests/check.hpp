@@ -8,7 +8,7 @@ inline int failures = 0;
 #define CHECK_EQUAL(actual, expected) check_equal((actual), (expected), #actual, __FILE__, __LINE__)
 
 template <class Actual, class Expected>
-void check_equal(const Actual& actual, const Expected& expected, const char* text, const char* file, int line) {
+void check_equal(const Actual &actual, const Expected &expected, const char *text, const char *file, int line) {
     if (!(actual == expected)) {
         std::cerr << file << ":" << line << ": " << text << " is `" << actual << "`, expected `" << expected << "`\n";
         failures++;

@@ -9,20 +9,20 @@ namespace {
 
 constexpr auto block_period = 20ms;
 
-// What the detector found in each channel (`x` is occupied; empty: no block came), and the decision that follows, such as `2 on`:
-// the channel, and whether the radio transmits there.
+// What the detector found in each channel (`x` is occupied; empty: no block came), and the decision that follows, such
+// as `2 on`: the channel, and whether the radio transmits there.
 struct Step {
     std::string block;
     std::string expected;
     int times = 1;
 };
 
-std::string decision(const SpectrumMobility& mobility) {
+std::string decision(const SpectrumMobility &mobility) {
     auto channel = mobility.channel();
     return (channel ? std::to_string(*channel) : "-") + (mobility.transmit() ? " on" : " off");
 }
 
-std::vector<bool> occupied(const std::string& block) {
+std::vector<bool> occupied(const std::string &block) {
     std::vector<bool> channels;
     for (char channel : block) {
         channels.push_back(channel == 'x');
@@ -32,9 +32,9 @@ std::vector<bool> occupied(const std::string& block) {
 
 Time now{1h};
 
-void play(const char* name, SpectrumMobility& mobility, const std::vector<Step>& steps) {
+void play(const char *name, SpectrumMobility &mobility, const std::vector<Step> &steps) {
     int number = 0;
-    for (const auto& step : steps) {
+    for (const auto &step : steps) {
         number++;
         for (int i = 0; i < step.times; i++) {
             now += block_period;
@@ -50,7 +50,7 @@ void play(const char* name, SpectrumMobility& mobility, const std::vector<Step>&
     }
 }
 
-void play(const char* name, const std::vector<Step>& steps, std::vector<Statistics> statistics = {}) {
+void play(const char *name, const std::vector<Step> &steps, std::vector<Statistics> statistics = {}) {
     SpectrumMobility mobility;
     mobility.start();
     mobility.learn(std::move(statistics));
@@ -63,19 +63,23 @@ const std::vector<Statistics> map = {{0.5, 1}, {0, 60}, {0.1, 10}};
 void moves() {
     play("start on the best free channel", {{"...", "1 on"}}, map);
     play("start beside a primary user", {{".x.", "2 on"}}, map);
-    play("start when no channel is free", {{"xxx", "- off"}, {"xxx", "- off"}, {".xx", "- off", 2}, {".xx", "0 on"}}, map);
+    play("start when no channel is free", {{"xxx", "- off"}, {"xxx", "- off"}, {".xx", "- off", 2}, {".xx", "0 on"}},
+         map);
     play("a false alarm costs one slot", {{"...", "1 on"}, {".x.", "1 off"}, {"...", "1 on"}, {"...", "1 on"}}, map);
     play("two blocks in succession", {{"...", "1 on"}, {".x.", "1 off"}, {".x.", "2 on"}, {".x.", "2 on", 500}}, map);
     play("two of three blocks", {{"...", "1 on"}, {".x.", "1 off"}, {"...", "1 on"}, {".x.", "2 on"}}, map);
     play("two of four blocks", {{"...", "1 on"}, {".x.", "1 off"}, {"...", "1 on", 2}, {".x.", "1 off"}}, map);
     play("no false alarm in the next channel", {{"...", "1 on"}, {".x.", "1 off"}, {".xx", "0 on"}}, map);
     play("a primary user in another channel", {{"...", "1 on"}, {"x.x", "1 on", 10}}, map);
-    play("not back at once", {{"...", "1 on"}, {".x.", "1 off"}, {".x.", "2 on"}, {"...", "2 on", 10}, {"..x", "2 off"},
-                              {"..x", "0 on"}}, map);
-    play("back after five seconds", {{"...", "1 on"}, {".x.", "1 off"}, {".x.", "2 on"}, {"...", "2 on", 250}, {"..x", "2 off"},
-                                     {"..x", "1 on"}}, map);
-    play("back at once if nothing else is free", {{"...", "1 on"}, {".x.", "1 off"}, {".x.", "2 on"}, {"x..", "2 on", 3},
-                                                  {"x.x", "2 off"}, {"x.x", "1 on"}}, map);
+    play("not back at once",
+         {{"...", "1 on"}, {".x.", "1 off"}, {".x.", "2 on"}, {"...", "2 on", 10}, {"..x", "2 off"}, {"..x", "0 on"}},
+         map);
+    play("back after five seconds",
+         {{"...", "1 on"}, {".x.", "1 off"}, {".x.", "2 on"}, {"...", "2 on", 250}, {"..x", "2 off"}, {"..x", "1 on"}},
+         map);
+    play("back at once if nothing else is free",
+         {{"...", "1 on"}, {".x.", "1 off"}, {".x.", "2 on"}, {"x..", "2 on", 3}, {"x.x", "2 off"}, {"x.x", "1 on"}},
+         map);
     play("wait for a free channel", {{"...", "1 on"}, {"xxx", "1 off", 4}, {"xx.", "1 off", 2}, {"xx.", "2 on"}}, map);
     play("another division of the band", {{"...", "1 on"}, {"xxxx.", "4 on"}}, map);
 }
@@ -89,10 +93,10 @@ void silent_detector() {
 
 void statistics() {
     play("equally occupied: the longer pauses", {{"...", "2 on"}}, {{0.20, 5}, {0.22, 4}, {0.21, 6}});
-    play("without the map: what was seen here", {{"...", "0 on"}, {"..x", "0 on", 20}, {"...", "0 on", 100}, {"x..", "0 off"},
-                                                 {"x..", "1 on"}});
-    play("without the map: the longer pause", {{"...", "0 on", 100}, {".x.", "0 on"}, {"...", "0 on", 100}, {"x..", "0 off"},
-                                               {"x..", "2 on"}});
+    play("without the map: what was seen here",
+         {{"...", "0 on"}, {"..x", "0 on", 20}, {"...", "0 on", 100}, {"x..", "0 off"}, {"x..", "1 on"}});
+    play("without the map: the longer pause",
+         {{"...", "0 on", 100}, {".x.", "0 on"}, {"...", "0 on", 100}, {"x..", "0 off"}, {"x..", "2 on"}});
     // A map of a smaller band says nothing about the rest of it.
     play("statistics for some channels", {{"xx.", "2 on"}}, {{0.1, 1}});
 }

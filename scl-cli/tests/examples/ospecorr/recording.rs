@@ -1,0 +1,60 @@
+//! A recorded session: what is true of the band, what the application got, and when each part started.
+
+use super::checks::Outage;
+use ::ospecorr::ospecorr::{Service, Truth};
+use mcap::{Message, MessageStream};
+use prost::Message as _;
+use std::path::Path;
+
+/// The messages of a session, in the order in which they were sent.
+#[derive(Default)]
+pub(super) struct Recording {
+    pub(super) truth: Vec<Truth>,
+    pub(super) service: Vec<Service>,
+    /// The first message of each process of a component, with the time of the band then.
+    pub(super) starts: Vec<(String, u64)>,
+}
+
+impl Recording {
+    pub(super) fn read(file: &Path) -> Self {
+        let bytes = std::fs::read(file).unwrap();
+        let mut recording = Self::default();
+        for message in MessageStream::new(&bytes).unwrap() {
+            recording.add(&message.unwrap());
+        }
+        recording
+    }
+
+    fn add(&mut self, message: &Message<'_>) {
+        let data = message.data.as_ref();
+        match message.channel.topic.as_str() {
+            "/spectrum/truth" => self.truth.push(Truth::decode(data).unwrap()),
+            "/application/service" => self.service.push(Service::decode(data).unwrap()),
+            // One gate of each of the other parts.
+            "/signal_detector/occupancy"
+            | "/link_optimizer/link"
+            | "/radio/state"
+            | "/resource_map/queries/request" => {}
+            _ => return,
+        }
+        if message.sequence == 0 {
+            let component = message.channel.topic.split('/').nth(1).unwrap();
+            self.starts.push((component.to_owned(), self.now_us()));
+        }
+    }
+
+    /// The time of the newest slot read.
+    fn now_us(&self) -> u64 {
+        self.truth.last().map_or(0, |truth| truth.time_us)
+    }
+
+    /// The part of the time in which the application was served, from its first service on, without outages.
+    pub(super) fn share_of_service(&self, outages: &[Outage]) -> f64 {
+        let since_first = self.service.iter().skip_while(|it| !it.served);
+        let counted: Vec<bool> = since_first
+            .filter(|it| it.time_us > 0 && !outages.iter().any(|outage| outage.disturbs(it.time_us)))
+            .map(|it| it.served)
+            .collect();
+        counted.iter().filter(|served| **served).count() as f64 / counted.len() as f64
+    }
+}

@@ -1,0 +1,170 @@
+//! A session of `examples/ospecorr` as real processes: `scl run` runs it, `scl record` writes it down, `scl echo` tells
+//! the time.
+
+use super::recording::Recording;
+use crate::system::{System, kill};
+use crate::{built, example};
+use scl_tests::wait_until;
+use serde_json::Value;
+use std::fmt::Write as _;
+use std::io::{BufRead, BufReader, Read};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Duration;
+
+/// A test that hears nothing for longer has failed.
+const HANG_LIMIT: Duration = Duration::from_secs(120);
+
+/// A running system with its recorder. Dropping it ends all processes.
+pub(super) struct Session {
+    system: System,
+    run: Child,
+    recorder: Child,
+    echo: Option<Child>,
+    file: PathBuf,
+    events: Receiver<Event>,
+    /// The newest time of the band.
+    time_us: u64,
+    /// What `scl run` has printed.
+    log: String,
+}
+
+enum Event {
+    /// A line of `scl run`, on standard output or standard error.
+    Line(String),
+    /// The time of the band.
+    Time(u64),
+}
+
+impl Session {
+    /// Builds and starts the radio, and waits until all components are ready. The recording gets this name.
+    pub(super) fn start(name: &str) -> Self {
+        let system = System::of_files(&[]);
+        std::fs::create_dir_all(built("ospecorr")).unwrap();
+        let file = built("ospecorr").join(name).with_extension("mcap");
+        let (sender, events) = channel();
+        // It begins first, so that no message is missing.
+        let record = ["record", "--system", "ospecorr", "--overwrite", "-o", file.to_str().unwrap()];
+        let recorder = spawn_recorder(&mut command(&system, &record));
+        let folder = example("ospecorr");
+        let arguments = ["run", folder.to_str().unwrap(), "--profile", "visits"];
+        let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        send_lines(run.stdout.take().unwrap(), &sender, Event::Line);
+        send_lines(run.stderr.take().unwrap(), &sender, Event::Line);
+        let mut session = Self { system, run, recorder, echo: None, file, events, time_us: 0, log: String::new() };
+        while !session.log.contains("scl: all components are ready") {
+            session.next();
+        }
+        let echo = ["echo", "spectrum.truth", "--system", "ospecorr", "--format", "json"];
+        let mut echo = command(&session.system, &echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+        send_lines(echo.stdout.take().unwrap(), &sender, |line| Event::Time(time_of(&line)));
+        session.echo = Some(echo);
+        session
+    }
+
+    /// Waits until this time of the band, in seconds.
+    pub(super) fn run_until(&mut self, seconds: f64) {
+        while (self.time_us as f64) < seconds * 1e6 {
+            self.next();
+        }
+    }
+
+    /// What happens next.
+    fn next(&mut self) {
+        let event = self.events.recv_timeout(HANG_LIMIT);
+        match event.unwrap_or_else(|_| panic!("nothing happens any more\n{}", self.log)) {
+            Event::Time(time_us) => self.time_us = time_us,
+            Event::Line(line) => {
+                writeln!(self.log, "{line}").unwrap();
+                assert!(!line.contains("not restarted:"), "{}", self.log);
+            }
+        }
+    }
+
+    /// Kills a component, and waits until another process has taken its place. Returns the time of the kill.
+    pub(super) fn kill(&self, component: &str) -> u64 {
+        let first = self.process_id(component).unwrap_or_else(|| panic!("`{component}` is not running\n{}", self.log));
+        kill("-KILL", first.try_into().unwrap());
+        wait_until(&format!("`{component}` runs again"), || self.process_id(component).is_some_and(|it| it != first));
+        self.time_us
+    }
+
+    /// The process of a component that runs.
+    fn process_id(&self, component: &str) -> Option<u64> {
+        let output = command(&self.system, &["list", "--system", "ospecorr", "--format", "json"]).output().unwrap();
+        let list: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let is_it = |it: &&Value| it["name"] == component && it["state"] == "running";
+        list["components"].as_array().unwrap().iter().find(is_it)?["pid"].as_u64()
+    }
+
+    /// Presses Ctrl-C, and returns what was recorded, and what `scl run` has printed.
+    pub(super) fn end(mut self) -> (Recording, String) {
+        kill("-INT", self.run.id());
+        let status = self.run.wait().unwrap();
+        let mut echo = self.echo.take().unwrap();
+        kill("-INT", echo.id());
+        echo.wait().unwrap();
+        // Up to the end of everything that prints.
+        while let Ok(event) = self.events.recv() {
+            if let Event::Line(line) = event {
+                writeln!(self.log, "{line}").unwrap();
+            }
+        }
+        assert!(status.success(), "{status}\n{}", self.log);
+        kill("-INT", self.recorder.id());
+        let mut report = String::new();
+        self.recorder.stdout.take().unwrap().read_to_string(&mut report).unwrap();
+        assert!(self.recorder.wait().unwrap().success(), "{report}");
+        (Recording::read(&self.file), std::mem::take(&mut self.log))
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        for process in self.echo.iter_mut().chain([&mut self.run, &mut self.recorder]) {
+            // One that has ended meanwhile is no problem here.
+            let _ = process.kill();
+            let _ = process.wait();
+        }
+    }
+}
+
+/// The time in a line of `scl echo`.
+fn time_of(line: &str) -> u64 {
+    let echoed: Value = serde_json::from_str(line).unwrap();
+    match &echoed["message"]["time_us"] {
+        Value::String(digits) => digits.parse().unwrap(),
+        number => number.as_u64().unwrap(),
+    }
+}
+
+/// `scl` in the folder of the example, whose topology and launch file the recording gets.
+fn command(system: &System, arguments: &[&str]) -> Command {
+    let mut command = system.scl(arguments);
+    command.current_dir(example("ospecorr"));
+    for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS", "SCL_LOG"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+/// Starts a recorder, and waits until it waits for components.
+fn spawn_recorder(command: &mut Command) -> Child {
+    let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines();
+    lines.next().unwrap().unwrap();
+    // So that it can print the others.
+    std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
+    recorder
+}
+
+fn send_lines(stream: impl Read + Send + 'static, sender: &Sender<Event>, event: fn(String) -> Event) {
+    let sender = sender.clone();
+    std::thread::spawn(move || {
+        for line in BufReader::new(stream).lines().map_while(Result::ok) {
+            // The test may have ended.
+            let _ = sender.send(event(line));
+        }
+    });
+}
