@@ -11,7 +11,7 @@ use std::path::Path;
 pub(super) struct Recording {
     pub(super) truth: Vec<Truth>,
     pub(super) service: Vec<Service>,
-    /// The first message of each process of a component, with the time of the band then.
+    /// The first message of each process of a component, and all replies of the resource map, with the time of the band then.
     pub(super) starts: Vec<(String, u64)>,
 }
 
@@ -27,6 +27,7 @@ impl Recording {
 
     fn add(&mut self, message: &Message<'_>) {
         let data = message.data.as_ref();
+        let mut is_first = message.sequence == 0;
         match message.channel.topic.as_str() {
             "/spectrum/truth" => self.truth.push(Truth::decode(data).unwrap()),
             "/application/service" => self.service.push(Service::decode(data).unwrap()),
