@@ -7,6 +7,7 @@ The kills are a list such as [{"component": "autopilot", "time_us": 21500000}].
 
 import argparse
 import json
+import math
 import sys
 from collections import defaultdict
 from collections.abc import Callable, Iterator
@@ -24,6 +25,8 @@ matplotlib.use("Agg")  # draws without a display
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+from matplotlib.ticker import MultipleLocator
 
 RATE = 300  # beats per second
 TOPICS = {
@@ -73,23 +76,28 @@ def read(file: Path, kills: Path | None) -> Recording:
 
 
 def draw_track(recording: Recording) -> Figure:
-    figure, axes = plt.subplots(figsize=(7, 5.6), layout="constrained")
-    targets = dict.fromkeys(
-        (round(flight.target.x, 2), round(flight.target.y, 2))
-        for flight in recording.messages["flight"]
-        if flight.mode == MODE_FLYING
-    )
-    for number, (east, north) in enumerate(targets, start=1):
-        axes.add_patch(plt.Circle((east, north), 1.0, color=ORANGE, alpha=0.25, label="1 m" if number == 1 else None))
-        axes.annotate(str(number), (east, north), xytext=(9, 9), textcoords="offset points", color=ORANGE)
+    figure, axes = plt.subplots(figsize=(6, 5.6), layout="constrained")
+    for number, (east, north) in enumerate(waypoints(recording.messages["flight"]), start=1):
+        label = "within 1 m of a waypoint" if number == 1 else None
+        axes.add_patch(Circle((east, north), 1.0, color=ORANGE, alpha=0.25, linewidth=0, label=label))
+        axes.annotate(str(number), (east, north), xytext=(10, 10), textcoords="offset points", color=ORANGE)
     plot_track(axes, recording, "flight", "estimate of the autopilot", color=BLUE, linewidth=1, linestyle="--")
     plot_track(axes, recording, "world", "true position", color="black", linewidth=1.3)
     axes.plot(0, 0, marker="+", color=RED, markersize=14, linestyle="none", label="home")
     axes.set(xlabel="east of home (m)", ylabel="north of home (m)", title="Track over ground", aspect="equal")
     axes.margins(0.08)
+    axes.xaxis.set_major_locator(MultipleLocator(5))
+    axes.yaxis.set_major_locator(MultipleLocator(5))
     axes.grid(alpha=0.3)
     axes.legend(loc="center", fontsize=8)
     return figure
+
+
+def waypoints(flights: list[Any]) -> list[tuple[float, float]]:
+    """Where the vehicle was sent, in this order; home aside."""
+    flying = [flight for flight in flights if flight.mode == MODE_FLYING]
+    targets = dict.fromkeys((round(flight.target.x, 1), round(flight.target.y, 1)) for flight in flying)
+    return [target for target in targets if math.hypot(*target) > 1.0]
 
 
 def plot_track(axes: Axes, recording: Recording, name: str, label: str, **style: Any) -> None:
@@ -104,8 +112,9 @@ def draw_height(recording: Recording) -> Figure:
     true = recording.values("world", lambda world: world.position.z)
     axes.plot(recording.times("world"), true, color="black", linewidth=1.3, label="true height")
     axes.set(xlabel="time since the start (s)", ylabel="height above home (m)", title="Height")
+    axes.set_ylim(top=1.4 * max(true))  # room for the names of the kills
     axes.legend(loc="lower center", fontsize=8)
-    finish(axes, recording)
+    mark_kills(axes, recording)
     return figure
 
 
@@ -127,18 +136,16 @@ def draw_battery(recording: Recording) -> Figure:
 
 
 def draw_periods(recording: Recording) -> Figure:
-    figure, axes = plt.subplots(figsize=(8, 3.8), layout="constrained")
+    figure, axes = plt.subplots(figsize=(8, 4), layout="constrained")
     beats = list(periods(recording.messages["beats"]))
     axes.plot(*zip(*beats, strict=True), marker=".", markersize=1.5, linestyle="none", color=BLUE, rasterized=True)
     axes.axhline(1e3 / RATE, color=GREY, linewidth=0.8)
     late = 1.5e3 / RATE
     axes.axhline(late, color=ORANGE, linewidth=0.8, linestyle="--")
     axes.annotate("late", (1, late), xycoords=("axes fraction", "data"), xytext=(4, -3), textcoords="offset points", color=ORANGE)
-    for start, end in pauses(recording.messages["flight"], recording.messages["beats"]):
-        axes.axvspan(start, end, color=RED, alpha=0.5)
-    axes.set(xlabel="time since the start (s)", ylabel="period (ms)", title="Period of the control loop")
-    axes.set_ylim(0, max(2e3 / RATE, 1.05 * max(period for _, period in beats)))
-    finish(axes, recording)
+    axes.set(xlabel="time since the start (s)", ylabel="period (ms)", title="Control loop: the period before each beat")
+    axes.set_ylim(0, 1.5 * max(late, *(period for _, period in beats)))
+    mark_kills(axes, recording)
     return figure
 
 
@@ -149,16 +156,7 @@ def periods(beats: list[Any]) -> Iterator[tuple[float, float]]:
             yield beat.time_us / 1e6, (beat.began_ns - before.began_ns) / 1e6
 
 
-def pauses(flights: list[Any], beats: list[Any]) -> Iterator[tuple[float, float]]:
-    """From when to when the autopilot did not run, because it was started again in the air."""
-    restarted = [b.time_us for a, b in zip(flights, flights[1:], strict=False) if b.restarts > a.restarts]
-    for time in restarted:
-        before = [beat.time_us for beat in beats if beat.time_us < time - 1e5]
-        yield max(before) / 1e6, time / 1e6
-
-
-def finish(axes: Axes, recording: Recording) -> None:
-    """Marks the kills."""
+def mark_kills(axes: Axes, recording: Recording) -> None:
     axes.grid(alpha=0.3)
     for kill in recording.kills:
         axes.axvline(kill.time, color=RED, linewidth=0.8, linestyle=":")

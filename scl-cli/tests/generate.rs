@@ -64,6 +64,37 @@ fn files_are_written_once() {
 }
 
 #[test]
+fn counterparts_are_generated_if_asked_for() {
+    let system = rover();
+    for (target, name, text) in [
+        ("c", "rover_scl.h", "scl_status rover_sensor_test(rover_sensor *self, rover_sensor_peer *peer);"),
+        ("cpp", "rover.scl.hpp", "struct SensorPeer : ::scl::Component {"),
+        ("python", "rover_scl.py", "class SensorPeer(_scl.Counterpart):"),
+    ] {
+        let generated = |arguments: &[&str], code: i32| {
+            let output = generate(&system, &[&["--for", target], arguments].concat());
+            assert_eq!(output.status.code(), Some(code), "{target} {arguments:?}: {output:?}");
+            std::fs::read_to_string(system.path(name)).unwrap()
+        };
+        assert!(!generated(&[], 0).contains(text));
+        generated(&["--testable", "--check"], 1);
+        let testable = generated(&["--testable"], 0);
+        assert!(testable.contains(text), "{testable}");
+        generated(&["--testable", "--check"], 0);
+        generated(&["--check"], 1);
+        assert!(!generated(&["--testable", "--component", "controller"], 0).contains(text));
+    }
+    check(
+        &system,
+        &["--for", "zmq", "--testable"],
+        2,
+        expect![[r#"
+            error: `--testable` is for `--for c`, `--for cpp` and `--for python` only
+        "#]],
+    );
+}
+
+#[test]
 fn without_a_folder_code_goes_into_the_current_one_and_zmq_to_standard_output() {
     let system = rover();
     for (target, name) in [("c", "rover_scl.h"), ("cpp", "rover.scl.hpp"), ("python", "rover_scl.py")] {

@@ -98,7 +98,7 @@ fn write_component(out: &mut Writer, component: &Component, messages: &Messages)
         write_opening(out, component);
         for gate in &component.gates {
             out.blank();
-            write_gate(out, gate, messages);
+            write_gate(out, gate, component.counterpart_of.is_some(), messages);
         }
     });
 }
@@ -133,9 +133,11 @@ fn write_opening(out: &mut Writer, component: &Component) {
     }
 }
 
-fn write_gate(out: &mut Writer, gate: &Gate, messages: &Messages) {
+fn write_gate(out: &mut Writer, gate: &Gate, is_counterpart: bool, messages: &Messages) {
     gate.doc.iter().for_each(|doc| write_comment(out, doc));
-    write_comment(out, &peers(gate));
+    if !is_counterpart {
+        write_comment(out, &peers(gate));
+    }
     if let Some(note) = bytes_note(gate) {
         write_comment(out, &note);
     }

@@ -1,8 +1,8 @@
 //! Generated C: its text, and what compilers say about it and about programs that use it wrongly.
 
-use crate::fixture::{generated, repository, run, system, text, topology};
+use crate::fixture::{generated, repository, run, system, testable, text, topology};
 use expect_test::{Expect, expect, expect_file};
-use scl_generate::{Target, generate, write};
+use scl_generate::{File, Target, generate, write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -24,6 +24,10 @@ fn generated_code_compiles_without_a_warning() {
         project.compiles("cc", &[&["-std=c11"], &STRICT[..], &[&source]].concat());
         project.compiles("c++", &[&["-std=c++17", "-x", "c++"], &STRICT[..], &[&source]].concat());
     }
+    let path = topology("every_kind.yaml");
+    let project = Project::with(&path, &testable(&path, Target::C));
+    project.compiles("cc", &[&["-std=c11"], &STRICT[..], &["every_kind_scl.c"]].concat());
+    project.compiles("c++", &[&["-std=c++17", "-x", "c++"], &STRICT[..], &["every_kind_scl.c"]].concat());
 }
 
 #[test]
@@ -134,9 +138,14 @@ pub(crate) struct Project {
 
 impl Project {
     pub(crate) fn of(topology: &Path) -> Self {
+        Self::with(topology, &generated(topology, Target::C))
+    }
+
+    /// With these files of generated code.
+    pub(crate) fn with(topology: &Path, files: &[File]) -> Self {
         let project = Self { folder: tempfile::tempdir().unwrap() };
-        for file in generated(topology, Target::C) {
-            write(project.path(), &file).unwrap();
+        for file in files {
+            write(project.path(), file).unwrap();
         }
         let schemas = system(topology).descriptors.unwrap_or_default();
         let names = schemas.file.iter().map(|file| file.name().to_owned());

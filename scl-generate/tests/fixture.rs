@@ -29,6 +29,14 @@ pub(crate) fn generated(path: &Path, target: Target) -> Vec<File> {
     generate(&system(path), target).unwrap()
 }
 
+/// The same with counterparts for unit tests.
+#[track_caller]
+pub(crate) fn testable(path: &Path, target: Target) -> Vec<File> {
+    let mut system = system(path);
+    system.make_testable();
+    generate(&system, target).unwrap()
+}
+
 /// The text of one of the files.
 #[track_caller]
 pub(crate) fn text(files: &[File], name: &str) -> String {
@@ -37,12 +45,22 @@ pub(crate) fn text(files: &[File], name: &str) -> String {
 
 /// The clashes of names in a topology of this text, as `scl generate` shows them.
 pub(crate) fn clashes(yaml: &str, schema: &str, target: Target) -> String {
+    clashes_after(yaml, schema, target, |_| {})
+}
+
+/// The same with counterparts for unit tests.
+pub(crate) fn clashes_of_testable(yaml: &str, schema: &str, target: Target) -> String {
+    clashes_after(yaml, schema, target, System::make_testable)
+}
+
+fn clashes_after(yaml: &str, schema: &str, target: Target, change: fn(&mut System)) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("topology.yaml");
     std::fs::write(&path, yaml).unwrap();
     std::fs::write(folder.path().join("rover.proto"), schema).unwrap();
     let loaded = load(&Request { shown_as: "topology.yaml".to_owned(), ..Request::new(path) });
-    let system = System::of(&loaded).unwrap_or_else(|| panic!("{}", problems(&loaded)));
+    let mut system = System::of(&loaded).unwrap_or_else(|| panic!("{}", problems(&loaded)));
+    change(&mut system);
     let clashes = generate(&system, target).err().unwrap_or_default();
     clashes.iter().map(|clash| render(clash, &loaded.sources) + "\n").collect()
 }

@@ -9,5 +9,6 @@ mod cpp;
 mod cpp_names;
 mod fixture;
 mod python;
+mod testable;
 mod writing;
 mod zmq;

@@ -27,6 +27,7 @@ pub struct OpenOptions {
     system: Option<String>,
     medium: Option<Medium>,
     transport: Option<Arc<dyn Transport>>,
+    is_test: bool,
 }
 
 impl OpenOptions {
@@ -60,6 +61,18 @@ impl OpenOptions {
     pub fn transport(mut self, transport: impl Transport) -> Self {
         self.transport = Some(Arc::new(transport));
         self
+    }
+
+    /// For `test()`: on this transport, a component is alone with its counterpart, which plays all peers of a gate at the
+    /// endpoint of its first connection. The other connections are left out, and what nobody receives is no warning.
+    #[cfg(feature = "memory")]
+    #[doc(hidden)]
+    pub fn of_test(transport: crate::transport::memory::Memory) -> Self {
+        Self { is_test: true, ..Self::new().transport(transport) }
+    }
+
+    pub(crate) fn is_test(&self) -> bool {
+        self.is_test
     }
 
     pub(crate) fn chosen_transport(&self) -> Option<Arc<dyn Transport>> {

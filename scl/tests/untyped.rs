@@ -4,6 +4,7 @@
 mod asynchronous;
 mod blocking;
 mod changes;
+mod counterpart;
 mod ending_calls;
 mod ending_race;
 mod errors;

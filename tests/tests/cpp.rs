@@ -3,6 +3,7 @@
 pub(crate) mod build;
 mod checks;
 mod cmake;
+mod counterparts;
 mod json;
 mod misuse;
 mod page;

@@ -37,6 +37,7 @@ mod stats;
 mod strangers;
 mod subscribers;
 mod taps;
+mod testing_page;
 mod threads;
 mod unit;
 mod untyped;

@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod calls;
+mod counterpart;
 mod event_loop;
 mod header;
 mod leaks;

@@ -48,7 +48,9 @@ int main(int count, char **arguments) {
     if (status == SCL_OK) {
         open_state(&self.state); /* after opening, so that no second autopilot writes it */
         autopilot_begin(&self);
-        status = autopilot_run(&self);
+        while (status == SCL_OK) {
+            status = autopilot_turn(&self);
+        }
         resume_close(&self.state);
     }
     if (status != SCL_STOPPED) {

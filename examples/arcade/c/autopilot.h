@@ -13,13 +13,14 @@ typedef struct autopilot {
     flight_controller saved; /* by the process before this one */
     bool has_saved;
     uint64_t last_reading_ns; /* CLOCK_MONOTONIC */
-    bool silent;              /* and reported */
+    bool silent;              /* readings are missing, and that is reported */
+    Arcade__Mode mode;        /* that is reported */
 } autopilot;
 
 /* Reads what the process before this one has saved. `gates` and `state` are open. */
 void autopilot_begin(autopilot *self);
 
-/* Works until a stop request or a failure. */
-scl_status autopilot_run(autopilot *self);
+/* Waits for readings and requests, at most 200 ms, and handles what there is. Returns `SCL_OK`, or why the program has to end. */
+scl_status autopilot_turn(autopilot *self);
 
 #endif

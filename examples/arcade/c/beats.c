@@ -5,17 +5,16 @@
 #include "autopilot.h"
 #include "clock.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 
-static const int64_t SILENCE = 100000000; /* ns: after 30 missing readings it is reported */
-/* A reading that is older than the last by more than this is from a simulator that was started again. */
-static const uint64_t CLOCK_RESTART_US = 1000000;
+/* ns: without readings for this long the autopilot says so, and refuses commands. */
+static const int64_t SILENCE = 200000000;
 
 void autopilot_begin(autopilot *self) {
     self->controller = flight_controller_new();
     self->has_saved = resume_load(&self->state, &self->saved);
     self->last_reading_ns = clock_ns();
-    printf("waiting for readings\n");
 }
 
 /* A message that cannot be decoded is reported and passed over. Returns true for failures that end the program. */
@@ -93,36 +92,44 @@ static scl_status send_beat(autopilot *self, uint64_t began_ns, uint64_t sent_ns
     return arcade_autopilot_beats_send(&self->gates, &message, 0);
 }
 
-/* At the first reading: goes on where the process before this one was killed, if that was in the air and a moment ago. */
-static void resume_flight(autopilot *self, uint64_t reading_us) {
+/* At the first reading: carries on where the process before this one was killed, if that was in the air and a moment ago. */
+static void begin_at(autopilot *self, uint64_t reading_us) {
     if (self->has_saved && flight_controller_can_resume(&self->saved, reading_us)) {
         self->controller = self->saved;
         self->controller.restarts++;
-        printf("restarted in the air after %.0f ms, command %u in effect\n",
-               (double)(reading_us - self->saved.time_us) * 1e-3, self->saved.navigator.command_id);
+        self->mode = self->controller.navigator.mode;
+        uint64_t paused_us = reading_us - self->saved.time_us;
+        printf("carrying on in the air after %" PRIu64 " ms without control\n", paused_us / 1000);
     } else {
-        printf("on the ground\n");
+        printf("ready on the ground\n");
     }
     self->has_saved = false;
 }
 
-static void report_mode(Arcade__Mode before, Arcade__Mode now) {
-    static const char *const NAMES[] = {"on the ground", "taking off", "flying", "landing"};
-    if (now != before) {
-        printf("%s\n", NAMES[now]);
+/* One line when the mode changes. */
+static void report_mode(autopilot *self) {
+    const navigator *navigator = &self->controller.navigator;
+    vector position = self->controller.position.position;
+    if (navigator->mode == self->mode) {
+        return;
+    }
+    self->mode = navigator->mode;
+    if (navigator->mode == ARCADE__MODE__MODE_TAKING_OFF) {
+        printf("taking off to %.1f m\n", navigator->target.z);
+    } else if (navigator->mode == ARCADE__MODE__MODE_FLYING) {
+        printf("flying at %.1f m\n", position.z);
+    } else if (navigator->mode == ARCADE__MODE__MODE_LANDING) {
+        printf("landing from %.1f m\n", position.z);
+    } else {
+        printf("landed, %.2f m from home\n", vector_horizontal(position));
     }
 }
 
 static scl_status beat(autopilot *self, const Arcade__Inertial *reading, uint64_t began_ns) {
-    if (reading->time_us + CLOCK_RESTART_US < self->controller.time_us) {
-        printf("the vehicle's clock has begun anew\n");
-        self->controller = flight_controller_new();
-    }
     if (self->controller.time_us == 0) {
-        resume_flight(self, reading->time_us);
+        begin_at(self, reading->time_us);
     }
     scl_status status = take_inputs(self);
-    Arcade__Mode mode = self->controller.navigator.mode;
     outputs outputs;
     if (status != SCL_OK || !flight_controller_step(&self->controller, reading, &outputs)) {
         return status;
@@ -136,7 +143,7 @@ static scl_status beat(autopilot *self, const Arcade__Inertial *reading, uint64_
     if (!is_fatal(status)) {
         status = send_beat(self, began_ns, sent_ns);
     }
-    report_mode(mode, self->controller.navigator.mode);
+    report_mode(self);
     return is_fatal(status) ? status : SCL_OK;
 }
 
@@ -155,15 +162,24 @@ static scl_status take_readings(autopilot *self) {
     return is_fatal(status) ? status : SCL_OK;
 }
 
+static bool is_silent(const autopilot *self) {
+    return clock_ns() > self->last_reading_ns + (uint64_t)SILENCE;
+}
+
 static scl_status answer_requests(autopilot *self) {
     arcade_autopilot_control_request request;
     scl_status status;
     while ((status = arcade_autopilot_control_take_request(&self->gates, &request, 0)) == SCL_OK) {
-        char reason[COMMANDS_REASON_SIZE] = "";
+        char reason[COMMANDS_REASON_SIZE] = "no inertial readings";
         Arcade__CommandResult result = ARCADE__COMMAND_RESULT__INIT;
-        result.accepted = flight_controller_receive_command(&self->controller, request.message, reason);
         result.reason = reason;
-        printf("command %u: %s%s\n", request.message->id, result.accepted ? "accepted" : "refused: ", reason);
+        result.accepted =
+            !is_silent(self) && flight_controller_receive_command(&self->controller, request.message, reason);
+        if (result.accepted) {
+            result.reason = "";
+        } else {
+            printf("command %" PRIu32 " refused: %s\n", request.message->id, reason);
+        }
         status = arcade_autopilot_control_reply(&request, &result);
         if (is_fatal(status)) {
             break;
@@ -172,31 +188,25 @@ static scl_status answer_requests(autopilot *self) {
     return is_fatal(status) ? status : SCL_OK;
 }
 
-/* One line when readings begin to be missing, and one when they are back. */
+/* One line when readings begin to be missing. */
 static void report_silence(autopilot *self) {
-    bool silent = clock_ns() - self->last_reading_ns > (uint64_t)SILENCE;
+    bool silent = is_silent(self);
     if (silent && !self->silent) {
-        fprintf(stderr, "warning: no inertial readings\n");
-    } else if (!silent && self->silent) {
-        printf("inertial readings are back\n");
+        printf("no inertial readings for %d ms\n", (int)(SILENCE / 1000000));
     }
     self->silent = silent;
 }
 
-scl_status autopilot_run(autopilot *self) {
-    while (true) {
-        uint64_t ready;
-        scl_status status =
-            arcade_autopilot_wait(&self->gates, ARCADE_AUTOPILOT_IMU | ARCADE_AUTOPILOT_CONTROL, SILENCE, &ready);
-        if (status == SCL_OK) {
-            status = take_readings(self);
-        }
-        if (status == SCL_OK) {
-            status = answer_requests(self);
-        }
-        if (status != SCL_OK && status != SCL_TIMEOUT) {
-            return status;
-        }
-        report_silence(self);
+scl_status autopilot_turn(autopilot *self) {
+    uint64_t ready;
+    scl_status status =
+        arcade_autopilot_wait(&self->gates, ARCADE_AUTOPILOT_IMU | ARCADE_AUTOPILOT_CONTROL, SILENCE, &ready);
+    if (status == SCL_OK) {
+        status = take_readings(self);
     }
+    if (status == SCL_OK) {
+        status = answer_requests(self);
+    }
+    report_silence(self);
+    return status == SCL_TIMEOUT ? SCL_OK : status;
 }

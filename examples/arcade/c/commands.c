@@ -63,6 +63,9 @@ bool commands_check(const command *command, situation situation, const parameter
     if (!vector_is_finite(command->target) || !isfinite(command->yaw) || !isfinite(command->speed)) {
         return refuse(reason, "a value is not a finite number");
     }
+    if (command->id == 0) {
+        return refuse(reason, "the command has no id");
+    }
     switch (command->action) {
     case ARCADE__ACTION__ACTION_TAKE_OFF:
         return check_take_off(command, situation, parameters, reason);

@@ -50,7 +50,7 @@ static bool is_known(const flight_controller *self, uint32_t id) {
 bool flight_controller_receive_command(flight_controller *self, const Arcade__Command *message,
                                        char reason[COMMANDS_REASON_SIZE]) {
     command command = command_from_message(message);
-    if (is_known(self, command.id)) {
+    if (command.id != 0 && is_known(self, command.id)) {
         return true;
     }
     if (!commands_check(&command, situation_of(self), &self->parameters, reason)) {
@@ -133,9 +133,20 @@ estimate flight_controller_estimate(const flight_controller *self) {
     };
 }
 
+/* The clock has gone back: the simulated world began anew. */
+static void start_anew(flight_controller *self) {
+    parameters parameters = self->parameters;
+    *self = flight_controller_new();
+    self->parameters = parameters;
+}
+
 bool flight_controller_step(flight_controller *self, const Arcade__Inertial *message, outputs *outputs) {
     inertial_reading reading = inertial_from_message(message);
-    uint64_t before = self->time_us, now = reading.time_us;
+    uint64_t now = reading.time_us;
+    if (now + LONGEST_GAP_US < self->time_us) {
+        start_anew(self);
+    }
+    uint64_t before = self->time_us;
     if (now <= before) {
         return false;
     }

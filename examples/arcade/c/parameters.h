@@ -11,7 +11,7 @@
     X(rate_p, "rate.roll_pitch.p", 0.06) \
     X(rate_i, "rate.roll_pitch.i", 0.1) \
     X(rate_d, "rate.roll_pitch.d", 0.001) \
-    X(yaw_rate_p, "rate.yaw.p", 0.25) \
+    X(yaw_rate_p, "rate.yaw.p", 0.15) \
     X(yaw_rate_i, "rate.yaw.i", 0.1) \
     /* Attitude to angular rates: rad/s for 1 rad. */ \
     X(attitude_p, "attitude.p", 6.0) \

@@ -31,17 +31,18 @@ void position_coast(position_estimator *self, uint64_t time_us, quaternion attit
     remember(self, time_us, attitude);
 }
 
-/* The newest estimate that is not newer than `time_us`, or else the oldest one. */
-static past_estimate past_at(const position_estimator *self, uint64_t time_us) {
-    past_estimate found = self->history[(self->next + POSITION_HISTORY - 1) % POSITION_HISTORY];
-    for (size_t age = 2; age <= POSITION_HISTORY; age++) {
-        past_estimate older = self->history[(self->next + POSITION_HISTORY - age) % POSITION_HISTORY];
-        if (found.time_us <= time_us || older.time_us == 0) {
-            break;
+/*
+ * The newest estimate that is not newer than `time_us`. NULL if it is older than all of them, for example because it is of the time
+ * before a restart.
+ */
+static const past_estimate *past_at(const position_estimator *self, uint64_t time_us) {
+    for (size_t age = 1; age <= POSITION_HISTORY; age++) {
+        const past_estimate *past = &self->history[(self->next + POSITION_HISTORY - age) % POSITION_HISTORY];
+        if (past->time_us != 0 && past->time_us <= time_us) {
+            return past;
         }
-        found = older;
     }
-    return found;
+    return NULL;
 }
 
 /* The seconds from the last measurement to this one, within what the filters bear. */
@@ -66,10 +67,13 @@ static double measured_height(position_estimator *self, const height_reading *he
 }
 
 void position_correct_height(position_estimator *self, const height_reading *height, const parameters *parameters) {
-    past_estimate past = past_at(self, height->time_us);
+    const past_estimate *past = past_at(self, height->time_us);
+    if (past == NULL) {
+        return;
+    }
     double elapsed = step(self->height_us, height->time_us);
     self->height_us = height->time_us;
-    double error = measured_height(self, height, past.upright, elapsed, parameters) - past.position.z;
+    double error = measured_height(self, height, past->upright, elapsed, parameters) - past->position.z;
     if (!isfinite(error)) {
         return;
     }
@@ -95,16 +99,19 @@ void position_correct_fix(position_estimator *self, const fix_reading *fix, cons
     if (!vector_is_finite(position) || !vector_is_finite(velocity)) {
         return;
     }
-    uint64_t last_us = self->fix_us;
-    self->fix_us = fix->time_us;
-    if (last_us == 0) {
+    if (self->fix_us == 0) {
         start_at(self, position, velocity);
+        self->fix_us = fix->time_us;
         return;
     }
-    past_estimate past = past_at(self, fix->time_us);
-    double elapsed = step(last_us, fix->time_us);
-    vector position_error = vector_subtract(position, past.position);
-    vector velocity_error = vector_subtract(velocity, past.velocity);
+    const past_estimate *past = past_at(self, fix->time_us);
+    if (past == NULL) {
+        return;
+    }
+    double elapsed = step(self->fix_us, fix->time_us);
+    self->fix_us = fix->time_us;
+    vector position_error = vector_subtract(position, past->position);
+    vector velocity_error = vector_subtract(velocity, past->velocity);
     position_error.z = 0.0;
     velocity_error.z = 0.0;
     double position_share = limit(parameters->position_correction * elapsed, 1.0);

@@ -13,6 +13,8 @@ class BlackBox {
     void drain(arcade::Blackbox& component);
     /// Logs the beats since the last call and flushes the log; to be called once a second.
     void flush();
+    /// The beats since the start.
+    const BeatStatistics& beats() const { return total_; }
     /// One line about everything since the start.
     std::string summary() const;
 

@@ -25,10 +25,10 @@ std::uint64_t number_of(const std::filesystem::path& file) {
 
 void RingLog::append(std::string line) {
     line += '\n';
-    waiting_ += line.size();
+    bytes_ += line.size();
     lines_.push_back(std::move(line));
-    while (waiting_ > MEMORY) {
-        waiting_ -= lines_.front().size();
+    while (bytes_ > MEMORY) {
+        bytes_ -= lines_.front().size();
         lines_.pop_front();
         lost_++;
     }
@@ -63,7 +63,7 @@ bool RingLog::write_lines() {
             return false;
         }
         (fits ? written_ : lost_)++;
-        waiting_ -= line.size();
+        bytes_ -= line.size();
         lines_.pop_front();
     }
     return true;

@@ -21,6 +21,7 @@ class RingLog {
     /// Hands all lines to the operating system. Returns what has changed: that it does not work, or works again.
     std::optional<std::string> flush();
 
+    std::size_t waiting() const { return lines_.size(); }
     std::uint64_t written() const { return written_; } // lines
     std::uint64_t lost() const { return lost_; }       // lines
     std::filesystem::path file(unsigned which) const { return folder_ / (which == 0 ? "0.jsonl" : "1.jsonl"); }
@@ -37,7 +38,7 @@ class RingLog {
     std::filesystem::path folder_;
     std::uint64_t size_;
     std::deque<std::string> lines_;
-    std::size_t waiting_ = 0; // bytes of `lines_`
+    std::size_t bytes_ = 0; // of `lines_`
     std::uint64_t written_ = 0, lost_ = 0, lost_before_ = 0;
     bool works_ = true;
 

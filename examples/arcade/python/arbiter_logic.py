@@ -180,7 +180,7 @@ class Arbiter:
             if flight and waiting.tried and flight.command_id == command.id:
                 # The autopilot had accepted it, but its reply was lost.
                 actions += self._accept(waiting, Asked(command, None, waiting))
-            elif refusal := self._refusal(waiting.request):
+            elif refusal := self._refusal(now, waiting.request):
                 actions += self._refuse(waiting, refusal)
             elif now >= waiting.deadline:
                 actions += self._refuse(waiting, waiting.problem)
@@ -191,7 +191,7 @@ class Arbiter:
                 actions.append(self._pass_on(flight, waiting, min(ASK_TIMEOUT, waiting.deadline - now)))
         return actions
 
-    def _refusal(self, request: Requested) -> str | None:
+    def _refusal(self, now: float, request: Requested) -> str | None:
         """Returns the reason if the request cannot be passed on."""
         if self._flight is None:
             return None
@@ -199,7 +199,8 @@ class Arbiter:
             return f"safety commands the vehicle: {self._reason}"
         if self.authority == Authority.AUTHORITY_GROUND and request.source != Authority.AUTHORITY_GROUND:
             return f"the ground station commands the vehicle: {self._reason}"
-        return request_checks.refusal(request.source, request.command, self._flight, self._power, self.values)
+        power = self._power if now - self._power_at <= safety.POWER_SILENCE else None
+        return request_checks.refusal(request.source, request.command, self._flight, power, self.values)
 
     def _pass_on(self, flight: Flight, waiting: Waiting, timeout: float) -> Ask:
         request, course = waiting.request, None

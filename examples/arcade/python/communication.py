@@ -2,14 +2,17 @@
 
 import argparse
 import asyncio
+import os
 import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from typing import cast
 
 import scl
 
 from arcade_scl import Action, Command, Communication, ParameterChange
+from gates import newest, until_first_ends
 from ground_link import GoHome, LandHere, SetParameter, Vehicle, next_id, understand
 
 Answer = Callable[[str], None]  # takes the answer to a command
@@ -25,21 +28,21 @@ class Link:
         self.commands: asyncio.Queue[tuple[str, Answer]] = asyncio.Queue(maxsize=16)
 
     async def run(self) -> None:
-        await asyncio.gather(self.report(), self.obey())
+        await until_first_ends(self.report(), self.obey())
 
     async def report(self) -> None:
-        """One line a second, whoever is silent."""
+        """One line a second, also while other components are silent."""
         while True:
             await asyncio.sleep(1.0 - time.monotonic() % 1.0)
             self.look()
             print(self.vehicle.line(time.monotonic()), flush=True)
 
     def look(self) -> None:
-        now, vehicle = time.monotonic(), self.vehicle
-        vehicle.flight.keep(self.c.flight.latest(), now)
-        vehicle.fix.keep(self.c.fix.latest(), now)
-        vehicle.power.keep(self.c.power.latest(), now)
-        vehicle.arbitration.keep(self.c.arbitration.latest(), now)
+        now, vehicle, c = time.monotonic(), self.vehicle, self.c
+        vehicle.flight.keep(newest(c.flight), now)
+        vehicle.fix.keep(newest(c.fix), now)
+        vehicle.power.keep(newest(c.power), now)
+        vehicle.arbitration.keep(newest(c.arbitration), now)
 
     def take(self, text: str, answer: Answer) -> None:
         """Queues a command. The link does not grow without end when nobody answers."""
@@ -67,13 +70,14 @@ class Link:
                     return f"{name} is {value:g}" if result.accepted else f"refused: {result.reason}"
                 case problem:
                     return f"error: {problem}"
-        except (scl.Timeout, scl.PeerLost) as error:
+        except (scl.Timeout, scl.PeerLost, scl.DecodeError) as error:
             return f"error: no answer: {error}"
 
     async def command(self, action: Action) -> str:
         self.look()
         flight = self.vehicle.flight.message
-        self.last_id = next_id(max(self.last_id, flight.command_id if flight else 0))
+        # Two commands may follow each other faster than the autopilot reports the first one.
+        self.last_id = max(self.last_id + 1, next_id(flight.command_id if flight else 0))
         result = await self.c.arbiter.call_async(Command(id=self.last_id, action=action))
         return "accepted" if result.accepted else f"refused: {result.reason}"
 
@@ -85,8 +89,7 @@ class Datagrams(asyncio.DatagramProtocol):
         self.link = link
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        assert isinstance(transport, asyncio.DatagramTransport)
-        self.transport = transport
+        self.transport = cast(asyncio.DatagramTransport, transport)
 
     def datagram_received(self, data: bytes, sender: tuple[str, int]) -> None:
         text = data[:200].decode(errors="replace").strip()
@@ -98,13 +101,13 @@ class Datagrams(asyncio.DatagramProtocol):
         self.link.take(text, answer)
 
 
-def read_terminal(link: Link) -> None:
-    """Takes the line that was typed; at the end of the input the link goes on without it."""
-    text = sys.stdin.readline()
-    if text:
-        link.take(text.strip(), lambda answered: print(answered, flush=True))
-    else:
-        asyncio.get_running_loop().remove_reader(sys.stdin)
+def read_terminal(link: Link, terminal: int) -> None:
+    """Takes the lines that were typed; at the end of the input the link goes on without it."""
+    typed = os.read(terminal, 4096)
+    if not typed:
+        asyncio.get_running_loop().remove_reader(terminal)
+    for text in typed.decode(errors="replace").splitlines():
+        link.take(text, lambda answered: print(answered, flush=True))
 
 
 async def serve(c: Communication, port: int | None) -> None:
@@ -112,7 +115,7 @@ async def serve(c: Communication, port: int | None) -> None:
     if port is not None:
         await loop.create_datagram_endpoint(lambda: Datagrams(link), local_addr=("127.0.0.1", port))
     if sys.stdin.isatty():
-        loop.add_reader(sys.stdin, read_terminal, link)
+        loop.add_reader(sys.stdin.fileno(), read_terminal, link, sys.stdin.fileno())
     await link.run()
 
 

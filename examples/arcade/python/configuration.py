@@ -41,6 +41,8 @@ class Store:
 
 
 def run(component: Configuration, store: Store) -> None:
+    changed = sum(value != parameters.DEFAULTS[name] for name, value in store.values.items())
+    print(f"{len(store.values)} parameters, {changed} differ from their defaults")
     next_publication = time.monotonic()
     while True:
         now = time.monotonic()

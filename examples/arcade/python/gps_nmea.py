@@ -1,99 +1,66 @@
 """The GPS receiver at a serial line: publishes what its NMEA sentences say."""
 
 import argparse
-import os
 import select
-import stat
 import sys
 import time
-import tty
 from contextlib import suppress
 from pathlib import Path
 
 from arcade_scl import GpsSensor
+from gates import newest
 from nmea import Receiver
+from serial_source import BAUD, Source, open_source
 
-RETRY = 0.2  # s between two attempts to open the device, or to read on at the end of a file
+RETRY = 0.2  # s between two attempts to open the device
 REPORT = 1.0  # s between two reports of sentences that are no use
 
 
-def open_device(path: Path) -> int | None:
-    """The device, or `None` while there is none."""
-    try:
-        # A terminal without a carrier would not open otherwise, and must not become the one that controls this program.
-        device = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY)
-    except OSError:
-        return None
-    if os.isatty(device):
-        # Bytes as they come: no echo, and no waiting for the end of a line.
-        tty.setraw(device)
-    return device
-
-
-def read_device(device: int, path: Path) -> bytes | None:
-    """What has arrived, or `None` if the device has vanished or was replaced."""
-    try:
-        data = os.read(device, 4096)
-        if data:
-            return data
-        # The end of a file, which may grow; a device at its end has gone.
-        here, there = os.fstat(device), path.stat()
-        same = (here.st_dev, here.st_ino) == (there.st_dev, there.st_ino) and stat.S_ISREG(here.st_mode)
-        return b"" if same else None
-    except BlockingIOError:
-        return b""
-    except OSError:
-        return None
-
-
 class Reader:
-    """The loop: waits for the device, reads it, and publishes."""
+    """Waits for the device, reads it, and publishes fixes."""
 
-    def __init__(self, c: GpsSensor, path: Path) -> None:
-        self.c, self.path = c, path
+    def __init__(self, component: GpsSensor, path: Path, baud: int) -> None:
+        self.component, self.path, self.baud = component, path, baud
         self.receiver = Receiver()
-        self.device: int | None = None
-        self.waiting = False
-        # The vehicle's clock is that of the world's newest message: a receiver knows the time of day, and nothing else of it.
+        self.source: Source | None = None
+        self.is_missing = False  # and that was said
+        # A receiver knows the time of day, and nothing of the vehicle's clock. The newest message of the world tells that.
         self.time_us: int | None = None
         self.reported = time.monotonic()
 
     def step(self) -> None:
-        """Waits a little for bytes or for the clock, and publishes what has become of them."""
-        if self.device is None:
-            self.reopen()
-        files = [self.c.fileno()] + ([] if self.device is None else [self.device])
-        readable, _, _ = select.select(files, [], [], RETRY)
-        world = self.c.world.latest()
-        if world is not None:
+        """Waits a little for the device and the clock, and publishes what has arrived."""
+        if self.source is None:
+            self.open()
+        files = self.source.files() if self.source else []
+        select.select([self.component.fileno(), *files], [], [], RETRY)
+        if world := newest(self.component.world):
             self.time_us = world.time_us
-        self.c.parameters.latest()
-        if self.device in readable:
-            self.read()
+        newest(self.component.parameters)  # a real receiver has its own rate
+        if self.source:
+            self.read(self.source)
         if time.monotonic() - self.reported >= REPORT:
             self.report()
 
-    def reopen(self) -> None:
-        self.device = open_device(self.path)
-        if self.device is None and not self.waiting:
-            print(f"waiting for {self.path}", flush=True)
-        elif self.device is not None:
+    def open(self) -> None:
+        self.source = open_source(self.path, self.baud)
+        if self.source:
             print(f"reading {self.path}", flush=True)
+            # The rest of a line that was cut off belongs to no line of this time.
             self.receiver = Receiver(self.receiver.problems)
-        self.waiting = self.device is None
+        elif not self.is_missing:
+            print(f"waiting for {self.path}", flush=True)
+        self.is_missing = self.source is None
 
-    def read(self) -> None:
-        assert self.device is not None
-        data = read_device(self.device, self.path)
+    def read(self, source: Source) -> None:
+        data = source.read()
         if data is None:
             print(f"lost {self.path}", flush=True)
-            os.close(self.device)
-            self.device = None
-        elif not data:
-            time.sleep(RETRY)
+            source.close()
+            self.source = None
         elif self.time_us is not None:
             for fix in self.receiver.add(data, self.time_us):
-                self.c.fix.send(fix)
+                self.component.fix.send(fix)
 
     def report(self) -> None:
         """One line for each kind of useless sentence of the last second."""
@@ -106,13 +73,18 @@ class Reader:
 def main() -> int:
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("--device", type=Path, required=True, help="the serial line, or a file with NMEA sentences")
-    path: Path = arguments.parse_args().device
-    with GpsSensor() as c:
-        reader = Reader(c, path)
+    arguments.add_argument(
+        "--baud", type=int, default=BAUD, help=f"bits per second of the serial line (default: {BAUD})"
+    )
+    given = arguments.parse_args()
+    if given.baud not in (4800, 9600, 19200, 38400, 57600, 115200):
+        arguments.error(f"--baud {given.baud} is not 4800, 9600, 19200, 38400, 57600 or 115200")
+    with suppress(KeyboardInterrupt), GpsSensor() as component:
+        reader = Reader(component, given.device, given.baud)
         while True:
             reader.step()
+    return 0
 
 
 if __name__ == "__main__":
-    with suppress(KeyboardInterrupt):
-        sys.exit(main())
+    sys.exit(main())

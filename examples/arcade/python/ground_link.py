@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
+import command_ids
 from arcade_scl import Arbitration, Authority, Fix, FixQuality, Flight, Mode, Power, PowerLevel
 
 T = TypeVar("T")
@@ -57,9 +58,9 @@ class Vehicle:
             state = "time -, mode -, east -, north -, height -"
         else:
             p = flight.position
-            where = f"east {p.x:.1f}, north {p.y:.1f}" if flight.position_valid else "east -, north -"
+            where = f"east {p.x:z.1f}, north {p.y:z.1f}" if flight.position_valid else "east -, north -"
             mode = MODES.get(flight.mode, "-")
-            state = f"time {flight.time_us / 1e6:.1f} s, mode {mode}, {where}, height {p.z:.1f} m"
+            state = f"time {flight.time_us / 1e6:.1f} s, mode {mode}, {where}, height {p.z:z.1f} m"
         charge = f"{power.charge_left:.0%}{LEVELS.get(power.level, '')}" if power else "-"
         command = AUTHORITIES.get(arbitration.authority, "-") if arbitration else "-"
         if arbitration and arbitration.authority == Authority.AUTHORITY_SAFETY:
@@ -115,9 +116,8 @@ def understand(text: str) -> Order | str:
             return USAGE
 
 
-FIRST_ID, LAST_ID = 10_000, 999_999  # of the ground station's commands; larger ones are those of safety
-
-
 def next_id(in_effect: int) -> int:
     """An id that differs from that of the command in effect, also after a restart of this program."""
-    return in_effect + 1 if FIRST_ID <= in_effect < LAST_ID else FIRST_ID
+    authority, asked, _ = command_ids.split(in_effect)
+    ids = command_ids.RANGES[Authority.AUTHORITY_GROUND]
+    return asked + 1 if authority == Authority.AUTHORITY_GROUND and asked + 1 in ids else ids.start

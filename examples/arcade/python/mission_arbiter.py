@@ -14,7 +14,7 @@ from arbiter_events import Answered, Ask, Event, FlightSeen, ParametersSeen, Pow
 from arbiter_logic import Arbiter
 from arcade_scl import Arbitration, Authority, Command, CommandResult, MissionArbiter
 from black_box import BlackBox
-from gates import messages, requests
+from gates import messages, requests, until_first_ends
 
 T = TypeVar("T")
 PERIOD = 0.1  # s, between two publications
@@ -27,19 +27,22 @@ class Program:
         self.component = component
         self.logic = Arbiter(time.monotonic())
         self.black_box = BlackBox(component.records, "mission_arbiter")
+        self.asks = asyncio.Queue[Ask]()
         self.numbers = count(1)
         self.requests: dict[int, scl.Request[Command, CommandResult]] = {}
         self.published = Arbitration()
 
     async def run(self) -> None:
         c = self.component
-        async with asyncio.TaskGroup() as self.tasks:
-            self.tasks.create_task(self.listen(c.flight, FlightSeen))
-            self.tasks.create_task(self.listen(c.power, PowerSeen))
-            self.tasks.create_task(self.listen(c.parameters, ParametersSeen))
-            self.tasks.create_task(self.serve(c.mission, Authority.AUTHORITY_MISSION))
-            self.tasks.create_task(self.serve(c.ground, Authority.AUTHORITY_GROUND))
-            self.tasks.create_task(self.tick())
+        await until_first_ends(
+            self.listen(c.flight, FlightSeen),
+            self.listen(c.power, PowerSeen),
+            self.listen(c.parameters, ParametersSeen),
+            self.serve(c.mission, Authority.AUTHORITY_MISSION),
+            self.serve(c.ground, Authority.AUTHORITY_GROUND),
+            self.ask(),
+            self.tick(),
+        )
 
     async def listen(self, gate: scl.Sub[T], event: Callable[[T], Event]) -> None:
         async for message in messages(gate):
@@ -57,17 +60,20 @@ class Program:
             self.publish()
             await asyncio.sleep(PERIOD)
 
-    async def ask(self, command: Command, timeout: float) -> None:
-        try:
-            self.take(Answered(await self.component.autopilot.call_async(command, timeout)))
-        except (scl.Timeout, scl.PeerLost, scl.DecodeError) as error:
-            self.take(Answered(None, str(error)))
+    async def ask(self) -> None:
+        while True:
+            ask = await self.asks.get()
+            try:
+                answered = Answered(await self.component.autopilot.call_async(ask.command, ask.timeout))
+            except (scl.Timeout, scl.PeerLost, scl.DecodeError) as error:
+                answered = Answered(None, str(error))
+            self.take(answered)
 
     def take(self, event: Event) -> None:
         for action in self.logic.step(time.monotonic(), event):
             match action:
-                case Ask(command, timeout):
-                    self.tasks.create_task(self.ask(command, timeout))
+                case Ask():
+                    self.asks.put_nowait(action)
                 case Reply(number, result):
                     # A requester that has gone no longer waits for the reply.
                     with suppress(scl.RequesterGone):

@@ -42,7 +42,7 @@ class Progress:
         leg = self.legs[self.index or 0]
         landed = flight.mode == Mode.MODE_GROUNDED
         if landed and leg.airborne and not (isinstance(leg.step.task, Land) and flight.command_id == leg.id):
-            # Whoever landed the vehicle may have handed it over since.
+            # Those who landed the vehicle may have handed it over since.
             why = because(others or self.interruption)
             decision.lines.append(f"stopped at step {leg.number}: the vehicle is on the ground{why}")
             decision.exit_code = 1

@@ -25,7 +25,7 @@ TABLE = (
     Spec("rate.roll_pitch.p", 0.06, 0.001, 1, "1/(rad/s)", "set-point difference for an error of roll or pitch rate"),
     Spec("rate.roll_pitch.i", 0.1, 0, 5, "1/rad", "the same for its integral"),
     Spec("rate.roll_pitch.d", 0.001, 0, 0.1, "1/(rad/s^2)", "the same for its derivative"),
-    Spec("rate.yaw.p", 0.25, 0.001, 5, "1/(rad/s)", "set-point difference for an error of the yaw rate"),
+    Spec("rate.yaw.p", 0.15, 0.001, 5, "1/(rad/s)", "set-point difference for an error of the yaw rate"),
     Spec("rate.yaw.i", 0.1, 0, 5, "1/rad", "the same for its integral"),
     Spec("attitude.p", 6, 0.5, 20, "1/s", "roll and pitch rate for an attitude error"),
     Spec("attitude.yaw.p", 2, 0.1, 10, "1/s", "yaw rate for a heading error"),

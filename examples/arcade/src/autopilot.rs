@@ -92,7 +92,7 @@ impl FlightController {
     pub fn receive_command(&mut self, command: &Command) -> CommandResult {
         let known =
             command.id == self.navigator.command_id || self.commands.iter().any(|pending| pending.id == command.id);
-        if !known {
+        if !known || command.id == 0 {
             if let Err(reason) = commands::check(command, &self.situation(), &self.parameters) {
                 return CommandResult { accepted: false, reason };
             }
@@ -104,6 +104,10 @@ impl FlightController {
     /// Works one beat. Returns nothing for a reading that is not newer than the last.
     pub fn step(&mut self, reading: &Inertial) -> Option<Outputs> {
         let now = reading.time_us;
+        if now + LONGEST_GAP_US < self.time_us {
+            // The vehicle's clock has started again.
+            *self = Self { parameters: self.parameters, ..Self::default() };
+        }
         if now <= self.time_us {
             return None;
         }
@@ -235,4 +239,88 @@ impl FlightController {
 fn set_points(time_us: u64, motors: [f64; 4]) -> Motors {
     let [front_left, front_right, rear_left, rear_right] = motors;
     Motors { time_us, front_left, front_right, rear_left, rear_right }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arcade::{Action, Parameter, Vector};
+
+    const BEAT_US: u64 = 3_333;
+
+    fn reading(beat: u64) -> Inertial {
+        let vector = |z| Some(Vector { z, ..Vector::default() });
+        Inertial { time_us: beat * BEAT_US, acceleration: vector(9.81), rates: vector(0.0), angles: vector(0.0) }
+    }
+
+    /// Standing on the ground with a position, after one second.
+    fn ready() -> FlightController {
+        let mut controller = FlightController::default();
+        let home = controller.parameters.home();
+        let (latitude, longitude) = (home.latitude, home.longitude);
+        controller.receive_fix(&Fix { time_us: BEAT_US, quality: 2, latitude, longitude, ..Fix::default() });
+        (1..300).for_each(|beat| assert!(controller.step(&reading(beat)).is_some()));
+        controller
+    }
+
+    fn take_off(id: u32, effective_us: u64) -> Command {
+        let target = Some(Vector { z: 5.0, ..Vector::default() });
+        Command { id, action: Action::TakeOff.into(), target, effective_us, ..Command::default() }
+    }
+
+    #[test]
+    fn flight_is_reported_30_times_a_second_and_motors_at_each_beat() {
+        let mut controller = FlightController::default();
+        let outputs: Vec<_> = (1..=300).filter_map(|beat| controller.step(&reading(beat))).collect();
+        assert_eq!(outputs.len(), 300);
+        assert_eq!(outputs.iter().filter(|outputs| outputs.flight.is_some()).count(), 29);
+        assert!(outputs.iter().all(|outputs| outputs.motors.front_left == 0.0));
+        assert_eq!(outputs[299].motors.time_us, 300 * BEAT_US);
+    }
+
+    #[test]
+    fn a_reading_that_is_not_newer_is_ignored_until_the_clock_starts_again() {
+        let mut controller = ready();
+        assert_eq!(controller.step(&reading(299)), None);
+        assert_eq!(controller.step(&reading(10)), None);
+        (300..1000).for_each(|beat| assert!(controller.step(&reading(beat)).is_some()));
+        assert!(controller.step(&reading(1)).is_some());
+        assert!(!controller.position.is_valid(controller.time_us));
+    }
+
+    #[test]
+    fn a_command_takes_effect_at_its_time() {
+        let mut controller = ready();
+        assert!(controller.receive_command(&take_off(7, 310 * BEAT_US)).accepted);
+        let mode = |beat, controller: &mut FlightController| {
+            controller.step(&reading(beat));
+            controller.navigator.mode
+        };
+        (300..310).for_each(|beat| assert_eq!(mode(beat, &mut controller), Mode::Grounded));
+        assert_eq!(mode(310, &mut controller), Mode::TakingOff);
+        assert_eq!(controller.navigator.command_id, 7);
+    }
+
+    #[test]
+    fn a_command_that_is_repeated_has_no_second_effect() {
+        let mut controller = ready();
+        assert!(controller.receive_command(&take_off(7, 0)).accepted);
+        assert!(controller.receive_command(&take_off(7, 0)).accepted);
+        controller.step(&reading(300));
+        controller.step(&reading(301));
+        assert!(controller.receive_command(&take_off(7, 0)).accepted);
+        assert_eq!(controller.receive_command(&take_off(8, 0)).reason, "already in the air");
+        assert_eq!(controller.receive_command(&take_off(0, 0)).reason, "the command has no id");
+    }
+
+    #[test]
+    fn parameters_take_effect_at_the_next_whole_second() {
+        let mut controller = ready();
+        let parameter = Parameter { name: "attitude.p".to_owned(), value: 5.0 };
+        controller.receive_parameters(&crate::arcade::Parameters { parameters: vec![parameter] });
+        controller.step(&reading(300));
+        assert_eq!(controller.parameters.attitude_p, 6.0);
+        controller.step(&reading(301));
+        assert_eq!(controller.parameters.attitude_p, 5.0);
+    }
 }

@@ -79,6 +79,16 @@ impl Simulation {
         self.steps * 1_000_000 / u64::from(RATE)
     }
 
+    /// How many steps there were.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Since the last set-points for the motors.
+    pub fn silence_us(&self) -> u64 {
+        self.controllers.silence_us(self.time_us())
+    }
+
     /// Takes set-points for the motors.
     pub fn receive(&mut self, motors: &arcade::Motors) {
         let set_points = [motors.front_left, motors.front_right, motors.rear_left, motors.rear_right];

@@ -24,7 +24,7 @@ pub async fn run(mut radio: Radio) -> scl::Result<()> {
     let mut held: Option<Frame> = None;
     let mut tick = scl::time::interval(STATE_PERIOD)?;
     loop {
-        let before = state.clone();
+        let before = state;
         tokio::select! {
             // In this order: what silences the radio comes before the next frame.
             biased;
@@ -97,7 +97,7 @@ mod tests {
     }
 
     async fn send_frame(peer: &mut RadioPeer, number: u32) -> scl::Result<()> {
-        Ok(peer.frames.send(&Frame { number, data: vec![0; 100].into() }).await?)
+        Ok(peer.frames.send(&Frame { number, data: vec![0; 100] }).await?)
     }
 
     #[tokio::test(start_paused = true)]

@@ -5,6 +5,8 @@ pub mod primary_users;
 mod random;
 pub mod signal;
 
+use std::time::Duration;
+
 use clap::Parser;
 
 use self::air::Air;
@@ -15,6 +17,9 @@ use crate::ospecorr::{RadioState, Truth};
 
 /// In frames: three times as long as between two messages of the radio. One that is gone transmits no longer.
 const RADIO_LOST_AFTER: u32 = 75;
+
+/// How long the band waits for the other components.
+const START_WITHIN: Duration = Duration::from_secs(10);
 
 /// The band and who uses it.
 #[derive(Debug, Parser)]
@@ -47,6 +52,10 @@ pub async fn run(mut spectrum: Spectrum, options: Options) -> scl::Result<()> {
     let mut radio = RadioState::default();
     let mut radio_age = 0;
     let mut before = Truth::default();
+    // So that time 0 is the same for all; a missing component only delays it.
+    if let Err(missing) = spectrum.ready(START_WITHIN).await {
+        println!("begins without all components: {missing}");
+    }
     let mut tick = scl::time::interval(FRAME_TIME)?;
     loop {
         tick.tick().await?;
@@ -88,7 +97,7 @@ mod tests {
     use super::*;
     use crate::SpectrumPeer;
     use crate::ospecorr::Frame;
-    use tokio::time::{Duration, Instant};
+    use tokio::time::Instant;
 
     /// A band with a primary user in channel 1 for the whole second slot.
     async fn start() -> scl::Result<SpectrumPeer> {
@@ -157,7 +166,7 @@ mod tests {
 
     async fn send_frames(peer: &mut SpectrumPeer, count: u32) -> scl::Result<()> {
         for number in 0..count {
-            peer.bursts.send(&Frame { number, data: vec![0; 100].into() }).await?;
+            peer.bursts.send(&Frame { number, data: vec![0; 100] }).await?;
         }
         Ok(())
     }

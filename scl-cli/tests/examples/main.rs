@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod arcade;
+mod lines;
 mod ospecorr;
 #[allow(dead_code, reason = "the other tests use the rest")]
 #[path = "../system/mod.rs"]

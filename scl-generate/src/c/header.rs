@@ -79,7 +79,12 @@ fn write_gate(prefix: &str, component: &Component, of: &Gate, out: &mut Writer) 
     out.blank();
     let (kind, carries) = (of.plan.kind.word(), content::described(of));
     let headline = format!("Gate `{}.{}` ({}): {kind}, {carries}", component.name, of.name, of.plan.declared_at);
-    write_comment(&headline, of.doc.as_deref(), out);
+    match &component.counterpart_of {
+        None => write_comment(&headline, of.doc.as_deref(), out),
+        Some(tested) => {
+            write_comment(&format!("The other end of `{tested}.{}`: {kind}, {carries}", of.name), None, out);
+        }
+    }
     if let Some(name) = gate::request_struct(prefix, of) {
         out.block(format!("typedef struct {name} {{"), &format!("}} {name};"), |out| {
             gate::request_members(of).iter().for_each(|member| out.line(member));

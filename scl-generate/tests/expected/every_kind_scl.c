@@ -143,13 +143,19 @@ static const char plan[] =
 #pragma GCC diagnostic pop
 #endif
 
-static scl_status open_component(const char *name, const char *options_json, scl_component **component)
+static scl_status check_library(void)
 {
     if (scl_abi() != SCL_ABI) {
         return scl_fail(SCL_FAILED, "the library has another version than the `scl.h` that this program was compiled "
                                     "with; compile it again");
     }
-    return scl_open(plan, sizeof plan - 1, name, options_json, component);
+    return SCL_OK;
+}
+
+static scl_status open_component(const char *name, const char *options_json, scl_component **component)
+{
+    scl_status status = check_library();
+    return status != SCL_OK ? status : scl_open(plan, sizeof plan - 1, name, options_json, component);
 }
 
 /* A message as bytes: in `room` if they fit, else in memory of their own. */

@@ -146,8 +146,8 @@ macro_rules! __component_test_methods {
             $($bounds)*
             {
                 let transport = $crate::private::Memory::new();
-                let component = $crate::private::open($crate::OpenOptions::new().transport(transport.clone())).await?;
-                let peer = $crate::private::open($crate::OpenOptions::new().transport(transport)).await?;
+                let component = $crate::private::open($crate::OpenOptions::of_test(transport.clone())).await?;
+                let peer = $crate::private::open($crate::OpenOptions::of_test(transport)).await?;
                 ::core::result::Result::Ok((component, peer))
             }
 
@@ -159,9 +159,8 @@ macro_rules! __component_test_methods {
             $($bounds)*
             {
                 let transport = $crate::private::Memory::new();
-                let component =
-                    $crate::private::open_blocking($crate::OpenOptions::new().transport(transport.clone()))?;
-                let peer = $crate::private::open_blocking($crate::OpenOptions::new().transport(transport))?;
+                let component = $crate::private::open_blocking($crate::OpenOptions::of_test(transport.clone()))?;
+                let peer = $crate::private::open_blocking($crate::OpenOptions::of_test(transport))?;
                 ::core::result::Result::Ok((component, peer))
             }
         }

@@ -32,7 +32,7 @@ impl Opener {
             Some(transport) => (Registration::without_files(), transport),
             None => register(spec, options)?,
         };
-        let state = Owner::new(ComponentState::new(spec, registration, runtime));
+        let state = Owner::new(ComponentState::new(spec, registration, runtime).of_test(options.is_test()));
         state.start_reporting();
         Ok(Self { state, transport })
     }
@@ -61,7 +61,7 @@ impl Opener {
     pub fn subscriber<T, C: Codec<T>>(&mut self, index: usize) -> Result<Sub<T>, OpenError> {
         let spec = self.gate(index);
         let subscribe = |link| self.transport.subscribe(&self.connecting(spec, link));
-        let links = spec.links.iter().map(subscribe).collect::<Result<_, _>>();
+        let links = self.links(spec).iter().map(subscribe).collect::<Result<_, _>>();
         let links = links.map_err(|source| self.refused(spec, source))?;
         let gate = Incoming::new::<C>(self.state.clone(), spec, links, GateTap::new(None));
         self.follow(index, gate.figures());
@@ -126,7 +126,13 @@ impl Opener {
             let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes());
             Ok(self.state.drive(connection))
         };
-        spec.links.iter().map(connect).collect()
+        self.links(spec).iter().map(connect).collect()
+    }
+
+    /// The connections of a gate: all, or in a unit test that to its counterpart.
+    fn links(&self, spec: &'static GateSpec) -> &'static [LinkSpec] {
+        let first = spec.links.len().min(1);
+        if self.state.is_test() { &spec.links[..first] } else { spec.links }
     }
 
     fn tap(&self, spec: &'static GateSpec) -> Result<GateTap, OpenError> {

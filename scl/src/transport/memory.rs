@@ -34,6 +34,8 @@ use switchboard::Switchboard;
 const IN_FLIGHT: usize = 64;
 /// The same if the receiver wants only the newest message: what a sender cannot send yet, it can still replace.
 const IN_FLIGHT_NEWEST: usize = 1;
+/// The same in a unit test: more than a test sends before the component looks.
+const IN_FLIGHT_NEWEST_OF_TEST: usize = 1000;
 
 /// Connects ends within this process. Clones share their endpoints; separate values share nothing.
 ///
@@ -70,21 +72,37 @@ struct Endpoints {
 impl Memory {
     /// Creates a transport without any ends.
     pub fn new() -> Self {
-        let endpoints = Endpoints {
-            // Only the receiving end decides how much is in flight.
-            publishing: Switchboard::new(|newest_only| message_pipe(newest_only.connector)),
-            pulling: Switchboard::new(|newest_only| {
-                let (writer, reader) = message_pipe(newest_only.listener);
-                (reader, writer)
-            }),
-            replying: Switchboard::new(request_reply::connect),
-        };
-        Self { endpoints: Arc::new(endpoints) }
+        // Only the receiving end decides how much is in flight.
+        let publishing = Switchboard::new(|newest_only| message_pipe(newest_only.connector, IN_FLIGHT_NEWEST));
+        let pulling = Switchboard::new(|newest_only| {
+            let (writer, reader) = message_pipe(newest_only.listener, IN_FLIGHT_NEWEST);
+            (reader, writer)
+        });
+        Self::of(publishing, pulling)
+    }
+
+    /// For unit tests with threads: what was sent to an end that wants only the newest message can be received at once,
+    /// without waiting for the sender's thread to replace what it could not send.
+    pub(crate) fn of_test() -> Self {
+        let publishing = Switchboard::new(|newest_only| message_pipe(newest_only.connector, IN_FLIGHT_NEWEST_OF_TEST));
+        let pulling = Switchboard::new(|newest_only| {
+            let (writer, reader) = message_pipe(newest_only.listener, IN_FLIGHT_NEWEST_OF_TEST);
+            (reader, writer)
+        });
+        Self::of(publishing, pulling)
+    }
+
+    fn of(
+        publishing: Switchboard<PipeWriter<Bytes>, PipeReader<Bytes>>,
+        pulling: Switchboard<PipeReader<Bytes>, PipeWriter<Bytes>>,
+    ) -> Self {
+        let replying = Switchboard::new(request_reply::connect);
+        Self { endpoints: Arc::new(Endpoints { publishing, pulling, replying }) }
     }
 }
 
-fn message_pipe(newest_only: bool) -> (PipeWriter<Bytes>, PipeReader<Bytes>) {
-    pipe::pipe(if newest_only { IN_FLIGHT_NEWEST } else { IN_FLIGHT })
+fn message_pipe(newest_only: bool, in_flight_newest: usize) -> (PipeWriter<Bytes>, PipeReader<Bytes>) {
+    pipe::pipe(if newest_only { in_flight_newest } else { IN_FLIGHT })
 }
 
 impl Default for Memory {

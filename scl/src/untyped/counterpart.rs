@@ -5,13 +5,15 @@ use crate::error::OpenError;
 use crate::options::OpenOptions;
 use crate::plan::Plan;
 use crate::transport::memory::Memory;
+use std::time::Duration;
 
 impl Component {
     /// Opens a component for a unit test, together with its counterpart, which has the opposite end of each gate under the
     /// same name, without processes, sockets or files.
     ///
-    /// Queues, policies and timeouts of the component are those of its plan. The counterpart drops and refuses nothing.
-    /// Its component is called `controller's peers`, in errors for example.
+    /// Queues, policies and timeouts of the component are those of its plan; of a gate with several connections, the first
+    /// counts. The counterpart drops and refuses nothing, and is called `controller's peers` in errors. All gates are
+    /// connected.
     ///
     /// ```
     /// use scl::plan::SystemPlan;
@@ -33,11 +35,15 @@ impl Component {
     /// [`OpenError`]: the plan contradicts itself, or there is no tokio runtime.
     ///
     /// # Cancel safety
-    /// It never waits.
+    /// Nothing stays open.
     pub async fn test(plan: &Plan) -> Result<(Self, Self), OpenError> {
-        let options = OpenOptions::new().transport(Memory::new());
+        let options = OpenOptions::of_test(Memory::of_test());
         let component = Self::open_with(plan, options.clone()).await?;
-        Ok((component, Self::open_with(&plan.counterpart(), options).await?))
+        let peer = Self::open_with(&plan.counterpart(), options).await?;
+        for end in [&component, &peer] {
+            connected(end, end.ready(CONNECTING).await.map_err(Into::into));
+        }
+        Ok((component, peer))
     }
 
     /// [`test`](Self::test) for the blocking and the non-waiting calls of gates.
@@ -45,8 +51,22 @@ impl Component {
     /// # Errors
     /// [`OpenError`]: the plan contradicts itself, or the operating system refuses a runtime.
     pub fn test_blocking(plan: &Plan) -> Result<(Self, Self), OpenError> {
-        let options = OpenOptions::new().transport(Memory::new());
+        let options = OpenOptions::of_test(Memory::of_test());
         let component = Self::open_blocking_with(plan, options.clone())?;
-        Ok((component, Self::open_blocking_with(&plan.counterpart(), options)?))
+        let peer = Self::open_blocking_with(&plan.counterpart(), options)?;
+        for end in [&component, &peer] {
+            connected(end, end.ready_blocking(CONNECTING));
+        }
+        Ok((component, peer))
+    }
+}
+
+/// Far longer than it takes.
+const CONNECTING: Duration = Duration::from_secs(10);
+
+/// Not an error: calls of the test that wait for a peer will tell the same.
+fn connected(component: &Component, ready: crate::Result<()>) {
+    if let Err(error) = ready {
+        tracing::warn!("{component:?} is not connected yet: {error}");
     }
 }

@@ -59,6 +59,22 @@ fn a_project_is_built_checked_and_built_again() {
     }
 }
 
+/// The promise: `TESTABLE` lets a program open a component beside its counterpart.
+#[test]
+fn a_component_is_testable_if_asked_for() {
+    let project = Project::new();
+    let test = "#include \"rover.scl.hpp\"\n\nint main() {\n    auto [controller, peer] = rover::Controller::test();\n    \
+                rover::Setpoint setpoint;\n    setpoint.set_throttle(0.5);\n    controller.actuator.send(setpoint);\n    \
+                return peer.actuator.recv().throttle() == 0.5 ? 0 : 1;\n}\n";
+    fs::write(project.path("controller.cpp"), test).expect("a source");
+    project.configure(&source_tree()).expect("configured");
+    let told = project.build().expect_err("there is no `test` yet");
+    assert!(told.contains("'test' is not a member of 'rover::Controller'"), "{told}");
+    project.edit("CMakeLists.txt", "COMPONENTS controller", "COMPONENTS controller TESTABLE");
+    project.build().expect("built");
+    run(&mut Command::new(project.path("build/controller")));
+}
+
 /// The promise: what is missing is named, with the way to get it.
 #[test]
 fn what_is_missing_is_named() {

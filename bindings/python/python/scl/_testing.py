@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, cast
 
 from scl import _native, _process
 from scl._component import Component, DynamicComponent, facts_of
@@ -50,7 +50,9 @@ class TestableComponent(GeneratedComponent, Generic[PEER]):
         There are no processes, sockets or files, and signals are left alone. Queues, policies and timeouts are those of
         the topology. Closing what has unread messages is no error.
         """
-        return _open(_native.Plan(cls._plan_text), cls._component_name, cls, cls._counterpart)  # type: ignore[return-value]
+        # A class variable cannot have the type of a type parameter.
+        counterpart = cast("type[PEER]", cls._counterpart)
+        return _open(_native.Plan(cls._plan_text), cls._component_name, cls, counterpart)
 
 
 def test(topology: str | os.PathLike[str], component: str) -> tuple[DynamicComponent, DynamicCounterpart]:

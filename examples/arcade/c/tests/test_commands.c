@@ -50,6 +50,7 @@ static void others_are_refused_with_the_reason(void) {
     CHECK_REFUSED(backwards, FLYING, "speed -1.0 m/s is negative");
     CHECK_REFUSED(to(LAND, 0.0, 0.0, 0.0), GROUNDED, "already on the ground");
     CHECK_REFUSED(to(RETURN, 0.0, 0.0, 0.0), FLYING, "the autopilot does not plan a return: send GO_TO and LAND");
+    CHECK_REFUSED((command){.action = LAND}, FLYING, "the command has no id");
     CHECK_REFUSED(to((Arcade__Action)77, 0.0, 0.0, 0.0), FLYING, "unknown action");
 }
 

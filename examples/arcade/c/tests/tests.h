@@ -18,5 +18,6 @@ void test_commands(void);
 void test_pending(void);
 void test_navigation(void);
 void test_flight_controller(void);
+void test_beats(void);
 
 #endif

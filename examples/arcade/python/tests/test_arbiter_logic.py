@@ -305,6 +305,14 @@ def test_on_the_ground_safety_decides_nothing() -> None:
     assert (world.asked, world.state) == ([], (NOBODY, "the autopilot is silent ()"))
 
 
+def test_there_is_no_take_off_with_a_charge_of_long_ago() -> None:
+    world = World()
+    world.pass_time(10.1)
+    number = world.request(MISSION, command(Order.ACTION_TAKE_OFF, 100, 0, 0, 5))
+    expected = "the battery's charge is unknown; there is no word from power management"
+    assert world.replies[number].reason == expected
+
+
 def test_a_simulator_that_starts_again_does_not_keep_the_old_authority() -> None:
     world = World().airborne()
     world.request(MISSION, NORTH)

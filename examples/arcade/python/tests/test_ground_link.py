@@ -61,7 +61,8 @@ def test_commands_are_understood_or_explained(text: str, expected: object) -> No
 
 
 @pytest.mark.parametrize(
-    ("in_effect", "expected"), [(0, 10_000), (105, 10_000), (10_000, 10_001), (999_999, 10_000), (1_000_007, 10_000)]
+    ("in_effect", "expected"),
+    [(0, 10_000), (105, 10_000), (10_000, 10_001), (999_999, 10_000), (1_000_007, 10_000), (20_010_000, 10_001)],
 )
 def test_an_id_differs_from_the_one_in_effect(in_effect: int, expected: int) -> None:
     assert next_id(in_effect) == expected

@@ -22,6 +22,9 @@ pub fn check(command: &Command, situation: &Situation, parameters: &Parameters) 
     if !target.is_finite() || !command.yaw.is_finite() || !command.speed.is_finite() {
         return Err("a value is not a finite number".to_owned());
     }
+    if command.id == 0 {
+        return Err("the command has no id".to_owned());
+    }
     let grounded = situation.mode == Mode::Grounded;
     match command.action() {
         Action::TakeOff if !grounded => Err("already in the air".to_owned()),
@@ -101,7 +104,8 @@ mod tests {
                 FLYING,
                 "the autopilot does not plan a return: send GO_TO and LAND",
             ),
-            (Command { action: 77, ..Command::default() }, FLYING, "unknown action"),
+            (Command { id: 1, action: 77, ..Command::default() }, FLYING, "unknown action"),
+            (Command { id: 0, ..command(Action::Land, 0.0, 0.0, 0.0) }, FLYING, "the command has no id"),
         ] {
             assert_eq!(check(&command, &situation, &Parameters::default()), Err(reason.to_owned()), "{command:?}");
         }

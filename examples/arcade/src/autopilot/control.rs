@@ -163,3 +163,96 @@ fn wanted_rates(wanted: Quaternion, attitude: Quaternion, parameters: &Parameter
         limit(parameters.yaw_p * error.z, parameters.limit_yaw_rate.to_radians()),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BEAT: f64 = 1.0 / 300.0;
+
+    fn thrust(controller: &mut VelocityController, set_point: &SetPoint, velocity: Vec3) -> Thrust {
+        controller.update(set_point, Vec3::ZERO, velocity, false, &Parameters::default(), BEAT)
+    }
+
+    #[test]
+    fn at_the_set_point_thrust_is_weight() {
+        let thrust = thrust(&mut VelocityController::default(), &SetPoint::default(), Vec3::ZERO);
+        assert!((thrust.force - Vec3::new(0.0, 0.0, GRAVITY)).length() < 1e-12);
+        let demand = RateController::default().update(
+            &thrust,
+            Quaternion::default(),
+            Vec3::ZERO,
+            false,
+            &Parameters::default(),
+            BEAT,
+        );
+        assert!((demand.thrust - 0.45).abs() < 1e-12 && demand.roll == 0.0 && demand.pitch == 0.0, "{demand:?}");
+    }
+
+    #[test]
+    fn to_fly_east_it_lowers_the_nose_and_to_fly_north_it_rolls_left() {
+        let east = SetPoint::at(Vec3::new(2.0, 0.0, 0.0), 0.0);
+        let angles = thrust(&mut VelocityController::default(), &east, Vec3::ZERO).attitude.angles();
+        assert!(angles.y > 0.1 && angles.x.abs() < 1e-9, "{angles:?}");
+        let north = SetPoint::at(Vec3::new(0.0, 2.0, 0.0), 0.0);
+        let angles = thrust(&mut VelocityController::default(), &north, Vec3::ZERO).attitude.angles();
+        assert!(angles.x < -0.1 && angles.y.abs() < 1e-9, "{angles:?}");
+    }
+
+    #[test]
+    fn the_tilt_is_limited_and_the_integral_does_not_wind_up() {
+        let far = SetPoint::at(Vec3::new(50.0, 0.0, 0.0), 0.0);
+        let mut controller = VelocityController::default();
+        for _ in 0..3000 {
+            let up = thrust(&mut controller, &far, Vec3::new(-20.0, 0.0, 0.0)).attitude.up();
+            assert!(up.z.acos() <= 25.0_f64.to_radians() + 1e-9);
+        }
+        assert_eq!(controller.integral.x, 0.0);
+    }
+
+    #[test]
+    fn thrust_is_limited_and_the_integral_does_not_wind_up() {
+        let high = SetPoint::at(Vec3::new(0.0, 0.0, 50.0), 0.0);
+        let mut controller = VelocityController::default();
+        let most = (0..3000).map(|_| thrust(&mut controller, &high, Vec3::new(0.0, 0.0, -9.0)).force.z).last();
+        assert_eq!(most, Some(GRAVITY / 0.45 * 0.9));
+        assert_eq!(controller.integral.z, 0.0);
+    }
+
+    #[test]
+    fn a_steady_wind_is_learned_by_the_integral() {
+        let mut controller = VelocityController::default();
+        let mut velocity = 0.0;
+        for _ in 0..6000 {
+            let force = thrust(&mut controller, &SetPoint::default(), Vec3::new(velocity, 0.0, 0.0)).force.x;
+            velocity += (force + 0.75) * BEAT;
+        }
+        assert!(velocity.abs() < 0.01 && (controller.integral.x + 0.75).abs() < 0.02, "{velocity} {controller:?}");
+    }
+
+    #[test]
+    fn torques_act_against_errors_of_attitude_and_rates() {
+        let level = thrust(&mut VelocityController::default(), &SetPoint::default(), Vec3::ZERO);
+        let tilted = Quaternion::from_angles(Vec3::new(0.2, -0.2, 0.2));
+        let parameters = Parameters::default();
+        let demand = RateController::default().update(&level, tilted, Vec3::ZERO, false, &parameters, BEAT);
+        assert!(demand.roll < 0.0 && demand.pitch > 0.0 && demand.yaw < 0.0, "{demand:?}");
+        let rates = Vec3::new(1.0, 1.0, 1.0);
+        let mut controller = RateController { rates, ..RateController::default() };
+        let demand = controller.update(&level, Quaternion::default(), rates, false, &parameters, BEAT);
+        assert!(demand.roll < 0.0 && demand.pitch < 0.0 && demand.yaw < 0.0, "{demand:?}");
+    }
+
+    #[test]
+    fn saturated_motors_stop_the_integral_of_rates() {
+        let level = thrust(&mut VelocityController::default(), &SetPoint::default(), Vec3::ZERO);
+        let tilted = Quaternion::from_angles(Vec3::new(0.2, 0.0, 0.0));
+        let integral = |saturated| {
+            let mut controller = RateController::default();
+            controller.update(&level, tilted, Vec3::ZERO, saturated, &Parameters::default(), BEAT);
+            controller.integral.x
+        };
+        assert!(integral(false) < 0.0);
+        assert_eq!(integral(true), 0.0);
+    }
+}

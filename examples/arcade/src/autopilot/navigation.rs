@@ -161,3 +161,88 @@ impl Navigator {
         leg
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arcade::Vector;
+
+    const BEAT: f64 = 1.0 / 300.0;
+    const GROUND: Estimate = Estimate {
+        position: Vec3::new(1.0, 2.0, 0.0),
+        velocity: Vec3::ZERO,
+        yaw: 0.5,
+        position_valid: true,
+        thrust: 0.0,
+    };
+
+    fn command(action: Action, x: f64, y: f64, z: f64) -> Command {
+        Command { id: 9, action: action.into(), target: Some(Vector { x, y, z }), ..Command::default() }
+    }
+
+    fn begun(action: Action, x: f64, y: f64, z: f64, estimate: &Estimate) -> Navigator {
+        let mut navigator = Navigator::default();
+        navigator.set_point.position = estimate.position;
+        navigator.begin(&command(action, x, y, z), estimate, &Parameters::default());
+        navigator
+    }
+
+    /// A vehicle that is exactly where it is to be.
+    fn follow(navigator: &mut Navigator, seconds: f64, height: f64) -> Drive {
+        let mut estimate = GROUND;
+        (0..(seconds / BEAT) as usize).fold(Drive::Off, |_, _| {
+            estimate.position = navigator.set_point.position;
+            estimate.position.z = estimate.position.z.max(height);
+            estimate.velocity = if estimate.position.z > height { navigator.set_point.velocity } else { Vec3::ZERO };
+            navigator.update(&estimate, &Parameters::default(), BEAT)
+        })
+    }
+
+    #[test]
+    fn a_take_off_idles_then_climbs_straight_up() {
+        let mut navigator = begun(Action::TakeOff, 50.0, 50.0, 5.0, &GROUND);
+        assert_eq!(navigator.target, Vec3::new(1.0, 2.0, 5.0));
+        assert_eq!(navigator.update(&GROUND, &Parameters::default(), 0.9), Drive::Idle);
+        assert_eq!(navigator.set_point.position, GROUND.position);
+        assert_eq!(follow(&mut navigator, 1.0, 0.0), Drive::Fly);
+        assert_eq!(navigator.mode, Mode::TakingOff);
+        follow(&mut navigator, 10.0, 0.0);
+        assert_eq!(navigator.mode, Mode::Flying);
+        assert!((navigator.set_point.position - navigator.target).length() < 0.05, "{navigator:?}");
+        assert!((navigator.set_point.yaw - 0.5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn speeds_above_the_limit_are_reduced_to_it() {
+        let up = Estimate { position: Vec3::new(0.0, 0.0, 5.0), ..GROUND };
+        let mut navigator = begun(Action::TakeOff, 0.0, 0.0, 5.0, &up);
+        for (asked, taken) in [(0.0, 4.0), (2.5, 2.5), (99.0, 4.0)] {
+            let command = Command { speed: asked, ..command(Action::GoTo, 9.0, 0.0, 5.0) };
+            navigator.begin(&command, &up, &Parameters::default());
+            assert_eq!(navigator.speed, taken);
+        }
+    }
+
+    #[test]
+    fn a_landing_ends_on_the_ground() {
+        let up = Estimate { position: Vec3::new(0.0, 0.0, 5.0), ..GROUND };
+        let mut navigator = begun(Action::Land, 0.0, 0.0, 0.0, &up);
+        follow(&mut navigator, 3.0, 0.0);
+        assert_eq!(navigator.mode, Mode::Landing);
+        follow(&mut navigator, 12.0, 0.0);
+        assert_eq!(navigator.mode, Mode::Grounded);
+        assert_eq!(follow(&mut navigator, 0.1, 0.0), Drive::Off);
+    }
+
+    #[test]
+    fn without_position_it_lands_level_and_stays_where_the_position_returns() {
+        let lost = Estimate { position: Vec3::new(0.0, 0.0, 5.0), position_valid: false, ..GROUND };
+        let mut navigator = begun(Action::GoTo, 30.0, 0.0, 5.0, &lost);
+        assert_eq!(navigator.update(&lost, &Parameters::default(), BEAT), Drive::FlyLevel);
+        assert_eq!(navigator.mode, Mode::Landing);
+        let found = Estimate { position: Vec3::new(8.0, 9.0, 4.0), position_valid: true, ..lost };
+        navigator.update(&Estimate { position_valid: false, ..found }, &Parameters::default(), BEAT);
+        assert_eq!(navigator.update(&found, &Parameters::default(), BEAT), Drive::Fly);
+        assert_eq!((navigator.target.x, navigator.target.y), (8.0, 9.0));
+    }
+}

@@ -51,7 +51,7 @@ parameters! {
     rate_p: "rate.roll_pitch.p" = 0.06,
     rate_i: "rate.roll_pitch.i" = 0.1,
     rate_d: "rate.roll_pitch.d" = 0.001,
-    yaw_rate_p: "rate.yaw.p" = 0.25,
+    yaw_rate_p: "rate.yaw.p" = 0.15,
     yaw_rate_i: "rate.yaw.i" = 0.1,
     // Attitude to angular rates: rad/s for 1 rad.
     attitude_p: "attitude.p" = 6.0,

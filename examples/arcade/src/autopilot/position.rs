@@ -89,22 +89,21 @@ impl PositionEstimator {
         self.next = (self.next + 1) % HISTORY;
     }
 
-    /// The newest estimate that is not newer than `time_us`, or else the oldest one.
-    fn past(&self, time_us: u64) -> Past {
-        let mut found = self.history[(self.next + HISTORY - 1) % HISTORY];
-        for age in 2..=HISTORY {
-            let older = self.history[(self.next + HISTORY - age) % HISTORY];
-            if found.time_us <= time_us || older.time_us == 0 {
-                break;
+    /// The newest estimate that is not newer than `time_us`. None if it is older than all of them, for example because it
+    /// is of the time before a restart.
+    fn past(&self, time_us: u64) -> Option<Past> {
+        for age in 1..=HISTORY {
+            let past = self.history[(self.next + HISTORY - age) % HISTORY];
+            if past.time_us != 0 && past.time_us <= time_us {
+                return Some(past);
             }
-            found = older;
         }
-        found
+        None
     }
 
     /// Takes in a height. Above the ultrasonic sensor's range the barometer counts, by what it showed before.
     pub fn correct_height(&mut self, height: &Height, parameters: &Parameters) {
-        let past = self.past(height.time_us);
+        let Some(past) = self.past(height.time_us) else { return };
         let elapsed = step(self.height_us, height.time_us);
         self.height_us = height.time_us;
         let measured = match height.range {
@@ -145,7 +144,7 @@ impl PositionEstimator {
             self.fix_us = fix.time_us;
             return;
         }
-        let past = self.past(fix.time_us);
+        let Some(past) = self.past(fix.time_us) else { return };
         let elapsed = step(self.fix_us, fix.time_us);
         self.fix_us = fix.time_us;
         let mut position_error = position - past.position;
@@ -171,4 +170,105 @@ fn step(last_us: u64, time_us: u64) -> f64 {
     }
     let elapsed = (time_us - last_us) as f64 * 1e-6;
     if elapsed > LONGEST_STEP { LONGEST_STEP } else { elapsed }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BEAT_US: u64 = 3_333;
+    const BEAT: f64 = 0.003_333;
+    const AT_REST: Vec3 = Vec3::new(0.0, 0.0, GRAVITY);
+
+    /// What the sensors of a vehicle that moves at a constant velocity measure of it, with delays as in the system.
+    fn fly(velocity: Vec3, force: Vec3, seconds: f64) -> (PositionEstimator, Vec3) {
+        let parameters = Parameters::default();
+        let mut estimator = PositionEstimator::default();
+        let truth = |beat: u64| velocity * (beat as f64 * BEAT) + Vec3::new(0.0, 0.0, 1.0);
+        let beats = (seconds / BEAT) as u64;
+        for beat in 1..=beats {
+            estimator.predict(beat * BEAT_US, force, Quaternion::default(), BEAT);
+            if beat % 15 == 6 {
+                estimator.correct_height(&height_at(beat - 5, truth(beat - 5)), &parameters);
+            }
+            if beat % 60 == 18 {
+                estimator.correct_fix(&fix_at(beat - 17, truth(beat - 17), velocity), &parameters);
+            }
+        }
+        (estimator, truth(beats))
+    }
+
+    fn height_at(beat: u64, position: Vec3) -> Height {
+        let range = (position.z < 6.0).then_some(Range::Ultrasonic(position.z));
+        Height { time_us: beat * BEAT_US, range, barometer: position.z + 0.7 }
+    }
+
+    fn fix_at(beat: u64, position: Vec3, velocity: Vec3) -> Fix {
+        let (latitude, longitude) = geodesy::to_degrees(Parameters::default().home(), position.x, position.y);
+        let (east_speed, north_speed) = (velocity.x, velocity.y);
+        Fix { time_us: beat * BEAT_US, quality: 2, latitude, longitude, east_speed, north_speed, ..Fix::default() }
+    }
+
+    #[test]
+    fn delayed_measurements_do_not_make_the_estimate_late() {
+        let velocity = Vec3::new(3.0, -2.0, 0.0);
+        let (estimator, truth) = fly(velocity, AT_REST, 30.0);
+        // Fixes that were taken as present would put it 60 ms behind, 0.2 m.
+        assert!((estimator.position - truth).length() < 0.02, "{:?} {truth:?}", estimator.position);
+        assert!((estimator.velocity - velocity).length() < 0.01, "{:?}", estimator.velocity);
+    }
+
+    #[test]
+    fn the_bias_of_the_accelerometer_is_learned() {
+        let bias = Vec3::new(0.1, -0.2, 0.15);
+        let (estimator, truth) = fly(Vec3::ZERO, AT_REST + bias, 120.0);
+        assert!((estimator.bias - bias).length() < 0.01, "{:?}", estimator.bias);
+        assert!((estimator.position - truth).length() < 0.05, "{:?}", estimator.position);
+    }
+
+    #[test]
+    fn above_the_ultrasonic_range_the_barometer_is_corrected_by_its_offset() {
+        let (estimator, truth) = fly(Vec3::new(0.0, 0.0, 0.3), AT_REST, 30.0);
+        assert!((estimator.barometer_offset - 0.7).abs() < 0.01, "{}", estimator.barometer_offset);
+        assert!(truth.z > 9.0 && (estimator.position.z - truth.z).abs() < 0.05, "{:?}", estimator.position);
+    }
+
+    #[test]
+    fn the_range_of_a_tilted_vehicle_is_not_its_height() {
+        let mut estimator = PositionEstimator { position: Vec3::new(0.0, 0.0, 5.0), ..PositionEstimator::default() };
+        let attitude = Quaternion::from_angles(Vec3::new(0.3, 0.2, 0.0));
+        let range = 5.0 / (0.3_f64.cos() * 0.2_f64.cos());
+        for beat in 1..=300 {
+            estimator.coast(beat * BEAT_US, attitude, BEAT);
+            let range = Some(Range::Ultrasonic(range));
+            let height = Height { time_us: beat * BEAT_US, range, barometer: 5.0 };
+            estimator.correct_height(&height, &Parameters::default());
+        }
+        assert!((estimator.position.z - 5.0).abs() < 1e-9, "{:?}", estimator.position);
+    }
+
+    #[test]
+    fn the_first_fix_sets_the_position_and_old_fixes_invalidate_it() {
+        let mut estimator = PositionEstimator::default();
+        assert!(!estimator.is_valid(1_000_000));
+        estimator.correct_fix(&fix_at(300, Vec3::new(7.0, -4.0, 0.0), Vec3::ZERO), &Parameters::default());
+        assert!((estimator.position - Vec3::new(7.0, -4.0, 0.0)).length() < 1e-6);
+        assert!(estimator.is_valid(300 * BEAT_US + 5_000_000));
+        assert!(!estimator.is_valid(300 * BEAT_US + 5_000_001));
+    }
+
+    #[test]
+    fn measurements_that_are_useless_are_ignored() {
+        let (mut estimator, _) = fly(Vec3::ZERO, AT_REST, 2.0);
+        let before = (estimator.position, estimator.velocity);
+        let now = 2_000_000 / BEAT_US;
+        let parameters = Parameters::default();
+        estimator.correct_fix(&Fix { quality: 0, ..fix_at(now, Vec3::new(9.0, 0.0, 0.0), Vec3::ZERO) }, &parameters);
+        estimator.correct_fix(&Fix { latitude: f64::NAN, ..fix_at(now, Vec3::ZERO, Vec3::ZERO) }, &parameters);
+        // Older than any estimate.
+        estimator.correct_fix(&fix_at(10, Vec3::new(9.0, 0.0, 0.0), Vec3::ZERO), &parameters);
+        estimator.correct_height(&height_at(10, Vec3::new(0.0, 0.0, 5.0)), &parameters);
+        estimator.correct_height(&Height { range: None, barometer: f64::NAN, time_us: now * BEAT_US }, &parameters);
+        assert_eq!((estimator.position, estimator.velocity), before);
+    }
 }

@@ -76,3 +76,68 @@ fn decode(copy: &[u8]) -> Option<(u64, Vec<f64>)> {
 fn checksum(words: &[u64]) -> u64 {
     words.iter().fold(0xcbf2_9ce4_8422_2325, |sum, word| (sum ^ word).wrapping_mul(0x0100_0000_01b3))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    const COUNT: usize = 5;
+
+    fn numbers(first: f64) -> Vec<f64> {
+        vec![first, -0.0, 1e300, 5e-324, 3.0]
+    }
+
+    /// A file with two copies, of which the second is the newest, and what is read after `damage`.
+    fn read_after(damage: impl Fn(&mut Vec<u8>)) -> Option<Vec<f64>> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("state");
+        let (mut file, none) = StateFile::open(&path, COUNT).expect("opened");
+        assert_eq!(none, None);
+        file.store(&numbers(1.0)).expect("stored");
+        file.store(&numbers(2.0)).expect("stored");
+        let mut bytes = fs::read(&path).expect("read");
+        damage(&mut bytes);
+        fs::write(&path, bytes).expect("written");
+        StateFile::open(&path, COUNT).expect("opened").1
+    }
+
+    #[test]
+    fn the_newest_copy_is_read() {
+        assert_eq!(read_after(|_| {}), Some(numbers(2.0)));
+    }
+
+    #[test]
+    fn a_torn_copy_leaves_the_one_before() {
+        // Sequence number 2 is the first copy in the file, 1 the second.
+        assert_eq!(read_after(|bytes| bytes[HEADER + 3] ^= 1), Some(numbers(1.0)));
+        assert_eq!(read_after(|bytes| bytes[8] = 4), Some(numbers(1.0)));
+    }
+
+    #[test]
+    fn garbage_is_not_a_state() {
+        assert_eq!(read_after(|bytes| bytes.fill(7)), None);
+        assert_eq!(read_after(|bytes| bytes.truncate(10)), None);
+        assert_eq!(read_after(|bytes| bytes.clear()), None);
+    }
+
+    #[test]
+    fn a_state_of_another_size_is_not_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("state");
+        let (mut file, _) = StateFile::open(&path, COUNT).expect("opened");
+        file.store(&numbers(1.0)).expect("stored");
+        assert_eq!(StateFile::open(&path, COUNT + 1).expect("opened").1, None);
+    }
+
+    #[test]
+    fn numbering_goes_on_after_a_restart() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("state");
+        for round in 1..=5 {
+            let (mut file, last) = StateFile::open(&path, COUNT).expect("opened");
+            assert_eq!(last.map(|numbers| numbers[0]), (round > 1).then(|| f64::from(round - 1)));
+            file.store(&numbers(f64::from(round))).expect("stored");
+        }
+    }
+}

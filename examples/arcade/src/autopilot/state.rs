@@ -82,3 +82,31 @@ fn whole(value: &mut u64, number: &mut impl FnMut(&mut f64)) {
     number(&mut float);
     *value = float as u64;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_number_is_saved_and_restored() {
+        let numbers: Vec<f64> = (0..COUNT).map(|index| index as f64).collect();
+        let restored = restore(&numbers).expect("a state");
+        let mut expected = numbers.clone();
+        // The mode is the only number that cannot have every value.
+        let mode = expected.iter().position(|number| *number == MODE as f64).expect("an index");
+        expected[mode] = 0.0;
+        assert_eq!(save(&restored), expected);
+        assert_eq!(restored.time_us, 0);
+        assert_eq!(restored.navigator.mode, Mode::Grounded);
+    }
+
+    #[test]
+    fn a_list_of_another_length_is_not_a_state() {
+        assert!(restore(&vec![0.0; COUNT - 1]).is_none());
+        assert!(restore(&vec![0.0; COUNT + 1]).is_none());
+        assert!(restore(&[]).is_none());
+    }
+
+    /// The index of the mode.
+    const MODE: usize = 25;
+}

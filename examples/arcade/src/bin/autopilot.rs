@@ -1,8 +1,18 @@
 //! The autopilot in Rust.
 
 use arcade::Autopilot;
+use arcade::flight_loop::{self, Memory};
+use clap::Parser;
+use scl::runtime_dir::RuntimeDir;
+
+/// Turns readings into motor set-points. Keeps its state in the runtime folder of SCL, and carries on after a crash.
+#[derive(Parser)]
+struct Options {}
 
 #[scl::main]
-fn main(_autopilot: Autopilot) -> scl::Result<()> {
-    Ok(())
+fn main(autopilot: Autopilot) -> scl::Result<()> {
+    let Options {} = Options::parse();
+    // Belongs to this user alone, and is in memory on most systems.
+    let folder = RuntimeDir::locate(&|name| std::env::var_os(name))?;
+    flight_loop::run(autopilot, Memory::open(&folder.path().join("arcade-autopilot.state")))
 }

@@ -32,7 +32,7 @@ impl Motors {
     pub fn step(&mut self, set_points: [f64; 4], elapsed: f64) {
         for (thrust, set_point) in self.thrust.iter_mut().zip(set_points) {
             // A set-point that is not a number stops the motor.
-            let wanted = set_point.max(0.0).min(1.0) * MAX_THRUST;
+            let wanted = if set_point.is_nan() { 0.0 } else { set_point.clamp(0.0, 1.0) * MAX_THRUST };
             *thrust += (wanted - *thrust) * (elapsed / TIME_CONSTANT);
         }
     }
@@ -70,7 +70,12 @@ impl MotorControllers {
     }
 
     pub fn set_points(&self, now_us: u64) -> [f64; 4] {
-        if now_us - self.received_us <= HOLD_US { self.set_points } else { [0.0; 4] }
+        if self.silence_us(now_us) <= HOLD_US { self.set_points } else { [0.0; 4] }
+    }
+
+    /// Since the last set-point.
+    pub fn silence_us(&self, now_us: u64) -> u64 {
+        now_us - self.received_us
     }
 }
 

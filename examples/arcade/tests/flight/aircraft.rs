@@ -1,6 +1,6 @@
 //! The loop that processes and gates close in the system: readings to the autopilot, set-points to the motors.
 
-use arcade::arcade::{Action, Command, CommandResult, Fix, Flight, Height, Mode, Vector, World};
+use arcade::arcade::{Action, Command, CommandResult, Fix, Flight, Height, Mode, Motors, Vector, World};
 use arcade::autopilot::FlightController;
 use arcade::autopilot::state;
 use arcade::geodesy::Home;
@@ -15,7 +15,7 @@ const FIX_PERIOD: u64 = 60;
 pub(crate) struct Aircraft {
     pub(crate) simulation: Simulation,
     /// None while the autopilot is killed.
-    pub(crate) autopilot: Option<FlightController>,
+    autopilot: Option<FlightController>,
     receiver: Receiver,
     pub(crate) fixes: bool,
     /// Messages arrive this many beats late.
@@ -23,6 +23,8 @@ pub(crate) struct Aircraft {
     heights: Vec<(u64, Height)>,
     fix_messages: Vec<(u64, Fix)>,
     pub(crate) flight: Flight,
+    /// All set-points so far.
+    pub(crate) motors: Vec<Motors>,
     pub(crate) truth: World,
     steps: u64,
     next_id: u32,
@@ -43,6 +45,7 @@ impl Aircraft {
             heights: Vec::new(),
             fix_messages: Vec::new(),
             flight: Flight::default(),
+            motors: Vec::new(),
             steps: 0,
             next_id: 100,
             steepest: 0.0,
@@ -75,6 +78,7 @@ impl Aircraft {
         }
         let outputs = autopilot.step(&readings.inertial).expect("each reading is newer");
         self.simulation.receive(&outputs.motors);
+        self.motors.push(outputs.motors);
         if let Some(flight) = outputs.flight {
             self.flight = flight;
         }
@@ -95,20 +99,59 @@ impl Aircraft {
         panic!("not {what} after {seconds} s: {:?}, {:?}", self.flight, self.truth);
     }
 
+    pub(crate) fn autopilot(&self) -> &FlightController {
+        self.autopilot.as_ref().expect("a running autopilot")
+    }
+
     /// Sends a command that takes effect in 100 ms.
-    pub(crate) fn command(&mut self, action: Action, target: [f64; 3]) -> CommandResult {
+    pub(crate) fn command(&mut self, action: Action, [x, y, z]: [f64; 3]) -> CommandResult {
+        self.send(Command { action: action.into(), target: Some(Vector { x, y, z }), ..Command::default() })
+    }
+
+    fn send(&mut self, command: Command) -> CommandResult {
         self.next_id += 1;
-        let [x, y, z] = target;
         let effective_us = self.truth.time_us + 100_000;
-        let target = Some(Vector { x, y, z });
-        let command = Command { id: self.next_id, action: action.into(), target, effective_us, ..Command::default() };
-        self.autopilot.as_mut().expect("a running autopilot").receive_command(&command)
+        let autopilot = self.autopilot.as_mut().expect("a running autopilot");
+        autopilot.receive_command(&Command { id: self.next_id, effective_us, ..command })
     }
 
     /// Sends a command that must be accepted, and runs until it is in effect.
     pub(crate) fn obey(&mut self, action: Action, target: [f64; 3]) {
         let result = self.command(action, target);
-        assert!(result.accepted, "{action:?}: {}", result.reason);
+        self.await_effect(&result);
+    }
+
+    /// Starts for a point.
+    pub(crate) fn go_to(&mut self, [x, y, z]: [f64; 3], yaw: f64, speed: f64) {
+        let target = Some(Vector { x, y, z });
+        let result = self.send(Command { action: Action::GoTo.into(), target, yaw, speed, ..Command::default() });
+        self.await_effect(&result);
+    }
+
+    /// Flies to a point and stays there for a second.
+    pub(crate) fn fly_to(&mut self, target: [f64; 3]) {
+        self.obey(Action::GoTo, target);
+        self.reach(target);
+    }
+
+    /// Waits as a mission does: until the estimate has been close to the target for a second.
+    pub(crate) fn reach(&mut self, target: [f64; 3]) {
+        let mut close = 0;
+        self.run_until("there", 30.0, |aircraft| {
+            close = if aircraft.estimated_distance_to(target) < 0.4 { close + 1 } else { 0 };
+            close > RATE
+        });
+    }
+
+    /// Lands from where it is.
+    pub(crate) fn land(&mut self) {
+        self.obey(Action::Land, [0.0; 3]);
+        self.run_until("down", 30.0, |aircraft| aircraft.flight.mode() == Mode::Grounded);
+        self.run(1.0);
+    }
+
+    fn await_effect(&mut self, result: &CommandResult) {
+        assert!(result.accepted, "{}", result.reason);
         let id = self.next_id;
         self.run_until("in effect", 0.3, |aircraft| aircraft.flight.command_id == id);
     }
@@ -120,10 +163,14 @@ impl Aircraft {
         self.run_until("flying", 15.0, |aircraft| aircraft.flight.mode() == Mode::Flying);
     }
 
+    pub(crate) fn kill(&mut self) {
+        self.autopilot = None;
+    }
+
     /// Kills the autopilot and starts it again from its state `seconds` later.
     pub(crate) fn restart(&mut self, seconds: f64) {
-        let saved = state::save(self.autopilot.as_ref().expect("a running autopilot"));
-        self.autopilot = None;
+        let saved = state::save(self.autopilot());
+        self.kill();
         self.run(seconds);
         let restored = state::restore(&saved).expect("a state");
         self.autopilot = Some(restored.resumed(self.truth.time_us).expect("a recent state"));
@@ -143,3 +190,8 @@ impl Aircraft {
 }
 
 pub(crate) const HOME: Home = Home { latitude: 50.6866, longitude: 10.9190, altitude: 480.0 };
+
+/// The wind of the example.
+pub(crate) fn wind(seed: u64) -> Settings {
+    Settings { seed, ..Settings::default() }
+}

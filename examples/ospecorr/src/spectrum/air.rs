@@ -160,6 +160,6 @@ mod tests {
     }
 
     fn frame() -> Option<Frame> {
-        Some(Frame { number: 7, data: vec![1, 2, 3].into() })
+        Some(Frame { number: 7, data: vec![1, 2, 3] })
     }
 }

@@ -7,6 +7,7 @@ use scl_tests::wait_until;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::io::{BufRead, BufReader, Read};
+use std::os::unix::fs::DirBuilderExt as _;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -59,13 +60,13 @@ pub(super) struct Flown {
 impl Flight {
     /// Builds and starts the aircraft with more arguments of `scl run`, and waits until all components are ready. The recording gets this name.
     pub(super) fn start(name: &str, arguments: &[&str]) -> Self {
-        let system = System::of_files(&[]);
+        let system = aircraft_folder();
         std::fs::create_dir_all(built("arcade")).unwrap();
         let file = built("arcade").join(name).with_extension("mcap");
         let (sender, events) = channel();
         // It begins first, so that no message is missing.
         let record = ["record", "--system", "arcade", "--overwrite", "--format", "json", "-o", file.to_str().unwrap()];
-        let recorder = spawn_recorder(&mut command(&system, &record));
+        let recorder = spawn_recorder(&mut command(&system, &record), "recording `arcade`");
         let folder = example("arcade");
         let arguments = [&["run", folder.to_str().unwrap()], arguments].concat();
         let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -200,6 +201,13 @@ impl Position {
     }
 }
 
+/// A folder for a system that does not run yet, but can be recorded: `scl record` wants the system's runtime folder.
+pub(super) fn aircraft_folder() -> System {
+    let system = System::of_files(&[]);
+    std::fs::DirBuilder::new().recursive(true).mode(0o700).create(system.path("runtime/arcade")).unwrap();
+    system
+}
+
 /// `scl` in the folder of the example, whose topology and launch file the recording gets.
 pub(super) fn command(system: &System, arguments: &[&str]) -> Command {
     let mut command = system.scl(arguments);
@@ -210,13 +218,13 @@ pub(super) fn command(system: &System, arguments: &[&str]) -> Command {
     command
 }
 
-/// Starts a recorder, and waits until it waits for components.
-pub(super) fn spawn_recorder(command: &mut Command) -> Child {
+/// Starts a recorder, and waits until it prints this.
+pub(super) fn spawn_recorder(command: &mut Command, begun: &str) -> Child {
     let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines();
-    lines.next().unwrap().unwrap();
+    let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines().map(Result::unwrap);
+    assert!(lines.any(|line| line.contains(begun)), "{command:?} does not record");
     // So that it can print the others.
-    std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
+    std::thread::spawn(move || lines.for_each(drop));
     recorder
 }
 

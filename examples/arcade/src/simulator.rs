@@ -1,0 +1,83 @@
+//! The program `simulator`: paces the simulation in real time and closes the loop over its gates.
+
+use crate::Simulator;
+use crate::arcade;
+use crate::autopilot::parameters::Parameters;
+use crate::nmea;
+use crate::sensors::gps::{self, Receiver};
+use crate::sensors::truth;
+use crate::serial::SerialPort;
+use crate::simulation::{RATE, Readings, Settings, Simulation};
+use crate::watch::Watch;
+use std::time::Duration;
+
+/// When the simulation could not run for more steps than these, 20 ms, it goes on from there: many steps at once would be
+/// a flight without control.
+const MAX_MISSED: u64 = 6;
+/// Time begins when all parts are there, or without those that are not there by then.
+const PATIENCE: Duration = Duration::from_secs(20);
+const NMEA_PERIOD: u64 = (RATE / gps::RATE) as u64; // steps
+
+/// Runs the simulation until the program is stopped.
+///
+/// # Errors
+/// Those of the gates and the timer.
+pub async fn run(mut gates: Simulator, settings: Settings, serial: Option<SerialPort>) -> scl::Result<()> {
+    let mut simulation = Simulation::new(&settings);
+    let mut receiver = SerialReceiver { port: serial, receiver: Receiver::new(settings.seed) };
+    let mut watch = Watch::default();
+    if let Err(missing) = gates.ready(PATIENCE).await {
+        println!("beginning without all parts: {missing}");
+    }
+    let mut tick = scl::time::interval(Duration::from_secs(1) / RATE)?;
+    loop {
+        tick.tick().await?;
+        let missed = tick.skip_missed();
+        if missed > MAX_MISSED {
+            println!("the simulation stood still for {} ms", missed * 1000 / u64::from(RATE));
+        }
+        let steps = if missed > MAX_MISSED { 1 } else { 1 + missed };
+        for _ in 0..steps {
+            if let Some(motors) = gates.motors.try_recv()? {
+                simulation.receive(&motors);
+            }
+            let readings = simulation.step();
+            send(&mut gates, &readings).await?;
+            receiver.step(&simulation)?;
+            watch.step(&simulation).into_iter().for_each(|event| println!("{event}"));
+        }
+    }
+}
+
+async fn send(gates: &mut Simulator, readings: &Readings) -> scl::Result<()> {
+    // Before the inertial reading, in whose beat the autopilot works.
+    if let Some(height) = &readings.height {
+        gates.height.send(height).await?;
+    }
+    gates.imu.send(&readings.inertial).await?;
+    if let Some(world) = &readings.world {
+        gates.world.send(world).await?;
+    }
+    if let Some(battery) = &readings.battery {
+        gates.battery.send(battery).await?;
+    }
+    Ok(())
+}
+
+/// The GPS receiver at the serial port.
+struct SerialReceiver {
+    port: Option<SerialPort>,
+    receiver: Receiver,
+}
+
+impl SerialReceiver {
+    fn step(&mut self, simulation: &Simulation) -> scl::Result<()> {
+        let Some(port) = &self.port else { return Ok(()) };
+        if simulation.steps().is_multiple_of(NMEA_PERIOD) {
+            let world: arcade::World = truth(simulation.time_us(), &simulation.world);
+            let fix = self.receiver.measure(&world, Parameters::default().home());
+            port.write(&nmea::sentences(&fix))?;
+        }
+        Ok(())
+    }
+}
