@@ -7,7 +7,9 @@ use crate::{built, example};
 use scl_tests::wait_until;
 use serde_json::Value;
 use std::fmt::Write as _;
+use std::fs::DirBuilder;
 use std::io::{BufRead, BufReader, Read};
+use std::os::unix::fs::DirBuilderExt;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -44,7 +46,9 @@ impl Session {
         std::fs::create_dir_all(built("ospecorr")).unwrap();
         let file = built("ospecorr").join(name).with_extension("mcap");
         let (sender, events) = channel();
-        // It begins first, so that no message is missing.
+        // The recorder begins first, so that no message is missing; it needs the folder of the system.
+        let mut folder = DirBuilder::new();
+        folder.recursive(true).mode(0o700).create(system.path("runtime/ospecorr")).unwrap();
         let record = ["record", "--system", "ospecorr", "--overwrite", "-o", file.to_str().unwrap()];
         let recorder = spawn_recorder(&mut command(&system, &record));
         let folder = example("ospecorr");
@@ -153,7 +157,8 @@ fn command(system: &System, arguments: &[&str]) -> Command {
 fn spawn_recorder(command: &mut Command) -> Child {
     let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines();
-    lines.next().unwrap().unwrap();
+    let first = lines.next().unwrap().unwrap();
+    assert!(first.starts_with("recording"), "{first}");
     // So that it can print the others.
     std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
     recorder
