@@ -245,3 +245,69 @@ def test_signals_end_a_program_of_tasks(system: System, number: signal.Signals, 
         assert (code, errors) == (0, "")
     else:
         assert "KeyboardInterrupt" in errors
+
+
+def test_a_stop_request_ends_all_loops_in_order(system: System) -> None:
+    program = system.python("""
+        import asyncio
+        import os
+        import signal
+        from contextlib import asynccontextmanager
+
+        @asynccontextmanager
+        async def told(name):
+            try:
+                yield
+            finally:
+                print(name, "ends", flush=True)
+
+        async def send(source):
+            async with told("sending"):
+                while True:
+                    source.readings.send(source.readings.type(value=1))
+                    await asyncio.sleep(0.001)
+
+        async def sleep():
+            async with told("sleeping"):
+                await asyncio.sleep(3600)
+
+        async def stop():
+            os.kill(os.getpid(), signal.SIGTERM)
+            await asyncio.sleep(3600)
+
+        async def main():
+            async with scl.open(SIX, "source") as source:
+                await scl.until_stopped(sleep(), send(source), stop())
+
+        asyncio.run(main())
+        print("closed", flush=True)
+    """)
+    assert program.end() == (0, "")
+    for line in ["sending ends", "sleeping ends", "closed"]:
+        program.expect(line)
+
+
+def test_the_loop_that_fails_ends_the_others(run: Run) -> None:
+    ended = []
+
+    async def wait() -> None:
+        try:
+            await asyncio.sleep(3600)
+        finally:
+            ended.append("waiting")
+
+    async def fail() -> None:
+        raise ValueError("failed")
+
+    async def main() -> None:
+        with pytest.raises(ValueError, match="failed"):
+            await scl.until_stopped(wait(), fail())
+        assert ended == ["waiting"]
+        await scl.until_stopped(wait(), asyncio.sleep(0))
+        assert ended == ["waiting"] * 2
+        await scl.until_stopped()
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(scl.until_stopped(wait()), 0.001)
+        assert ended == ["waiting"] * 3
+
+    run(main())

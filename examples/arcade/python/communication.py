@@ -12,7 +12,7 @@ from typing import cast
 import scl
 
 from arcade_scl import Action, Command, Communication, ParameterChange
-from gates import newest, until_first_ends
+from gates import newest
 from ground_link import GoHome, LandHere, SetParameter, Vehicle, next_id, understand
 
 Answer = Callable[[str], None]  # takes the answer to a command
@@ -28,7 +28,7 @@ class Link:
         self.commands: asyncio.Queue[tuple[str, Answer]] = asyncio.Queue(maxsize=16)
 
     async def run(self) -> None:
-        await until_first_ends(self.report(), self.obey())
+        await scl.until_stopped(self.report(), self.obey())
 
     async def report(self) -> None:
         """One line a second, also while other components are silent."""

@@ -1,9 +1,7 @@
 """Receiving where an undecodable message is reported and skipped instead of ending the program."""
 
-import asyncio
 import sys
-from collections.abc import AsyncIterator, Coroutine
-from contextlib import suppress
+from collections.abc import AsyncIterator
 from typing import TypeVar
 
 import scl
@@ -57,20 +55,3 @@ async def requests(gate: scl.Rep[A, B]) -> AsyncIterator[scl.Request[A, B]]:
             return
         else:
             yield request
-
-
-async def until_first_ends(*loops: Coroutine[None, None, None]) -> None:
-    """Runs loops that end when the program is asked to stop. If one of them fails, so does the program."""
-    done, pending = await asyncio.wait(
-        [asyncio.create_task(_quietly(it)) for it in loops], return_when="FIRST_COMPLETED"
-    )
-    for task in pending:
-        task.cancel()
-    for task in done:
-        task.result()
-
-
-async def _quietly(loop: Coroutine[None, None, None]) -> None:
-    # A `SystemExit` in a task would end the event loop before the others are cancelled.
-    with suppress(scl.Stopped):
-        await loop

@@ -14,7 +14,7 @@ from arbiter_events import Answered, Ask, Event, FlightSeen, ParametersSeen, Pow
 from arbiter_logic import Arbiter
 from arcade_scl import Arbitration, Authority, Command, CommandResult, MissionArbiter
 from black_box import BlackBox
-from gates import messages, requests, until_first_ends
+from gates import messages, requests
 
 T = TypeVar("T")
 PERIOD = 0.1  # s, between two publications
@@ -34,7 +34,7 @@ class Program:
 
     async def run(self) -> None:
         c = self.component
-        await until_first_ends(
+        await scl.until_stopped(
             self.listen(c.flight, FlightSeen),
             self.listen(c.power, PowerSeen),
             self.listen(c.parameters, ParametersSeen),

@@ -25,7 +25,7 @@ async def main() -> None:
                 with suppress(scl.RequesterGone):
                     command.reply(Status(accepted=True))
 
-        await asyncio.gather(steer(), obey())
+        await scl.until_stopped(steer(), obey())
 
 
 with suppress(KeyboardInterrupt):

@@ -39,6 +39,7 @@ from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Request, Sub
 from scl._generated import GeneratedComponent
 from scl._native import __version__
 from scl._signals import stop_requested
+from scl._tasks import until_stopped
 from scl._testing import Counterpart, DynamicCounterpart, TestableComponent, test
 
 __all__ = [
@@ -86,4 +87,5 @@ __all__ = [
     "open_plan",
     "stop_requested",
     "test",
+    "until_stopped",
 ]
