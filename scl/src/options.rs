@@ -63,8 +63,8 @@ impl OpenOptions {
         self
     }
 
-    /// For `test()`: on this transport, a component is alone with its counterpart, which plays all peers of a gate at the
-    /// endpoint of its first connection. The other connections are left out, and what nobody receives is no warning.
+    /// For `test()`: on this transport, a component is alone with its counterpart, which plays all peers of a gate at
+    /// the endpoint of its first connection. The other connections are left out, and what nobody receives is no warning.
     #[cfg(feature = "memory")]
     #[doc(hidden)]
     pub fn of_test(transport: crate::transport::memory::Memory) -> Self {

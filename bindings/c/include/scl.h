@@ -219,12 +219,12 @@ scl_status scl_open(const char *plan_json,
                     scl_component **opened);
 
 /**
- * Opens a component for a unit test, together with its counterpart, which has the opposite end of each gate under the same
- * name: where the component receives, its counterpart sends. Both are connected within this process, without sockets or
- * files, so any number of tests may run at the same time. Signals and the environment have no effect.
+ * Opens a component for a unit test, together with its counterpart, which has the opposite end of each gate under the
+ * same name: where the component receives, its counterpart sends. Both are connected within this process, without
+ * sockets or files, so any number of tests may run at the same time. Signals and the environment have no effect.
  *
- * The first three arguments are those of scl_open. On success, `*opened` and `*peer` are the new components, each to be
- * closed with scl_close; otherwise they are NULL.
+ * The first three arguments are those of scl_open. On success, `*opened` and `*peer` are the new components, each to
+ * be closed with scl_close; otherwise they are NULL.
  *
  * Errors: SCL_PLAN, SCL_NAME (the plan has no such component), SCL_SYSTEM, SCL_ARGUMENT.
  */

@@ -8,11 +8,11 @@ use crate::transport::memory::Memory;
 use std::time::Duration;
 
 impl Component {
-    /// Opens a component for a unit test, together with its counterpart, which has the opposite end of each gate under the
-    /// same name, without processes, sockets or files.
+    /// Opens a component for a unit test, together with its counterpart, which has the opposite end of each gate under
+    /// the same name, without processes, sockets or files.
     ///
-    /// Queues, policies and timeouts of the component are those of its plan; of a gate with several connections, the first
-    /// counts. The counterpart drops and refuses nothing, and is called `controller's peers` in errors. All gates are
+    /// Queues, policies and timeouts of the component are those of its plan; of a gate with several connections, the
+    /// first counts. The counterpart drops and refuses nothing, and is called `controller's peers` in errors. All gates are
     /// connected.
     ///
     /// ```
