@@ -98,8 +98,7 @@ static void begin_at(autopilot *self, uint64_t reading_us) {
         self->controller = self->saved;
         self->controller.restarts++;
         self->mode = self->controller.navigator.mode;
-        uint64_t paused_us = reading_us - self->saved.time_us;
-        printf("carrying on in the air after %" PRIu64 " ms without control\n", paused_us / 1000);
+        printf("carrying on in the air: restart %" PRIu32 "\n", self->controller.restarts);
     } else {
         printf("ready on the ground\n");
     }
