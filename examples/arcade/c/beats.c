@@ -1,6 +1,6 @@
 /*
- * The loop of the autopilot. It waits for nothing but the next inertial reading or request: what other gates have not received yet
- * is not waited for, and a peer that is missing does not delay a beat.
+ * The loop of the autopilot. It waits for nothing but the next inertial reading or request: what other gates have not
+ * received yet is not waited for, and a peer that is missing does not delay a beat.
  */
 #include "autopilot.h"
 #include "clock.h"
@@ -92,7 +92,10 @@ static scl_status send_beat(autopilot *self, uint64_t began_ns, uint64_t sent_ns
     return arcade_autopilot_beats_send(&self->gates, &message, 0);
 }
 
-/* At the first reading: carries on where the process before this one was killed, if that was in the air and a moment ago. */
+/*
+ * At the first reading: carries on where the process before this one was killed, if that was in the air and a moment
+ * ago.
+ */
 static void begin_at(autopilot *self, uint64_t reading_us) {
     if (self->has_saved && flight_controller_can_resume(&self->saved, reading_us)) {
         self->controller = self->saved;
