@@ -1,7 +1,7 @@
 /*
- * Attitude estimation: the passive filter on unit quaternions of Mahony, Hamel and Pflimlin, Nonlinear Complementary Filters on
- * the Special Orthogonal Group, 2008, section IV-C. Rates are exact for a short time but drift; the unit's own angles do not drift
- * but are noisy.
+ * Attitude estimation: the passive filter on unit quaternions of Mahony, Hamel and Pflimlin, Nonlinear Complementary
+ * Filters on the Special Orthogonal Group, 2008, section IV-C. Rates are exact for a short time but drift; the unit's
+ * own angles do not drift but are noisy.
  */
 #include "attitude.h"
 
@@ -16,7 +16,8 @@ void attitude_reset(attitude_estimator *self, vector rates, vector angles) {
     self->attitude = quaternion_from_angles(angles);
 }
 
-void attitude_update(attitude_estimator *self, vector rates, vector angles, double elapsed, const parameters *parameters) {
+void attitude_update(attitude_estimator *self, vector rates, vector angles, double elapsed,
+                     const parameters *parameters) {
     self->rates = vector_subtract(rates, self->bias);
     quaternion turned = quaternion_from_rotation_vector(vector_scale(self->rates, elapsed));
     quaternion predicted = quaternion_multiply(self->attitude, turned);

@@ -18,6 +18,7 @@ attitude_estimator attitude_new(void);
 void attitude_reset(attitude_estimator *self, vector rates, vector angles);
 
 /* Takes in the next reading, `elapsed` seconds after the last. */
-void attitude_update(attitude_estimator *self, vector rates, vector angles, double elapsed, const parameters *parameters);
+void attitude_update(attitude_estimator *self, vector rates, vector angles, double elapsed,
+                     const parameters *parameters);
 
 #endif

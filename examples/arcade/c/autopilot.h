@@ -20,7 +20,10 @@ typedef struct autopilot {
 /* Reads what the process before this one has saved. `gates` and `state` are open. */
 void autopilot_begin(autopilot *self);
 
-/* Waits for readings and requests, at most 200 ms, and handles what there is. Returns `SCL_OK`, or why the program has to end. */
+/*
+ * Waits for readings and requests, at most 200 ms, and handles what there is. Returns `SCL_OK`, or why the program has
+ * to end.
+ */
 scl_status autopilot_turn(autopilot *self);
 
 #endif

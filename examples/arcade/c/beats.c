@@ -1,6 +1,6 @@
 /*
- * The loop of the autopilot. It waits for nothing but the next inertial reading or request: what other gates have not received yet
- * is not waited for, and a peer that is missing does not delay a beat.
+ * The loop of the autopilot. It waits for nothing but the next inertial reading or request: what other gates have not
+ * received yet is not waited for, and a peer that is missing does not delay a beat.
  */
 #include "autopilot.h"
 #include "clock.h"
@@ -92,14 +92,16 @@ static scl_status send_beat(autopilot *self, uint64_t began_ns, uint64_t sent_ns
     return arcade_autopilot_beats_send(&self->gates, &message, 0);
 }
 
-/* At the first reading: carries on where the process before this one was killed, if that was in the air and a moment ago. */
+/*
+ * At the first reading: carries on where the process before this one was killed, if that was in the air and a moment
+ * ago.
+ */
 static void begin_at(autopilot *self, uint64_t reading_us) {
     if (self->has_saved && flight_controller_can_resume(&self->saved, reading_us)) {
         self->controller = self->saved;
         self->controller.restarts++;
         self->mode = self->controller.navigator.mode;
-        uint64_t paused_us = reading_us - self->saved.time_us;
-        printf("carrying on in the air after %" PRIu64 " ms without control\n", paused_us / 1000);
+        printf("carrying on in the air: restart %" PRIu32 "\n", self->controller.restarts);
     } else {
         printf("ready on the ground\n");
     }

@@ -1,7 +1,8 @@
 /*
- * Control: position P, velocity PI with feed-forward, attitude P on quaternions, rates PID, as PX4's multicopter controllers; the
- * attitude law is that of Brescianini, Hehn and D'Andrea, Nonlinear Quadrocopter Attitude Control, 2013. Integrators stop where an
- * actuator has reached its limit (Astrom and Hagglund, PID Controllers, 1995, section 3.5).
+ * Control: position P, velocity PI with feed-forward, attitude P on quaternions, rates PID, as PX4's multicopter
+ * controllers; the attitude law is that of Brescianini, Hehn and D'Andrea, Nonlinear Quadrocopter Attitude Control,
+ * 2013. Integrators stop where an actuator has reached its limit (Astrom and Hagglund, PID Controllers, 1995, section
+ * 3.5).
  */
 #include "control.h"
 
@@ -47,7 +48,8 @@ static quaternion attitude_along(vector force, double yaw) {
 }
 
 /* Grows the integral unless that would push further beyond a limit that was reached. */
-static void integrate(velocity_controller *self, vector error, vector cut, const parameters *parameters, double elapsed) {
+static void integrate(velocity_controller *self, vector error, vector cut, const parameters *parameters,
+                      double elapsed) {
     double horizontal = parameters->velocity_i * elapsed;
     self->integral.x += cut.x * error.x < 0.0 ? 0.0 : error.x * horizontal;
     self->integral.y += cut.y * error.y < 0.0 ? 0.0 : error.y * horizontal;
@@ -57,8 +59,8 @@ static void integrate(velocity_controller *self, vector error, vector cut, const
     self->integral.z = limit(self->integral.z, MAX_ACCELERATION_INTEGRAL);
 }
 
-thrust control_velocity(velocity_controller *self, const set_point *set_point, vector position, vector velocity, bool level,
-                        const parameters *parameters, double elapsed) {
+thrust control_velocity(velocity_controller *self, const set_point *set_point, vector position, vector velocity,
+                        bool level, const parameters *parameters, double elapsed) {
     vector error = vector_subtract(wanted_velocity(set_point, position, parameters), velocity);
     vector force = vector_add(set_point->acceleration, self->integral);
     force.z += parameters->climb_p * error.z + GRAVITY;

@@ -19,8 +19,8 @@ typedef struct velocity_controller {
 } velocity_controller;
 
 /* `level`: the horizontal position is unknown, so only what the integral has learned of the wind is held against it. */
-thrust control_velocity(velocity_controller *self, const set_point *set_point, vector position, vector velocity, bool level,
-                        const parameters *parameters, double elapsed);
+thrust control_velocity(velocity_controller *self, const set_point *set_point, vector position, vector velocity,
+                        bool level, const parameters *parameters, double elapsed);
 
 /* From attitude to torques. */
 typedef struct rate_controller {

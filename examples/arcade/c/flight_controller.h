@@ -1,7 +1,7 @@
 /*
- * From readings to set-points of the motors, once per inertial reading. Everything depends on messages and the times in them
- * alone, not on clocks or the order of arrival, so a recorded flight can be repeated exactly, also by the twin in Rust, which has
- * the same files.
+ * From readings to set-points of the motors, once per inertial reading. Everything depends on messages and the times in
+ * them alone, not on clocks or the order of arrival, so a recorded flight can be repeated exactly, also by the twin in
+ * Rust, which has the same files.
  */
 #ifndef FLIGHT_CONTROLLER_H
 #define FLIGHT_CONTROLLER_H
@@ -46,8 +46,8 @@ void flight_controller_receive_fix(flight_controller *self, const Arcade__Fix *m
 void flight_controller_receive_parameters(flight_controller *self, const Arcade__Parameters *message);
 
 /*
- * Takes a command, which takes effect at a time of its own, and returns whether it is accepted. A command that is repeated because
- * its result was lost is accepted again, without effect.
+ * Takes a command, which takes effect at a time of its own, and returns whether it is accepted. A command that is
+ * repeated because its result was lost is accepted again, without effect.
  */
 bool flight_controller_receive_command(flight_controller *self, const Arcade__Command *message,
                                        char reason[COMMANDS_REASON_SIZE]);

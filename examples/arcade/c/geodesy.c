@@ -1,7 +1,7 @@
 /*
- * A local tangent plane around home, with the earth's radii of curvature there (Groves, Principles of GNSS, Inertial and
- * Multisensor Integrated Navigation Systems, 2nd edition, equations 2.105, 2.106 and 2.111). Wrong by less than 0.1 m within 1 km,
- * and not for use at the poles.
+ * A local tangent plane around home, with the earth's radii of curvature there (Groves, Principles of GNSS, Inertial
+ * and Multisensor Integrated Navigation Systems, 2nd edition, equations 2.105, 2.106 and 2.111). Wrong by less than 0.1
+ * m within 1 km, and not for use at the poles.
  */
 #include "geodesy.h"
 

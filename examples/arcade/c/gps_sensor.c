@@ -25,7 +25,7 @@ typedef struct options {
 
 static const char USAGE[] = "usage: gps_sensor [--seed NUMBER] [--outage FROM:UNTIL]\n"
                             "  --seed NUMBER          of the noise (default 1)\n"
-                            "  --outage FROM:UNTIL    no reception from FROM to UNTIL, in seconds of the vehicle's clock\n";
+                            "  --outage FROM:UNTIL    no reception from FROM to UNTIL, s of the vehicle's clock\n";
 
 static bool read_seed(const char *text, uint64_t *seed) {
     char rest;

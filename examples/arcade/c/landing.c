@@ -1,4 +1,7 @@
-/* Detection of the ground, by the conditions of PX4's land detector: low, no vertical movement, and little thrust, for a while. */
+/*
+ * Detection of the ground, by the conditions of PX4's land detector: low, no vertical movement, and little thrust, for
+ * a while.
+ */
 #include "landing.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /*
- * Mixing. When the motors cannot give everything, roll and pitch come first, because they keep the vehicle upright; then thrust,
- * then yaw (as "airmode" in PX4's control allocation).
+ * Mixing. When the motors cannot give everything, roll and pitch come first, because they keep the vehicle upright;
+ * then thrust, then yaw (as "airmode" in PX4's control allocation).
  */
 #include "mixer.h"
 

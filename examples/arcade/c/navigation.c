@@ -1,4 +1,6 @@
-/* Navigation: grounded -> taking off -> flying -> landing -> grounded. Commands and the land detector change the mode. */
+/*
+ * Navigation: grounded -> taking off -> flying -> landing -> grounded. Commands and the land detector change the mode.
+ */
 #include "navigation.h"
 
 static const double SPIN_UP = 1.0; /* s: the motors idle for this long before take-off */

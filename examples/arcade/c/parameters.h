@@ -1,4 +1,7 @@
-/* The values of the autopilot that can be changed while it runs. `configuration` keeps them; the autopilot flies without it. */
+/*
+ * The values of the autopilot that can be changed while it runs. `configuration` keeps them; the autopilot flies
+ * without it.
+ */
 #ifndef PARAMETERS_H
 #define PARAMETERS_H
 

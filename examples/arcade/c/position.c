@@ -1,9 +1,9 @@
 /*
- * Estimation of position and velocity. Accelerations are integrated, which is exact for seconds; slow measurements correct what
- * drifts (Higgins, A Comparison of Complementary and Kalman Filtering, 1975). The vertical filter is of third order with equal
- * poles, so that it also learns the bias of the acceleration (ArduPilot's AP_InertialNav). A measurement is compared with the
- * estimate of the time at which it was taken, from a ring of past estimates (Larsen et al., Incorporation of Time Delayed
- * Measurements in a Discrete-time Kalman Filter, 1998).
+ * Estimation of position and velocity. Accelerations are integrated, which is exact for seconds; slow measurements
+ * correct what drifts (Higgins, A Comparison of Complementary and Kalman Filtering, 1975). The vertical filter is of
+ * third order with equal poles, so that it also learns the bias of the acceleration (ArduPilot's AP_InertialNav). A
+ * measurement is compared with the estimate of the time at which it was taken, from a ring of past estimates (Larsen et
+ * al., Incorporation of Time Delayed Measurements in a Discrete-time Kalman Filter, 1998).
  */
 #include "position.h"
 
@@ -20,8 +20,8 @@ static void remember(position_estimator *self, uint64_t time_us, quaternion atti
 void position_predict(position_estimator *self, uint64_t time_us, vector force, quaternion attitude, double elapsed) {
     vector gravity = {0.0, 0.0, GRAVITY};
     vector acceleration = vector_subtract(vector_subtract(quaternion_rotate(attitude, force), gravity), self->bias);
-    vector moved = vector_add(vector_scale(self->velocity, elapsed), vector_scale(acceleration, 0.5 * elapsed * elapsed));
-    self->position = vector_add(self->position, moved);
+    vector curved = vector_scale(acceleration, 0.5 * elapsed * elapsed);
+    self->position = vector_add(self->position, vector_add(vector_scale(self->velocity, elapsed), curved));
     self->velocity = vector_add(self->velocity, vector_scale(acceleration, elapsed));
     remember(self, time_us, attitude);
 }
@@ -32,8 +32,8 @@ void position_coast(position_estimator *self, uint64_t time_us, quaternion attit
 }
 
 /*
- * The newest estimate that is not newer than `time_us`. NULL if it is older than all of them, for example because it is of the time
- * before a restart.
+ * The newest estimate that is not newer than `time_us`. NULL if it is older than all of them, for example because it is
+ * of the time before a restart.
  */
 static const past_estimate *past_at(const position_estimator *self, uint64_t time_us) {
     for (size_t age = 1; age <= POSITION_HISTORY; age++) {
@@ -54,7 +54,9 @@ static double step(uint64_t last_us, uint64_t time_us) {
     return elapsed > LONGEST_STEP ? LONGEST_STEP : elapsed;
 }
 
-/* The height above ground by either sensor. While the ultrasonic sensor is in range, the barometer is calibrated by it. */
+/*
+ * The height above ground by either sensor. While the ultrasonic sensor is in range, the barometer is calibrated by it.
+ */
 static double measured_height(position_estimator *self, const height_reading *height, double upright, double elapsed,
                               const parameters *parameters) {
     if (!height->in_range || !isfinite(height->ultrasonic)) {

@@ -1,4 +1,7 @@
-/* Rotations as unit quaternions (Diebel, Representing Attitude: Euler Angles, Unit Quaternions, and Rotation Vectors, 2006). */
+/*
+ * Rotations as unit quaternions (Diebel, Representing Attitude: Euler Angles, Unit Quaternions, and Rotation Vectors,
+ * 2006).
+ */
 #ifndef QUATERNION_H
 #define QUATERNION_H
 

@@ -5,8 +5,8 @@
 #include <stddef.h>
 
 /*
- * A receiver with differential corrections, as aircraft that hover have: errors of each fix, and errors that wander with the
- * satellites and the ionosphere (Groves, section 9.3). Heights are worse because all satellites are above.
+ * A receiver with differential corrections, as aircraft that hover have: errors of each fix, and errors that wander
+ * with the satellites and the ionosphere (Groves, section 9.3). Heights are worse because all satellites are above.
  */
 static const double WHITE = 0.15;      /* metres, standard deviation */
 static const double SLOW = 0.15;       /* metres, standard deviation */
@@ -62,7 +62,8 @@ static local_position position_with_errors(receiver *self, const Arcade__Vector 
     return measured;
 }
 
-bool receiver_measure(receiver *self, const receiver_parameters *parameters, const Arcade__World *world, Arcade__Fix *fix) {
+bool receiver_measure(receiver *self, const receiver_parameters *parameters, const Arcade__World *world,
+                      Arcade__Fix *fix) {
     if (!self->on || world->time_us < self->measured_us) {
         switch_on(self, world->time_us);
     }

@@ -31,9 +31,10 @@ typedef struct receiver {
 receiver receiver_new(uint64_t seed, outage outage);
 
 /*
- * Measures if a fix is due at the time of `world`. Returns false otherwise. The first call switches the receiver on; a clock that
- * goes back means that the world began anew, and switches it on again.
+ * Measures if a fix is due at the time of `world`. Returns false otherwise. The first call switches the receiver on; a
+ * clock that goes back means that the world began anew, and switches it on again.
  */
-bool receiver_measure(receiver *self, const receiver_parameters *parameters, const Arcade__World *world, Arcade__Fix *fix);
+bool receiver_measure(receiver *self, const receiver_parameters *parameters, const Arcade__World *world,
+                      Arcade__Fix *fix);
 
 #endif

@@ -1,6 +1,6 @@
 /*
- * What survives a crash: a memory-mapped file with two copies of a state. A process that is killed while it writes one copy leaves
- * the other; sequence number and checksum tell which copy is the newest complete one.
+ * What survives a crash: a memory-mapped file with two copies of a state. A process that is killed while it writes one
+ * copy leaves the other; sequence number and checksum tell which copy is the newest complete one.
  */
 #ifndef RESUME_H
 #define RESUME_H
@@ -16,8 +16,8 @@ typedef struct resume {
 } resume;
 
 /*
- * Opens or creates the file at `path` for states of `size` bytes. Without the file, for example on a read-only disk, it returns
- * false and sets errno; the others of these functions then do nothing.
+ * Opens or creates the file at `path` for states of `size` bytes. Without the file, for example on a read-only disk, it
+ * returns false and sets errno; the others of these functions then do nothing.
  */
 bool resume_open(resume *self, const char *path, size_t size);
 

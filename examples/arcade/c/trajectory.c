@@ -1,7 +1,7 @@
 /*
- * The moving set-point on the way to a target. The vehicle follows a point that starts, cruises and brakes as the vehicle itself
- * can, so the controllers stay in their linear range. Braking follows the square-root law of ArduPilot's position controller, with
- * a linear part near the target.
+ * The moving set-point on the way to a target. The vehicle follows a point that starts, cruises and brakes as the
+ * vehicle itself can, so the controllers stay in their linear range. Braking follows the square-root law of ArduPilot's
+ * position controller, with a linear part near the target.
  */
 #include "trajectory.h"
 
@@ -10,8 +10,8 @@ static const double BRAKING = 0.5;
 /* Near the target, speed is proportional to the distance, 1/s. */
 static const double APPROACH = 0.9;
 /*
- * How fast the velocity follows, 1/s, and the time in which the acceleration builds up, s: without steps in the acceleration, the
- * vehicle tilts smoothly.
+ * How fast the velocity follows, 1/s, and the time in which the acceleration builds up, s: without steps in the
+ * acceleration, the vehicle tilts smoothly.
  */
 static const double RESPONSE = 2.5;
 static const double BUILD_UP = 0.2;

@@ -25,7 +25,8 @@ void check_near(double value, double expected, double within, const char *file, 
 }
 
 int main(void) {
-    setenv("SCL_LOG", "error", 0); /* tests close components as a crash does, with messages left, which would be warnings */
+    /* Tests close components as a crash does, with messages left, which would be warnings. */
+    setenv("SCL_LOG", "error", 0);
     test_noise();
     test_geodesy();
     test_receiver();

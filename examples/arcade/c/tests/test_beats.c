@@ -180,7 +180,7 @@ static void a_killed_autopilot_goes_on_in_the_air(const char *path) {
     run_beats(self, START_US, START_US + 200000);
     self->autopilot.last_reading_ns = UINT64_MAX / 2; /* however slow this machine is, readings are not missing */
     Arcade__CommandResult *result = call_take_off(self);
-    CHECK(result->accepted);
+    CHECK(result->accepted && strcmp(result->reason, "") == 0);
     arcade_autopilot_peer_control_free(result);
     run_beats(self, START_US + 200000, START_US + 500000);
     close_scene(self);

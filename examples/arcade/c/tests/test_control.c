@@ -72,7 +72,7 @@ static void an_attitude_error_dies_away(void) {
     thrust upright = {.force = {.z = GRAVITY}, .attitude = QUATERNION_IDENTITY};
     quaternion attitude = quaternion_from_angles((vector){0.3, -0.2, 0.5});
     vector rates = {0};
-    /* Of 1 in the set-points: 4 motors of 6.5 N, at 0.225 m / sqrt(2) from the axes; 0.016 N m of yaw for each newton. */
+    /* Of 1 in the set-points: 4 motors of 6.5 N, at 0.225 m / sqrt(2) from the axes; 0.016 N m of yaw for each N. */
     const double arm = 0.225 / sqrt(2.0), newtons = 4.0 * 6.5;
     for (int beat = 0; beat < 300 * 10; beat++) {
         demand demand = control_rates(&self, &upright, attitude, rates, false, &parameters, BEAT);

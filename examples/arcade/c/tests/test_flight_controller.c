@@ -34,7 +34,8 @@ static void receive_fix(flight_controller *self, uint64_t time_us) {
     flight_controller_receive_fix(self, &fix);
 }
 
-static bool receive_command(flight_controller *self, uint32_t id, Arcade__Action action, uint64_t effective_us, char *reason) {
+static bool receive_command(flight_controller *self, uint32_t id, Arcade__Action action, uint64_t effective_us,
+                            char *reason) {
     Arcade__Vector target = ARCADE__VECTOR__INIT;
     Arcade__Command command = ARCADE__COMMAND__INIT;
     target.z = 5.0;

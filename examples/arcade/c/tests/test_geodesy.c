@@ -13,7 +13,9 @@ static void there_and_back_is_where_it_was(void) {
     CHECK_NEAR(back.up, 8.0, 1e-6);
 }
 
-/* A degree of latitude has 110574 m at the equator and 111694 m at the pole, one of longitude 111320 m at the equator. */
+/*
+ * A degree of latitude has 110574 m at the equator and 111694 m at the pole, one of longitude 111320 m at the equator.
+ */
 static void degrees_have_the_length_of_tables(void) {
     home equator = {0};
     home near_pole = {.latitude = 89.999};

@@ -6,7 +6,8 @@
 static const double BEAT = 1.0 / 300.0;
 
 static const command TAKE_OFF = {.id = 1, .action = ARCADE__ACTION__ACTION_TAKE_OFF, .target = {9.0, 9.0, 5.0}};
-static const command GO_TO = {.id = 2, .action = ARCADE__ACTION__ACTION_GO_TO, .target = {10.0, 0.0, 5.0}, .speed = 2.0};
+static const command GO_TO = {.id = 2, .action = ARCADE__ACTION__ACTION_GO_TO, .target = {10.0, 0.0, 5.0},
+                              .speed = 2.0};
 static const command LAND = {.id = 3, .action = ARCADE__ACTION__ACTION_LAND};
 
 /* Navigation of a vehicle that is where it is told to be. */

@@ -11,10 +11,12 @@ static uint64_t time_of(int beat) {
 }
 
 /* The fix that a receiver without errors would make. */
-static fix_reading fix_at(uint64_t time_us, double east, double north, double east_speed, const parameters *parameters) {
+static fix_reading fix_at(uint64_t time_us, double east, double north, double east_speed,
+                          const parameters *parameters) {
     local_position position = {.east = east, .north = north};
     geodetic_position degrees = geodesy_from_local(parameters_home(parameters), position);
-    return (fix_reading){.time_us = time_us, .valid = true, .latitude = degrees.latitude, .longitude = degrees.longitude,
+    return (fix_reading){.time_us = time_us, .valid = true, .latitude = degrees.latitude,
+                         .longitude = degrees.longitude,
                          .east_speed = east_speed};
 }
 
@@ -107,7 +109,8 @@ static void the_barometer_takes_over_out_of_range(void) {
         bool in_range = beat < 300 * 40;
         position_predict(&self, time_of(beat), (vector){.z = GRAVITY}, QUATERNION_IDENTITY, BEAT);
         if (beat % 15 == 0) {
-            height_reading height = {.time_us = time_of(beat), .in_range = in_range, .ultrasonic = 3.0, .barometer = 4.5};
+            height_reading height = {.time_us = time_of(beat), .in_range = in_range, .ultrasonic = 3.0,
+                                     .barometer = 4.5};
             position_correct_height(&self, &height, &parameters);
         }
     }
@@ -124,7 +127,8 @@ static void a_tilted_range_is_corrected(void) {
     for (int beat = 1; beat <= 300 * 20; beat++) {
         position_predict(&self, time_of(beat), at_rest, tilted, BEAT);
         if (beat % 15 == 0) {
-            height_reading height = {.time_us = time_of(beat), .in_range = true, .ultrasonic = 2.0 / cos(0.4), .barometer = 2.0};
+            height_reading height = {.time_us = time_of(beat), .in_range = true, .ultrasonic = 2.0 / cos(0.4),
+                                     .barometer = 2.0};
             position_correct_height(&self, &height, &parameters);
         }
     }

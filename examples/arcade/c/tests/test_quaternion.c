@@ -10,7 +10,9 @@ static void angles_survive_the_way_there_and_back(void) {
     CHECK_VECTOR(quaternion_angles(quaternion_from_angles(angles)), angles);
 }
 
-/* x forward, y left, z up: positive pitch lowers the nose, positive roll raises the left side, positive yaw turns left. */
+/*
+ * x forward, y left, z up: positive pitch lowers the nose, positive roll raises the left side, positive yaw turns left.
+ */
 static void angles_turn_as_the_schema_says(void) {
     vector nose = quaternion_rotate(quaternion_from_angles((vector){.y = 0.1}), (vector){.x = 1.0});
     vector left = quaternion_rotate(quaternion_from_angles((vector){.x = 0.1}), (vector){.y = 1.0});
@@ -35,7 +37,8 @@ static void the_shorter_way_is_taken(void) {
 static void a_product_rotates_by_the_second_factor_first(void) {
     quaternion turn = quaternion_from_angles((vector){.z = 1.0}), tilt = quaternion_from_angles((vector){.x = 0.2});
     vector v = {1.0, 2.0, 3.0};
-    CHECK_VECTOR(quaternion_rotate(quaternion_multiply(turn, tilt), v), quaternion_rotate(turn, quaternion_rotate(tilt, v)));
+    CHECK_VECTOR(quaternion_rotate(quaternion_multiply(turn, tilt), v), quaternion_rotate(turn,
+                                                                                          quaternion_rotate(tilt, v)));
     CHECK_VECTOR(quaternion_rotate(quaternion_multiply(turn, quaternion_conjugate(turn)), v), v);
 }
 

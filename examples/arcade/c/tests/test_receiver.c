@@ -30,7 +30,8 @@ static Arcade__World *world_at(scene *scene, uint64_t time_us) {
 }
 
 /* Lets the receiver run, and returns how many fixes of 3D there were; the last one is in `fix`. */
-static int run(receiver *self, const receiver_parameters *parameters, uint64_t from_us, uint64_t until_us, Arcade__Fix *fix) {
+static int run(receiver *self, const receiver_parameters *parameters, uint64_t from_us, uint64_t until_us,
+               Arcade__Fix *fix) {
     scene scene;
     int found = 0;
     for (uint64_t time_us = from_us; time_us <= until_us; time_us += WORLD_STEP_US) {
