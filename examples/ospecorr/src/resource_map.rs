@@ -160,7 +160,7 @@ mod tests {
         let (running, _peer) = start(&folder).await?;
         let refused = running.await.unwrap()?;
         assert!(refused.to_string().contains("it belongs to another program"), "{refused}");
-        assert_eq!(fs::read_dir(folder.path())?.count(), 1);
+        assert_eq!(fs::read_dir(folder.path())?.count(), 1, "only that database is there");
         Ok(())
     }
 

@@ -29,6 +29,9 @@ const BUSY_TIMEOUT: Duration = Duration::from_millis(50);
 
 const PAGE_BYTES: u64 = 4096;
 
+/// The length at which the log is moved to the file: what is in it when the disk becomes full needs room in the file.
+const LOG_PAGES: u32 = 32;
+
 /// Why a database was not opened.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -91,6 +94,7 @@ impl Database {
         // power failure, but does not damage the file.
         connection.pragma_update(None, "journal_mode", "WAL")?;
         connection.pragma_update(None, "synchronous", "NORMAL")?;
+        connection.pragma_update(None, "wal_autocheckpoint", LOG_PAGES)?;
         let max_pages = u32::try_from(max_bytes / PAGE_BYTES).unwrap_or(u32::MAX);
         connection.pragma_update(None, "max_page_count", max_pages)?;
         check_bytes(&connection)?;
@@ -134,7 +138,7 @@ impl Database {
         Ok(())
     }
 
-    /// Removes the oldest quarter of the time. Its room in the file is used again.
+    /// Removes the oldest quarter of the time. The file does not grow from then on: what was removed is room enough.
     ///
     /// # Errors
     /// Those of SQLite.
@@ -142,7 +146,10 @@ impl Database {
         let delete = "DELETE FROM observation WHERE time_us < \
                       (SELECT min(time_us) + (max(time_us) - min(time_us)) / 4 FROM observation)";
         self.connection.execute(delete, [])?;
-        Ok(())
+        // Moves what is in the log to the file and empties it.
+        self.connection.query_one("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()))?;
+        let pages: u32 = self.connection.pragma_query_value(None, "page_count", |row| row.get(0))?;
+        self.connection.pragma_update(None, "max_page_count", pages)
     }
 }
 

@@ -23,6 +23,13 @@ pub const KEPT: f64 = 3600.0;
 /// Blocks that are kept in memory while the database cannot be written: a minute of them.
 const MOST_HELD: usize = 3000;
 
+/// The ending of a file that takes up room until the disk is full.
+const RESERVE: &str = "-reserve";
+const RESERVE_BYTES: usize = 512 << 10;
+
+/// How long a database that cannot be written is left alone, in microseconds. One that is locked is tried each time.
+const RETRY_US: i64 = 1_000_000;
+
 /// Where the database is, and how large it may become.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -53,6 +60,7 @@ pub struct Recorder {
     newest_us: i64,
     lost: u64,
     trouble: Option<Trouble>,
+    retry_at_us: i64,
     made_room: MadeRoom,
     report: Box<dyn FnMut(String) + Send>,
 }
@@ -82,6 +90,7 @@ impl Recorder {
             newest_us: 0,
             lost: 0,
             trouble: None,
+            retry_at_us: 0,
             made_room: MadeRoom::Never,
             report: Box::new(report),
         }
@@ -103,7 +112,7 @@ impl Recorder {
     /// # Errors
     /// The file is not this program's to use.
     pub fn flush(&mut self, now_us: i64) -> Result<(), Refused> {
-        if self.held.is_empty() && self.database.is_some() {
+        if self.held.is_empty() && self.database.is_some() || now_us < self.retry_at_us {
             return Ok(());
         }
         let mut result = self.write(now_us);
@@ -129,6 +138,9 @@ impl Recorder {
             }
             Err(OpenError::Sqlite(error)) if self.was_opened || Trouble::of(&error) == Trouble::Locked => {
                 self.begin_trouble(&error);
+                if Trouble::of(&error) != Trouble::Locked {
+                    self.retry_at_us = now_us + RETRY_US;
+                }
                 Ok(())
             }
             Err(error) => Err(self.refused(&error)),
@@ -157,6 +169,8 @@ impl Recorder {
         if self.database.is_none() {
             self.database = Some(Database::open(&self.settings.path, self.settings.max_bytes)?);
             self.was_opened = true;
+            // On a disk that is full already there is no reserve.
+            let _ = fs::write(ending(&self.settings.path, RESERVE), vec![0; RESERVE_BYTES]);
         }
         if let Some(mut database) = self.database.take() {
             let written = database.write(self.observations(), now_us - (KEPT * 1e6) as i64);
@@ -200,6 +214,8 @@ impl Recorder {
         if self.made_room == MadeRoom::Never {
             self.say("is full; from now on the oldest observations make room for new ones");
         }
+        // Removing is a transaction, too, and needs room for its log.
+        let _ = fs::remove_file(ending(&self.settings.path, RESERVE));
         if let Some(database) = &mut self.database
             && let Err(error) = database.remove_oldest()
         {

@@ -221,7 +221,11 @@ fn a_database_that_is_locked_at_the_start_is_opened_later() {
 #[test]
 fn in_a_full_database_the_oldest_observations_make_room() {
     let mut bench = Bench::with_max_bytes(64 << 10);
-    bench.record(0..3000);
+    bench.record(0..1);
+    let reserve = bench.folder.path().join("map.sqlite-reserve");
+    assert_eq!(fs::metadata(&reserve).unwrap().len(), RESERVE_BYTES as u64);
+    bench.record(1..3000);
+    assert!(!reserve.exists(), "removing observations from a full disk needs its room");
     assert_eq!(
         bench.reported(),
         ["the database `map.sqlite` is full; from now on the oldest observations make room for new ones"]
