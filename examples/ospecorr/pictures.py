@@ -1,6 +1,6 @@
 """Draws a recorded session: the spectrum over time, who transmits where, and what the application got.
 
-    pictures.py session.mcap -o pictures
+pictures.py session.mcap -o pictures
 """
 
 import argparse

@@ -15,7 +15,8 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
-/// A test that hears nothing for longer has failed.
+/// A test that hears nothing for longer has failed. Compilers print little.
+const BUILD_LIMIT: Duration = Duration::from_secs(3600);
 const HANG_LIMIT: Duration = Duration::from_secs(120);
 
 /// A running system with its recorder. Dropping it ends all processes.
@@ -58,7 +59,7 @@ impl Session {
         send_lines(run.stderr.take().unwrap(), &sender, Event::Line);
         let mut session = Self { system, run, recorder, echo: None, file, events, time_us: 0, log: String::new() };
         while !session.log.contains("scl: all components are ready") {
-            session.next();
+            session.next(BUILD_LIMIT);
         }
         let echo = ["echo", "spectrum.truth", "--system", "ospecorr", "--format", "json"];
         let mut echo = command(&session.system, &echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
@@ -70,13 +71,13 @@ impl Session {
     /// Waits until this time of the band, in seconds.
     pub(super) fn run_until(&mut self, seconds: f64) {
         while (self.time_us as f64) < seconds * 1e6 {
-            self.next();
+            self.next(HANG_LIMIT);
         }
     }
 
     /// What happens next.
-    fn next(&mut self) {
-        let event = self.events.recv_timeout(HANG_LIMIT);
+    fn next(&mut self, limit: Duration) {
+        let event = self.events.recv_timeout(limit);
         match event.unwrap_or_else(|_| panic!("nothing happens any more\n{}", self.log)) {
             Event::Time(time_us) => self.time_us = time_us,
             Event::Line(line) => {
