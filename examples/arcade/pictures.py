@@ -119,7 +119,7 @@ def draw_height(recording: Recording) -> Figure:
     true = recording.values("world", lambda world: world.position.z)
     axes.plot(recording.times("world"), true, color="black", linewidth=1.3, label="true height")
     axes.set(xlabel="time since the start (s)", ylabel="height above home (m)", title="Height")
-    axes.set_ylim(top=1.4 * max(true))  # room for the names of the kills
+    axes.set_ylim(top=1.75 * max(true))  # room for the names of the kills
     axes.legend(loc="lower center", fontsize=8)
     mark_kills(axes, recording)
     return figure

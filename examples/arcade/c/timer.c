@@ -1,5 +1,5 @@
-/* A bare loop of 300 Hz: sleeps to absolute deadlines and prints when it woke, in nanoseconds of CLOCK_MONOTONIC. It shows what the machine
- * itself can do, to compare the beats of the autopilot with. Ctrl-C or SIGTERM ends it. */
+/* A bare loop of 300 Hz: sleeps to absolute deadlines and prints when it woke, in nanoseconds of CLOCK_MONOTONIC. It
+ * shows what the machine itself can do, to compare the beats of the autopilot with. Ctrl-C or SIGTERM ends it. */
 #include <errno.h>
 #include <sched.h>
 #include <signal.h>

@@ -1,4 +1,4 @@
-//! A flight of `examples/arcade` as real processes: `scl run` flies, `scl record` writes it down, `scl echo` tells where it is.
+//! A flight of `examples/arcade` as real processes: `scl run` flies, `scl record` records, `scl echo` tells where it is.
 
 use super::recording::Recording;
 use crate::system::{System, kill};
@@ -58,7 +58,8 @@ pub(super) struct Flown {
 }
 
 impl Flight {
-    /// Builds and starts the aircraft with more arguments of `scl run`, and waits until all components are ready. The recording gets this name.
+    /// Builds and starts the aircraft with more arguments of `scl run`, and waits until all components are ready. The
+    /// recording gets this name.
     pub(super) fn start(name: &str, arguments: &[&str]) -> Self {
         let system = aircraft_folder();
         std::fs::create_dir_all(built("arcade")).unwrap();

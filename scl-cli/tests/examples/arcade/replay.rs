@@ -8,11 +8,12 @@ use scl_tests::wait_until;
 use std::path::Path;
 use std::process::Stdio;
 
-/// On a busy machine a replay falls behind. Its next messages then come at once: later than the autopilot expects them, or more than fit into its
-/// queue of 16 readings. Such a replay says nothing, so there are several; an autopilot that computes something else differs in all of them.
+/// On a busy machine a replay falls behind. Its next messages then come at once: later than the autopilot expects them,
+/// or more than fit into its queue of 16 readings. Such a replay says nothing, so there are several; an autopilot that
+/// computes something else differs in all of them.
 const ATTEMPTS: usize = 4;
 
-/// The autopilot gives the same set-points as in the flight of this name. `arguments` of `scl run` choose the autopilot.
+/// The autopilot gives the same set-points as in the flight of this name. The arguments of `scl run` choose it.
 #[track_caller]
 pub(super) fn check(name: &str, arguments: &[&str]) {
     let flight = built("arcade").join(name).with_extension("mcap");
