@@ -1,7 +1,7 @@
 //! The radio: sends the application's frames on the channel that it was told.
 //!
-//! It starts silent, and falls silent when its configuration is not repeated: it does not hear primary users itself, so it
-//! transmits only as long as a link optimizer that does stands behind it.
+//! It starts silent, and falls silent when its configuration is not repeated: it does not hear primary users itself, so
+//! it transmits only while a link optimizer watches over it.
 
 use std::time::Duration;
 
