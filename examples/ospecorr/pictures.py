@@ -1,6 +1,6 @@
 """Draws a recorded session: the spectrum over time, who transmits where, and what the application got.
 
-    pictures.py session.mcap -o pictures
+pictures.py session.mcap -o pictures
 """
 
 import argparse
@@ -104,7 +104,7 @@ def draw_spectrum(messages: dict[str, list[Any]]) -> Figure:
     spectrum.legend(
         handles=[
             Line2D([], [], color=RADIO, linewidth=3, label="own radio transmits"),
-            Patch(facecolor="#5a3d7a", edgecolor=TRUTH, label="primary user transmits"),
+            Patch(facecolor="#5ec962", edgecolor=GREY, label="primary user transmits"),
         ],
         loc="lower center",
         bbox_to_anchor=(0.5, 1.0),

@@ -11,7 +11,7 @@ use std::path::Path;
 pub(super) struct Recording {
     pub(super) truth: Vec<Truth>,
     pub(super) service: Vec<Service>,
-    /// The first message of each process of a component, with the time of the band then.
+    /// The first message of each process of a component, and each reply of the resource map, at the time of the band.
     pub(super) starts: Vec<(String, u64)>,
 }
 
@@ -27,17 +27,17 @@ impl Recording {
 
     fn add(&mut self, message: &Message<'_>) {
         let data = message.data.as_ref();
+        let mut is_first = message.sequence == 0;
         match message.channel.topic.as_str() {
             "/spectrum/truth" => self.truth.push(Truth::decode(data).unwrap()),
             "/application/service" => self.service.push(Service::decode(data).unwrap()),
             // One gate of each of the other parts.
-            "/signal_detector/occupancy"
-            | "/link_optimizer/link"
-            | "/radio/state"
-            | "/resource_map/queries/request" => {}
+            "/signal_detector/occupancy" | "/link_optimizer/link" | "/radio/state" => {}
+            // Calls are counted by the requester, so any of them may be the first after a restart.
+            "/resource_map/queries/reply" => is_first = true,
             _ => return,
         }
-        if message.sequence == 0 {
+        if is_first {
             let component = message.channel.topic.split('/').nth(1).unwrap();
             self.starts.push((component.to_owned(), self.now_us()));
         }

@@ -7,13 +7,16 @@ use crate::{built, example};
 use scl_tests::wait_until;
 use serde_json::Value;
 use std::fmt::Write as _;
+use std::fs::DirBuilder;
 use std::io::{BufRead, BufReader, Read};
+use std::os::unix::fs::DirBuilderExt;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
-/// A test that hears nothing for longer has failed.
+/// A test that hears nothing for longer has failed. Compilers print little.
+const BUILD_LIMIT: Duration = Duration::from_secs(3600);
 const HANG_LIMIT: Duration = Duration::from_secs(120);
 
 /// A running system with its recorder. Dropping it ends all processes.
@@ -44,7 +47,9 @@ impl Session {
         std::fs::create_dir_all(built("ospecorr")).unwrap();
         let file = built("ospecorr").join(name).with_extension("mcap");
         let (sender, events) = channel();
-        // It begins first, so that no message is missing.
+        // The recorder begins first, so that no message is missing; it needs the folder of the system.
+        let mut folder = DirBuilder::new();
+        folder.recursive(true).mode(0o700).create(system.path("runtime/ospecorr")).unwrap();
         let record = ["record", "--system", "ospecorr", "--overwrite", "-o", file.to_str().unwrap()];
         let recorder = spawn_recorder(&mut command(&system, &record));
         let folder = example("ospecorr");
@@ -54,7 +59,7 @@ impl Session {
         send_lines(run.stderr.take().unwrap(), &sender, Event::Line);
         let mut session = Self { system, run, recorder, echo: None, file, events, time_us: 0, log: String::new() };
         while !session.log.contains("scl: all components are ready") {
-            session.next();
+            session.next(BUILD_LIMIT);
         }
         let echo = ["echo", "spectrum.truth", "--system", "ospecorr", "--format", "json"];
         let mut echo = command(&session.system, &echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
@@ -66,13 +71,13 @@ impl Session {
     /// Waits until this time of the band, in seconds.
     pub(super) fn run_until(&mut self, seconds: f64) {
         while (self.time_us as f64) < seconds * 1e6 {
-            self.next();
+            self.next(HANG_LIMIT);
         }
     }
 
     /// What happens next.
-    fn next(&mut self) {
-        let event = self.events.recv_timeout(HANG_LIMIT);
+    fn next(&mut self, limit: Duration) {
+        let event = self.events.recv_timeout(limit);
         match event.unwrap_or_else(|_| panic!("nothing happens any more\n{}", self.log)) {
             Event::Time(time_us) => self.time_us = time_us,
             Event::Line(line) => {
@@ -153,7 +158,8 @@ fn command(system: &System, arguments: &[&str]) -> Command {
 fn spawn_recorder(command: &mut Command) -> Child {
     let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines();
-    lines.next().unwrap().unwrap();
+    let first = lines.next().unwrap().unwrap();
+    assert!(first.starts_with("recording"), "{first}");
     // So that it can print the others.
     std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
     recorder
