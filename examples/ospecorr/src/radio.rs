@@ -136,7 +136,11 @@ mod tests {
         tokio::time::sleep(VALID_FOR / 2).await;
         configure(&mut peer, 3, true).await?;
         let begin = Instant::now();
-        while peer.state.recv().await?.transmit {}
+        let mut states = 0;
+        while peer.state.recv().await?.transmit {
+            states += 1;
+            assert!(states < 10, "it still transmits");
+        }
         assert_eq!(begin.elapsed(), VALID_FOR);
         Ok(())
     }
