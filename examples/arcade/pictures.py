@@ -12,6 +12,7 @@ import sys
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -71,8 +72,14 @@ def read(file: Path, kills: Path | None) -> Recording:
     missing = [topic for topic, name in names.items() if not messages[name]]
     if missing:
         raise ValueError(f"nothing was recorded of {', '.join(missing)}")
-    entries = json.loads(kills.read_text()) if kills else []
-    return Recording(messages, [Kill(entry["component"], entry["time_us"] / 1e6) for entry in entries])
+    return Recording(messages, read_kills(kills) if kills else [])
+
+
+def read_kills(file: Path) -> list[Kill]:
+    try:
+        return [Kill(kill["component"], kill["time_us"] / 1e6) for kill in json.loads(file.read_text())]
+    except (ValueError, KeyError, TypeError) as error:
+        raise ValueError(f"{file} is not a list of objects with `component` and `time_us`: {error}") from error
 
 
 def draw_track(recording: Recording) -> Figure:
@@ -142,7 +149,9 @@ def draw_periods(recording: Recording) -> Figure:
     axes.axhline(1e3 / RATE, color=GREY, linewidth=0.8)
     late = 1.5e3 / RATE
     axes.axhline(late, color=ORANGE, linewidth=0.8, linestyle="--")
-    axes.annotate("late", (1, late), xycoords=("axes fraction", "data"), xytext=(4, -3), textcoords="offset points", color=ORANGE)
+    axes.annotate(
+        "late", (1, late), xycoords=("axes fraction", "data"), xytext=(4, -3), textcoords="offset points", color=ORANGE
+    )
     axes.set(xlabel="time since the start (s)", ylabel="period (ms)", title="Control loop: the period before each beat")
     axes.set_ylim(0, 1.5 * max(late, *(period for _, period in beats)))
     mark_kills(axes, recording)
@@ -151,7 +160,7 @@ def draw_periods(recording: Recording) -> Figure:
 
 def periods(beats: list[Any]) -> Iterator[tuple[float, float]]:
     """Times in s and periods in ms of consecutive beats; the autopilot was not started again between them."""
-    for before, beat in zip(beats, beats[1:], strict=False):
+    for before, beat in pairwise(beats):
         if beat.time_us - before.time_us < 1.5e6 / RATE:
             yield beat.time_us / 1e6, (beat.began_ns - before.began_ns) / 1e6
 
@@ -190,7 +199,7 @@ def main() -> int:
             file = arguments.output / f"{name}.png"
             draw(recording).savefig(file, dpi=130)
             print(file)
-    except (OSError, ValueError, KeyError, McapError) as error:
+    except (OSError, ValueError, McapError) as error:
         print(f"error: cannot draw {arguments.recording}: {error}", file=sys.stderr)
         return 2
     return 0

@@ -114,6 +114,8 @@ pub(crate) fn replay(arguments: &ReplayArguments) -> ExitCode {
 
 fn run(files: &[PathBuf], options: &ReplayOptions) -> Result<ReplayReport, Problem> {
     let recording = Recording::open(&find_files(files)?)?;
+    // `scl run` and systemd may have started it in place of the component's own program.
+    scl::host::notify_service_manager();
     recording.notes().iter().for_each(|note| print_err(&format!("note: {note}\n")));
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")))?;

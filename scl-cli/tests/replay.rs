@@ -328,7 +328,7 @@ fn a_launch_file_replays_a_component() {
     let rover = Rover::new();
     rover.record("flight.mcap", &[(MEASUREMENTS, 0, "1"), (ACTUATOR, 5, "0.5"), (MEASUREMENTS, 10, "2")]);
     rover.system.write("topology.yaml", ROVER);
-    let launch = "components:\n  sensor: {replay: flight.mcap}\n  controller: {command: [cat]}\n  \
+    let launch = "components:\n  sensor: {replay: flight.mcap, ready_within: 60s}\n  controller: {command: [cat]}\n  \
                   user_interface: {command: [cat]}\n";
     rover.system.write("launch.yaml", launch);
     let mut controller = rover.open("controller");
@@ -339,6 +339,7 @@ fn a_launch_file_replays_a_component() {
     assert_eq!([(); 2].map(|()| text(&history.recv_timeout(HANG_LIMIT).unwrap())), ["1", "2"]);
     let output = run.wait_with_output().unwrap();
     assert!(text(&output.stdout).contains("replayed 2 messages in "), "{output:?}");
+    assert!(text(&output.stderr).contains("all components are ready"), "{output:?}");
     assert!(output.status.success(), "{output:?}");
 }
 

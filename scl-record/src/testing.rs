@@ -69,6 +69,15 @@ impl Recorder {
         self
     }
 
+    /// Messages of JSON that the recorder received at this time, in milliseconds since the beginning.
+    pub fn messages_received(mut self, received: u64, samples: &[Sample<'_>]) -> Self {
+        for &(topic, at, payload) in samples {
+            let channel_id = self.channel(topic, "json", "rover.Measurement");
+            self.write_received(channel_id, at, received, payload.as_bytes());
+        }
+        self
+    }
+
     pub fn message_of_type(mut self, (topic, at, payload): Sample<'_>, codec: &str, type_name: &str) -> Self {
         let channel_id = self.channel(topic, codec, type_name);
         self.write(channel_id, at, payload.as_bytes());
@@ -133,8 +142,12 @@ impl Recorder {
     }
 
     fn write(&mut self, channel_id: u16, at: u64, payload: &[u8]) {
-        let time = (BEGINNING + at) * 1_000_000;
-        let header = MessageHeader { channel_id, sequence: self.sequence, log_time: time + 1, publish_time: time };
+        self.write_received(channel_id, at, at, payload);
+    }
+
+    fn write_received(&mut self, channel_id: u16, at: u64, received: u64, payload: &[u8]) {
+        let [publish_time, log_time] = [at, received].map(|time| (BEGINNING + time) * 1_000_000);
+        let header = MessageHeader { channel_id, sequence: self.sequence, log_time: log_time + 1, publish_time };
         self.sequence += 1;
         self.writer.write_to_known_channel(&header, payload).unwrap();
     }

@@ -116,17 +116,30 @@ def test_a_full_queue_makes_the_counterpart_wait() -> None:
         assert [controller.jobs.recv(LONG).speed for _ in range(sent)] == [*range(sent)]
 
 
+def _fill(jobs: Any) -> None:
+    with pytest.raises(scl.Full):
+        while True:
+            jobs.send(testable.Reading(), timeout=0)
+
+
 def test_what_nobody_reads_is_no_problem(caplog: pytest.LogCaptureFixture) -> None:
     controller, peer = testable.Controller.test()
-    with peer, controller:
+    with controller, peer:
         for _ in range(50):
             peer.readings.send(testable.Reading())
             controller.setpoints.send(testable.Setpoint())
             controller.spare.send(testable.Reading())
             controller.log.send(b"line")
+        _fill(peer.jobs)
         assert peer.spare.try_recv() is None
     controller.close()
     assert caplog.records == []
+    # A program may want to know, if it closes by itself what promises to lose nothing.
+    controller, peer = testable.Controller.test()
+    with controller:
+        _fill(peer.jobs)
+        with pytest.raises(scl.NotFlushed, match="from `controller's peers.jobs` to `controller.jobs`"):
+            peer.close(0.01)
 
 
 def test_components_need_no_gates() -> None:

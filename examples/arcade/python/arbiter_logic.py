@@ -26,7 +26,7 @@ from course import Course, resumed, return_height
 
 LEAD_US = 150_000  # of a command before it takes effect: longer than it takes to reach the autopilot
 SETTLING_US = 300_000  # after that time the autopilot reports the command; otherwise it was lost
-ASK_TIMEOUT = 0.3  # s: safety never waits longer for an answer to somebody else's command
+ASK_TIMEOUT = 0.3  # s: a command of safety waits no longer than this for the answer to another one
 RETRY_AFTER = 0.1  # s
 REQUEST_LIMIT = 1.0  # s in which a request is answered
 SILENT_AFTER = 1.0  # s without a message of the autopilot
@@ -195,8 +195,8 @@ class Arbiter:
         """Returns the reason if the request cannot be passed on."""
         if self._flight is None:
             return None
-        if self.authority == Authority.AUTHORITY_SAFETY:
-            return f"safety commands the vehicle: {self._reason}"
+        if overruled := self._overruled():
+            return overruled
         if self.authority == Authority.AUTHORITY_GROUND and request.source != Authority.AUTHORITY_GROUND:
             return f"the ground station commands the vehicle: {self._reason}"
         power = self._power if now - self._power_at <= safety.POWER_SILENCE else None
@@ -231,14 +231,16 @@ class Arbiter:
             return []
         if not answer.result.accepted:
             return self._refuse(asked.waiting, answer.result.reason or "the autopilot refuses")
-        if refusal := self._overruled():
-            return self._refuse(asked.waiting, refusal)
+        # Safety may have decided while the autopilot was answering; its own command follows.
+        if overruled := self._overruled():
+            return self._refuse(asked.waiting, overruled)
         return self._accept(asked.waiting, asked)
 
     def _overruled(self) -> str | None:
-        """Safety may have decided while the autopilot was answering; its command follows."""
-        overruled = self.authority == Authority.AUTHORITY_SAFETY
-        return f"safety commands the vehicle: {self._reason}" if overruled else None
+        """Returns the reason if safety commands the vehicle."""
+        if self.authority != Authority.AUTHORITY_SAFETY:
+            return None
+        return f"safety commands the vehicle: {self._reason}"
 
     def _take_answer_to_course(self, now: float, asked: Asked, answer: Answered) -> list[Action]:
         if asked.course != self.course:

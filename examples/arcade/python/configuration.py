@@ -66,7 +66,7 @@ def answer(component: Configuration, store: Store) -> None:
         print(f"refused: {refused}")
     else:
         print(f"{change.name} is now {change.value:g}")
-        # Before the reply, so that whoever asked finds the value in effect.
+        # Before the reply, so that the requester finds the value in effect.
         component.parameters.send(store.message())
     # A requester that has gone no longer waits for the reply.
     with suppress(scl.RequesterGone):

@@ -98,7 +98,8 @@ class Progress:
             self.pursue(self.legs[leg.number], flight, decision)
         else:
             distance = math.hypot(flight.position.x, flight.position.y)
-            decision.lines.append(f"mission complete, {distance:.2f} m from home")
+            flown = isinstance(leg.step.task, Land)
+            decision.lines.append(f"mission complete, {distance:.2f} m from home" if flown else "mission complete")
             decision.exit_code = 0
 
     def enter(self, index: int, decision: Decision) -> None:

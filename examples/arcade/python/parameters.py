@@ -76,7 +76,7 @@ def mistake(name: str, value: float) -> str | None:
     if spec is None:
         similar = difflib.get_close_matches(name, BY_NAME, n=1)
         return f"unknown parameter `{name}`" + (f"; did you mean `{similar[0]}`?" if similar else "")
-    if math.isfinite(value) and spec.lowest <= value <= spec.highest:
+    if spec.lowest <= value <= spec.highest:
         return None
     problem = "is out of range" if math.isfinite(value) else "is not a finite number"
     return f"`{name}: {value:g}` {problem}; it is {range_of(spec)}"

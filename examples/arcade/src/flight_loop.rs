@@ -77,9 +77,8 @@ pub fn run(mut gates: Autopilot, mut memory: Memory) -> scl::Result<()> {
 
 /// Carries on in the air, or starts on the ground.
 fn begin(saved: Option<FlightController>, reading: &Inertial) -> FlightController {
-    let saved_us = saved.as_ref().map_or(0, |saved| saved.time_us);
     if let Some(resumed) = saved.and_then(|saved| saved.resumed(reading.time_us)) {
-        println!("carrying on in the air after {} ms without control", (reading.time_us - saved_us) / 1000);
+        println!("carrying on in the air: restart {}", resumed.restarts);
         return resumed;
     }
     println!("ready on the ground");

@@ -1,4 +1,4 @@
-//! What is worth a line: take-off, touch-down, motors that stop.
+//! Events that the simulator reports: take-off, touch-down, motors that stop.
 
 use crate::simulation::Simulation;
 use crate::world::motors::HOLD_US;

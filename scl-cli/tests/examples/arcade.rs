@@ -1,7 +1,7 @@
 //! Flights of `examples/arcade`, in real time, checked by what is true of the simulated world.
 //!
 //! They leave recordings and figures in `target/examples/arcade`. For figures that mean something:
-//! `EXAMPLES_PROFILE=release cargo test --release -p scl-cli --test examples arcade -- --nocapture`.
+//! `EXAMPLES_PROFILE=release cargo test -p scl-cli --test examples arcade -- --nocapture`.
 
 mod checks;
 mod flight;
@@ -30,7 +30,7 @@ const KILLS: [(u64, f64, &str); 8] = [
 ];
 
 #[test]
-fn a_survey_is_flown_and_its_recording_gives_the_same_set_points() {
+fn a_survey_is_flown() {
     let _machine = lock_machine();
     let mut flight = Flight::start("survey", &[]);
     let timer = Timer::start(&mut flight, "survey");
@@ -40,7 +40,6 @@ fn a_survey_is_flown_and_its_recording_gives_the_same_set_points() {
     flown.recording.check_beats(0);
     assert!(!flown.log.contains("restarting"), "{}", flown.log);
     timer.report(&flown);
-    replay::check("survey", &[]);
 }
 
 #[test]
@@ -70,7 +69,7 @@ fn every_part_is_killed_once_and_the_flight_goes_on() {
         assert!(flown.log.contains(&line), "{component}\n{}", flown.log);
     }
     let pauses = flown.recording.check_beats(1);
-    println!("pause of the control loop while the autopilot was started again: {:.0} ms", pauses[0] * 1e3);
+    println!("readings without a beat while the autopilot was started again: {}", pauses[0]);
     assert_eq!(flown.recording.flight.last().unwrap().restarts, 1);
     write_json("kills", &Value::Array(kills));
     timer.report(&flown);
@@ -96,18 +95,21 @@ fn with_little_charge_the_arbiter_brings_the_aircraft_home() {
 }
 
 #[test]
-fn the_autopilot_in_rust_takes_the_place_of_the_one_in_c() {
+fn the_autopilot_in_rust_takes_the_place_of_the_one_in_c_which_would_have_flown_alike() {
+    let _machine = lock_machine();
     hop("rust-autopilot");
+    replay::check("rust-autopilot", &[]);
 }
 
 #[test]
-fn a_receiver_at_a_serial_line_takes_the_place_of_the_gps_sensor() {
+fn a_serial_receiver_takes_the_place_of_the_gps_sensor_and_the_flight_can_be_repeated() {
+    let _machine = lock_machine();
     hop("nmea");
+    replay::check("nmea", &[]);
 }
 
 /// A short flight with another profile.
 fn hop(profile: &str) {
-    let _machine = lock_machine();
     let mut flight = Flight::start(profile, &["--profile", profile, "--profile", "hop"]);
     assert_eq!(flight.fly(|_, _| {}), "ended with exit code 0", "{}", flight.log);
     flight.end().check("hop.yaml");

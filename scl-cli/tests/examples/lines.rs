@@ -39,7 +39,7 @@ fn table(folder: &Path) -> String {
     let mut table = "\n| program | language | lines |\n|---|---|---|\n".to_owned();
     for (language, below, programs) in PROGRAMS {
         let modules = modules(&folder.join(below));
-        let used: Vec<_> = programs.iter().map(|program| closure(program, &modules)).collect();
+        let used: Vec<_> = programs.iter().map(|program| closure(program, programs, &modules)).collect();
         let users = |module: &str| used.iter().filter(|modules| modules.contains(module)).count();
         let lines = |is_counted: &dyn Fn(&str) -> bool| -> usize {
             modules.iter().filter(|(module, _)| is_counted(module)).map(|(_, text)| lines_of(text)).sum()
@@ -56,12 +56,13 @@ fn table(folder: &Path) -> String {
     table + "\n"
 }
 
-/// A module, and all that it uses.
-fn closure(module: &str, modules: &BTreeMap<String, String>) -> BTreeSet<String> {
+/// A program's main module, and all that it uses; the main modules of other programs are not its own.
+fn closure(program: &str, programs: &[&str], modules: &BTreeMap<String, String>) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
-    let mut open = vec![module.to_owned()];
+    let mut open = vec![program.to_owned()];
     while let Some(module) = open.pop() {
-        let Some(text) = modules.get(&module) else { continue };
+        let is_other = module != program && programs.contains(&&*module);
+        let Some(text) = modules.get(&module).filter(|_| !is_other) else { continue };
         if found.insert(module) {
             open.extend(used_by(text));
         }
@@ -69,14 +70,14 @@ fn closure(module: &str, modules: &BTreeMap<String, String>) -> BTreeSet<String>
     found
 }
 
-/// Names of modules in `#include "x.h"`, `from x import`, `import x`, `use crate::x` and `crate::x::y`.
+/// Names of modules in `#include "x.h"`, `from x import`, `import x`, `use crate::x` and `arcade::x::y`.
 fn used_by(text: &str) -> Vec<String> {
     let name =
         |rest: &str| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default().to_owned();
     let starts = ["#include \"", "from ", "import "];
     let imports =
         text.lines().flat_map(|line| starts.iter().filter_map(move |start| line.strip_prefix(start)).map(name));
-    let paths = text.split("crate::").skip(1).map(name);
+    let paths = ["crate::", "arcade::"].into_iter().flat_map(|start| text.split(start).skip(1)).map(name);
     imports.chain(paths).collect()
 }
 
@@ -117,10 +118,10 @@ fn a_program_has_the_modules_that_it_uses() {
         module("one", "from shared import f\nimport own\n"),
         module("own", "import sys\n"),
         module("shared", "x = 1\n"),
-        module("two", "#include \"shared.h\"\nuse crate::world::World;"),
+        module("two", "#include \"shared.h\"\nuse crate::world::World;\nuse crate::one::x;"),
         module("world", ""),
     ]);
-    let names = |program| closure(program, &modules).into_iter().collect::<Vec<_>>().join(" ");
+    let names = |program| closure(program, &["one", "two"], &modules).into_iter().collect::<Vec<_>>().join(" ");
     assert_eq!(names("one"), "one own shared");
     assert_eq!(names("two"), "shared two world");
 }

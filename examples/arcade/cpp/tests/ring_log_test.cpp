@@ -123,6 +123,13 @@ static void memory_is_limited_while_nothing_can_be_written() {
     fs::remove(folder / "blocked");
     CHECK(log.flush() == "writing the log again; lost lines: 1024");
     CHECK(log.written() == 1024);
+    // Each outage is reported with its own losses.
+    fs::remove_all(folder);
+    std::ofstream(folder) << "in the way";
+    log.append("one");
+    CHECK(log.flush());
+    fs::remove(folder);
+    CHECK(log.flush() == "writing the log again; lost lines: 0");
     fs::remove_all(folder);
 }
 

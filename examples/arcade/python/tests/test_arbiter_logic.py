@@ -143,6 +143,21 @@ def test_the_fence_sends_the_vehicle_home() -> None:
     assert world.state == (SAFETY, "outside of the fence, 90.0 m from home: returning home")
 
 
+def test_without_a_position_the_fence_means_nothing() -> None:
+    world = World().airborne(50, 0, 5)
+    world.fly(0.1, position_valid=False, position=(500, 0, 5))
+    assert world.state[0] == MISSION
+
+
+def test_the_landing_of_a_return_waits_for_nothing() -> None:
+    world = World().airborne(1, 0, 5)
+    world.power(0.29, LOW)
+    world.answer()
+    # Home is reached before the flight home has taken effect.
+    world.fly(0.05, position=(0.1, 0, 5))
+    assert [asked.action for asked in world.asked] == [Order.ACTION_GO_TO, Order.ACTION_LAND]
+
+
 def test_without_a_position_a_return_is_a_landing() -> None:
     world = World().airborne(20, 0, 5)
     world.fly(0.1, position_valid=False)

@@ -64,6 +64,17 @@ def test_a_short_dip_of_the_voltage_is_no_contradiction() -> None:
     assert estimate.count_is_wrong
 
 
+def test_a_contradiction_does_not_come_and_go() -> None:
+    estimate = update(None, reading(0, 0.6, sag=0.11), VALUES)
+    estimate = update(estimate, reading(99, 0.6, sag=0.09), VALUES)
+    assert estimate.count_is_wrong
+    estimate = update(estimate, reading(199, 0.6, sag=0.04), VALUES)
+    assert not estimate.count_is_wrong
+    assert estimate.charge == pytest.approx(0.6)
+    estimate = update(estimate, reading(299, 0.6, sag=0.09), VALUES)
+    assert not estimate.count_is_wrong
+
+
 def test_extrapolation_takes_the_last_current() -> None:
     estimate = extrapolate(update(None, reading(0, 0.5), VALUES), 66.0)
     assert estimate.charge == pytest.approx(0.5 - 12 * 66 / 3600 / 2.2)

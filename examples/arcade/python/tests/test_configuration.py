@@ -10,7 +10,7 @@ import configuration
 import parameters
 from arcade_scl import Configuration, ConfigurationPeer, ParameterChange, Parameters
 from configuration import Store
-from conftest import HANG_LIMIT, RunProgram, running, until
+from conftest import HANG_LIMIT, Background, RunProgram, running, until
 
 
 @contextlib.contextmanager
@@ -42,6 +42,16 @@ def test_a_change_is_published_and_kept(tmp_path: Path) -> None:
         published(peer, "fence.radius", 42)
     with started(Store(file)) as peer:
         published(peer, "fence.radius", 42)
+
+
+def test_a_change_is_published_at_once() -> None:
+    component, peer = Configuration.test()
+    answer = Background(lambda: peer.control.call(ParameterChange(name="fence.radius", value=42), timeout=HANG_LIMIT))
+    assert component.wait(component.control, timeout=HANG_LIMIT)
+    # Without the loop, which publishes in any case.
+    configuration.answer(component, Store(None))
+    answer.result()
+    published(peer, "fence.radius", 42)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """The receiver at its serial line, beside the other ends of its gates."""
 
 import os
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,6 +11,8 @@ from arcade_scl import Fix, GpsSensor, World
 from gps_nmea import Reader
 from nmea_sentences import GGA, RMC
 from serial_source import BAUD
+
+HANG_LIMIT = 60.0  # s; only a test that would hang otherwise ever reaches it
 
 
 class Bench:
@@ -25,7 +28,9 @@ class Bench:
             self.reader.step()
 
     def next_fix(self) -> Fix:
+        deadline = time.monotonic() + HANG_LIMIT
         while (fix := self.peer.fix.try_recv()) is None:
+            assert time.monotonic() < deadline, "no fix"
             self.reader.step()
         return fix
 

@@ -9,7 +9,7 @@ use super::parameters::Parameters;
 use super::position::GRAVITY;
 use super::quaternion::Quaternion;
 use super::trajectory::SetPoint;
-use super::vector::{Vec3, limit};
+use super::vector::{Vec3, clamp, limit};
 
 /// Of rates set by the attitude controller, rad/s.
 const MAX_RATE: f64 = 3.5;
@@ -96,7 +96,7 @@ fn wanted_velocity(set_point: &SetPoint, position: Vec3, parameters: &Parameters
 /// Limits the vertical force by the motors' thrust, and then the horizontal force by the tilt.
 fn limit_force(force: Vec3, parameters: &Parameters) -> Vec3 {
     let per_thrust = GRAVITY / parameters.thrust_hover;
-    let z = force.z.clamp(parameters.thrust_minimum * per_thrust, parameters.thrust_maximum * per_thrust);
+    let z = clamp(force.z, parameters.thrust_minimum * per_thrust, parameters.thrust_maximum * per_thrust);
     let most = z * parameters.limit_tilt.to_radians().tan();
     let horizontal = force.horizontal();
     let kept = if horizontal > most { most / horizontal } else { 1.0 };
@@ -146,7 +146,7 @@ impl RateController {
         // The part of the force that the motors give now, while the body still turns to its direction.
         let along = thrust.force.dot(attitude.up()) * (parameters.thrust_hover / GRAVITY);
         Demand {
-            thrust: along.clamp(parameters.thrust_minimum, parameters.thrust_maximum),
+            thrust: clamp(along, parameters.thrust_minimum, parameters.thrust_maximum),
             roll: parameters.rate_p * error.x + self.integral.x - parameters.rate_d * self.derivative.x,
             pitch: parameters.rate_p * error.y + self.integral.y - parameters.rate_d * self.derivative.y,
             yaw: parameters.yaw_rate_p * error.z + self.integral.z,
@@ -217,6 +217,13 @@ mod tests {
         let most = (0..3000).map(|_| thrust(&mut controller, &high, Vec3::new(0.0, 0.0, -9.0)).force.z).last();
         assert_eq!(most, Some(GRAVITY / 0.45 * 0.9));
         assert_eq!(controller.integral.z, 0.0);
+    }
+
+    #[test]
+    fn parameters_that_contradict_each_other_do_not_end_the_program() {
+        let parameters = Parameters { thrust_minimum: 0.9, thrust_maximum: 0.1, ..Parameters::default() };
+        let force = Vec3::new(0.0, 0.0, GRAVITY);
+        assert!(limit_force(force, &parameters).is_finite());
     }
 
     #[test]

@@ -55,6 +55,17 @@ pub fn limit(value: f64, limit: f64) -> f64 {
     }
 }
 
+/// Limits a value to `lowest..=highest`. Unlike `f64::clamp` it does not panic when parameters contradict each other.
+pub fn clamp(value: f64, lowest: f64, highest: f64) -> f64 {
+    if value < lowest {
+        lowest
+    } else if value > highest {
+        highest
+    } else {
+        value
+    }
+}
+
 /// The difference of two angles, from -pi to pi.
 pub fn angle_between(from: f64, to: f64) -> f64 {
     let difference = to - from;

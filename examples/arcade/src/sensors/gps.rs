@@ -58,3 +58,39 @@ pub fn gps_fix(world: &arcade::World, error: [f64; 3], speed_error: [f64; 2], ho
         satellites: SATELLITES,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arcade::Vector;
+
+    const HOME: Home = Home { latitude: 50.6866, longitude: 10.9190, altitude: 480.0 };
+
+    fn world() -> arcade::World {
+        let position = Some(Vector { x: 12.0, y: -7.0, z: 5.0 });
+        let velocity = Some(Vector { x: 1.0, y: 2.0, z: 0.5 });
+        arcade::World { time_us: 200_000, position, velocity, ..arcade::World::default() }
+    }
+
+    #[test]
+    fn without_errors_a_fix_is_the_truth() {
+        let fix = gps_fix(&world(), [0.0; 3], [0.0; 2], HOME);
+        let (east, north) = geodesy::to_metres(HOME, fix.latitude, fix.longitude);
+        assert!((east - 12.0).abs() < 1e-6 && (north + 7.0).abs() < 1e-6, "{east} {north}");
+        assert_eq!((fix.time_us, fix.altitude, fix.east_speed, fix.north_speed), (200_000, 485.0, 1.0, 2.0));
+    }
+
+    #[test]
+    fn the_receiver_is_wrong_by_some_decimetres() {
+        let mut receiver = Receiver::new(1);
+        let errors: Vec<f64> = (0..5000)
+            .map(|_| {
+                let fix = receiver.measure(&world(), HOME);
+                geodesy::to_metres(HOME, fix.latitude, fix.longitude).0 - 12.0
+            })
+            .collect();
+        let sigma = (errors.iter().map(|error| error * error).sum::<f64>() / 5000.0).sqrt();
+        // Of 0.15 m white and 0.15 m slow.
+        assert!((sigma - 0.212).abs() < 0.04, "{sigma}");
+    }
+}

@@ -43,3 +43,24 @@ impl InertialUnit {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::battery::Battery;
+    use crate::world::wind::Wind;
+    use glam::DQuat;
+
+    #[test]
+    fn the_means_of_many_readings_are_the_truth_and_small_biases() {
+        let mut world = World::new(Wind::new(0.0, 0.0, 1), Battery::new(2.2, 1.0));
+        world.body.attitude = DQuat::from_rotation_x(0.2);
+        world.body.rates = DVec3::new(0.0, 0.5, 0.0);
+        let mut unit = InertialUnit::new(4);
+        let readings: Vec<_> = (0..10_000).map(|step| unit.measure(step, &world)).collect();
+        let mean = |part: fn(&Inertial) -> f64| readings.iter().map(part).sum::<f64>() / 10_000.0;
+        assert!((mean(|reading| reading.acceleration.unwrap_or_default().z) - 9.81).abs() < 0.2);
+        assert!((mean(|reading| reading.rates.unwrap_or_default().y) - 0.5).abs() < 0.04);
+        assert!((mean(|reading| reading.angles.unwrap_or_default().x) - 0.2).abs() < 0.001);
+    }
+}

@@ -28,3 +28,18 @@ impl PowerSensor {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn readings_are_those_of_the_battery() {
+        let mut battery = Battery::new(2.2, 0.5);
+        battery.draw(140.0, 1.0);
+        let reading = PowerSensor::new(1).measure(7, &battery);
+        assert!((reading.voltage - battery.voltage()).abs() < 0.1, "{reading:?}");
+        assert!((reading.current - battery.current).abs() < 0.5, "{reading:?}");
+        assert_eq!((reading.time_us, reading.used, reading.capacity), (7, battery.used, 2.2));
+    }
+}

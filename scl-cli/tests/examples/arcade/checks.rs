@@ -76,9 +76,9 @@ impl Recording {
         assert!(largest <= 35.0, "roll or pitch of {largest:.1} degrees");
     }
 
-    /// Each inertial reading has its beat, except while the autopilot is started again this often. Returns these pauses in seconds.
+    /// Each inertial reading has its beat, except while the autopilot is started again this often. Returns how many have none then.
     #[track_caller]
-    pub(super) fn check_beats(&self, restarts: usize) -> Vec<f64> {
+    pub(super) fn check_beats(&self, restarts: usize) -> Vec<u64> {
         let period_us = 1e6 / 300.0;
         let mut pauses = Vec::new();
         for pair in self.beats.windows(2) {
@@ -89,7 +89,8 @@ impl Recording {
                 assert!((elapsed_us - beats * period_us).abs() < period_us / 2.0, "{}", missing(before, after));
             } else {
                 // A recorder needs a moment to find a new process, but the number tells how many beats that had.
-                pauses.push((elapsed_us - f64::from(after.number) * period_us) / 1e6);
+                let readings = (elapsed_us / period_us).round() as u64;
+                pauses.push(readings - 1 - u64::from(after.number));
             }
         }
         assert_eq!(pauses.len(), restarts, "pauses: {pauses:?}");

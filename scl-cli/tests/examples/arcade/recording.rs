@@ -1,6 +1,6 @@
 //! A recorded flight: what is true of the world, and what the autopilot believed and did.
 
-use ::arcade::arcade::{Arbitration, Beat, Flight, World};
+use ::arcade::arcade::{Arbitration, Beat, Flight, Inertial, Motors, World};
 use mcap::{Message, MessageStream};
 use prost::Message as _;
 use std::path::Path;
@@ -13,6 +13,8 @@ pub(super) struct Recording {
     pub(super) beats: Vec<Numbered>,
     /// Times of the inertial readings.
     pub(super) readings: Vec<u64>,
+    /// Times of the set-points.
+    pub(super) motors: Vec<u64>,
 }
 
 /// A beat of the control loop. The number is counted from 0 when the autopilot started.
@@ -31,6 +33,7 @@ impl Recording {
             arbitration: Vec::new(),
             beats: Vec::new(),
             readings: Vec::new(),
+            motors: Vec::new(),
         };
         for message in MessageStream::new(&bytes).unwrap() {
             recording.add(&message.unwrap());
@@ -42,7 +45,8 @@ impl Recording {
         let data = message.data.as_ref();
         match message.channel.topic.as_str() {
             "/simulator/world" => self.world.push(World::decode(data).unwrap()),
-            "/simulator/imu" => self.readings.push(::arcade::arcade::Inertial::decode(data).unwrap().time_us),
+            "/simulator/imu" => self.readings.push(Inertial::decode(data).unwrap().time_us),
+            "/autopilot/motors" => self.motors.push(Motors::decode(data).unwrap().time_us),
             "/autopilot/flight" => self.flight.push(Flight::decode(data).unwrap()),
             "/autopilot/beats" => {
                 self.beats.push(Numbered { number: message.sequence, beat: Beat::decode(data).unwrap() });
