@@ -1,7 +1,7 @@
 //! The band and its time slots, which the spectrum and the radio have to agree on.
 //!
-//! Time is divided into slots, as in IEEE 802.22: data, then a quiet period in which every radio of the network is silent
-//! so that what remains in the band is noise and primary users.
+//! Time is divided into slots, as in IEEE 802.22: data, then a quiet period in which every radio of the network is
+//! silent so that what remains in the band is noise and primary users.
 
 use std::time::Duration;
 

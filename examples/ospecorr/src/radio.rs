@@ -1,7 +1,7 @@
 //! The radio: sends the application's frames on the channel that it was told.
 //!
-//! It starts silent, and falls silent when its configuration is not repeated: it does not hear primary users itself, so it
-//! transmits only as long as a link optimizer that does stands behind it.
+//! It starts silent, and falls silent when its configuration is not repeated: it does not hear primary users itself, so
+//! it transmits only while a link optimizer watches over it.
 
 use std::time::Duration;
 
@@ -136,7 +136,11 @@ mod tests {
         tokio::time::sleep(VALID_FOR / 2).await;
         configure(&mut peer, 3, true).await?;
         let begin = Instant::now();
-        while peer.state.recv().await?.transmit {}
+        let mut states = 0;
+        while peer.state.recv().await?.transmit {
+            states += 1;
+            assert!(states < 10, "it still transmits");
+        }
         assert_eq!(begin.elapsed(), VALID_FOR);
         Ok(())
     }

@@ -43,8 +43,8 @@ fn snr(text: &str) -> Result<f64, String> {
     snr.ok_or_else(|| "not a number from -30 to 60".to_owned())
 }
 
-/// Advances in real time, a step for each frame. After a pause of the program it goes on from there: time in the band is
-/// then late, but never runs faster.
+/// Advances in real time, a step for each frame. After a pause of the program it goes on from there: time in the band
+/// is then late, but never runs faster.
 pub async fn run(mut spectrum: Spectrum, options: Options) -> scl::Result<()> {
     let primary_users =
         if options.random { PrimaryUsers::random(options.seed) } else { PrimaryUsers::Scheduled(options.primary) };

@@ -90,8 +90,8 @@ impl Database {
         let mut connection = Connection::open_with_flags(path, flags)?;
         connection.busy_timeout(BUSY_TIMEOUT)?;
         prepare_tables(&mut connection)?;
-        // With a write-ahead log other processes can read while this one writes. `NORMAL` may lose the last transactions in a
-        // power failure, but does not damage the file.
+        // With a write-ahead log other processes can read while this one writes. `NORMAL` may lose the last
+        // transactions in a power failure, but does not damage the file.
         connection.pragma_update(None, "journal_mode", "WAL")?;
         connection.pragma_update(None, "synchronous", "NORMAL")?;
         connection.pragma_update(None, "wal_autocheckpoint", LOG_PAGES)?;

@@ -76,7 +76,7 @@ struct Block {
 enum MadeRoom {
     Never,
     Helped,
-    InVain,
+    DidNotHelp,
 }
 
 impl Recorder {
@@ -121,16 +121,16 @@ impl Recorder {
                 self.set_aside(&result)?;
                 result = self.write(now_us);
             }
-            Some(Trouble::Full) if self.made_room != MadeRoom::InVain => {
+            Some(Trouble::Full) if self.made_room != MadeRoom::DidNotHelp => {
                 self.make_room();
                 result = self.write(now_us);
-                self.made_room = if result.is_ok() { MadeRoom::Helped } else { MadeRoom::InVain };
+                self.made_room = if result.is_ok() { MadeRoom::Helped } else { MadeRoom::DidNotHelp };
             }
             _ => {}
         }
         match result {
             Ok(()) => {
-                if self.made_room == MadeRoom::InVain {
+                if self.made_room == MadeRoom::DidNotHelp {
                     self.made_room = MadeRoom::Helped;
                 }
                 self.end_trouble();

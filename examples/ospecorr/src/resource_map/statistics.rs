@@ -15,7 +15,7 @@ pub struct Observation {
     pub occupied: bool,
 }
 
-/// What was a channel between two observations further apart than this, nobody knows: an idle time ends there.
+/// Nothing is known about a channel between observations further apart than this, so an idle time ends there.
 const LONGEST_GAP_US: i64 = 1_000_000;
 
 /// Sums up observations in the order of their times.

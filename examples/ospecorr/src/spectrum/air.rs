@@ -1,4 +1,4 @@
-//! The air in steps of one frame: what gets through, and what is to be heard in a quiet period.
+//! The air in steps of one frame: which frames arrive, and the samples of quiet periods.
 
 use super::primary_users::PrimaryUsers;
 use super::random::{self, Purpose};
@@ -37,8 +37,8 @@ impl Air {
         self.lost
     }
 
-    /// A step with a frame of the radio on this channel, or without one, and what arrives at the far end. A channel outside
-    /// of the band leads nowhere.
+    /// A step with a frame of the radio on this channel, or without one, and what arrives at the far end. On a channel
+    /// outside of the band a frame is lost.
     pub fn carry(&mut self, channel: u32, frame: Option<Frame>) -> Option<Received> {
         let (begin_us, end_us) = (self.time_us(), self.time_us() + STEP_US);
         self.step += 1;
@@ -52,8 +52,8 @@ impl Air {
         Some(Received { time_us: end_us, number: frame.number, length, channel })
     }
 
-    /// A quiet period: samples of the band, and what is true at this time. The radio sends no frame now, so it is not in the
-    /// samples; `channel` is what it is set to.
+    /// A quiet period: samples of the band, and what is true at this time. The radio sends no frame now, so it is not
+    /// in the samples; `channel` is what it is set to.
     pub fn listen(&mut self, channel: u32) -> (Samples, Truth) {
         let time_us = self.time_us();
         let channels = self.primary_users.channels(time_us, time_us + BLOCK_US);
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn a_channel_outside_of_the_band_leads_nowhere() {
+    fn a_frame_on_a_channel_outside_of_the_band_is_lost() {
         let mut air = air(&[]);
         assert_eq!(air.carry(CHANNELS, frame()), None);
         assert_eq!(air.lost(), 1);

@@ -4,6 +4,7 @@ use super::checks::Outage;
 use ::ospecorr::ospecorr::{Service, Truth};
 use mcap::{Message, MessageStream};
 use prost::Message as _;
+use std::collections::HashMap;
 use std::path::Path;
 
 /// The messages of a session, in the order in which they were sent.
@@ -13,6 +14,8 @@ pub(super) struct Recording {
     pub(super) service: Vec<Service>,
     /// The first message of each process of a component, and each reply of the resource map, at the time of the band.
     pub(super) starts: Vec<(String, u64)>,
+    /// The newest number of each topic.
+    sequences: HashMap<String, u32>,
 }
 
 impl Recording {
@@ -27,8 +30,11 @@ impl Recording {
 
     fn add(&mut self, message: &Message<'_>) {
         let data = message.data.as_ref();
-        let mut is_first = message.sequence == 0;
-        match message.channel.topic.as_str() {
+        let topic = message.channel.topic.as_str();
+        // The numbers begin again in each process. The recorder may miss the very first ones.
+        let previous = self.sequences.insert(topic.to_owned(), message.sequence);
+        let mut is_first = previous.is_none_or(|previous| message.sequence < previous);
+        match topic {
             "/spectrum/truth" => self.truth.push(Truth::decode(data).unwrap()),
             "/application/service" => self.service.push(Service::decode(data).unwrap()),
             // One gate of each of the other parts.
@@ -38,7 +44,7 @@ impl Recording {
             _ => return,
         }
         if is_first {
-            let component = message.channel.topic.split('/').nth(1).unwrap();
+            let component = topic.split('/').nth(1).unwrap();
             self.starts.push((component.to_owned(), self.now_us()));
         }
     }
