@@ -5,7 +5,7 @@ import asyncio
 import math
 import sys
 import time
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable
 from contextlib import suppress
 
 import scl
@@ -43,7 +43,7 @@ class Stream:
     async def run(self) -> None:
         """Until a stop is requested, or the requirements are refused."""
         tasks = (self._require(), self._send(), self._receive(), self._follow(), self._report())
-        await asyncio.gather(*map(until_stopped, tasks))
+        await scl.until_stopped(*tasks)
 
     async def _require(self) -> None:
         """Asks again and again: a link optimizer that was restarted does not know the requirements."""
@@ -114,12 +114,6 @@ class Stream:
                 say(f"not served: {quality.rate:.0f} of {self._required.rate:.0f} bytes/s", key="not served")
             due += REPORT_PERIOD
             await asyncio.sleep(due - time.monotonic())
-
-
-async def until_stopped(task: Coroutine[None, None, None]) -> None:
-    """Ends when a stop is requested, as loops over gates do, so that `gather` ends in order."""
-    with suppress(scl.Stopped):
-        await task
 
 
 def describe_change(before: int | None, link: LinkState) -> str:

@@ -95,24 +95,12 @@ fn with_little_charge_the_arbiter_brings_the_aircraft_home() {
 }
 
 #[test]
-fn the_autopilot_in_rust_takes_the_place_of_the_one_in_c_which_would_have_flown_alike() {
+fn twins_take_the_places_of_autopilot_and_gps_sensor_and_the_autopilot_in_c_repeats_their_flight() {
     let _machine = lock_machine();
-    hop("rust-autopilot");
-    replay::check("rust-autopilot", &[]);
-}
-
-#[test]
-fn a_serial_receiver_takes_the_place_of_the_gps_sensor_and_the_flight_can_be_repeated() {
-    let _machine = lock_machine();
-    hop("nmea");
-    replay::check("nmea", &[]);
-}
-
-/// A short flight with another profile.
-fn hop(profile: &str) {
-    let mut flight = Flight::start(profile, &["--profile", profile, "--profile", "hop"]);
+    let mut flight = Flight::start("twins", &["--profile", "rust-autopilot", "--profile", "nmea", "--profile", "hop"]);
     assert_eq!(flight.fly(|_, _| {}), "ended with exit code 0", "{}", flight.log);
     flight.end().check("hop.yaml");
+    replay::check("twins");
 }
 
 /// A later step of the mission is past every distance.

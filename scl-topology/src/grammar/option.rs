@@ -79,7 +79,8 @@ pub static OPTIONS: [GateOption; 9] = [
         summary: "How many messages may wait for this gate; 1 means: only the newest.",
         text: "Counted in messages, for each connection. What happens when it is full is `when_full`. A queue of 1 with \
                `drop_oldest` always holds the newest value, also after a pause of the receiver: nothing older waits in \
-               a socket.",
+               a socket. Of all other gates, up to 4096 messages or 1 MiB more may be on their way between the two \
+               programs.",
         examples: &["attitude: {sub: Attitude, queue: 1}"],
         absent: &[
             (&[Req, Rep], "`req` and `rep` take turns, so there is never more than one message waiting"),
@@ -111,7 +112,8 @@ pub static OPTIONS: [GateOption; 9] = [
         field: Field::Switch(|options| &mut options.backpressure),
         summary: "Allows a receiver with `when_full: wait` to make this gate wait.",
         text: "Both ends agree to it, so that no sender waits by surprise. Receivers with another `when_full` are not \
-               affected.",
+               affected. For a receiver in an `optional` component the gate waits only while it is connected; without \
+               it, a full queue drops its oldest message, which is counted.",
         examples: &["samples: {pub: Sample, backpressure: true}"],
         absent: &[(&[Sub, Pull], "a receiver asks for it with `when_full: wait`")],
         limits: ["", ""],
