@@ -72,30 +72,23 @@ struct Endpoints {
 impl Memory {
     /// Creates a transport without any ends.
     pub fn new() -> Self {
-        // Only the receiving end decides how much is in flight.
-        let publishing = Switchboard::new(|newest_only| message_pipe(newest_only.connector, IN_FLIGHT_NEWEST));
-        let pulling = Switchboard::new(|newest_only| {
-            let (writer, reader) = message_pipe(newest_only.listener, IN_FLIGHT_NEWEST);
-            (reader, writer)
-        });
-        Self::of(publishing, pulling)
+        Self::holding::<IN_FLIGHT_NEWEST>()
     }
 
     /// For unit tests with threads: what was sent to an end that wants only the newest message can be received at once,
     /// without waiting for the sender's thread to replace what it could not send.
     pub(crate) fn of_test() -> Self {
-        let publishing = Switchboard::new(|newest_only| message_pipe(newest_only.connector, IN_FLIGHT_NEWEST_OF_TEST));
-        let pulling = Switchboard::new(|newest_only| {
-            let (writer, reader) = message_pipe(newest_only.listener, IN_FLIGHT_NEWEST_OF_TEST);
-            (reader, writer)
-        });
-        Self::of(publishing, pulling)
+        Self::holding::<IN_FLIGHT_NEWEST_OF_TEST>()
     }
 
-    fn of(
-        publishing: Switchboard<PipeWriter<Bytes>, PipeReader<Bytes>>,
-        pulling: Switchboard<PipeReader<Bytes>, PipeWriter<Bytes>>,
-    ) -> Self {
+    /// `NEWEST`: how many messages are in flight to an end that wants only the newest one.
+    fn holding<const NEWEST: usize>() -> Self {
+        // Only the receiving end decides how much is in flight.
+        let publishing = Switchboard::new(|newest_only| message_pipe(newest_only.connector, NEWEST));
+        let pulling = Switchboard::new(|newest_only| {
+            let (writer, reader) = message_pipe(newest_only.listener, NEWEST);
+            (reader, writer)
+        });
         let replying = Switchboard::new(request_reply::connect);
         Self { endpoints: Arc::new(Endpoints { publishing, pulling, replying }) }
     }
