@@ -29,6 +29,16 @@ fn the_parts_of_the_radio_in_python() {
     check("ospecorr", "python");
 }
 
+#[test]
+fn the_topologies_have_no_warnings() {
+    for name in ["arcade", "ospecorr"] {
+        let mut check = Command::new(env!("CARGO_BIN_EXE_scl"));
+        check.args(["check", "--deny", "warnings"]).arg(example(name).join("topology.yaml"));
+        let output = check.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
 /// The output of a failure is that of the tests, or what to install.
 #[track_caller]
 fn check(name: &str, language: &str) {
