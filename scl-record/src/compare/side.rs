@@ -4,7 +4,8 @@ use crate::format::Topic;
 use crate::recording::{Messages, RecordedChannel, RecordedMessage, Recording};
 use bytes::Bytes;
 use scl_terminal::Problem;
-use scl_value::MessageType;
+use scl_value::{MessageType, Value};
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
 
@@ -69,6 +70,17 @@ pub(super) struct Waiting {
     /// Number of the message among those of its topic.
     pub(super) index: u64,
     pub(super) sent_ns: u64,
+    /// Decoded when it is first compared: to find messages that only one recording has, each is compared with many.
+    value: OnceCell<Option<Value>>,
+}
+
+impl Waiting {
+    /// The decoded message, by the type of its channel; `None` if it cannot be decoded.
+    pub(super) fn value(&self, side: &Side) -> Option<&Value> {
+        let decode = || side.message_type(self.channel).decode(&self.payload).ok();
+        let value = self.value.get_or_init(decode).as_ref();
+        value.filter(|value| !matches!(value, Value::Opaque(_)))
+    }
 }
 
 /// The messages of one recording, by compared topic.
@@ -125,7 +137,7 @@ impl Side {
         self.left[topic] -= 1;
         self.is_at_end = self.left.iter().all(|left| *left == 0);
         self.queued_bytes += payload.len();
-        self.queues[topic].push_back(Waiting { payload, channel, index, sent_ns });
+        self.queues[topic].push_back(Waiting { payload, channel, index, sent_ns, value: OnceCell::new() });
         Ok(Some(topic))
     }
 

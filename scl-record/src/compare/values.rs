@@ -42,19 +42,15 @@ impl Rules {
         if first.payload == second.payload && self.found.iter().all(|found| *found) {
             return None;
         }
-        let types = [sides[0].message_type(first.channel), sides[1].message_type(second.channel)];
-        let decoded = [types[0].decode(&first.payload), types[1].decode(&second.payload)];
-        let [Ok(one), Ok(other)] = decoded else { return bytes_difference(messages) };
-        if let (Value::Opaque(_), _) | (_, Value::Opaque(_)) = (&one, &other) {
-            return bytes_difference(messages);
-        }
+        let values = [first.value(&sides[0]), second.value(&sides[1])];
+        let [Some(one), Some(other)] = values else { return bytes_difference(messages) };
         if self.fields.is_empty() {
-            return self.value_difference(FieldPath::default(), Some(&one), Some(&other));
+            return self.value_difference(FieldPath::default(), Some(one), Some(other));
         }
         let mut difference = None;
         for index in 0..self.fields.len() {
             let field = self.fields[index].clone();
-            let values = [field.find(&one), field.find(&other)];
+            let values = [field.find(one), field.find(other)];
             self.found[index] |= values.iter().any(Option::is_some);
             if difference.is_none() {
                 difference = self.value_difference(field, values[0], values[1]);
