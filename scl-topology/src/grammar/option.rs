@@ -79,7 +79,7 @@ pub static OPTIONS: [GateOption; 9] = [
         summary: "How many messages may wait for this gate; 1 means: only the newest.",
         text: "Counted in messages, for each connection. What happens when it is full is `when_full`. A queue of 1 with \
                `drop_oldest` always holds the newest value, also after a pause of the receiver: nothing older waits in \
-               a socket. Of all other gates, up to 4096 messages or 1 MiB more may be on their way between the two \
+               a socket. At any other gate, up to 4096 messages or 1 MiB more may be on their way between the two \
                programs.",
         examples: &["attitude: {sub: Attitude, queue: 1}"],
         absent: &[
