@@ -1,6 +1,7 @@
 //! `restart`, its delay and its limit, and `essential`: programs that fail a known number of times, counted in files.
 
 use crate::system::{System, without_times};
+use std::io::Write as _;
 use std::process::Output;
 
 /// Adds a line to the file `starts`, and gives their number.
@@ -92,7 +93,7 @@ fn the_rest_goes_on_without_a_component_that_is_not_essential() {
         "launch.yaml",
         "\
 components:
-  sensor: {command: 'read line < go; echo $line; read line < go; echo $line'}
+  sensor: {command: 'exec < go; read line; echo $line; read line; echo $line'}
   logger: {command: 'echo started; exit 3', essential: false, restart: on_failure, restart_limit: 1 in 1h}
 ",
     )]);
@@ -100,8 +101,10 @@ components:
     let mut run = system.start(&[]);
     run.wait_for_line("logger | started");
     run.wait_for_error("logger  not restarted: the restart limit (1 in 3600s) is reached");
+    // Opened once: a program that opened it again before the first writer had closed it would read its end.
+    let mut go = std::fs::File::create(&pipe).unwrap();
     for word in ["one", "two"] {
-        std::fs::write(&pipe, format!("{word}\n")).unwrap();
+        writeln!(go, "{word}").unwrap();
         run.wait_for_line(&format!("sensor | {word}"));
     }
     let (status, _, err) = run.finish();
