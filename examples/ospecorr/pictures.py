@@ -27,8 +27,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
 SLOT = 0.02  # s between two blocks
-BINS = 16  # in each channel, so many frequencies are drawn
-BLOCKS = 4  # so many blocks are averaged, else noise hides the rest
+BINS = 16  # frequencies drawn for each channel
+BLOCKS = 4  # blocks averaged into one, because noise hides the rest
 TOPICS = {
     "samples": "/spectrum/samples",
     "truth": "/spectrum/truth",

@@ -19,7 +19,7 @@ typedef struct leg {
     double climb; /* m/s, up and down */
 } leg;
 
-/* Moves on by `elapsed` seconds. Horizontal and vertical movement are independent. */
+/* Advances by `elapsed` seconds. Horizontal and vertical movement are independent. */
 void trajectory_advance(set_point *self, const leg *leg, const parameters *parameters, double elapsed);
 
 #endif

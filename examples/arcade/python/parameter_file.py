@@ -17,7 +17,7 @@ class FileMistakes(Exception):
 
 
 def read(file: Path) -> dict[str, float]:
-    """Returns the values in the file; none if there is no file. Raises `FileMistakes`."""
+    """Returns the values in the file, or an empty mapping without a file. Raises `FileMistakes`."""
     try:
         text = file.read_text(encoding="utf-8")
     except FileNotFoundError:

@@ -42,7 +42,7 @@ impl SetPoint {
         Self { position, yaw, ..Self::default() }
     }
 
-    /// Moves on by `elapsed` seconds. Horizontal and vertical movement are independent.
+    /// Advances by `elapsed` seconds. Horizontal and vertical movement are independent.
     pub fn advance(&mut self, leg: &Leg, parameters: &Parameters, elapsed: f64) {
         let limit_acceleration = parameters.limit_acceleration;
         let way = leg.target - self.position;

@@ -68,7 +68,7 @@ def test_a_signal_is_detected_with_the_theoretical_probability(snr_db: float) ->
         found = detector.detect(np.asarray(noise(random) + primary, np.complex64), CHANNELS)
         trials += present
         detected += present and found[channel].occupied
-    # With signal, the mean is that of noise times (1 + SNR); nearly normal for so many bins.
+    # With signal, the mean is that of noise times (1 + SNR); nearly normal for this number of bins.
     bins = independent_bins(LENGTH // CHANNELS)
     theory = 1 - NormalDist().cdf((noise_quantile(0.99, bins) / (1 + snr) - 1) * sqrt(bins))
     assert_binomial(detected, trials, min(theory, 1 - 1e-4))
