@@ -1,0 +1,1 @@
+//! Connects the components of an SCL system that run on several hosts.

@@ -1,0 +1,3 @@
+//! The command `scl-gateway`.
+
+fn main() {}

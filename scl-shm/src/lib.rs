@@ -1,0 +1,1 @@
+//! Messages in shared memory under the connections of SCL, over iceoryx2.
