@@ -168,7 +168,10 @@ impl TestLink {
         let mut lengths = Vec::new();
         self.watched.end.send_all(cx, queue, &mut |length| lengths.push(length));
         let sent = before.len() - queue.len();
-        assert!(before[sent..].iter().eq(queue.iter().map(Frame::as_slice)), "`send_all` changed messages that it left in the queue");
+        assert!(
+            before[sent..].iter().eq(queue.iter().map(Frame::as_slice)),
+            "`send_all` changed messages that it left in the queue"
+        );
         let expected = before[..sent].iter().map(Bytes::len);
         assert!(expected.eq(lengths), "`send_all` reported other lengths than those of the messages it sent");
         self.refused = !queue.is_empty();

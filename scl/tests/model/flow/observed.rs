@@ -5,7 +5,8 @@ use super::message::Message;
 use super::model::Model;
 use bytes::Bytes;
 use scl::transport::{
-    Disconnected, Endpoint, Frame, Link, Loan, Peer, Receiver, Replier, Requester, Sender, Tap, Transport, TransportError,
+    Disconnected, Endpoint, Frame, Link, Loan, Peer, Receiver, Replier, Requester, Sender, Tap, Transport,
+    TransportError,
 };
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard};
