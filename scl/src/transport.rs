@@ -11,10 +11,13 @@ use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
 
+mod frame;
 #[cfg(feature = "memory")]
 pub mod memory;
 #[cfg(feature = "zeromq")]
 pub mod zeromq;
+
+pub use frame::{Frame, Loan, LoanedMemory};
 
 /// Opens the ends of connections.
 ///
@@ -177,11 +180,11 @@ pub trait Link: Send {
     /// The peer is gone, or violated the protocol.
     fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Disconnected>;
 
-    /// Sends `message`, or returns it if the peer cannot take it now.
+    /// Sends `message`, or returns it if the peer cannot take it now. A loan of another link is sent as a copy.
     ///
     /// # Errors
-    /// The message itself. If the peer is gone, the task is woken and the next [`drive`](Self::drive) fails.
-    fn send(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes>;
+    /// The message itself, or bytes of the same content. If the peer is gone, the task is woken and the next [`drive`](Self::drive) fails.
+    fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Result<(), Frame>;
 
     /// Sends messages from the front of a queue, as many as the peer can take now; calls `sent` with the length of
     /// each.
@@ -189,7 +192,7 @@ pub trait Link: Send {
     /// Implementations that can write several messages at once do that here. When it returns with an empty queue,
     /// nothing newer is waiting for this peer: a link may rely on that to answer a receiver that wants to know whether
     /// it has [caught up](Receiver::poll_caught_up).
-    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, sent: &mut dyn FnMut(usize)) {
+    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
         while let Some(message) = queue.pop_front() {
             let length = message.len();
             match self.send(cx, message) {
@@ -197,6 +200,14 @@ pub trait Link: Send {
                 Err(message) => return queue.push_front(message),
             }
         }
+    }
+
+    /// Lends memory of `length` bytes, to be filled and given to [`send`](Self::send). A link that can send such memory
+    /// without copying it offers it here; `None` if it has none, now or ever, or for messages of this length. Then the gate
+    /// takes memory from the heap.
+    fn loan(&mut self, length: usize) -> Option<Loan> {
+        let _lends_nothing = length;
+        None
     }
 
     /// Returns true if everything sent has been handed to the operating system.
