@@ -71,6 +71,14 @@ pub enum OpenError {
         /// The component.
         component: &'static str,
     },
+    /// Shared memory was chosen, and the `scl` crate was built without it.
+    #[error(
+        "component `{component}` cannot use shared memory: enable the feature `iceoryx2` of the crate `scl`, or choose the transport `ipc`"
+    )]
+    NoSharedMemory {
+        /// The component.
+        component: &'static str,
+    },
     /// The plan of an untyped component contradicts itself.
     #[error("component `{component}` cannot be opened: its plan is wrong")]
     Plan {

@@ -8,14 +8,21 @@ pub enum Medium {
     Ipc,
     /// TCP on 127.0.0.1, with the ports in the runtime folder.
     Tcp,
+    /// Unix sockets in the runtime folder, which offer shared memory for long messages. A peer that does not use shared
+    /// memory is served through the socket. Needs the feature `iceoryx2` of the crate `scl`.
+    Shm,
 }
 
 impl Medium {
+    /// The values of `SCL_TRANSPORT`, for messages.
+    pub(crate) const EXPECTED: &str = "`ipc`, `tcp` or `shm`";
+
     /// Parses the value of `SCL_TRANSPORT`.
     pub(crate) fn parse(word: &str) -> Option<Self> {
         match word {
             "ipc" => Some(Self::Ipc),
             "tcp" => Some(Self::Tcp),
+            "shm" => Some(Self::Shm),
             _ => None,
         }
     }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// |---|---|---|
 /// | [`runtime_dir`](Self::runtime_dir) | `SCL_RUNTIME_DIR` | `$XDG_RUNTIME_DIR/scl`, or `scl-<uid>` in the folder for temporary files |
 /// | [`system`](Self::system) | `SCL_SYSTEM` | `system` in the topology file |
-/// | [`medium`](Self::medium) | `SCL_TRANSPORT=ipc` or `tcp` | `ipc` |
+/// | [`medium`](Self::medium) | `SCL_TRANSPORT=ipc`, `tcp` or `shm` | `ipc` |
 /// | [`transport`](Self::transport) | | ZeroMQ, in the runtime folder |
 ///
 /// ```
@@ -126,7 +126,7 @@ impl OpenOptions {
         if let Some(medium) = self.medium {
             return Ok(medium);
         }
-        let medium = environment::read(variables, "SCL_TRANSPORT", "`ipc` or `tcp`", Medium::parse)?;
+        let medium = environment::read(variables, "SCL_TRANSPORT", Medium::EXPECTED, Medium::parse)?;
         Ok(medium.unwrap_or_default())
     }
 }
@@ -175,14 +175,15 @@ mod tests {
     #[test]
     fn the_medium_is_chosen_or_read_or_ipc() {
         let chosen = |medium| OpenOptions::new().medium(medium);
-        let cases: [Case<'_, Medium>; 7] = [
+        let cases: [Case<'_, Medium>; 8] = [
             (OpenOptions::new(), b"", Ok(Medium::Ipc)),
             (OpenOptions::new(), b"ipc", Ok(Medium::Ipc)),
             (OpenOptions::new(), b"tcp", Ok(Medium::Tcp)),
+            (OpenOptions::new(), b"shm", Ok(Medium::Shm)),
             (chosen(Medium::Ipc), b"tcp", Ok(Medium::Ipc)),
             (chosen(Medium::Tcp), b"nonsense", Ok(Medium::Tcp)),
-            (OpenOptions::new(), b"udp", Err("SCL_TRANSPORT=udp, not `ipc` or `tcp`")),
-            (OpenOptions::new(), b"tcp\xff", Err("SCL_TRANSPORT=tcp\u{fffd}, not `ipc` or `tcp`")),
+            (OpenOptions::new(), b"udp", Err("SCL_TRANSPORT=udp, not `ipc`, `tcp` or `shm`")),
+            (OpenOptions::new(), b"tcp\xff", Err("SCL_TRANSPORT=tcp\u{fffd}, not `ipc`, `tcp` or `shm`")),
         ];
         for (options, value, expected) in cases {
             let found = refused(options.medium_from(&table("SCL_TRANSPORT", value)));

@@ -78,6 +78,8 @@ pub struct Endpoint {
     /// The longest message that this end accepts, in bytes. A peer that announces a longer one is disconnected before
     /// memory is reserved. Default: 64 MiB.
     pub max_size: usize,
+    /// The receiving gate's queue of this connection, in messages: what its engine has to have room for. Default: 100.
+    pub queue: usize,
     /// Whether only the newest message matters to this receiving end, as with `queue: 1`. It then keeps few messages in
     /// flight, so that [`Receiver::poll_caught_up`] can tell exactly whether the sender has a newer one.
     pub newest_only: bool,
@@ -92,9 +94,19 @@ impl Endpoint {
     /// The default limit of a message: 64 MiB.
     pub const MAX_SIZE: usize = 64 << 20;
 
+    /// The default queue: 100 messages.
+    pub const QUEUE: usize = 100;
+
     /// An endpoint with default limits.
     pub fn new(name: impl Into<Cow<'static, str>>) -> Self {
-        Self { name: name.into(), max_size: Self::MAX_SIZE, newest_only: false, lossless: false, check: None }
+        Self {
+            name: name.into(),
+            max_size: Self::MAX_SIZE,
+            queue: Self::QUEUE,
+            newest_only: false,
+            lossless: false,
+            check: None,
+        }
     }
 }
 

@@ -19,6 +19,7 @@ pub(crate) struct Options {
 enum Transport {
     Ipc,
     Tcp,
+    Shm,
 }
 
 impl Options {
@@ -49,6 +50,7 @@ impl Options {
         match self.transport {
             Some(Transport::Ipc) => options.medium(Medium::Ipc),
             Some(Transport::Tcp) => options.medium(Medium::Tcp),
+            Some(Transport::Shm) => options.medium(Medium::Shm),
             None => options,
         }
     }

@@ -235,7 +235,11 @@ fn options(runtime_dir: Option<PathBuf>, system: Option<String>, transport: Opti
         None => {}
         Some("ipc") => options = options.medium(Medium::Ipc),
         Some("tcp") => options = options.medium(Medium::Tcp),
-        Some(other) => return Err(PyValueError::new_err(format!("transport={other:?}; expected \"ipc\" or \"tcp\""))),
+        Some("shm") => options = options.medium(Medium::Shm),
+        Some(other) => {
+            let expected = "expected \"ipc\", \"tcp\" or \"shm\"";
+            return Err(PyValueError::new_err(format!("transport={other:?}; {expected}")));
+        }
     }
     Ok(options)
 }

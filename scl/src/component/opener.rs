@@ -146,7 +146,7 @@ impl Opener {
     /// The endpoint of one connection, whose connecting end checks its peer first.
     fn connecting(&self, spec: &'static GateSpec, link: &'static LinkSpec) -> Endpoint {
         let check = self.state.registration().peer_check(spec, link);
-        Endpoint { check, ..endpoint(link.endpoint, spec) }
+        Endpoint { check, queue: link.queue as usize, ..endpoint(link.endpoint, spec) }
     }
 
     fn name(&self, spec: &'static GateSpec) -> GateName {
@@ -173,7 +173,10 @@ fn register(
 }
 
 #[cfg(feature = "zeromq")]
-fn transport(_spec: &ComponentSpec, dir: &SystemDir, medium: Medium) -> Result<Arc<dyn Transport>, OpenError> {
+fn transport(spec: &ComponentSpec, dir: &SystemDir, medium: Medium) -> Result<Arc<dyn Transport>, OpenError> {
+    if medium == Medium::Shm && !cfg!(feature = "iceoryx2") {
+        return Err(OpenError::NoSharedMemory { component: spec.name });
+    }
     Ok(Arc::new(crate::transport::zeromq::ZeroMq::new(dir.clone(), medium)))
 }
 
@@ -184,5 +187,6 @@ fn transport(spec: &ComponentSpec, _dir: &SystemDir, _medium: Medium) -> Result<
 
 fn endpoint(name: &'static str, spec: &GateSpec) -> Endpoint {
     let max_size = usize::try_from(spec.options.max_size).unwrap_or(usize::MAX);
-    Endpoint { max_size, newest_only: spec.newest_only(), ..Endpoint::new(name) }
+    let queue = spec.options.queue as usize;
+    Endpoint { max_size, queue, newest_only: spec.newest_only(), ..Endpoint::new(name) }
 }
