@@ -89,6 +89,9 @@ pub struct Endpoint {
     /// Whether this sending end waits for slow peers instead of dropping messages. It tells them, see
     /// [`Receiver::is_lossless`].
     pub lossless: bool,
+    /// For a receiving end that passes messages on: how much the sender may have unacknowledged, and that messages are
+    /// acknowledged by [`Receiver::acknowledge`] only, never because they were returned. Default: none.
+    pub deferred: Option<Window>,
     /// Called by a connecting end each time before it connects; an error keeps it from connecting.
     pub check: Option<PeerCheck>,
 }
@@ -108,9 +111,20 @@ impl Endpoint {
             queue: Self::QUEUE,
             newest_only: false,
             lossless: false,
+            deferred: None,
             check: None,
         }
     }
+}
+
+/// How much may be sent without an acknowledgement. A message longer than `bytes` may be sent if nothing else is
+/// unacknowledged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Window {
+    /// In messages.
+    pub messages: u64,
+    /// In bytes.
+    pub bytes: u64,
 }
 
 impl std::fmt::Debug for Endpoint {
@@ -250,6 +264,19 @@ pub trait Receiver: Send {
     /// Number of messages skipped because they did not consist of exactly one frame.
     fn malformed(&self) -> u64 {
         0
+    }
+
+    /// Acknowledges the oldest `count` messages that were returned and not acknowledged yet: each to the sender that it
+    /// came from, unless that has disconnected since. Only for an end with [`Endpoint::deferred`]; a transport without
+    /// acknowledgements does nothing, which is the default.
+    fn acknowledge(&mut self, count: u64) {
+        let _acknowledges_by_itself = count;
+    }
+
+    /// Returns true if a sender has asked since the last call to have everything acknowledged that it has sent, as a flush
+    /// does. Only an end with [`Endpoint::deferred`] does; ask it after [`poll_recv`](Self::poll_recv).
+    fn take_acknowledgement_request(&mut self) -> bool {
+        false
     }
 
     /// Ready when the sender has nothing newer than what [`poll_recv`](Self::poll_recv) returned. Asks the sender if it
