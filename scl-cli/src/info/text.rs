@@ -73,7 +73,8 @@ impl Reading {
         if let Some(tap) = &plan.tap {
             facts.row(["tap", tap]);
         }
-        if let Some(transport) = component.announcement.as_ref().and_then(|announced| transport(announced, &plan.name)) {
+        if let Some(transport) = component.announcement.as_ref().and_then(|announced| transport(announced, &plan.name))
+        {
             facts.row(["transport", &transport]);
         }
         let figures = component.figures(index);

@@ -28,8 +28,13 @@ struct Stage {
 impl Stage {
     async fn new() -> Self {
         let root = tempfile::tempdir().unwrap();
-        let registration =
-            Registration::in_folder(&SENSOR, system(root.path()), Some(Duration::from_millis(500)), &MediumChoice::default()).unwrap();
+        let registration = Registration::in_folder(
+            &SENSOR,
+            system(root.path()),
+            Some(Duration::from_millis(500)),
+            &MediumChoice::default(),
+        )
+        .unwrap();
         let keeping = tokio::spawn(registration.keep());
         // It is watching when it waits for the first time.
         yield_now().await;
@@ -95,7 +100,13 @@ async fn files_and_folders_that_are_removed_are_created_again() {
 #[tokio::test]
 async fn what_is_removed_before_it_is_watched_is_created_again() {
     let root = tempfile::tempdir().unwrap();
-    let registration = Registration::in_folder(&SENSOR, system(root.path()), Some(Duration::from_millis(500)), &MediumChoice::default()).unwrap();
+    let registration = Registration::in_folder(
+        &SENSOR,
+        system(root.path()),
+        Some(Duration::from_millis(500)),
+        &MediumChoice::default(),
+    )
+    .unwrap();
     fs::remove_dir_all(root.path().join("run")).unwrap();
     let keeping = tokio::spawn(registration.keep());
     let mut stage = Stage { root, registration, keeping, seen: Seen::default() };
