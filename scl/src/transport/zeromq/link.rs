@@ -163,6 +163,18 @@ impl SendLink {
         Ok(self.connection.flush_raw()?)
     }
 
+    /// Reads what a peer has sent before it left: a failed write is noticed earlier than its last acknowledgements.
+    fn read_last_acknowledgements(&mut self) {
+        for _ in 0..RAW_READS {
+            if !matches!(self.connection.fill_raw(), Ok(true)) {
+                return;
+            }
+            while let Ok(Some(item)) = self.connection.buffered_item() {
+                let _of_no_use_any_more = self.handle(item);
+            }
+        }
+    }
+
     /// Returns true if the peer can take a message after all.
     fn reopen(&mut self, cx: &mut Context<'_>) -> bool {
         let now = Instant::now();
@@ -288,6 +300,7 @@ impl Link for SendLink {
             }
             self.broken = true;
         }
+        self.read_last_acknowledgements();
         Err(Disconnected)
     }
 
