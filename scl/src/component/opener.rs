@@ -122,7 +122,8 @@ impl Opener {
     ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
         let connect = |link: &'static LinkSpec| {
             let lossless = spec.options.backpressure && link.when_full == WhenFull::Wait;
-            let sender = open(self.transports.of_link(spec, link), &Endpoint { lossless, ..self.connecting(spec, link) });
+            let sender =
+                open(self.transports.of_link(spec, link), &Endpoint { lossless, ..self.connecting(spec, link) });
             let sender = sender.map_err(|source| self.refused(spec, source))?;
             let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes());
             Ok(self.state.drive(connection))
@@ -160,10 +161,7 @@ impl Opener {
 }
 
 /// Takes the component's name in the runtime folder.
-fn register(
-    spec: &'static ComponentSpec,
-    options: &OpenOptions,
-) -> Result<(Registration, Transports), OpenError> {
+fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Registration, Transports), OpenError> {
     let (system, media) = (options.system_name(spec.system)?, options.chosen_media()?);
     let stats = stats_period(&|name| options.variable(name))?;
     let failed = |source| OpenError::RuntimeDir { component: spec.name, source };
