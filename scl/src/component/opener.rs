@@ -167,8 +167,8 @@ fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Regi
     let failed = |source| OpenError::RuntimeDir { component: spec.name, source };
     let runtime_dir = RuntimeDir::locate(&|name| options.variable(name)).map_err(failed)?;
     let dir = runtime_dir.system(&system).map_err(failed)?;
-    let transports = Transports::in_folder(spec, &dir, media)?;
-    Ok((Registration::in_folder(spec, dir, stats).map_err(failed)?, transports))
+    let transports = Transports::in_folder(spec, &dir, media.clone())?;
+    Ok((Registration::in_folder(spec, dir, stats, &media).map_err(failed)?, transports))
 }
 
 fn endpoint(name: &'static str, spec: &GateSpec) -> Endpoint {
