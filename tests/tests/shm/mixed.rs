@@ -85,7 +85,7 @@ impl Plain {
         let (program, plan) = (folder.path().join("images"), folder.path().join("plan.json"));
         Compile::c(tests.join("tests/shm/images.c")).program(&program);
         let loaded = scl_loader::load(&scl_loader::Request::new(tests.join("topologies/images.yaml")));
-        std::fs::write(&plan, loaded.plan.expect("a sound topology").to_json()).expect("the plan");
+        std::fs::write(&plan, loaded.system_plan().expect("a sound topology").to_json()).expect("the plan");
         Self { _folder: folder, program, plan }
     }
 

@@ -21,15 +21,6 @@ pub(crate) async fn play() -> scl::Result<()> {
         let number = words.get(1).and_then(|word| word.parse::<u64>().ok()).unwrap_or_default();
         match words.first().map_or("", String::as_str) {
             "ready" => say_result(viewer.ready(Duration::from_secs(30)).await, |()| "ready".to_owned()),
-            "camera" => {
-                while viewer.frames.stats().peers > 0 {
-                    viewer.frames.peers_changed().await;
-                }
-                while viewer.pictures.stats().peers > 0 {
-                    viewer.pictures.peers_changed().await;
-                }
-                say("camera");
-            }
             "receive" => {
                 let mut seen = Seen::default();
                 for _ in 0..number {
