@@ -120,7 +120,9 @@ async fn only_what_a_component_was_built_with_can_be_opened() {
     assert!(mirror.replying("calibrate").is_ok());
     // The lock keeps the component from running twice.
     let open = Component::open_with(&plan("sensor"), OpenOptions::new().runtime_dir(host.folder.path())).await;
-    assert!(open.err().unwrap().to_string().contains("is already running"));
+    let error = open.err().unwrap();
+    let refused = std::error::Error::source(&error).unwrap().to_string();
+    assert!(refused.starts_with("component `sensor` is already running in this process"), "{refused}");
 }
 
 async fn drive(link: &mut dyn Link, queue: &mut VecDeque<scl::transport::Frame>) {

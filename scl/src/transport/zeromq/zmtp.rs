@@ -13,7 +13,7 @@ mod ready;
 mod tests;
 
 pub(super) use command::{
-    BEHIND, Command, FLUSH, SUBSCRIBE_ALL, SUBSCRIBE_ALL_AND_PING, Subscription, acknowledgement, catch_up, caught_up,
+    BEHIND, Command, FINISH, FINISHED, FLUSH, SUBSCRIBE_ALL, SUBSCRIBE_ALL_AND_PING, Subscription, acknowledgement, catch_up, caught_up,
     pong,
 };
 pub(super) use decoder::{COMMAND_LIMIT, Decoder, Item, Message};

@@ -18,6 +18,11 @@ pub(in crate::transport::zeromq) const BEHIND: &[u8] = b"\x04\x0d\x0cX-SCL-BEHIN
 /// From a sending end: acknowledge everything sent before this.
 pub(in crate::transport::zeromq) const FLUSH: &[u8] = b"\x04\x0c\x0bX-SCL-FLUSH";
 
+/// From a receiving end: send nothing more over this connection.
+pub(in crate::transport::zeromq) const FINISH: &[u8] = b"\x04\x0d\x0cX-SCL-FINISH";
+/// From a sending end: nothing more follows.
+pub(in crate::transport::zeromq) const FINISHED: &[u8] = b"\x04\x0f\x0eX-SCL-FINISHED";
+
 /// A command of a peer that has introduced itself.
 #[derive(Debug, PartialEq, Eq)]
 pub(in crate::transport::zeromq) enum Command {
@@ -38,6 +43,10 @@ pub(in crate::transport::zeromq) enum Command {
     CaughtUp(u64),
     /// The peer wants everything acknowledged that it has sent.
     Flush,
+    /// The peer is about to close the connection, and wants nothing more over it.
+    Finish,
+    /// The peer sends nothing more over this connection.
+    Finished,
     Unknown,
 }
 
@@ -68,6 +77,8 @@ impl Command {
             b"X-SCL-BEHIND" => Self::Behind,
             b"X-SCL-CATCH-UP" => Self::CatchUp(number(content)?),
             b"X-SCL-CAUGHT-UP" => Self::CaughtUp(number(content)?),
+            b"X-SCL-FINISH" => Self::Finish,
+            b"X-SCL-FINISHED" => Self::Finished,
             b"X-SCL-FLUSH" => Self::Flush,
             b"SUBSCRIBE" => Self::Subscription(Subscription::Add(content)),
             b"CANCEL" => Self::Subscription(Subscription::Cancel(content)),
