@@ -68,7 +68,10 @@ async fn a_component_talks_with_a_mirror_as_with_its_peer() {
     let mirror = host.mirror("sensor", &profile(&plan("sensor")).await).unwrap();
     let announcement = Announcement::read(&host.dir, "sensor").unwrap();
     assert_eq!(announcement.host.as_deref(), Some("board"));
-    assert_eq!((announcement.pid, announcement.plan), (std::process::id(), Some(Plan { schema: None, ..plan("sensor") })));
+    assert_eq!(
+        (announcement.pid, announcement.plan),
+        (std::process::id(), Some(Plan { schema: None, ..plan("sensor") }))
+    );
     let error = controller.ready(Duration::ZERO).await.unwrap_err().to_string();
     assert!(error.contains("is running on host `board` but not connected"), "{error}");
 
@@ -85,7 +88,6 @@ async fn a_component_talks_with_a_mirror_as_with_its_peer() {
         () = drive(&mut *link, &mut queue) => unreachable!(),
     };
     assert_eq!(received, "[1.0]");
-
 }
 
 #[tokio::test]
@@ -120,7 +122,9 @@ async fn only_what_a_component_was_built_with_can_be_opened() {
     assert!(mirror.replying("calibrate").is_ok());
     // The lock keeps the component from running twice.
     let open = Component::open_with(&plan("sensor"), OpenOptions::new().runtime_dir(host.folder.path())).await;
-    assert!(open.err().unwrap().to_string().contains("is already running"));
+    let error = open.err().unwrap();
+    let refused = std::error::Error::source(&error).unwrap().to_string();
+    assert!(refused.starts_with("component `sensor` is already running in this process"), "{refused}");
 }
 
 async fn drive(link: &mut dyn Link, queue: &mut VecDeque<scl::transport::Frame>) {

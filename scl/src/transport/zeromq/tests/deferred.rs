@@ -84,6 +84,43 @@ async fn a_flush_reaches_the_caller() {
 }
 
 #[tokio::test]
+async fn what_a_finished_end_did_not_take_stays_with_the_sender() {
+    for publishes in [true, false] {
+        let stage = Stage::new(Medium::Ipc);
+        let (mut receiver, mut sender) = (receiver(&stage, publishes), sender(&stage, publishes));
+        sender.until_peers(1, &mut *receiver).await;
+        sender.queue(numbered(0..10));
+        for _ in 0..2 {
+            sender.during(next(&mut *receiver)).await;
+        }
+        receiver.acknowledge(1);
+        receiver.finish();
+        let mut taken = 2;
+        poll_fn(|cx| {
+            sender.drive(cx);
+            while let Poll::Ready(message) = receiver.poll_recv(cx) {
+                assert_eq!(number(&message), taken);
+                taken += 1;
+            }
+            if receiver.is_finished() { Poll::Ready(()) } else { Poll::Pending }
+        })
+        .await;
+        receiver.acknowledge(9);
+        // With room for more, nothing more is sent.
+        until(&mut sender, &mut *receiver, 0, 10 - taken as usize).await;
+        drop(receiver);
+        poll_fn(|cx| {
+            let left = std::mem::take(&mut sender.peers[0].queue);
+            assert_eq!(left.len(), 10 - taken as usize);
+            sender.peers[0].queue = left;
+            if sender.peers[0].link.drive(cx).is_err() { Poll::Ready(()) } else { Poll::Pending }
+        })
+        .await;
+        assert_eq!(sender.link().unacknowledged(), 0);
+    }
+}
+
+#[tokio::test]
 async fn each_pusher_gets_the_acknowledgements_of_its_messages() {
     let stage = Stage::new(Medium::Ipc);
     let mut puller = receiver(&stage, false);
