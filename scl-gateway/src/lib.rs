@@ -3,3 +3,4 @@
 
 pub mod deployment;
 pub mod route;
+pub mod wire;
