@@ -12,8 +12,11 @@ mod codecs;
 mod cores;
 mod delay;
 mod durations;
+mod engines;
 mod fanout;
 mod fresh;
+#[cfg(feature = "iceoryx2")]
+mod iceoryx;
 #[cfg(feature = "libzmq")]
 mod libzmq;
 mod message_size;
@@ -27,8 +30,11 @@ mod roles;
 mod roundtrip;
 mod runtime;
 mod scratch;
+mod transport;
 mod unix;
 mod worker;
+#[cfg(feature = "gateway")]
+mod zenoh_peer;
 
 pub use allocations::{AllocationCounter, measure_allocations};
 pub use codecs::{CodecsOptions, measure_codecs};
@@ -43,4 +49,5 @@ pub use restart::{RestartOptions, measure_restart};
 pub use roles::run_worker;
 pub use roundtrip::{RoundtripOptions, measure_roundtrip};
 pub use scl::{Error, Result};
+pub use transport::Transport;
 pub use worker::WORKER_COMMAND;

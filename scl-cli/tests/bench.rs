@@ -193,7 +193,7 @@ fn restart_measures_every_role() {
 fn errors_say_what_an_option_accepts() {
     let (number, seconds) = ("a whole number from", "a time from 0.001 to 3600 seconds, like `5` or `500ms`");
     for (arguments, rejected, expected) in [
-        (["rate", "--bytes", "20,7"], "7' for '--bytes <BYTES>", format!("{number} 8 to 1048576")),
+        (["rate", "--bytes", "20,7"], "7' for '--bytes <BYTES>", format!("{number} 8 to 4194304")),
         (["rate", "--messages", "0"], "0' for '--messages <MESSAGES>", format!("{number} 1 to 10000000")),
         (["roundtrip", "--bytes", "0"], "0' for '--bytes <BYTES>", format!("{number} 1 to 16777216")),
         (["fresh", "--repetitions", "0"], "0' for '--repetitions <REPETITIONS>", format!("{number} 1 to 10000")),
