@@ -12,12 +12,14 @@ use std::task::{Context, Poll};
 use std::time::Duration;
 
 mod frame;
+mod heap_memory;
 #[cfg(feature = "memory")]
 pub mod memory;
 #[cfg(feature = "zeromq")]
 pub mod zeromq;
 
 pub use frame::{Frame, Loan, LoanedMemory};
+pub(crate) use heap_memory::HeapMemory;
 
 /// Opens the ends of connections.
 ///

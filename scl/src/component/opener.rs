@@ -43,7 +43,7 @@ impl Opener {
         let connections = self.connections(spec, |transport, endpoint| transport.publish(endpoint))?;
         let tap = self.tap(spec)?;
         let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, tap);
-        self.follow(index, gate.figures());
+        self.follow(index, gate.fanout.figures());
         Ok(Pub::new(gate))
     }
 
@@ -53,7 +53,7 @@ impl Opener {
         let connections = self.connections(spec, |transport, endpoint| transport.push(endpoint))?;
         // The puller has the tap.
         let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, GateTap::new(None));
-        self.follow(index, gate.figures());
+        self.follow(index, gate.fanout.figures());
         Ok(Push::new(gate))
     }
 
