@@ -55,12 +55,14 @@ pub(super) fn open(runtime: &Runtime, id: &str, folder: &str) -> scl::Result<Box
 
 impl BatchSender for EngineSender {
     fn send_batch(&mut self, runtime: &Runtime, message: &Message, batch: usize) -> scl::Result<()> {
-        let payload = &message.payload;
+        let (time, payload) = (message.time()?.to_be_bytes(), &message.payload);
         let stream = &mut self.source.stream;
         if self.is_blocking {
             for _ in 0..batch {
                 if self.is_loaned {
-                    stream.send_blocking(payload)?;
+                    let mut loaned = stream.loan_bytes(payload.len())?;
+                    loaned[..time.len()].copy_from_slice(&time);
+                    loaned.send_blocking()?;
                 } else {
                     stream.send_blocking(payload)?;
                 }
@@ -70,7 +72,9 @@ impl BatchSender for EngineSender {
         runtime.block_on(async {
             for _ in 0..batch {
                 if self.is_loaned {
-                    stream.send(payload).await?;
+                    let mut loaned = stream.loan_bytes(payload.len())?;
+                    loaned[..time.len()].copy_from_slice(&time);
+                    loaned.send().await?;
                 } else {
                     stream.send(payload).await?;
                 }

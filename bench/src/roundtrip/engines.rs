@@ -41,7 +41,7 @@ pub(super) fn start(
 impl EngineClient {
     async fn exchange_one(&mut self, message: &Bytes) -> scl::Result<()> {
         if self.is_loaned {
-            self.client.ping.send(message).await?;
+            self.client.ping.loan_bytes(message.len())?.send().await?;
         } else {
             self.client.ping.send(message).await?;
         }
@@ -51,7 +51,7 @@ impl EngineClient {
 
     fn exchange_one_blocking(&mut self, message: &Bytes) -> scl::Result<()> {
         if self.is_loaned {
-            self.client.ping.send_blocking(message)?;
+            self.client.ping.loan_bytes(message.len())?.send_blocking()?;
         } else {
             self.client.ping.send_blocking(message)?;
         }
@@ -94,7 +94,7 @@ pub(super) async fn echo(id: &str, folder: &str) -> scl::Result<()> {
     loop {
         let message = echo.ping.recv().await?;
         if id.contains("-loan") {
-            echo.pong.send(&message).await?;
+            echo.pong.loan_bytes(message.len())?.send().await?;
         } else {
             echo.pong.send(&message).await?;
         }
@@ -107,7 +107,7 @@ pub(super) fn echo_blocking(id: &str, folder: &str) -> scl::Result<()> {
     loop {
         let message = echo.ping.recv_blocking()?;
         if id.contains("-loan") {
-            echo.pong.send_blocking(&message)?;
+            echo.pong.loan_bytes(message.len())?.send_blocking()?;
         } else {
             echo.pong.send_blocking(&message)?;
         }
