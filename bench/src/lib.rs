@@ -14,7 +14,11 @@ mod delay;
 mod durations;
 mod engines;
 mod fanout;
+mod footprint;
 mod fresh;
+#[cfg(feature = "gateway")]
+mod gateway;
+mod gateway_growth;
 #[cfg(feature = "iceoryx2")]
 mod iceoryx;
 #[cfg(feature = "libzmq")]
@@ -42,6 +46,7 @@ pub use cores::Cores;
 pub use delay::{DelayOptions, measure_delay};
 pub use fanout::{FanoutOptions, measure_fanout};
 pub use fresh::{FreshOptions, measure_fresh};
+pub use gateway_growth::{GatewayGrowthOptions, measure_gateway_growth};
 pub use open::{OpenOptions, measure_open};
 pub use rate::{RateOptions, measure_rate};
 pub use report::Report;

@@ -5,7 +5,7 @@ mod limits;
 use clap::{Args, Subcommand, ValueEnum};
 use limits::{MESSAGES, REPETITIONS, STARTS, parse_seconds, within};
 use scl_bench::{
-    CodecsOptions, Cores, DelayOptions, FanoutOptions, FreshOptions, OpenOptions, RateOptions, Report, RestartOptions,
+    CodecsOptions, Cores, DelayOptions, FanoutOptions, FreshOptions, GatewayGrowthOptions, OpenOptions, RateOptions, Report, RestartOptions,
     RoundtripOptions, Transport,
 };
 use scl_terminal::{print_err, print_out};
@@ -182,6 +182,29 @@ enum Benchmark {
         #[arg(long, default_value_t = 30, value_parser = within(STARTS))]
         starts: usize,
     },
+    /// Measure how the cost of a gateway grows with its connections: time until all are matched, memory, processor time,
+    /// round trip.
+    ///
+    /// Needs the program `scl-gateway` beside this one or in `PATH`, and the feature `gateway` of this program.
+    GatewayGrowth {
+        /// The numbers of connections, one line each.
+        #[arg(
+            long,
+            value_delimiter = ',',
+            default_values_t = [1, 10, 50, 100, 200, 500],
+            value_parser = within(GatewayGrowthOptions::CONNECTIONS)
+        )]
+        connections: Vec<usize>,
+        /// The number of other hosts, each with a gateway, between which the connections are divided.
+        #[arg(long, default_value_t = 1, value_parser = within(GatewayGrowthOptions::HOSTS))]
+        hosts: usize,
+        /// How long each line is observed while idle, and as long under load.
+        #[arg(long, default_value_t = 10.0, value_parser = parse_seconds)]
+        seconds: f64,
+        /// The number of round trips of each line.
+        #[arg(long, default_value_t = 1000, value_parser = within(MESSAGES))]
+        messages: usize,
+    },
 }
 
 /// The arguments of a worker process.
@@ -235,6 +258,14 @@ fn measure(benchmark: &Benchmark, quick: bool) -> scl_bench::Result<Report> {
         Benchmark::Delay { seconds } => scl_bench::measure_delay(&DelayOptions { time: short(*seconds) }),
         Benchmark::Fanout { seconds } => scl_bench::measure_fanout(&FanoutOptions { time: short(*seconds) }),
         Benchmark::Codecs { messages } => scl_bench::measure_codecs(&CodecsOptions { messages: few(*messages, 50) }),
+        Benchmark::GatewayGrowth { connections, hosts, seconds, messages } => {
+            scl_bench::measure_gateway_growth(&GatewayGrowthOptions {
+                connections: connections.iter().map(|&connections| few(connections, 3)).collect(),
+                hosts: *hosts,
+                time: short(*seconds),
+                messages: few(*messages, 50),
+            })
+        }
         Benchmark::Open { starts } => {
             let idle = Duration::from_millis(if quick { 50 } else { 1000 });
             scl_bench::measure_open(&OpenOptions { starts: few(*starts, 1), idle })

@@ -3,7 +3,7 @@
 use super::message::Message;
 use super::receiver::{Batch, BatchReceiver};
 use super::sender::BatchSender;
-use crate::engines::{Sink, Source, options};
+use crate::engines::{FAR, NEAR, Sink, Source, options};
 use crate::worker::Worker;
 use std::time::Duration;
 use tokio::runtime::Runtime;
@@ -14,6 +14,9 @@ struct EngineSender {
     source: Source,
     is_blocking: bool,
     is_loaned: bool,
+    /// Dropped after the component.
+    #[cfg(feature = "gateway")]
+    _gateways: Option<crate::gateway::Gateways>,
 }
 
 struct EngineReceiver {
@@ -27,28 +30,52 @@ pub(super) fn start(
     folder: &str,
     receiver: &[&str],
 ) -> scl::Result<(Box<dyn BatchSender>, Worker)> {
+    let (sender, receiver) = connect(runtime, id, folder, receiver)?;
+    Ok((Box::new(sender), receiver))
+}
+
+/// [`start`] over two gateways.
+#[cfg(feature = "gateway")]
+pub(super) fn start_across_hosts(
+    runtime: &Runtime,
+    folder: &str,
+    receiver: &[&str],
+) -> scl::Result<(Box<dyn BatchSender>, Worker)> {
+    let gateways = crate::engines::start_gateways(folder)?;
+    let (sender, receiver) = connect(runtime, "gateway", folder, receiver)?;
+    Ok((Box::new(EngineSender { _gateways: Some(gateways), ..sender }), receiver))
+}
+
+fn connect(runtime: &Runtime, id: &str, folder: &str, receiver: &[&str]) -> scl::Result<(EngineSender, Worker)> {
     let (is_blocking, is_loaned) = (id.ends_with("-blocking"), id.contains("-loan"));
     let receiver = Worker::start(receiver)?;
     let source = if is_blocking {
-        let source = Source::open_blocking_with(options(id, folder))?;
+        let source = Source::open_blocking_with(options(id, folder, NEAR))?;
         source.ready_blocking(CONNECT_TIMEOUT)?;
         source
     } else {
         runtime.block_on(async {
-            let source = Source::open_with(options(id, folder)).await?;
+            let source = Source::open_with(options(id, folder, NEAR)).await?;
             source.ready(CONNECT_TIMEOUT).await?;
             Ok::<_, scl::Error>(source)
         })?
     };
-    Ok((Box::new(EngineSender { source, is_blocking, is_loaned }), receiver))
+    let sender = EngineSender {
+        source,
+        is_blocking,
+        is_loaned,
+        #[cfg(feature = "gateway")]
+        _gateways: None,
+    };
+    Ok((sender, receiver))
 }
 
 pub(super) fn open(runtime: &Runtime, id: &str, folder: &str) -> scl::Result<Box<dyn BatchReceiver>> {
     let is_blocking = id.ends_with("-blocking");
     let sink = if is_blocking {
-        Sink::open_blocking_with(options(id, folder))?
+        Sink::open_blocking_with(options(id, folder, FAR))?
     } else {
-        runtime.block_on(Sink::open_with(options(id, folder)))?
+        runtime.block_on(Sink::open_with(options(id, folder, FAR)))?
     };
     Ok(Box::new(EngineReceiver { sink, is_blocking }))
 }

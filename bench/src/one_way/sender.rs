@@ -56,6 +56,8 @@ impl Sender {
                 Self::other(super::iceoryx::start(runtime, id, folder, bytes, receiver)?)
             }
             #[cfg(feature = "gateway")]
+            "gateway" => Self::other(super::engines::start_across_hosts(runtime, folder, receiver)?),
+            #[cfg(feature = "gateway")]
             "zenoh" => Self::other(super::zenoh::start(runtime, receiver)?),
             "scl-pub-blocking" | "scl-push-blocking" => Self::start_blocking(id, folder, receiver),
             #[cfg(feature = "libzmq")]

@@ -71,6 +71,8 @@ impl Client {
             #[cfg(feature = "iceoryx2")]
             "iceoryx-loan" | "iceoryx-copy" => Some(super::iceoryx::start(runtime, id, folder, bytes, &echo)?),
             #[cfg(feature = "gateway")]
+            "gateway" => Some(super::engines::start_across_hosts(runtime, folder, &echo)?),
+            #[cfg(feature = "gateway")]
             "zenoh" => Some(super::zenoh::start(runtime, &echo)?),
             _ => None,
         };

@@ -17,7 +17,7 @@ pub(crate) fn run_echo(arguments: &[&str]) -> scl::Result<()> {
     let options = scl::OpenOptions::new().runtime_dir(*folder).system(*id);
     let runtime = start_runtime()?;
     match *id {
-        "ipc" | "tcp" | "shm-loan" | "shm-copy" => runtime.block_on(super::engines::echo(id, folder)),
+        "ipc" | "tcp" | "gateway" | "shm-loan" | "shm-copy" => runtime.block_on(super::engines::echo(id, folder)),
         "ipc-blocking" | "shm-loan-blocking" | "shm-copy-blocking" => super::engines::echo_blocking(id, folder),
         #[cfg(feature = "iceoryx2")]
         "iceoryx-loan" | "iceoryx-copy" => super::iceoryx::echo(id, folder, bytes),

@@ -1,7 +1,7 @@
 //! The variants of SCL that differ only in their transport, and in who makes the copies.
 
 use super::client::BatchClient;
-use crate::engines::{Client, Echo, options};
+use crate::engines::{Client, Echo, FAR, NEAR, options};
 use crate::worker::Worker;
 use scl::bytes::Bytes;
 use std::time::{Duration, Instant};
@@ -14,6 +14,9 @@ struct EngineClient {
     client: Client,
     is_blocking: bool,
     is_loaned: bool,
+    /// Dropped after the component.
+    #[cfg(feature = "gateway")]
+    _gateways: Option<crate::gateway::Gateways>,
 }
 
 pub(super) fn start(
@@ -22,20 +25,44 @@ pub(super) fn start(
     folder: &str,
     echo: &[&str],
 ) -> scl::Result<(Box<dyn BatchClient>, Worker)> {
+    let (client, echo) = connect(runtime, id, folder, echo)?;
+    Ok((Box::new(client), echo))
+}
+
+/// [`start`] over two gateways.
+#[cfg(feature = "gateway")]
+pub(super) fn start_across_hosts(
+    runtime: &Runtime,
+    folder: &str,
+    echo: &[&str],
+) -> scl::Result<(Box<dyn BatchClient>, Worker)> {
+    let gateways = crate::engines::start_gateways(folder)?;
+    let (client, echo) = connect(runtime, "gateway", folder, echo)?;
+    Ok((Box::new(EngineClient { _gateways: Some(gateways), ..client }), echo))
+}
+
+fn connect(runtime: &Runtime, id: &str, folder: &str, echo: &[&str]) -> scl::Result<(EngineClient, Worker)> {
     let (is_blocking, is_loaned) = (id.ends_with("-blocking"), id.contains("-loan"));
     let echo = Worker::start(echo)?;
     let client = if is_blocking {
-        let client = Client::open_blocking_with(options(id, folder))?;
+        let client = Client::open_blocking_with(options(id, folder, NEAR))?;
         client.ready_blocking(CONNECT_TIMEOUT)?;
         client
     } else {
         runtime.block_on(async {
-            let client = Client::open_with(options(id, folder)).await?;
+            let client = Client::open_with(options(id, folder, NEAR)).await?;
             client.ready(CONNECT_TIMEOUT).await?;
             Ok::<_, scl::Error>(client)
         })?
     };
-    Ok((Box::new(EngineClient { client, is_blocking, is_loaned }), echo))
+    let client = EngineClient {
+        client,
+        is_blocking,
+        is_loaned,
+        #[cfg(feature = "gateway")]
+        _gateways: None,
+    };
+    Ok((client, echo))
 }
 
 impl EngineClient {
@@ -90,7 +117,7 @@ impl BatchClient for EngineClient {
 /// Sends every message back: copied, or as a new loan of the same size. A received message of a gate of bytes is a view
 /// of the memory it arrived in.
 pub(super) async fn echo(id: &str, folder: &str) -> scl::Result<()> {
-    let mut echo = Echo::open_with(options(id, folder)).await?;
+    let mut echo = Echo::open_with(options(id, folder, FAR)).await?;
     loop {
         let message = echo.ping.recv().await?;
         if id.contains("-loan") {
@@ -103,7 +130,7 @@ pub(super) async fn echo(id: &str, folder: &str) -> scl::Result<()> {
 
 /// [`echo`] without async.
 pub(super) fn echo_blocking(id: &str, folder: &str) -> scl::Result<()> {
-    let mut echo = Echo::open_blocking_with(options(id, folder))?;
+    let mut echo = Echo::open_blocking_with(options(id, folder, FAR))?;
     loop {
         let message = echo.ping.recv_blocking()?;
         if id.contains("-loan") {
