@@ -1,0 +1,3 @@
+//! The same system without a gateway: what the others are compared with.
+
+pub(crate) fn check() {}
