@@ -116,5 +116,7 @@ fn component_names(topology: &Path) -> Option<SystemNames> {
         return None;
     };
     let components = topology.components().map(|(_, component)| component.name().to_owned()).collect();
-    Some(SystemNames { system: topology.system().to_owned(), components })
+    let gates = topology.components().flat_map(|(_, component)| component.gates());
+    let gates = gates.map(|gate| topology.gate_path(*gate)).collect();
+    Some(SystemNames { system: topology.system().to_owned(), components, gates })
 }

@@ -78,6 +78,8 @@ mod run_ready;
 mod run_restart;
 #[cfg(feature = "run")]
 mod run_stop;
+#[cfg(feature = "run")]
+mod run_transports;
 mod rust_analyzer;
 mod schema;
 mod system;

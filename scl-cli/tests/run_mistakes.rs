@@ -90,7 +90,7 @@ fn values_of_the_wrong_kind_are_named() {
             error: `environment` is a mapping like `{RUST_LOG: info}`, not a list
              --> launch.yaml:2:1
 
-            error: `transport` is `ipc` or `tcp`, not `udp`
+            error: `transport` is `ipc`, `tcp` or `shm`, not `udp`
              --> launch.yaml:1:1
 
         "#]],

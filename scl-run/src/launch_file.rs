@@ -8,12 +8,14 @@ mod keys;
 mod profile;
 mod reader;
 mod settings;
+mod transports;
 
 pub(crate) use entry::{LaunchComponent, Source};
 pub(crate) use settings::Settings;
+pub(crate) use transports::Transports;
 
 use super::launch_text::LaunchText;
-use keys::Form;
+use super::system_names::SystemNames;
 use profile::Profile;
 use reader::Reader;
 use scl_terminal::Problem;
@@ -44,7 +46,9 @@ profiles:                              # other programs for the same components
   flight:
     sensor: {replay: flight.mcap}      # plays a recording
 environment: {RUST_LOG: info}          # for all programs
-transport: ipc                         # or tcp
+transport: ipc                         # or tcp, or shm
+transports:                            # of single connections, by a gate at either end
+  sensor.measurements: shm
 ";
 
 /// A launch file that is valid YAML.
@@ -62,8 +66,8 @@ pub(crate) struct LaunchFile {
     pub(crate) components: Vec<LaunchComponent>,
     /// For all programs and builds.
     pub(crate) environment: Vec<(String, String)>,
-    /// `ipc` or `tcp`.
-    pub(crate) transport: Option<String>,
+    /// For all programs.
+    pub(crate) transports: Transports,
     /// For components that lack a setting.
     pub(crate) defaults: Settings,
     profiles: Vec<Profile>,
@@ -88,12 +92,12 @@ impl<'a> LaunchDocument<'a> {
         Some((path, self.text.place(&["topology"])))
     }
 
-    /// Reads the keys; `known` are the components of the topology where there is one.
+    /// Reads the keys; `known` are the names of the topology where there is one.
     ///
     /// # Errors
     ///
     /// Every mistake of the file.
-    pub(crate) fn read(&self, known: Option<&[String]>) -> Result<LaunchFile, Vec<Problem>> {
+    pub(crate) fn read(&self, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Problem>> {
         let mut reader = Reader { text: self.text, known, problems: Vec::new() };
         let file = reader.read_file(&self.value);
         if reader.problems.is_empty() { Ok(file) } else { Err(reader.problems) }
@@ -114,7 +118,7 @@ impl Reader<'_> {
             components: self.read_components(top.get("components")),
             profiles: self.read_profiles(top.get("profiles"), top.get("components")),
             environment: self.read_environment(top.get("environment"), &["environment"]),
-            transport: self.read_transport(top.get("transport")),
+            transports: self.read_transports(top.get("transport"), top.get("transports")),
             defaults: self.read_defaults(top.get("defaults")),
         }
     }
@@ -144,16 +148,6 @@ impl Reader<'_> {
         };
         let read = |(name, entry)| self.read_component(name, entry, &["components"]);
         entries.iter().filter_map(read).collect()
-    }
-
-    fn read_transport(&mut self, value: Option<&Value>) -> Option<String> {
-        let value = value?;
-        let is_known = |word: &&str| matches!(keys::form_of("transport"), Form::Word(words) if words.contains(word));
-        let word = value.as_str().filter(is_known);
-        if word.is_none() {
-            self.wrong_value(&["transport"], value);
-        }
-        word.map(str::to_owned)
     }
 }
 

@@ -7,6 +7,7 @@
 mod cargo_package;
 mod children;
 pub mod control;
+mod deployment;
 mod ending;
 mod launch_file;
 mod launch_text;
@@ -28,12 +29,15 @@ mod selection;
 mod sockets;
 mod summary;
 mod supervisor;
+mod system_names;
 
+pub use deployment::{Deployment, Host};
 pub use launch_file::EXAMPLE as EXAMPLE_LAUNCH_FILE;
 pub use log_file::{LogEntry, LogFolder, LogReader, LogStream};
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use placement::Placement;
-pub use plan::{ComponentNames, SystemNames};
+pub use plan::ComponentNames;
+pub use system_names::SystemNames;
 
 use children::{Event, Role};
 use ending::Ending;

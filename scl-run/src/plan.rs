@@ -7,6 +7,7 @@ use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile, Settings, 
 use super::placement::Placement;
 use super::program::{Build, Component, Program};
 use super::selection::Selection;
+use super::system_names::SystemNames;
 use scl_terminal::{Problem, print_err, quoted_list};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -16,18 +17,11 @@ const LAUNCH_FILE: &str = "launch.yaml";
 const TOPOLOGY_FILE: &str = "topology.yaml";
 /// The variable that gives programs the name of their system.
 const SYSTEM: &str = "SCL_SYSTEM";
+/// The variable that chooses the transport of connections.
+const TRANSPORT: &str = "SCL_TRANSPORT";
 
 /// Reads the names of the components from a topology file, or says what is wrong with it and returns `None`.
 pub type ComponentNames<'a> = &'a dyn Fn(&Path) -> Option<SystemNames>;
-
-/// What is read from a topology file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SystemNames {
-    /// The name of the system.
-    pub system: String,
-    /// The names of its components, in file order.
-    pub components: Vec<String>,
-}
 
 /// What to build, in this order, and then to start.
 #[derive(Debug)]
@@ -116,7 +110,7 @@ fn plan_from_launch_file(
         Some(topology) => Some(read_names(&topology, component_names)?),
         None => None,
     };
-    let launch = document.read(known.as_ref().map(|names| names.components.as_slice()))?;
+    let launch = document.read(known.as_ref())?;
     let components = launch.components_with(&options.profiles)?;
     let selection = Selection::new(options, &components, &shown)?;
     if selection.is_everything() {
@@ -185,11 +179,12 @@ fn plan_component(folder: &Path, launch: &LaunchFile, component: &LaunchComponen
         Source::Command(words) => (words.iter().map(OsString::from).collect(), None),
         Source::Replay(path) => (replay_command(path, &component.name), Some(PathBuf::from(path))),
     };
-    let transport = launch.transport.iter().map(|word| ("SCL_TRANSPORT".to_owned(), word.clone()));
+    let inherited = std::env::var(TRANSPORT).ok();
+    let transport = launch.transports.variable(inherited.as_deref()).map(|value| (TRANSPORT.to_owned(), value));
     let environment = launch.environment.iter().chain(&component.environment).cloned();
     let program = Program {
         command,
-        environment: transport.chain(environment).collect(),
+        environment: transport.into_iter().chain(environment).collect(),
         folder: folder_of(folder, &settings),
         placement: Placement { cpu: settings.cpu.clone().unwrap_or_default(), fifo: settings.priority },
     };

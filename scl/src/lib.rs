@@ -74,6 +74,7 @@
 //! | `protobuf` (default) | the codec, and `schemas:` |
 //! | `json`, `raw` (default), `cbor`, `msgpack`, `postcard` | a codec each |
 //! | `zeromq` (default) | the transport between programs |
+//! | `iceoryx2` | shared memory for long messages between programs on it, see [`Medium::Shm`] |
 //! | `memory` (default) | the transport within a program, for unit tests of components |
 //! | `logging` (default) | [`main`](macro@main) logs to standard error; switch it off if the program has a log of its own |
 //! | `nightly` | the macro's problems shown in the YAML file itself; needs a nightly compiler |
@@ -94,6 +95,7 @@ mod gate;
 pub mod host;
 mod log;
 mod medium;
+mod medium_choice;
 mod named_type;
 mod options;
 #[doc(hidden)]
@@ -120,6 +122,7 @@ pub use error::{
 };
 pub use gate::{AnyGate, GateStats, PeerStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
 pub use medium::Medium;
+pub use medium_choice::{MediumChoice, MediumError};
 pub use options::OpenOptions;
 pub use scl_macros::main;
 pub use scl_plan as plan;

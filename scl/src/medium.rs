@@ -8,15 +8,25 @@ pub enum Medium {
     Ipc,
     /// TCP on 127.0.0.1, with the ports in the runtime folder.
     Tcp,
+    /// Unix sockets in the runtime folder, which offer shared memory for long messages. A peer that does not use shared
+    /// memory is served through the socket. Needs the feature `iceoryx2` of the crate `scl`.
+    Shm,
 }
 
 impl Medium {
-    /// Parses the value of `SCL_TRANSPORT`.
+    const ALL: [Self; 3] = [Self::Ipc, Self::Tcp, Self::Shm];
+
+    /// The medium that a word of `SCL_TRANSPORT` means.
     pub(crate) fn parse(word: &str) -> Option<Self> {
-        match word {
-            "ipc" => Some(Self::Ipc),
-            "tcp" => Some(Self::Tcp),
-            _ => None,
+        Self::ALL.into_iter().find(|medium| medium.word() == word)
+    }
+
+    /// Its word in `SCL_TRANSPORT`.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Ipc => "ipc",
+            Self::Tcp => "tcp",
+            Self::Shm => "shm",
         }
     }
 }

@@ -11,10 +11,13 @@ use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
 
+mod frame;
 #[cfg(feature = "memory")]
 pub mod memory;
 #[cfg(feature = "zeromq")]
 pub mod zeromq;
+
+pub use frame::{Frame, Loan, LoanedMemory};
 
 /// Opens the ends of connections.
 ///
@@ -78,12 +81,17 @@ pub struct Endpoint {
     /// The longest message that this end accepts, in bytes. A peer that announces a longer one is disconnected before
     /// memory is reserved. Default: 64 MiB.
     pub max_size: usize,
+    /// The receiving gate's queue of this connection, in messages: what its engine has to have room for. Default: 100.
+    pub queue: usize,
     /// Whether only the newest message matters to this receiving end, as with `queue: 1`. It then keeps few messages in
     /// flight, so that [`Receiver::poll_caught_up`] can tell exactly whether the sender has a newer one.
     pub newest_only: bool,
     /// Whether this sending end waits for slow peers instead of dropping messages. It tells them, see
     /// [`Receiver::is_lossless`].
     pub lossless: bool,
+    /// For a receiving end that passes messages on: how much the sender may have unacknowledged, and that messages are
+    /// acknowledged by [`Receiver::acknowledge`] only, never because they were returned. Default: none.
+    pub deferred: Option<Window>,
     /// Called by a connecting end each time before it connects; an error keeps it from connecting.
     pub check: Option<PeerCheck>,
 }
@@ -92,10 +100,31 @@ impl Endpoint {
     /// The default limit of a message: 64 MiB.
     pub const MAX_SIZE: usize = 64 << 20;
 
+    /// The default queue: 100 messages.
+    pub const QUEUE: usize = 100;
+
     /// An endpoint with default limits.
     pub fn new(name: impl Into<Cow<'static, str>>) -> Self {
-        Self { name: name.into(), max_size: Self::MAX_SIZE, newest_only: false, lossless: false, check: None }
+        Self {
+            name: name.into(),
+            max_size: Self::MAX_SIZE,
+            queue: Self::QUEUE,
+            newest_only: false,
+            lossless: false,
+            deferred: None,
+            check: None,
+        }
     }
+}
+
+/// How much may be sent without an acknowledgement. A message longer than `bytes` may be sent if nothing else is
+/// unacknowledged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Window {
+    /// In messages.
+    pub messages: u64,
+    /// In bytes.
+    pub bytes: u64,
 }
 
 impl std::fmt::Debug for Endpoint {
@@ -151,11 +180,11 @@ pub trait Link: Send {
     /// The peer is gone, or violated the protocol.
     fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Disconnected>;
 
-    /// Sends `message`, or returns it if the peer cannot take it now.
+    /// Sends `message`, or returns it if the peer cannot take it now. A loan of another link is sent as a copy.
     ///
     /// # Errors
-    /// The message itself. If the peer is gone, the task is woken and the next [`drive`](Self::drive) fails.
-    fn send(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes>;
+    /// The message itself, or bytes of the same content. If the peer is gone, the task is woken and the next [`drive`](Self::drive) fails.
+    fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Result<(), Frame>;
 
     /// Sends messages from the front of a queue, as many as the peer can take now; calls `sent` with the length of
     /// each.
@@ -163,7 +192,7 @@ pub trait Link: Send {
     /// Implementations that can write several messages at once do that here. When it returns with an empty queue,
     /// nothing newer is waiting for this peer: a link may rely on that to answer a receiver that wants to know whether
     /// it has [caught up](Receiver::poll_caught_up).
-    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, sent: &mut dyn FnMut(usize)) {
+    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
         while let Some(message) = queue.pop_front() {
             let length = message.len();
             match self.send(cx, message) {
@@ -171,6 +200,14 @@ pub trait Link: Send {
                 Err(message) => return queue.push_front(message),
             }
         }
+    }
+
+    /// Lends memory of `length` bytes, to be filled and given to [`send`](Self::send). A link that can send such memory
+    /// without copying it offers it here; `None` if it has none, now or ever, or for messages of this length. Then the gate
+    /// takes memory from the heap.
+    fn loan(&mut self, length: usize) -> Option<Loan> {
+        let _lends_nothing = length;
+        None
     }
 
     /// Returns true if everything sent has been handed to the operating system.
@@ -227,6 +264,19 @@ pub trait Receiver: Send {
     /// Number of messages skipped because they did not consist of exactly one frame.
     fn malformed(&self) -> u64 {
         0
+    }
+
+    /// Acknowledges the oldest `count` messages that were returned and not acknowledged yet: each to the sender that it
+    /// came from, unless that has disconnected since. Only for an end with [`Endpoint::deferred`]; a transport without
+    /// acknowledgements does nothing, which is the default.
+    fn acknowledge(&mut self, count: u64) {
+        let _acknowledges_by_itself = count;
+    }
+
+    /// Returns true if a sender has asked since the last call to have everything acknowledged that it has sent, as a flush
+    /// does. Only an end with [`Endpoint::deferred`] does; ask it after [`poll_recv`](Self::poll_recv).
+    fn take_acknowledgement_request(&mut self) -> bool {
+        false
     }
 
     /// Ready when the sender has nothing newer than what [`poll_recv`](Self::poll_recv) returned. Asks the sender if it

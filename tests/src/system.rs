@@ -55,8 +55,9 @@ impl System {
     /// Starts a program in this runtime folder with more environment variables.
     pub fn start_with(&self, program: &str, arguments: &[&str], more: &[(&str, &str)]) -> Process {
         let medium = match self.medium {
+            Medium::Ipc => "ipc",
             Medium::Tcp => "tcp",
-            _ => "ipc",
+            Medium::Shm => "shm",
         };
         let mut environment =
             vec![("SCL_RUNTIME_DIR", self.folder.path().as_os_str()), ("SCL_TRANSPORT", OsStr::new(medium))];

@@ -48,7 +48,7 @@ fn a_runtime_folder_too_deep_for_a_socket_is_refused() {
 fn a_medium_that_does_not_exist_is_refused() {
     let exit = System::new().start_with(PEER, &["sink"], &[("SCL_TRANSPORT", "udp")]).wait_for_exit();
     assert_fails(&exit, "`SCL_TRANSPORT=udp`");
-    assert_fails(&exit, "`ipc` or `tcp`");
+    assert_fails(&exit, "`ipc`, `tcp` or `shm`");
 }
 
 #[test]

@@ -39,7 +39,7 @@ static COMPONENTS: Registry<Arc<Opened>> = Registry::new(3, "component");
 /// `plan_json`, of `plan_len` bytes, is the plan of the system or of one component, as `scl plan` prints it; generated
 /// code contains it. `options_json` is NULL for the defaults, or an object with any of these keys:
 ///
-///     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc" or "tcp", "signals": true}
+///     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc", "tcp" or "shm", "signals": true}
 ///
 /// The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. The first component
 /// also starts the log (SCL_LOG) and applies the real-time settings (SCL_SCHED, SCL_CPU) to the calling thread. Unless

@@ -138,7 +138,7 @@ impl Reader<'_> {
     }
 
     fn check_known(&mut self, name: &str, at: KeyPath<'_>) {
-        let Some(known) = self.known else { return };
+        let Some(known) = self.known.map(|names| &names.components) else { return };
         if known.iter().any(|it| it == name) {
             return;
         }

@@ -67,7 +67,7 @@ fn alternatives(words: &[&str]) -> String {
 }
 
 /// The values of `transport`.
-const TRANSPORTS: &[&str] = &["ipc", "tcp"];
+const TRANSPORTS: &[&str] = &["ipc", "tcp", "shm"];
 
 const RESTARTS: &[&str] = &{
     let [(never, _), (on_abnormal, _), (on_failure, _), (always, _)] = Restart::WORDS;
@@ -121,7 +121,14 @@ pub(super) const TOP: &[Key] = &[
         name: "transport",
         form: Form::Word(TRANSPORTS),
         default: "the environment's, or `ipc`",
-        meaning: "Sets `SCL_TRANSPORT` for all programs.",
+        meaning: "The transport of all connections. See [Transports](#transports).",
+        ..KEY
+    },
+    Key {
+        name: "transports",
+        form: Form::Mapping("a mapping from gates like `camera.frames` to transports"),
+        default: "none",
+        meaning: "The transport of single connections, by a gate at either end. See [Transports](#transports).",
         ..KEY
     },
 ];

@@ -1,6 +1,7 @@
 //! What all parts of a launch file are read with: the collected problems, the check of keys, texts of values.
 
 use super::super::launch_text::LaunchText;
+use super::super::system_names::SystemNames;
 use super::keys::Key;
 use scl_terminal::{Problem, closest_name, quoted_list};
 use serde_yaml::{Mapping, Value};
@@ -8,8 +9,8 @@ use serde_yaml::{Mapping, Value};
 /// Walks the values and collects the problems; every `read_*` continues after a mistake.
 pub(super) struct Reader<'a> {
     pub(super) text: LaunchText<'a>,
-    /// The components of the topology.
-    pub(super) known: Option<&'a [String]>,
+    /// The names of the topology.
+    pub(super) known: Option<&'a SystemNames>,
     pub(super) problems: Vec<Problem>,
 }
 

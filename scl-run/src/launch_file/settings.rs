@@ -114,7 +114,7 @@ fn shown_value(form: Form, value: &Value) -> String {
 }
 
 /// What was probably meant by a wrong value.
-fn likely(form: Form, value: &Value) -> Option<String> {
+pub(super) fn likely(form: Form, value: &Value) -> Option<String> {
     let text = scalar_text(value)?;
     let text = text.trim();
     let candidate = match form {

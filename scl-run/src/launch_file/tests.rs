@@ -1,12 +1,13 @@
 //! What becomes of good launch files, and that no text at all is too bad. The words are tested with the real command.
 
 use super::super::policy::{Restart, RestartDelay, RestartLimit};
+use super::super::system_names::SystemNames;
 use super::keys::{self, Key};
 use super::{EXAMPLE, LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
 use scl_terminal::Problem;
 use std::time::Duration;
 
-fn parse_launch_file(text: &str, known: Option<&[String]>) -> Result<LaunchFile, Vec<Problem>> {
+fn parse_launch_file(text: &str, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Problem>> {
     LaunchDocument::parse("launch.yaml", text).map_err(|problem| vec![problem])?.read(known)
 }
 
@@ -31,7 +32,12 @@ profiles:
   debug:
     controller: {build: make debug, working_directory: debug, environment: {LOG: all}}
 topology: ../topology.yaml
+transports: {sensor.images: shm}
 ";
+
+fn components(names: &[&str]) -> SystemNames {
+    SystemNames { components: words(names), gates: words(&["sensor.images"]), ..SystemNames::default() }
+}
 
 fn pairs(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
     pairs.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect()
@@ -70,13 +76,13 @@ fn controller() -> LaunchComponent {
 
 #[test]
 fn a_good_file_keeps_its_order_and_its_values() {
-    let known = words(&["sensor", "controller", "display", "other"]);
+    let known = components(&["sensor", "controller", "display", "other"]);
     for text in [GOOD.to_owned(), GOOD.replace('\n', "\r\n"), format!("\u{feff}{GOOD}")] {
         let file = parse_launch_file(&text, Some(&known)).unwrap();
         assert_eq!(file.components, [sensor(), controller()]);
         assert_eq!(file.build, Some(words(&["/bin/sh", "-c", "make all"])));
         assert_eq!(file.environment, pairs(&[("RUST_LOG", "info"), ("LEVEL", "2")]));
-        assert_eq!(file.transport.as_deref(), Some("ipc"));
+        assert_eq!(file.transports.variable(Some("tcp")).as_deref(), Some("ipc,sensor.images=shm"));
     }
 }
 
@@ -140,6 +146,26 @@ fn a_profile_replaces_programs_or_changes_keys_and_later_ones_win() {
     ];
     for (profiles, expected) in cases {
         assert_eq!(file.components_with(&words(profiles)), Ok(expected), "{profiles:?}");
+    }
+}
+
+#[test]
+fn transports_become_one_variable() {
+    let both = "transport: ipc\ntransports: {camera.frames: shm, logger.frames: tcp}\n";
+    let single = "transports: {camera.frames: shm}\n";
+    let cases = [
+        ("", None, None),
+        ("", Some("tcp"), None),
+        ("transport: shm\n", None, Some("shm")),
+        ("transport: shm\n", Some("tcp,a.b=ipc"), Some("shm")),
+        (both, Some("tcp"), Some("ipc,camera.frames=shm,logger.frames=tcp")),
+        (single, None, Some("camera.frames=shm")),
+        (single, Some(""), Some("camera.frames=shm")),
+        (single, Some("tcp,camera.frames=ipc"), Some("tcp,camera.frames=ipc,camera.frames=shm")),
+    ];
+    for (text, inherited, expected) in cases {
+        let file = parse_launch_file(&format!("{text}components: {{a: {{command: ls}}}}"), None).unwrap();
+        assert_eq!(file.transports.variable(inherited).as_deref(), expected, "{text} {inherited:?}");
     }
 }
 
@@ -237,7 +263,7 @@ fn the_reference_page_is_current() {
 
 #[test]
 fn no_damaged_file_is_too_bad() {
-    let known = words(&["sensor", "controller", "display"]);
+    let known = components(&["sensor", "controller", "display"]);
     let parse = |text: &str| match parse_launch_file(text, Some(&known)) {
         Ok(file) => assert!(!file.components.is_empty(), "nothing to start in:\n{text}"),
         Err(problems) => assert!(!problems.is_empty(), "rejected without a reason:\n{text}"),

@@ -7,8 +7,7 @@ use crate::error::{GateName, Missing, PeerName, Unflushed};
 use crate::runtime_dir::{ConnectionFigures, GateFigures};
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
 use crate::state::{Changes, SendingEnd};
-use crate::transport::{Link, Peer, PeerKind, Sender};
-use bytes::Bytes;
+use crate::transport::{Frame, Link, Peer, PeerKind, Sender};
 use std::task::{Context, Poll, Waker};
 
 /// One connection at its sending end.
@@ -17,7 +16,7 @@ pub(crate) struct Connection {
     /// The link to the component at the other end.
     peer: Option<Box<dyn Link>>,
     /// What waits for that component, connected or not.
-    queue: Queue<Bytes>,
+    queue: Queue<Frame>,
     /// Plain ZeroMQ subscribers beside it or in its place.
     foreign: Vec<ForeignPeer>,
     /// Messages sent to and dropped for plain ZeroMQ subscribers that have left.
@@ -97,10 +96,10 @@ impl Connection {
     }
 
     /// Takes a message without waiting; a full queue treats it as declared.
-    pub(crate) fn send(&mut self, message: Bytes) {
+    pub(crate) fn send(&mut self, message: Frame) {
         let mut cx = Context::from_waker(&self.task);
         for peer in &mut self.foreign {
-            peer.send(&mut cx, &message);
+            peer.send(&mut cx, message.to_bytes());
         }
         if self.queue.is_full() {
             // Before a message is dropped, everything is tried to hand some over.
@@ -255,7 +254,8 @@ impl Connection {
         if kind == PeerKind::Foreign && self.kind == GateKind::Pub {
             let policy = self.queue.policy();
             // The component, when it comes, must find what waited for it; so a program in its place gets a copy.
-            let waiting = if self.peer.is_none() { self.queue.items().clone() } else { Default::default() };
+            let copied = self.queue.items_mut().iter_mut().filter(|_| self.peer.is_none());
+            let waiting = copied.map(|frame| Frame::from(frame.make_bytes().clone())).collect();
             self.foreign.push(ForeignPeer::new(link, policy, waiting));
             return;
         }
@@ -287,7 +287,7 @@ impl Connection {
     }
 
     /// Queues a message for the component at the other end.
-    fn keep(&mut self, message: Bytes) {
+    fn keep(&mut self, message: Frame) {
         if self.peer.is_none() && !self.foreign.is_empty() {
             // A program in the component's place has it; older ones make room, and nothing is lost.
             if self.queue.replace(message) != Pushed::Stored {

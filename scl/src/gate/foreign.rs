@@ -1,30 +1,30 @@
 //! A plain ZeroMQ subscriber of a `pub` gate, with a queue of its own so that it never delays the component.
 
 use super::queue::{Queue, QueuePolicy};
-use crate::transport::{Disconnected, Link};
+use crate::transport::{Disconnected, Frame, Link};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::task::Context;
 
 pub(super) struct ForeignPeer {
     link: Box<dyn Link>,
-    queue: Queue<Bytes>,
+    queue: Queue<Frame>,
     sent: u64,
 }
 
 impl ForeignPeer {
     /// A subscriber that is to receive `waiting` first.
-    pub(super) fn new(link: Box<dyn Link>, policy: QueuePolicy, waiting: VecDeque<Bytes>) -> Self {
+    pub(super) fn new(link: Box<dyn Link>, policy: QueuePolicy, waiting: VecDeque<Frame>) -> Self {
         let mut queue = Queue::new(policy);
         *queue.items_mut() = waiting;
         Self { link, queue, sent: 0 }
     }
 
-    pub(super) fn send(&mut self, cx: &mut Context<'_>, message: &Bytes) {
+    pub(super) fn send(&mut self, cx: &mut Context<'_>, message: Bytes) {
         if self.queue.is_full() {
             self.hand_over(cx);
         }
-        let mut message = message.clone();
+        let mut message = Frame::from(message);
         if self.queue.is_empty() {
             message = match self.link.send(cx, message) {
                 Ok(()) => {

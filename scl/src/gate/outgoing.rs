@@ -191,10 +191,10 @@ impl<T> Outgoing<T> {
         self.tap.observe(Observed::Message, 0, message);
         if self.shares {
             let turn = self.next_in_turn();
-            return lock(&self.connections[turn]).send(message.clone());
+            return lock(&self.connections[turn]).send(message.clone().into());
         }
         for connection in &self.connections {
-            lock(connection).send(message.clone());
+            lock(connection).send(message.clone().into());
         }
     }
 

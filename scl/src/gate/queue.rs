@@ -69,10 +69,6 @@ impl<T> Queue<T> {
         newest
     }
 
-    pub(crate) fn items(&self) -> &VecDeque<T> {
-        &self.items
-    }
-
     /// The messages themselves, for a link that takes several at once.
     pub(crate) fn items_mut(&mut self) -> &mut VecDeque<T> {
         &mut self.items
@@ -115,7 +111,7 @@ mod tests {
             let mut queue = Queue::new(QueuePolicy { capacity: 2, when_full });
             assert_eq!([queue.push(1), queue.push(2)], [Pushed::Stored; 2], "{when_full:?}");
             assert_eq!(queue.push(3), expected, "{when_full:?}");
-            assert_eq!(queue.items(), &left, "{when_full:?}");
+            assert_eq!(*queue.items_mut(), left, "{when_full:?}");
             assert_eq!((queue.dropped_oldest, queue.dropped_newest), dropped, "{when_full:?}");
         }
     }
@@ -125,6 +121,6 @@ mod tests {
         let mut queue = Queue::new(QueuePolicy { capacity: 1, when_full: WhenFull::DropOldest });
         queue.replace(1);
         assert_eq!(queue.replace(2), Pushed::ReplacedOldest);
-        assert_eq!((queue.items()[0], queue.dropped_oldest), (2, 0));
+        assert_eq!((queue.items_mut()[0], queue.dropped_oldest), (2, 0));
     }
 }

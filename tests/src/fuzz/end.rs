@@ -125,7 +125,7 @@ impl End {
 fn send(link: &mut dyn Link, cx: &mut Context<'_>) -> bool {
     let is_connected = link.drive(cx).is_ok();
     if is_connected {
-        link.send_all(cx, &mut VecDeque::from([MESSAGE]), &mut |_| {});
+        link.send_all(cx, &mut VecDeque::from([MESSAGE.into()]), &mut |_| {});
         link.request_acknowledgement(cx);
     }
     is_connected

@@ -1,7 +1,7 @@
 //! The ends of messages, as the tests use them.
 
 use super::watched::Watched;
-use crate::transport::{Link, PeerKind, Receiver, Sender};
+use crate::transport::{Frame, Link, PeerKind, Receiver, Sender};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::future::poll_fn;
@@ -15,7 +15,7 @@ const MOST_PEERS: usize = 10_000;
 pub(super) struct TestSender {
     watched: Watched<Box<dyn Sender>>,
     pub(super) link: Option<TestLink>,
-    queue: VecDeque<Bytes>,
+    queue: VecDeque<Frame>,
     /// Number of peers so far.
     peers: usize,
 }
@@ -44,13 +44,13 @@ impl TestSender {
     }
 
     pub(super) fn queue(&mut self, messages: impl IntoIterator<Item = Bytes>) {
-        self.queue.extend(messages);
+        self.queue.extend(messages.into_iter().map(Frame::from));
     }
 
     /// Sends `message` instead of those that are still waiting.
     pub(super) fn replace(&mut self, message: Bytes) {
         self.queue.clear();
-        self.queue.push_back(message);
+        self.queue.push_back(message.into());
     }
 
     pub(super) fn waiting(&self) -> usize {
@@ -130,7 +130,7 @@ impl TestLink {
 
     /// Drives the link if it was woken, and sends from the queue; a message that was returned only after a wake-up.
     /// Returns false if the peer is gone.
-    pub(super) fn poll(&mut self, test: &Context<'_>, queue: &mut VecDeque<Bytes>) -> bool {
+    pub(super) fn poll(&mut self, test: &Context<'_>, queue: &mut VecDeque<Frame>) -> bool {
         let woken = self.watched.take_turn(test);
         if woken {
             if self.watched.end.drive(&mut Context::from_waker(&self.watched.waker)).is_err() {
@@ -150,25 +150,29 @@ impl TestLink {
     }
 
     /// Returns true if a message was sent.
-    fn send_one(&mut self, queue: &mut VecDeque<Bytes>) -> bool {
+    fn send_one(&mut self, queue: &mut VecDeque<Frame>) -> bool {
         let Some(message) = queue.pop_front() else { return false };
-        let sent = message.clone();
+        let sent = message.to_bytes();
         let refused = self.watched.end.send(&mut Context::from_waker(&self.watched.waker), message);
         if let Err(returned) = refused {
-            assert!(returned == sent, "`send` returned another message than the one it refused");
+            assert!(returned.as_slice() == sent, "`send` returned another message than the one it refused");
             queue.push_front(returned);
             return false;
         }
         true
     }
 
-    fn send_all(&mut self, queue: &mut VecDeque<Bytes>) {
+    fn send_all(&mut self, queue: &mut VecDeque<Frame>) {
         let cx = &mut Context::from_waker(&self.watched.waker);
-        let (before, mut lengths) = (queue.clone(), Vec::new());
+        let before: Vec<Bytes> = queue.iter().map(Frame::to_bytes).collect();
+        let mut lengths = Vec::new();
         self.watched.end.send_all(cx, queue, &mut |length| lengths.push(length));
         let sent = before.len() - queue.len();
-        assert!(before.range(sent..).eq(&*queue), "`send_all` changed messages that it left in the queue");
-        let expected = before.range(..sent).map(Bytes::len);
+        assert!(
+            before[sent..].iter().eq(queue.iter().map(Frame::as_slice)),
+            "`send_all` changed messages that it left in the queue"
+        );
+        let expected = before[..sent].iter().map(Bytes::len);
         assert!(expected.eq(lengths), "`send_all` reported other lengths than those of the messages it sent");
         self.refused = !queue.is_empty();
     }

@@ -2,7 +2,7 @@
 
 use super::ends::TestLink;
 use super::{OTHER_ENDPOINT, PATTERNS, Pattern, content, numbered, requests};
-use crate::transport::{Endpoint, Transport};
+use crate::transport::{Endpoint, Frame, Transport};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::future::poll_fn;
@@ -44,7 +44,7 @@ pub async fn keeps_subscribers_independent(transport: &dyn Transport) {
         publisher.poll_link(cx)
     })
     .await;
-    let mut waiting: VecDeque<Bytes> = vec![message.clone(); MESSAGES].into();
+    let mut waiting: VecDeque<Frame> = (0..MESSAGES).map(|_| message.clone().into()).collect();
     until_blocked(|cx| {
         assert!(to_stalled.poll(cx, &mut waiting), "a subscriber that stops reading was disconnected");
         waiting.len()
@@ -59,7 +59,7 @@ pub async fn keeps_subscribers_independent(transport: &dyn Transport) {
         publisher.poll_link(cx)
     })
     .await;
-    let mut queue: VecDeque<Bytes> = numbered(3000).into();
+    let mut queue: VecDeque<Frame> = numbered(3000).into_iter().map(Frame::from).collect();
     for expected in numbered(3000) {
         let received = poll_fn(|cx| {
             assert!(to_stalled.poll(cx, &mut waiting) && to_reading.poll(cx, &mut queue), "a link is broken");

@@ -95,16 +95,22 @@ impl<T> PipeWriter<T> {
         Ok(())
     }
 
-    /// Appends items from the front of a queue while there is room, and calls `sent` with each. An emptied queue tells
+    /// Appends what `to_item` makes of a queue's front while there is room, and calls `sent` with each. An emptied queue tells
     /// the reader that nothing is held back.
-    pub(super) fn send_all(&self, cx: &Context<'_>, items: &mut VecDeque<T>, mut sent: impl FnMut(&T)) {
+    pub(super) fn send_all<S>(
+        &self,
+        cx: &Context<'_>,
+        items: &mut VecDeque<S>,
+        to_item: impl Fn(S) -> T,
+        mut sent: impl FnMut(&T),
+    ) {
         let mut state = lock(&self.shared.state);
         if state.closed {
             drop(state);
             return cx.waker().wake_by_ref();
         }
         let count = items.len().min(self.shared.capacity.saturating_sub(state.queue.len()));
-        for item in items.drain(..count) {
+        for item in items.drain(..count).map(to_item) {
             sent(&item);
             state.push(item);
         }

@@ -2,7 +2,7 @@
 
 use super::pipe::{PipeReader, PipeWriter};
 use super::switchboard::{Connector, Listener};
-use crate::transport::{Disconnected, Link, Peer, PeerKind, Sender};
+use crate::transport::{Disconnected, Frame, Link, Peer, PeerKind, Sender};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -92,12 +92,12 @@ impl Link for MemoryLink {
         if self.pipe.poll_open(cx) { Ok(()) } else { Err(Disconnected) }
     }
 
-    fn send(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes> {
-        self.pipe.send(cx, message)
+    fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Result<(), Frame> {
+        self.pipe.send(cx, message.into_bytes()).map_err(Frame::from)
     }
 
-    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, sent: &mut dyn FnMut(usize)) {
-        self.pipe.send_all(cx, queue, |message| sent(message.len()));
+    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
+        self.pipe.send_all(cx, queue, Frame::into_bytes, |message| sent(message.len()));
     }
 
     /// What was sent can be received even after this end is dropped.

@@ -5,6 +5,7 @@ use super::pipe::pipe;
 use crate::transport::{Endpoint, Link, Peer, Requester, Sender, Transport};
 use bytes::Bytes;
 use std::collections::VecDeque;
+use std::convert::identity;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::task::{Context, Poll, Wake, Waker};
@@ -40,7 +41,7 @@ fn a_subscriber_that_was_replaced_stays_unconnected_until_a_new_publisher_listen
     assert!(publisher.poll_peer(&mut no_waker()).is_pending(), "connected again");
     drop(publisher);
     let mut publisher = memory.publish(&Endpoint::new(NAME)).unwrap();
-    link(&mut *publisher).send(&mut no_waker(), Bytes::from_static(b"back")).unwrap();
+    link(&mut *publisher).send(&mut no_waker(), Bytes::from_static(b"back").into()).unwrap();
     assert_eq!(subscriber.poll_recv(&mut no_waker()), Poll::Ready(Bytes::from_static(b"back")));
 }
 
@@ -51,7 +52,7 @@ fn what_a_dropped_reader_leaves_behind_stays_unacknowledged() {
     let mut subscriber = memory.subscribe(&Endpoint::new(NAME)).unwrap();
     let mut link = link(&mut *publisher);
     for _ in 0..3 {
-        link.send(&mut no_waker(), Bytes::new()).unwrap();
+        link.send(&mut no_waker(), Bytes::new().into()).unwrap();
     }
     assert!(subscriber.poll_recv(&mut no_waker()).is_ready());
     drop(subscriber);
@@ -70,7 +71,7 @@ fn a_connection_holds_64_messages_or_one_if_only_the_newest_counts() {
         let mut pusher = memory.push(&sending).unwrap();
         let _puller = memory.pull(&receiving).unwrap();
         for mut link in [link(&mut *publisher), link(&mut *pusher)] {
-            let sent = (0..1000).take_while(|_| link.send(&mut no_waker(), Bytes::new()).is_ok()).count();
+            let sent = (0..1000).take_while(|_| link.send(&mut no_waker(), Bytes::new().into()).is_ok()).count();
             assert_eq!(sent, if newest_only { 1 } else { 64 });
         }
     }
@@ -127,7 +128,7 @@ fn a_refused_writer_is_woken_once_when_half_of_the_pipe_is_free() {
     let (wakes, waker) = counting_waker();
     let cx = Context::from_waker(&waker);
     let mut items: VecDeque<i32> = (0..6).collect();
-    writer.send_all(&cx, &mut items, |_| {});
+    writer.send_all(&cx, &mut items, identity, |_| {});
     assert_eq!(items, [4, 5]);
     let woken = [0; 4].map(|_| {
         assert!(reader.poll_recv(&no_waker()).is_ready());
@@ -164,7 +165,7 @@ fn sending_to_a_reader_that_is_gone_wakes_the_task() {
     let cx = Context::from_waker(&waker);
     assert_eq!(writer.send(&cx, 1), Err(1));
     assert_eq!(wakes.count(), 1);
-    writer.send_all(&cx, &mut VecDeque::from([1]), |_| panic!("sent"));
+    writer.send_all(&cx, &mut VecDeque::from([1]), identity, |_| panic!("sent"));
     assert_eq!(wakes.count(), 2);
 }
 
@@ -173,11 +174,11 @@ fn an_answer_wakes_the_task_that_asked() {
     let (writer, reader) = pipe(1);
     let (wakes, waker) = counting_waker();
     let mut items = VecDeque::from([1, 2]);
-    writer.send_all(&no_waker(), &mut items, |_| {});
+    writer.send_all(&no_waker(), &mut items, identity, |_| {});
     assert_eq!(reader.poll_recv(&no_waker()), Poll::Ready(Some(1)));
     assert!(!reader.poll_caught_up(&Context::from_waker(&waker)));
     items.clear();
-    writer.send_all(&no_waker(), &mut items, |_| {});
+    writer.send_all(&no_waker(), &mut items, identity, |_| {});
     assert_eq!(wakes.count(), 1, "answered without a message");
     assert!(reader.poll_caught_up(&no_waker()));
 }

@@ -4,6 +4,7 @@ use super::connection::{Closed, Connection};
 use super::credit::ReceiveCredit;
 use super::timer::Timer;
 use super::zmtp::{Command, Item, Message, PeerReady, acknowledgement, catch_up};
+use crate::transport::Endpoint;
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::pin::pin;
@@ -32,6 +33,8 @@ pub(super) struct Inbound {
     /// Why no more will follow after those read ahead.
     closed: Option<Closed>,
     malformed: u64,
+    /// Whether the sender has asked a caller who acknowledges messages to do so.
+    acknowledgement_requested: bool,
     /// Whether the sender holds messages until earlier ones are acknowledged.
     behind: bool,
     /// Whether the socket was empty when `poll_next` last looked, just now.
@@ -48,16 +51,17 @@ pub(super) struct Inbound {
 }
 
 impl Inbound {
-    pub(super) fn new(connection: Connection, peer: &PeerReady, newest_only: bool) -> Self {
+    pub(super) fn new(connection: Connection, peer: &PeerReady, endpoint: &Endpoint) -> Self {
         let lossless = peer.scl.is_some_and(|scl| scl.lossless);
         Self {
             connection,
-            credit: peer.scl.map(|_| ReceiveCredit::new(newest_only)),
-            newest_only: newest_only && !lossless,
+            credit: peer.scl.map(|_| ReceiveCredit::new(endpoint)),
+            newest_only: endpoint.newest_only && !lossless,
             lossless,
             ahead: VecDeque::new(),
             closed: None,
             malformed: 0,
+            acknowledgement_requested: false,
             behind: false,
             emptied: false,
             gave_up: false,
@@ -117,10 +121,12 @@ impl Inbound {
                         return Ok(Some(body));
                     }
                     self.malformed += 1;
+                    let number = self.credit.as_mut().and_then(ReceiveCredit::skip_last);
+                    self.write_acknowledgement(number);
                 }
                 Item::Command(Command::Behind) => (self.behind, self.gave_up) = (true, false),
                 Item::Command(Command::CaughtUp(number)) => self.handle_caught_up(number),
-                Item::Command(Command::Flush) => self.acknowledge(),
+                Item::Command(Command::Flush) => self.handle_flush(),
                 Item::Command(_) | Item::Ready(_) => {}
             }
         }
@@ -144,10 +150,32 @@ impl Inbound {
         }
     }
 
+    fn handle_flush(&mut self) {
+        match &self.credit {
+            Some(credit) if credit.is_deferred() => self.acknowledgement_requested = true,
+            _ => self.acknowledge(),
+        }
+    }
+
     fn acknowledge(&mut self) {
-        if let Some(credit) = &mut self.credit {
+        let number = self.credit.as_mut().map(ReceiveCredit::acknowledge);
+        self.write_acknowledgement(number);
+    }
+
+    /// Acknowledges the oldest messages that were returned, if the caller does that.
+    pub(super) fn acknowledge_deferred(&mut self, count: u64) {
+        let number = self.credit.as_mut().and_then(|credit| credit.acknowledge_deferred(count));
+        self.write_acknowledgement(number);
+    }
+
+    pub(super) fn take_acknowledgement_request(&mut self) -> bool {
+        std::mem::take(&mut self.acknowledgement_requested)
+    }
+
+    fn write_acknowledgement(&mut self, number: Option<u64>) {
+        if let Some(number) = number {
             // A peer that does not take acknowledgements any more may still have sent messages.
-            let _reported_by_reading = self.connection.write(&acknowledgement(credit.acknowledge()));
+            let _reported_by_reading = self.connection.write(&acknowledgement(number));
         }
     }
 

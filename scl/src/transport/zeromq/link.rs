@@ -5,7 +5,7 @@ use super::credit::SendCredit;
 use super::link_count::LinkAlive;
 use super::topics::Topics;
 use super::zmtp::{BEHIND, Command, FLUSH, Header, Item, PeerReady, ProtocolError, caught_up};
-use crate::transport::{Disconnected, Link};
+use crate::transport::{Disconnected, Frame, Link};
 use bytes::{BufMut, Bytes, BytesMut};
 use rustix::time::{ClockId, Timespec, clock_gettime};
 use std::collections::VecDeque;
@@ -198,8 +198,8 @@ impl SendLink {
 
     /// Sends several messages from the front of a queue in one piece. Returns how many: 0 if there are none to be sent
     /// together.
-    fn send_batch(&mut self, cx: &mut Context<'_>, queue: &VecDeque<Bytes>) -> Result<usize, Closed> {
-        let fits = |message: &Bytes| 9 + message.len() <= BATCH / 2;
+    fn send_batch(&mut self, cx: &mut Context<'_>, queue: &VecDeque<Frame>) -> Result<usize, Closed> {
+        let fits = |message: &Frame| 9 + message.len() <= BATCH / 2;
         if !self.wants_everything() || !queue.iter().take(2).all(fits) {
             return Ok(0);
         }
@@ -212,7 +212,7 @@ impl SendLink {
                 break;
             }
             self.batch.put_slice(header.as_bytes());
-            self.batch.put_slice(message);
+            self.batch.put_slice(message.as_slice());
             count += 1;
             bytes += message.len();
         }
@@ -228,11 +228,11 @@ impl SendLink {
     fn try_send_all(
         &mut self,
         cx: &mut Context<'_>,
-        queue: &mut VecDeque<Bytes>,
+        queue: &mut VecDeque<Frame>,
         sent: &mut dyn FnMut(usize),
     ) -> Result<(), Closed> {
         let driven = std::mem::take(&mut self.driven);
-        let waits = |message: &Bytes| !driven && queue.len() < GATHERED && self.is_gathered(message);
+        let waits = |message: &Frame| !driven && queue.len() < GATHERED && self.is_gathered(message.as_slice());
         if queue.front().is_some_and(waits) {
             return Ok(());
         }
@@ -251,8 +251,8 @@ impl SendLink {
             let batched = if queue.len() > 1 { self.send_batch(cx, queue)? } else { 0 };
             if batched > 0 {
                 queue.drain(..batched).for_each(|message| sent(message.len()));
-            } else if let Some(message) = queue.front() {
-                self.send_one(cx, message)?;
+            } else if let Some(message) = queue.front_mut() {
+                self.send_one(cx, message.make_bytes())?;
                 queue.pop_front().inspect(|message| sent(message.len()));
             }
         }
@@ -291,8 +291,8 @@ impl Link for SendLink {
         Err(Disconnected)
     }
 
-    fn send(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes> {
-        if self.is_gathered(&message) {
+    fn send(&mut self, cx: &mut Context<'_>, mut message: Frame) -> Result<(), Frame> {
+        if self.is_gathered(message.as_slice()) {
             return Err(message);
         }
         if !self.is_open() && !self.reopen(cx) {
@@ -301,7 +301,7 @@ impl Link for SendLink {
             }
             return Err(message);
         }
-        match self.send_one(cx, &message) {
+        match self.send_one(cx, message.make_bytes()) {
             Ok(()) => {
                 self.count_one(cx);
                 Ok(())
@@ -313,7 +313,7 @@ impl Link for SendLink {
         }
     }
 
-    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, sent: &mut dyn FnMut(usize)) {
+    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
         if let Err(error) = self.try_send_all(cx, queue, sent) {
             self.fail(cx, &error);
         }

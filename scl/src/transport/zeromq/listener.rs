@@ -19,7 +19,7 @@ impl Listener {
     /// Binds an endpoint. Called inside a runtime.
     pub(super) fn bind(dir: &SystemDir, medium: Medium, endpoint: &str) -> Result<(Self, OwnedPath), BindError> {
         match medium {
-            Medium::Ipc => {
+            Medium::Ipc | Medium::Shm => {
                 let bound = runtime_dir::bind_ipc(dir, endpoint)?;
                 Ok((Self::Unix(UnixListener::from_std(bound.listener)?), bound.guard))
             }

@@ -5,7 +5,8 @@ use super::message::Message;
 use super::model::Model;
 use bytes::Bytes;
 use scl::transport::{
-    Disconnected, Endpoint, Link, Peer, Receiver, Replier, Requester, Sender, Tap, Transport, TransportError,
+    Disconnected, Endpoint, Frame, Link, Loan, Peer, Receiver, Replier, Requester, Sender, Tap, Transport,
+    TransportError,
 };
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -112,17 +113,17 @@ impl Link for ObservedLink {
         self.link.end.drive(cx)
     }
 
-    fn send(&mut self, cx: &mut Context<'_>, message: Bytes) -> Result<(), Bytes> {
+    fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Result<(), Frame> {
         let Observed { end, reader, model } = &mut self.link;
-        let frame = message.clone();
+        let frame = message.to_bytes();
         let sent = end.send(cx, message);
         offered(&mut model.lock(), *reader, &frame, sent.is_ok());
         sent
     }
 
-    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Bytes>, sent: &mut dyn FnMut(usize)) {
+    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
         let Observed { end, reader, model } = &mut self.link;
-        let before = queue.clone();
+        let before: Vec<Bytes> = queue.iter().map(Frame::to_bytes).collect();
         end.send_all(cx, queue, sent);
         let (mut model, accepted) = (model.lock(), before.len() - queue.len());
         for (index, frame) in before.iter().take(accepted + 1).enumerate() {
@@ -131,6 +132,10 @@ impl Link for ObservedLink {
         if queue.is_empty() {
             model.is_emptied(*reader);
         }
+    }
+
+    fn loan(&mut self, length: usize) -> Option<Loan> {
+        self.link.end.loan(length)
     }
 
     fn is_written(&self) -> bool {

@@ -52,7 +52,7 @@ async fn what_is_held_back_is_written_before_a_call_waits() {
         let mut sent = 0;
         // The first messages of a burst are written one by one; a clock tick between them may start that again.
         while sent < 500 && connection.leftover(false).is_none() {
-            connection.send(messages.next().unwrap());
+            connection.send(messages.next().unwrap().into());
             sent += 1;
         }
         assert!(sent > 1, "a message that is sent by itself is written by its call");

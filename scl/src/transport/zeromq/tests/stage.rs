@@ -2,7 +2,7 @@
 
 use crate::runtime_dir::{RuntimeDir, SystemDir};
 use crate::transport::zeromq::{Medium, ZeroMq};
-use crate::transport::{Endpoint, Link, Peer, PeerKind, Receiver, Sender, Transport};
+use crate::transport::{Endpoint, Frame, Link, Peer, PeerKind, Receiver, Sender, Transport};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::future::poll_fn;
@@ -60,7 +60,7 @@ pub(super) struct Outgoing {
 pub(super) struct Queued {
     pub(super) kind: PeerKind,
     pub(super) link: Box<dyn Link>,
-    pub(super) queue: VecDeque<Bytes>,
+    pub(super) queue: VecDeque<Frame>,
 }
 
 impl Outgoing {
@@ -115,7 +115,7 @@ impl Outgoing {
     }
 
     pub(super) fn queue(&mut self, messages: impl IntoIterator<Item = Bytes>) {
-        self.peers[0].queue.extend(messages);
+        self.peers[0].queue.extend(messages.into_iter().map(Frame::from));
     }
 
     pub(super) fn link(&mut self) -> &mut dyn Link {

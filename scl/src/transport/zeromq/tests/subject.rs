@@ -145,7 +145,7 @@ pub(super) async fn exchange(stage: &Stage, role: Role, end: &mut End) {
                 // Other peers may be connected here too.
                 for peer in &mut sender.peers {
                     if peer.queue.is_empty() {
-                        peer.queue.push_back(expected.clone());
+                        peer.queue.push_back(expected.clone().into());
                     }
                 }
                 sender.drive(cx);

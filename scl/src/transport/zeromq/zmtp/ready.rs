@@ -2,6 +2,7 @@
 
 use super::frame::{COMMAND, Header};
 use super::{ProtocolError, greeting};
+use crate::transport::Window;
 use bytes::Buf;
 
 /// The socket types that SCL's ends are to their peers.
@@ -70,13 +71,6 @@ pub(in crate::transport::zeromq) struct SclReady {
     pub(in crate::transport::zeromq) lossless: bool,
 }
 
-/// How much may be in flight.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::transport::zeromq) struct Window {
-    pub(in crate::transport::zeromq) messages: u64,
-    pub(in crate::transport::zeromq) bytes: u64,
-}
-
 impl SclReady {
     fn encode(self) -> String {
         let window =
@@ -95,7 +89,7 @@ impl SclReady {
         let mut ready = Self::default();
         for word in words {
             if let Some(window) = word.strip_prefix("window=") {
-                ready.window = Window::parse(window);
+                ready.window = parse_window(window);
             } else if word == "newest" {
                 ready.newest_only = true;
             } else if word == "lossless" {
@@ -106,13 +100,11 @@ impl SclReady {
     }
 }
 
-impl Window {
-    /// A window of nothing would never let a message pass, so it counts as none.
-    fn parse(text: &str) -> Option<Self> {
-        let (messages, bytes) = text.split_once(',')?;
-        let number = |text: &str| text.parse().ok().filter(|&number: &u64| number > 0);
-        Some(Self { messages: number(messages)?, bytes: number(bytes)? })
-    }
+/// A window of nothing would never let a message pass, so it counts as none.
+fn parse_window(text: &str) -> Option<Window> {
+    let (messages, bytes) = text.split_once(',')?;
+    let number = |text: &str| text.parse().ok().filter(|&number: &u64| number > 0);
+    Some(Window { messages: number(messages)?, bytes: number(bytes)? })
 }
 
 /// What an end sends as soon as it is connected: greeting and READY.

@@ -1,6 +1,7 @@
 //! Tests of the protocol: what arrives, in pieces of any size, and what it means.
 
 use super::*;
+use crate::transport::Window;
 use bytes::Bytes;
 
 const MAX_SIZE: usize = 1000;
