@@ -80,6 +80,12 @@ impl Player {
         line[start.len()..].to_owned()
     }
 
+    /// Waits until a receiving gate gets a message that it has not got yet.
+    #[track_caller]
+    pub(crate) fn answer_to_next(&mut self, gate: &str) {
+        self.ask(gate, "next");
+    }
+
     /// The numbers that a gate answers a command with.
     #[track_caller]
     pub(crate) fn counts(&mut self, gate: &str, command: &str) -> Counts {
@@ -152,7 +158,8 @@ fn play(name: &str) {
         threads.push(thread::spawn(move || play_gate(&name, opened, &received)));
         gates.insert(gate.name.clone(), commands);
     }
-    println!("= opened ");
+    // The test harness has begun a line.
+    println!("\n= opened ");
     for line in std::io::stdin().lock().lines() {
         let line = line.unwrap();
         let (gate, command) = line.split_once(' ').unwrap();

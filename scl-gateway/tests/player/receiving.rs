@@ -3,23 +3,32 @@
 use super::TICK;
 use crate::receipts::Receipts;
 use bytes::Bytes;
-use scl::{Pull, RecvTimeoutError, Rep, Sub};
+use scl::{GateStats, Pull, RecvTimeoutError, Rep, Sub};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 /// What `sub` and `pull` have in common.
 pub(super) trait Receives {
     fn recv_timeout(&mut self) -> Result<Bytes, RecvTimeoutError>;
+    fn figures(&self) -> GateStats;
 }
 
 impl Receives for Sub<Bytes> {
     fn recv_timeout(&mut self) -> Result<Bytes, RecvTimeoutError> {
         self.recv_timeout(TICK)
     }
+
+    fn figures(&self) -> GateStats {
+        self.stats()
+    }
 }
 
 impl Receives for Pull<Bytes> {
     fn recv_timeout(&mut self) -> Result<Bytes, RecvTimeoutError> {
         self.recv_timeout(TICK)
+    }
+
+    fn figures(&self) -> GateStats {
+        self.stats()
     }
 }
 
@@ -31,12 +40,12 @@ pub(super) fn play(name: &str, mut gate: impl Receives, commands: &Receiver<Stri
     let (mut receipts, mut asked_for_next) = (Receipts::default(), false);
     loop {
         match commands.try_recv().as_deref() {
-            Ok("report") => println!("= {name} {receipts}"),
+            Ok("report") => report(name, &gate, &receipts),
             Ok("next") => asked_for_next = true,
             Ok("hold") => {
                 println!("= {name} holds");
                 let Ok(_released) = commands.recv() else { return };
-                println!("= {name} {receipts}");
+                report(name, &gate, &receipts);
             }
             Ok(command) => panic!("{command}"),
             Err(TryRecvError::Empty) => {}
@@ -48,9 +57,14 @@ pub(super) fn play(name: &str, mut gate: impl Receives, commands: &Receiver<Stri
             Err(error) => panic!("{error}"),
         }
         if std::mem::take(&mut asked_for_next) {
-            println!("= {name} {receipts}");
+            report(name, &gate, &receipts);
         }
     }
+}
+
+fn report(name: &str, gate: &impl Receives, receipts: &Receipts) {
+    let GateStats { dropped_oldest, dropped_newest, waiting, .. } = gate.figures();
+    println!("= {name} {receipts} dropped={} waiting={waiting}", dropped_oldest + dropped_newest);
 }
 
 /// Replies to each request with the request.
