@@ -1,1 +1,8 @@
 //! Connects the components of an SCL system that run on several hosts.
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+pub mod deployment;
+pub mod local;
+mod pump;
+pub mod route;
+pub mod wire;

@@ -5,6 +5,7 @@ mod methods;
 mod opener;
 mod outcome;
 mod realtime;
+mod transports;
 
 pub use main::{run_async, run_blocking};
 pub use opener::Opener;

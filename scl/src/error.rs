@@ -71,6 +71,21 @@ pub enum OpenError {
         /// The component.
         component: &'static str,
     },
+    /// A transport is chosen for a gate that the component does not have.
+    #[error(
+        "component `{component}` has no gate `{gate}`, for which a transport is chosen (`{component}.{gate}={medium}`){}",
+        suggestion(nearest)
+    )]
+    NoSuchGate {
+        /// The component.
+        component: &'static str,
+        /// The name of the gate.
+        gate: String,
+        /// The word of the transport.
+        medium: &'static str,
+        /// The gate that was probably meant.
+        nearest: Option<String>,
+    },
     /// Shared memory was chosen, and the `scl` crate was built without it.
     #[error(
         "component `{component}` cannot use shared memory: enable the feature `iceoryx2` of the crate `scl`, or choose the transport `ipc`"
@@ -108,6 +123,10 @@ pub enum OpenError {
         /// The values it may have.
         expected: &'static str,
     },
+}
+
+fn suggestion(nearest: &Option<String>) -> String {
+    nearest.as_ref().map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
 }
 
 /// A call could not be made, or had to stop waiting.

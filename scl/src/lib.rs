@@ -77,6 +77,7 @@
 //! | `protobuf` (default) | the codec, and `schemas:` |
 //! | `json`, `raw` (default), `cbor`, `msgpack`, `postcard` | a codec each |
 //! | `zeromq` (default) | the transport between programs |
+//! | `iceoryx2` | shared memory for long messages between programs on it, see [`Medium::Shm`] |
 //! | `memory` (default) | the transport within a program, for unit tests of components |
 //! | `logging` (default) | [`main`](macro@main) logs to standard error; switch it off if the program has a log of its own |
 //! | `nightly` | the macro's problems shown in the YAML file itself; needs a nightly compiler |
@@ -84,6 +85,9 @@
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+#[cfg(feature = "zeromq")]
+#[doc(hidden)]
+pub mod bridge;
 pub mod codec;
 mod component;
 #[cfg(feature = "conformance")]
@@ -97,6 +101,7 @@ mod gate;
 pub mod host;
 mod log;
 mod medium;
+mod medium_choice;
 mod named_type;
 mod options;
 #[doc(hidden)]
@@ -125,6 +130,7 @@ pub use error::{
 pub use gate::View;
 pub use gate::{AnyGate, GateStats, Loaned, PeerStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
 pub use medium::Medium;
+pub use medium_choice::{MediumChoice, MediumError};
 pub use options::OpenOptions;
 pub use scl_macros::main;
 pub use scl_plan as plan;

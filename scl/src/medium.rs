@@ -14,16 +14,19 @@ pub enum Medium {
 }
 
 impl Medium {
-    /// The values of `SCL_TRANSPORT`, for messages.
-    pub(crate) const EXPECTED: &str = "`ipc`, `tcp` or `shm`";
+    const ALL: [Self; 3] = [Self::Ipc, Self::Tcp, Self::Shm];
 
-    /// Parses the value of `SCL_TRANSPORT`.
+    /// The medium that a word of `SCL_TRANSPORT` means.
     pub(crate) fn parse(word: &str) -> Option<Self> {
-        match word {
-            "ipc" => Some(Self::Ipc),
-            "tcp" => Some(Self::Tcp),
-            "shm" => Some(Self::Shm),
-            _ => None,
+        Self::ALL.into_iter().find(|medium| medium.word() == word)
+    }
+
+    /// Its word in `SCL_TRANSPORT`.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Ipc => "ipc",
+            Self::Tcp => "tcp",
+            Self::Shm => "shm",
         }
     }
 }

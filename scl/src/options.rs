@@ -3,6 +3,7 @@
 use crate::environment::{self, Variables};
 use crate::error::OpenError;
 use crate::medium::Medium;
+use crate::medium_choice::MediumChoice;
 use crate::transport::Transport;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -14,11 +15,12 @@ use std::sync::Arc;
 /// |---|---|---|
 /// | [`runtime_dir`](Self::runtime_dir) | `SCL_RUNTIME_DIR` | `$XDG_RUNTIME_DIR/scl`, or `scl-<uid>` in the folder for temporary files |
 /// | [`system`](Self::system) | `SCL_SYSTEM` | `system` in the topology file |
-/// | [`medium`](Self::medium) | `SCL_TRANSPORT=ipc`, `tcp` or `shm` | `ipc` |
+/// | [`medium`](Self::medium), [`media`](Self::media) | `SCL_TRANSPORT=ipc`, `tcp` or `shm`, or `ipc,camera.frames=shm` | `ipc` |
+/// | [`medium_of`](Self::medium_of) | added to `SCL_TRANSPORT` | |
 /// | [`transport`](Self::transport) | | ZeroMQ, in the runtime folder |
 ///
 /// ```
-/// let options = scl::OpenOptions::new().system("rover-2").medium(scl::Medium::Tcp);
+/// let options = scl::OpenOptions::new().system("rover-2").medium_of("camera.frames", scl::Medium::Shm);
 /// ```
 #[derive(Clone, Default)]
 #[must_use = "options do nothing until they are passed to `open_with` or `open_blocking_with`"]
@@ -26,6 +28,8 @@ pub struct OpenOptions {
     runtime_dir: Option<PathBuf>,
     system: Option<String>,
     medium: Option<Medium>,
+    /// Gates as `component.gate`, in order.
+    medium_of: Vec<(String, Medium)>,
     transport: Option<Arc<dyn Transport>>,
     is_test: bool,
 }
@@ -48,9 +52,26 @@ impl OpenOptions {
         self
     }
 
-    /// What the component's listening gates listen on.
+    /// What the component's listening gates listen on. `SCL_TRANSPORT` then has no effect.
     pub fn medium(mut self, medium: Medium) -> Self {
         self.medium = Some(medium);
+        self
+    }
+
+    /// The medium of the connections of one gate, named as `component.gate`: a gate of this component or of a peer. Of
+    /// several that apply to a connection, the last one counts. The listening end of the connection decides.
+    ///
+    /// Opening fails if this component has no gate of this name.
+    pub fn medium_of(mut self, gate: impl Into<String>, medium: Medium) -> Self {
+        self.medium_of.push((gate.into(), medium));
+        self
+    }
+
+    /// What [`medium`](Self::medium) and [`medium_of`](Self::medium_of) say, from a text like the value of
+    /// `SCL_TRANSPORT`, which then has no effect.
+    pub fn media(mut self, choice: MediumChoice) -> Self {
+        self.medium = Some(choice.default);
+        self.medium_of.extend(choice.of_gates);
         self
     }
 
@@ -95,12 +116,12 @@ impl OpenOptions {
         self.system_name_from(&environment::of_process, topology)
     }
 
-    /// The medium: the chosen one, or `SCL_TRANSPORT`, or Unix sockets.
+    /// The media: those chosen, after those of `SCL_TRANSPORT`, else Unix sockets.
     ///
     /// # Errors
-    /// [`OpenError::Environment`] if `SCL_TRANSPORT` is not a medium.
-    pub(crate) fn chosen_medium(&self) -> Result<Medium, OpenError> {
-        self.medium_from(&environment::of_process)
+    /// [`OpenError::Environment`] if `SCL_TRANSPORT` is not understood.
+    pub(crate) fn chosen_media(&self) -> Result<MediumChoice, OpenError> {
+        self.media_from(&environment::of_process)
     }
 
     /// Checks the variables that take the place of unset options.
@@ -108,10 +129,7 @@ impl OpenOptions {
     /// # Errors
     /// [`OpenError::Environment`] if one of them would be refused.
     pub(crate) fn check(variables: Variables<'_>) -> Result<(), OpenError> {
-        Self::new()
-            .system_name_from(variables, "")
-            .map(drop)
-            .and_then(|()| Self::new().medium_from(variables).map(drop))
+        Self::new().system_name_from(variables, "").map(drop).and_then(|()| Self::new().media_from(variables).map(drop))
     }
 
     fn system_name_from(&self, variables: Variables<'_>, topology: &str) -> Result<String, OpenError> {
@@ -122,12 +140,14 @@ impl OpenOptions {
         Ok(name.unwrap_or_else(|| topology.to_owned()))
     }
 
-    fn medium_from(&self, variables: Variables<'_>) -> Result<Medium, OpenError> {
-        if let Some(medium) = self.medium {
-            return Ok(medium);
-        }
-        let medium = environment::read(variables, "SCL_TRANSPORT", Medium::EXPECTED, Medium::parse)?;
-        Ok(medium.unwrap_or_default())
+    fn media_from(&self, variables: Variables<'_>) -> Result<MediumChoice, OpenError> {
+        let parse = |text: &str| text.parse().ok();
+        let mut choice = match self.medium {
+            Some(default) => MediumChoice { default, ..MediumChoice::default() },
+            None => environment::read(variables, "SCL_TRANSPORT", MediumChoice::EXPECTED, parse)?.unwrap_or_default(),
+        };
+        choice.of_gates.extend(self.medium_of.iter().cloned());
+        Ok(choice)
     }
 }
 
@@ -137,6 +157,7 @@ impl std::fmt::Debug for OpenOptions {
             .field("runtime_dir", &self.runtime_dir)
             .field("system", &self.system)
             .field("medium", &self.medium)
+            .field("medium_of", &self.medium_of)
             .field("transport", &self.transport.as_ref().map(|_| "chosen"))
             .finish()
     }
@@ -173,21 +194,30 @@ mod tests {
     }
 
     #[test]
-    fn the_medium_is_chosen_or_read_or_ipc() {
+    fn the_media_are_chosen_or_read_or_ipc() {
         let chosen = |medium| OpenOptions::new().medium(medium);
-        let cases: [Case<'_, Medium>; 8] = [
-            (OpenOptions::new(), b"", Ok(Medium::Ipc)),
-            (OpenOptions::new(), b"ipc", Ok(Medium::Ipc)),
-            (OpenOptions::new(), b"tcp", Ok(Medium::Tcp)),
-            (OpenOptions::new(), b"shm", Ok(Medium::Shm)),
-            (chosen(Medium::Ipc), b"tcp", Ok(Medium::Ipc)),
-            (chosen(Medium::Tcp), b"nonsense", Ok(Medium::Tcp)),
-            (OpenOptions::new(), b"udp", Err("SCL_TRANSPORT=udp, not `ipc`, `tcp` or `shm`")),
-            (OpenOptions::new(), b"tcp\xff", Err("SCL_TRANSPORT=tcp\u{fffd}, not `ipc`, `tcp` or `shm`")),
+        let some = || OpenOptions::new().medium_of("a.b", Medium::Shm);
+        let cases: [Case<'_, &str>; 12] = [
+            (OpenOptions::new(), b"", Ok("ipc")),
+            (OpenOptions::new(), b"ipc", Ok("ipc")),
+            (OpenOptions::new(), b"tcp", Ok("tcp")),
+            (OpenOptions::new(), b"shm", Ok("shm")),
+            (OpenOptions::new(), b"tcp,x.y=shm", Ok("tcp,x.y=shm")),
+            (some(), b"tcp,x.y=shm", Ok("tcp,x.y=shm,a.b=shm")),
+            (some().media("tcp,c.d=ipc".parse().unwrap()), b"shm,x.y=shm", Ok("tcp,a.b=shm,c.d=ipc")),
+            (chosen(Medium::Ipc), b"tcp,x.y=shm", Ok("ipc")),
+            (chosen(Medium::Tcp), b"nonsense", Ok("tcp")),
+            (OpenOptions::new(), b"udp", Err("SCL_TRANSPORT=udp")),
+            (OpenOptions::new(), b"tcp\xff", Err("SCL_TRANSPORT=tcp\u{fffd}")),
+            (some(), b"ipc,x=shm", Err("SCL_TRANSPORT=ipc,x=shm")),
         ];
         for (options, value, expected) in cases {
-            let found = refused(options.medium_from(&table("SCL_TRANSPORT", value)));
-            assert_eq!(found, expected.map_err(str::to_owned), "{options:?} {value:?}");
+            let found = refused(options.media_from(&table("SCL_TRANSPORT", value)));
+            let expected = match expected {
+                Ok(text) => Ok(text.parse().unwrap()),
+                Err(value) => Err(format!("{value}, not {}", MediumChoice::EXPECTED)),
+            };
+            assert_eq!(found, expected, "{options:?} {value:?}");
         }
     }
 

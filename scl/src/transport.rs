@@ -85,12 +85,18 @@ pub struct Endpoint {
     pub max_size: usize,
     /// The receiving gate's queue of this connection, in messages: what its engine has to have room for. Default: 100.
     pub queue: usize,
+    /// The longest message of this connection, in bytes: what the receiving gate accepts, or the length of all messages of
+    /// a type with a fixed one. Default: 64 MiB.
+    pub longest: usize,
     /// Whether only the newest message matters to this receiving end, as with `queue: 1`. It then keeps few messages in
     /// flight, so that [`Receiver::poll_caught_up`] can tell exactly whether the sender has a newer one.
     pub newest_only: bool,
     /// Whether this sending end waits for slow peers instead of dropping messages. It tells them, see
     /// [`Receiver::is_lossless`].
     pub lossless: bool,
+    /// For a receiving end that passes messages on: how much the sender may have unacknowledged, and that messages are
+    /// acknowledged by [`Receiver::acknowledge`] only, never because they were returned. Default: none.
+    pub deferred: Option<Window>,
     /// Called by a connecting end each time before it connects; an error keeps it from connecting.
     pub check: Option<PeerCheck>,
 }
@@ -108,11 +114,23 @@ impl Endpoint {
             name: name.into(),
             max_size: Self::MAX_SIZE,
             queue: Self::QUEUE,
+            longest: Self::MAX_SIZE,
             newest_only: false,
             lossless: false,
+            deferred: None,
             check: None,
         }
     }
+}
+
+/// How much may be sent without an acknowledgement. A message longer than `bytes` may be sent if nothing else is
+/// unacknowledged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Window {
+    /// In messages.
+    pub messages: u64,
+    /// In bytes.
+    pub bytes: u64,
 }
 
 impl std::fmt::Debug for Endpoint {
@@ -252,6 +270,30 @@ pub trait Receiver: Send {
     /// Number of messages skipped because they did not consist of exactly one frame.
     fn malformed(&self) -> u64 {
         0
+    }
+
+    /// Acknowledges the oldest `count` messages that were returned and not acknowledged yet: each to the sender that it
+    /// came from, unless that has disconnected since. Only for an end with [`Endpoint::deferred`]; a transport without
+    /// acknowledgements does nothing, which is the default.
+    fn acknowledge(&mut self, count: u64) {
+        let _acknowledges_by_itself = count;
+    }
+
+    /// Returns true if a sender has asked since the last call to have everything acknowledged that it has sent, as a flush
+    /// does. Only an end with [`Endpoint::deferred`] does; ask it after [`poll_recv`](Self::poll_recv).
+    fn take_acknowledgement_request(&mut self) -> bool {
+        false
+    }
+
+    /// Asks all senders to send nothing more to this end, which is about to be dropped: what they have not sent stays with
+    /// them and is not lost. Only for an end with [`Endpoint::deferred`].
+    fn finish(&mut self) {}
+
+    /// Returns true if every connected sender has done what [`finish`](Self::finish) asks, and
+    /// [`poll_recv`](Self::poll_recv) has returned all that was sent before. Ask after that returned `Pending`; its waker is
+    /// used when this changes. A sender of an older release never does.
+    fn is_finished(&self) -> bool {
+        true
     }
 
     /// Ready when the sender has nothing newer than what [`poll_recv`](Self::poll_recv) returned. Asks the sender if it

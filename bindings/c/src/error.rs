@@ -88,7 +88,9 @@ fn opening(error: &OpenError) -> scl_status {
         OpenError::RuntimeDir { source: RuntimeDirError::AlreadyRunning { .. }, .. } => SCL_TAKEN,
         OpenError::RuntimeDir { .. } => SCL_FOLDER,
         OpenError::Plan { .. } | OpenError::TooManyPlans { .. } => SCL_PLAN,
-        OpenError::Environment { .. } => SCL_ENVIRONMENT,
+        OpenError::Environment { .. } | OpenError::NoSuchGate { .. } | OpenError::NoSharedMemory { .. } => {
+            SCL_ENVIRONMENT
+        }
         OpenError::Gate { .. } | OpenError::Timer { .. } | OpenError::Runtime { .. } => SCL_SYSTEM,
         _ => SCL_FAILED,
     }

@@ -1,8 +1,9 @@
 //! The options of `scl_open`, as JSON.
 
 use crate::error::Failure;
-use scl::{Medium, OpenOptions};
+use scl::{MediumChoice, OpenOptions};
 use serde::Deserialize;
+use serde::de::{Deserializer, Error};
 
 /// What `options_json` may contain. What is not given comes from the environment, as in Rust.
 #[derive(Debug, Default, Deserialize)]
@@ -10,16 +11,9 @@ use serde::Deserialize;
 pub(crate) struct Options {
     runtime_dir: Option<String>,
     system: Option<String>,
-    transport: Option<Transport>,
+    #[serde(deserialize_with = "media")]
+    transport: Option<MediumChoice>,
     signals: Option<bool>,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Transport {
-    Ipc,
-    Tcp,
-    Shm,
 }
 
 impl Options {
@@ -47,13 +41,16 @@ impl Options {
         if let Some(system) = &self.system {
             options = options.system(system);
         }
-        match self.transport {
-            Some(Transport::Ipc) => options.medium(Medium::Ipc),
-            Some(Transport::Tcp) => options.medium(Medium::Tcp),
-            Some(Transport::Shm) => options.medium(Medium::Shm),
+        match &self.transport {
+            Some(choice) => options.media(choice.clone()),
             None => options,
         }
     }
+}
+
+fn media<'de, D: Deserializer<'de>>(from: D) -> Result<Option<MediumChoice>, D::Error> {
+    let text = Option::<String>::deserialize(from)?;
+    text.map(|text| text.parse().map_err(Error::custom)).transpose()
 }
 
 #[cfg(test)]
@@ -64,9 +61,11 @@ mod tests {
     #[test]
     fn options_are_read_or_refused() {
         let shown = |json| Options::read(json).map(|options| format!("{:?}", options.for_opening()));
-        let read = shown(r#"{"runtime_dir": "/run/x", "system": "rover-2", "transport": "tcp", "signals": false}"#);
-        let expected = r#"runtime_dir: Some("/run/x"), system: Some("rover-2"), medium: Some(Tcp), transport: None"#;
-        assert_eq!(read.unwrap(), format!("OpenOptions {{ {expected} }}"));
+        let read =
+            shown(r#"{"runtime_dir": "/run/x", "system": "rover-2", "transport": "tcp,a.b=shm", "signals": false}"#);
+        let expected = r#"runtime_dir: Some("/run/x"), system: Some("rover-2"), medium: Some(Tcp), "#;
+        let media = r#"medium_of: [("a.b", Shm)], transport: None"#;
+        assert_eq!(read.unwrap(), format!("OpenOptions {{ {expected}{media} }}"));
         for json in ["", " ", "{}"] {
             assert!(Options::read(json).unwrap().signals());
         }

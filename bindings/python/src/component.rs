@@ -13,7 +13,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use scl::host::{self, text_with_causes};
 use scl::untyped;
-use scl::{Medium, NotReady, OpenOptions};
+use scl::{MediumError, NotReady, OpenOptions};
 use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -231,15 +231,9 @@ fn options(runtime_dir: Option<PathBuf>, system: Option<String>, transport: Opti
     if let Some(name) = system {
         options = options.system(name);
     }
-    match transport {
-        None => {}
-        Some("ipc") => options = options.medium(Medium::Ipc),
-        Some("tcp") => options = options.medium(Medium::Tcp),
-        Some("shm") => options = options.medium(Medium::Shm),
-        Some(other) => {
-            let expected = "expected \"ipc\", \"tcp\" or \"shm\"";
-            return Err(PyValueError::new_err(format!("transport={other:?}; {expected}")));
-        }
+    if let Some(text) = transport {
+        let wrong = |error: MediumError| PyValueError::new_err(format!("transport={text:?}: {error}"));
+        options = options.media(text.parse().map_err(wrong)?);
     }
     Ok(options)
 }

@@ -1,14 +1,14 @@
 //! Opening a component: its registration, then its gates one by one.
 
 use super::ComponentHandle;
+use super::transports::Transports;
 use crate::codec::Codec;
 use crate::error::{GateName, OpenError};
 use crate::figures::FigureSource;
 use crate::gate::{Connection, GateTap, Incoming, Outgoing, Pub, Pull, Push, Rep, Req, Sub};
-use crate::medium::Medium;
 use crate::options::OpenOptions;
 use crate::registration::Registration;
-use crate::runtime_dir::{RuntimeDir, SystemDir};
+use crate::runtime_dir::RuntimeDir;
 use crate::spec::{ComponentSpec, GateSpec, LinkSpec, WhenFull};
 use crate::state::{ComponentState, OwnedRuntime, Owner, stats_period};
 use crate::time::Watchdog;
@@ -18,7 +18,7 @@ use std::sync::{Arc, Mutex};
 /// Opens the gates of one component; only generated code calls it.
 pub struct Opener {
     state: Owner,
-    transport: Arc<dyn Transport>,
+    transports: Transports,
 }
 
 impl Opener {
@@ -28,13 +28,13 @@ impl Opener {
         options: &OpenOptions,
         runtime: Option<Arc<OwnedRuntime>>,
     ) -> Result<Self, OpenError> {
-        let (registration, transport) = match options.chosen_transport() {
-            Some(transport) => (Registration::without_files(), transport),
+        let (registration, transports) = match options.chosen_transport() {
+            Some(transport) => (Registration::without_files(), Transports::Own(transport)),
             None => register(spec, options)?,
         };
         let state = Owner::new(ComponentState::new(spec, registration, runtime).of_test(options.is_test()));
         state.start_reporting();
-        Ok(Self { state, transport })
+        Ok(Self { state, transports })
     }
 
     /// Opens the `pub` gate at an index of the component's list.
@@ -60,7 +60,7 @@ impl Opener {
     /// Opens the `sub` gate at an index of the component's list.
     pub fn subscriber<T, C: Codec<T>>(&mut self, index: usize) -> Result<Sub<T>, OpenError> {
         let spec = self.gate(index);
-        let subscribe = |link| self.transport.subscribe(&self.connecting(spec, link));
+        let subscribe = |link| self.transports.of_link(spec, link).subscribe(&self.connecting(spec, link));
         let links = self.links(spec).iter().map(subscribe).collect::<Result<_, _>>();
         let links = links.map_err(|source| self.refused(spec, source))?;
         let gate = Incoming::new::<C>(self.state.clone(), spec, links, GateTap::new(None));
@@ -71,7 +71,7 @@ impl Opener {
     /// Opens the `pull` gate at an index of the component's list.
     pub fn puller<T, C: Codec<T>>(&mut self, index: usize) -> Result<Pull<T>, OpenError> {
         let spec = self.gate(index);
-        let link = self.transport.pull(&endpoint(spec.endpoint, spec));
+        let link = self.transports.of_gate(spec).pull(&endpoint(spec.endpoint, spec));
         let link = link.map_err(|source| self.refused(spec, source))?;
         let tap = self.tap(spec)?;
         let gate = Incoming::new::<C>(self.state.clone(), spec, vec![link], tap);
@@ -82,7 +82,8 @@ impl Opener {
     /// Opens the `req` gate at an index of the component's list.
     pub fn requester<A, B, C: Codec<A> + Codec<B>>(&mut self, index: usize) -> Result<Req<A, B>, OpenError> {
         let spec = self.gate(index);
-        let link = spec.links.first().map(|link| self.transport.request(&self.connecting(spec, link))).transpose();
+        let request = |link| self.transports.of_link(spec, link).request(&self.connecting(spec, link));
+        let link = spec.links.first().map(request).transpose();
         let link = link.map_err(|source| self.refused(spec, source))?;
         let watchdog = Watchdog::new().map_err(|source| OpenError::Timer { gate: self.name(spec), source })?;
         let gate = Req::new::<C>(self.state.clone(), spec, link, watchdog);
@@ -93,7 +94,7 @@ impl Opener {
     /// Opens the `rep` gate at an index of the component's list.
     pub fn replier<A, B, C: Codec<A> + Codec<B>>(&mut self, index: usize) -> Result<Rep<A, B>, OpenError> {
         let spec = self.gate(index);
-        let link = self.transport.reply(&endpoint(spec.endpoint, spec));
+        let link = self.transports.of_gate(spec).reply(&endpoint(spec.endpoint, spec));
         let link = link.map_err(|source| self.refused(spec, source))?;
         let tap = self.tap(spec)?;
         let gate = Rep::new::<C>(self.state.clone(), spec, link, tap);
@@ -121,7 +122,8 @@ impl Opener {
     ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
         let connect = |link: &'static LinkSpec| {
             let lossless = spec.options.backpressure && link.when_full == WhenFull::Wait;
-            let sender = open(&*self.transport, &Endpoint { lossless, ..self.connecting(spec, link) });
+            let sender =
+                open(self.transports.of_link(spec, link), &Endpoint { lossless, ..self.connecting(spec, link) });
             let sender = sender.map_err(|source| self.refused(spec, source))?;
             let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes());
             Ok(self.state.drive(connection))
@@ -139,7 +141,7 @@ impl Opener {
         if spec.tap.is_empty() {
             return Ok(GateTap::new(None));
         }
-        let tap = self.transport.tap(&Endpoint::new(spec.tap));
+        let tap = self.transports.of_tap(spec).tap(&Endpoint::new(spec.tap));
         tap.map(GateTap::new).map_err(|source| self.refused(spec, source))
     }
 
@@ -159,30 +161,14 @@ impl Opener {
 }
 
 /// Takes the component's name in the runtime folder.
-fn register(
-    spec: &'static ComponentSpec,
-    options: &OpenOptions,
-) -> Result<(Registration, Arc<dyn Transport>), OpenError> {
-    let (system, medium) = (options.system_name(spec.system)?, options.chosen_medium()?);
+fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Registration, Transports), OpenError> {
+    let (system, media) = (options.system_name(spec.system)?, options.chosen_media()?);
     let stats = stats_period(&|name| options.variable(name))?;
     let failed = |source| OpenError::RuntimeDir { component: spec.name, source };
     let runtime_dir = RuntimeDir::locate(&|name| options.variable(name)).map_err(failed)?;
     let dir = runtime_dir.system(&system).map_err(failed)?;
-    let transport = transport(spec, &dir, medium)?;
-    Ok((Registration::in_folder(spec, dir, stats).map_err(failed)?, transport))
-}
-
-#[cfg(feature = "zeromq")]
-fn transport(spec: &ComponentSpec, dir: &SystemDir, medium: Medium) -> Result<Arc<dyn Transport>, OpenError> {
-    if medium == Medium::Shm && !cfg!(feature = "iceoryx2") {
-        return Err(OpenError::NoSharedMemory { component: spec.name });
-    }
-    Ok(Arc::new(crate::transport::zeromq::ZeroMq::new(dir.clone(), medium)))
-}
-
-#[cfg(not(feature = "zeromq"))]
-fn transport(spec: &ComponentSpec, _dir: &SystemDir, _medium: Medium) -> Result<Arc<dyn Transport>, OpenError> {
-    Err(OpenError::NoTransport { component: spec.name })
+    let transports = Transports::in_folder(spec, &dir, media.clone())?;
+    Ok((Registration::in_folder(spec, dir, stats, &media).map_err(failed)?, transports))
 }
 
 fn endpoint(name: &'static str, spec: &GateSpec) -> Endpoint {

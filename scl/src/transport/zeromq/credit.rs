@@ -1,6 +1,7 @@
 //! Credit between SCL ends: how much may be in flight, and what has been acknowledged.
 
-use super::zmtp::{ProtocolError, SclReady, Window};
+use super::zmtp::{ProtocolError, SclReady};
+use crate::transport::{Endpoint, Window};
 use std::collections::VecDeque;
 
 /// What an ordinary receiving end allows in flight.
@@ -12,12 +13,12 @@ const NEWEST_WINDOW: Window = Window { messages: 64, bytes: 32 << 10 };
 const MOST_MESSAGES: u64 = 1 << 16;
 
 /// What a receiving end announces.
-pub(super) fn receiving(newest_only: bool) -> SclReady {
-    SclReady { window: Some(window(newest_only)), newest_only, lossless: false }
+pub(super) fn receiving(endpoint: &Endpoint) -> SclReady {
+    SclReady { window: Some(window(endpoint)), newest_only: endpoint.newest_only, ..SclReady::default() }
 }
 
-fn window(newest_only: bool) -> Window {
-    if newest_only { NEWEST_WINDOW } else { WINDOW }
+fn window(endpoint: &Endpoint) -> Window {
+    endpoint.deferred.unwrap_or(if endpoint.newest_only { NEWEST_WINDOW } else { WINDOW })
 }
 
 /// At a sending end: what is in flight.
@@ -75,19 +76,49 @@ pub(super) struct ReceiveCredit {
     taken: u64,
     unacknowledged: u64,
     unacknowledged_bytes: u64,
+    deferred: Option<Deferred>,
+}
+
+/// What an end knows whose messages are acknowledged by its caller.
+#[derive(Default)]
+struct Deferred {
+    acknowledged: u64,
+    /// Numbers of the messages that the caller has not seen, because they were malformed, and thus never acknowledges.
+    skipped: VecDeque<u64>,
 }
 
 impl ReceiveCredit {
-    pub(super) fn new(newest_only: bool) -> Self {
-        Self { window: window(newest_only), taken: 0, unacknowledged: 0, unacknowledged_bytes: 0 }
+    pub(super) fn new(endpoint: &Endpoint) -> Self {
+        let deferred = endpoint.deferred.map(|_| Deferred::default());
+        Self { window: window(endpoint), taken: 0, unacknowledged: 0, unacknowledged_bytes: 0, deferred }
     }
 
     /// Counts a message. Returns true if half of the window waits to be acknowledged.
     pub(super) fn count_taken(&mut self, length: usize) -> bool {
         self.taken += 1;
+        if self.deferred.is_some() {
+            return false;
+        }
         self.unacknowledged += 1;
         self.unacknowledged_bytes += length as u64;
         2 * self.unacknowledged >= self.window.messages || 2 * self.unacknowledged_bytes >= self.window.bytes
+    }
+
+    /// Whether the caller acknowledges messages.
+    pub(super) fn is_deferred(&self) -> bool {
+        self.deferred.is_some()
+    }
+
+    /// Notes that the caller will not see the message counted last. Returns the number to acknowledge, if any.
+    pub(super) fn skip_last(&mut self) -> Option<u64> {
+        let deferred = self.deferred.as_mut()?;
+        deferred.skipped.push_back(self.taken);
+        deferred.advance(0)
+    }
+
+    /// Acknowledges the oldest messages that the caller has seen. Returns the number to acknowledge, if any.
+    pub(super) fn acknowledge_deferred(&mut self, count: u64) -> Option<u64> {
+        self.deferred.as_mut()?.advance(count)
     }
 
     pub(super) fn unacknowledged(&self) -> u64 {
@@ -98,5 +129,24 @@ impl ReceiveCredit {
     pub(super) fn acknowledge(&mut self) -> u64 {
         (self.unacknowledged, self.unacknowledged_bytes) = (0, 0);
         self.taken
+    }
+}
+
+impl Deferred {
+    fn advance(&mut self, count: u64) -> Option<u64> {
+        let before = self.acknowledged;
+        self.pass_skipped();
+        for _ in 0..count {
+            self.acknowledged += 1;
+            self.pass_skipped();
+        }
+        (self.acknowledged > before).then_some(self.acknowledged)
+    }
+
+    fn pass_skipped(&mut self) {
+        while self.skipped.front().is_some_and(|&number| number == self.acknowledged + 1) {
+            self.skipped.pop_front();
+            self.acknowledged += 1;
+        }
     }
 }

@@ -8,6 +8,7 @@ use super::zmtp::SocketType;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Endpoint, Receiver, TransportError};
 use bytes::Bytes;
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
@@ -17,34 +18,65 @@ const IN_A_ROW: usize = 64;
 
 pub(super) struct Puller {
     acceptor: Acceptor,
-    newest_only: bool,
-    pushers: Vec<Inbound>,
+    endpoint: Endpoint,
+    pushers: Vec<Pusher>,
+    /// Number of pushers so far.
+    accepted: u64,
+    /// For an end whose caller acknowledges messages: the pushers of those that are not acknowledged, in order.
+    untold: VecDeque<u64>,
+    finishing: bool,
     /// The pusher whose turn it is, and how many messages it has delivered in it.
     turn: usize,
     delivered: usize,
     malformed: u64,
 }
 
+struct Pusher {
+    number: u64,
+    inbound: Inbound,
+}
+
 impl Puller {
     pub(super) fn open(dir: &Arc<SystemDir>, medium: Medium, endpoint: &Endpoint) -> Result<Self, TransportError> {
-        let newest_only = endpoint.newest_only;
-        let acceptor = Acceptor::open(dir, medium, endpoint, SocketType::Pull, receiving(newest_only))?;
-        Ok(Self { acceptor, newest_only, pushers: Vec::new(), turn: 0, delivered: 0, malformed: 0 })
+        let acceptor =
+            Acceptor::open(dir, medium, endpoint, SocketType::Pull, receiving(endpoint))?.offering_memory(endpoint)?;
+        let (pushers, untold, endpoint) = (Vec::new(), VecDeque::new(), endpoint.clone());
+        Ok(Self {
+            acceptor,
+            endpoint,
+            pushers,
+            accepted: 0,
+            untold,
+            finishing: false,
+            turn: 0,
+            delivered: 0,
+            malformed: 0,
+        })
     }
 
     fn accept(&mut self, cx: &mut Context<'_>) {
         while let Poll::Ready((connection, ready)) = self.acceptor.poll_connection(cx, self.pushers.len()) {
-            self.pushers.push(Inbound::new(connection, &ready, self.newest_only));
+            let mut inbound = Inbound::new(connection, &ready, &self.endpoint, self.acceptor.dir());
+            if self.finishing {
+                inbound.finish();
+            }
+            self.pushers.push(Pusher { number: self.accepted, inbound });
+            self.accepted += 1;
         }
     }
 
     /// Polls the pusher whose turn it is.
     fn poll_turn(&mut self, cx: &mut Context<'_>) -> Poll<Bytes> {
         while let Some(pusher) = self.pushers.get_mut(self.turn) {
-            let next = pusher.poll_next(cx);
-            self.malformed += pusher.take_malformed();
+            let next = pusher.inbound.poll_next(cx);
+            self.malformed += pusher.inbound.take_malformed();
             match next {
-                Poll::Ready(Ok(message)) => return Poll::Ready(message),
+                Poll::Ready(Ok(message)) => {
+                    if self.endpoint.deferred.is_some() {
+                        self.untold.push_back(pusher.number);
+                    }
+                    return Poll::Ready(message);
+                }
                 Poll::Ready(Err(error)) => {
                     tracing::debug!(%error, "a pusher left");
                     self.pushers.remove(self.turn);
@@ -92,17 +124,41 @@ impl Receiver for Puller {
     }
 
     fn is_lossless(&self) -> bool {
-        self.pushers.iter().any(Inbound::is_lossless)
+        self.pushers.iter().any(|pusher| pusher.inbound.is_lossless())
     }
 
     fn malformed(&self) -> u64 {
         self.malformed
     }
 
+    fn acknowledge(&mut self, count: u64) {
+        let count = self.untold.len().min(usize::try_from(count).unwrap_or(usize::MAX));
+        for number in self.untold.drain(..count) {
+            // One that has left counts its messages as lost.
+            if let Some(pusher) = self.pushers.iter_mut().find(|pusher| pusher.number == number) {
+                pusher.inbound.acknowledge_deferred(1);
+            }
+        }
+    }
+
+    fn take_acknowledgement_request(&mut self) -> bool {
+        let requested = self.pushers.iter_mut().map(|pusher| pusher.inbound.take_acknowledgement_request());
+        requested.fold(false, |any, one| any | one)
+    }
+
+    fn finish(&mut self) {
+        self.finishing = true;
+        self.pushers.iter_mut().for_each(|pusher| pusher.inbound.finish());
+    }
+
+    fn is_finished(&self) -> bool {
+        self.pushers.iter().all(|pusher| pusher.inbound.is_finished())
+    }
+
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         let mut caught_up = Poll::Ready(());
         for pusher in &mut self.pushers {
-            if pusher.poll_caught_up(cx).is_pending() {
+            if pusher.inbound.poll_caught_up(cx).is_pending() {
                 caught_up = Poll::Pending;
             }
         }
@@ -111,7 +167,7 @@ impl Receiver for Puller {
 
     fn catch_up(&mut self, within: Duration) {
         for pusher in &mut self.pushers {
-            pusher.catch_up(within);
+            pusher.inbound.catch_up(within);
         }
     }
 }

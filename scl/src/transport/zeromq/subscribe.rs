@@ -15,12 +15,17 @@ pub(super) struct Subscriber {
     dialler: Dialler,
     publisher: Option<Inbound>,
     malformed: u64,
+    /// For an end whose caller acknowledges messages: how many are not acknowledged, of publishers that are lost and of
+    /// the connected one.
+    stale: u64,
+    untold: u64,
+    finishing: bool,
 }
 
 impl Subscriber {
     pub(super) fn open(dir: &Arc<SystemDir>, endpoint: &Endpoint) -> Self {
-        let dialler = Dialler::new(dir, endpoint, SocketType::Sub, receiving(endpoint.newest_only));
-        Self { dialler, publisher: None, malformed: 0 }
+        let dialler = Dialler::new(dir, endpoint, SocketType::Sub, receiving(endpoint));
+        Self { dialler, publisher: None, malformed: 0, stale: 0, untold: 0, finishing: false }
     }
 
     fn poll_publisher(&mut self, cx: &mut Context<'_>) -> Poll<&mut Inbound> {
@@ -30,7 +35,11 @@ impl Subscriber {
                 let (mut connection, ready) = ready!(self.dialler.poll_connected(cx));
                 // Not earlier: libzmq closes a connection on which this arrives together with READY.
                 let _reported_by_reading = connection.write(SUBSCRIBE_ALL);
-                Inbound::new(connection, &ready, self.dialler.endpoint().newest_only)
+                let mut inbound = Inbound::new(connection, &ready, self.dialler.endpoint(), self.dialler.dir());
+                if self.finishing {
+                    inbound.finish();
+                }
+                inbound
             }
         };
         Poll::Ready(self.publisher.insert(publisher))
@@ -47,10 +56,14 @@ impl Receiver for Subscriber {
             let next = publisher.poll_next(cx);
             self.malformed += publisher.take_malformed();
             match next {
-                Poll::Ready(Ok(message)) => return Poll::Ready(message),
+                Poll::Ready(Ok(message)) => {
+                    self.untold += u64::from(self.dialler.endpoint().deferred.is_some());
+                    return Poll::Ready(message);
+                }
                 Poll::Ready(Err(error)) => {
                     tracing::debug!(endpoint = %self.dialler.endpoint().name, %error, "lost the publisher");
                     self.publisher = None;
+                    self.stale += std::mem::take(&mut self.untold);
                 }
                 Poll::Pending => return Poll::Pending,
             }
@@ -67,6 +80,29 @@ impl Receiver for Subscriber {
 
     fn malformed(&self) -> u64 {
         self.malformed
+    }
+
+    fn acknowledge(&mut self, count: u64) {
+        let stale = count.min(self.stale);
+        let count = (count - stale).min(self.untold);
+        self.stale -= stale;
+        self.untold -= count;
+        if let Some(publisher) = self.publisher.as_mut().filter(|_| count > 0) {
+            publisher.acknowledge_deferred(count);
+        }
+    }
+
+    fn take_acknowledgement_request(&mut self) -> bool {
+        self.publisher.as_mut().is_some_and(Inbound::take_acknowledgement_request)
+    }
+
+    fn finish(&mut self) {
+        self.finishing = true;
+        self.publisher.iter_mut().for_each(Inbound::finish);
+    }
+
+    fn is_finished(&self) -> bool {
+        self.publisher.as_ref().is_none_or(Inbound::is_finished)
     }
 
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {

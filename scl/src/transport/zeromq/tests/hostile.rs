@@ -257,7 +257,7 @@ async fn acknowledgements_of_what_was_never_sent_end_the_connection() {
     let mut stranger = stage.connect_silently().await;
     let hello = crate::transport::zeromq::zmtp::hello(
         crate::transport::zeromq::zmtp::SocketType::Sub,
-        crate::transport::zeromq::credit::receiving(true),
+        crate::transport::zeromq::credit::receiving(&super::stage::newest_only()),
     );
     stranger.write_all(&[&hello[..], b"\0\x01\x01\x04\x12\x09X-SCL-ACK\0\0\0\0\0\0\0\x01"].concat()).await.unwrap();
     end.during(closed(&mut stranger)).await;

@@ -91,7 +91,7 @@ async fn a_plain_publisher_is_subscribed_to_after_its_ready() {
         (messages, subscriber.malformed(), subscriber)
     });
     let (mut stream, _) = listener.accept().await.unwrap();
-    let scl = super::super::credit::receiving(false);
+    let scl = super::super::credit::receiving(&super::stage::endpoint());
     read_after_hello(&mut stream, SocketType::Sub, scl, 0).await;
     let mut early = [0];
     assert!(stream.try_read(&mut early).is_err(), "sent something before READY arrived");

@@ -1,0 +1,3 @@
+//! Which host runs which components, as the launch file says.
+
+pub use scl_run::{Deployment, Host};

@@ -1,0 +1,23 @@
+//! What the gateways of other hosts say, apart from messages.
+
+use bytes::Bytes;
+
+/// Event of [`Wire::poll_neighbour`](super::Wire::poll_neighbour).
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Neighbour {
+    /// `component` runs on `host`. A restart of the component or of its gateway is a `Stopped` and a `Started`.
+    Started { component: String, host: String, content: Bytes },
+    /// `component` stopped, or the link to `host` is lost.
+    Stopped { component: String, host: String },
+    /// The gateway of `host` is connected.
+    Connected { host: String },
+    /// The gateway of `host` is not connected any more.
+    Disconnected { host: String },
+    /// A route has no match for 1 s although the other side has this connection under another contract. `text` is a whole
+    /// sentence for the log. At most once per route and contract.
+    Mismatch { key: String, text: String },
+    /// Something that must not be: a second gateway of a host, a host that claims another's component, another system's
+    /// gateway. It is ignored; `text` is a whole sentence for the log.
+    Refused { text: String },
+}
