@@ -1,5 +1,6 @@
 //! The registration of a running component in the runtime folder.
 
+use crate::medium_choice::MediumChoice;
 use crate::process_mark::ProcessMark;
 use crate::runtime_dir::{
     Announcement, ComponentLock, ComponentStats, FolderWatch, Holder, OwnedPath, QUIET, RuntimeDirError, StatsFile,
@@ -45,13 +46,15 @@ struct Held {
 
 impl Registration {
     /// Takes the component's lock, removes what a killed process left behind, and publishes the messages and the
-    /// announcement. The gates are opened after that. The component writes its stats with the given period, if any.
+    /// announcement. The gates are opened after that, on these media. The component writes its stats with the given
+    /// period, if any.
     pub(crate) fn in_folder(
         spec: &'static ComponentSpec,
         dir: SystemDir,
         stats_period: Option<Duration>,
+        media: &MediumChoice,
     ) -> Result<Self, RuntimeDirError> {
-        Self::announcing(spec, dir, Announcement::of(spec), stats_period)
+        Self::announcing(spec, dir, Announcement::of(spec, media), stats_period)
     }
 
     /// The same with an announcement other than the usual one, which names the component's spec.

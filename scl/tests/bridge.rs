@@ -68,7 +68,10 @@ async fn a_component_talks_with_a_mirror_as_with_its_peer() {
     let mirror = host.mirror("sensor", &profile(&plan("sensor")).await).unwrap();
     let announcement = Announcement::read(&host.dir, "sensor").unwrap();
     assert_eq!(announcement.host.as_deref(), Some("board"));
-    assert_eq!((announcement.pid, announcement.plan), (std::process::id(), Some(Plan { schema: None, ..plan("sensor") })));
+    assert_eq!(
+        (announcement.pid, announcement.plan),
+        (std::process::id(), Some(Plan { schema: None, ..plan("sensor") }))
+    );
     let error = controller.ready(Duration::ZERO).await.unwrap_err().to_string();
     assert!(error.contains("is running on host `board` but not connected"), "{error}");
 
@@ -85,7 +88,6 @@ async fn a_component_talks_with_a_mirror_as_with_its_peer() {
         () = drive(&mut *link, &mut queue) => unreachable!(),
     };
     assert_eq!(received, "[1.0]");
-
 }
 
 #[tokio::test]

@@ -2,8 +2,10 @@
 
 use super::connection::{Closed, Connection};
 use super::credit::ReceiveCredit;
+use super::shared_memory::Arriving;
 use super::timer::Timer;
-use super::zmtp::{Command, FINISH, Item, Message, PeerReady, acknowledgement, catch_up};
+use super::zmtp::{Command, FINISH, Item, Message, PeerReady, SHM_OPEN, acknowledgement, catch_up};
+use crate::runtime_dir::SystemDir;
 use crate::transport::Endpoint;
 use bytes::Bytes;
 use std::collections::VecDeque;
@@ -25,6 +27,8 @@ const MOST_AHEAD: usize = 4096;
 pub(super) struct Inbound {
     connection: Connection,
     credit: Option<ReceiveCredit>,
+    /// Long messages in shared memory.
+    arriving: Arriving,
     newest_only: bool,
     /// Whether the sender waits instead of dropping messages. Then older messages matter, too.
     lossless: bool,
@@ -54,11 +58,16 @@ pub(super) struct Inbound {
 }
 
 impl Inbound {
-    pub(super) fn new(connection: Connection, peer: &PeerReady, endpoint: &Endpoint) -> Self {
+    pub(super) fn new(mut connection: Connection, peer: &PeerReady, endpoint: &Endpoint, dir: &SystemDir) -> Self {
+        let arriving = Arriving::open(dir, peer, endpoint);
+        if arriving.is_open() {
+            let _reported_by_reading = connection.write(SHM_OPEN);
+        }
         let lossless = peer.scl.is_some_and(|scl| scl.lossless);
         Self {
             connection,
             credit: peer.scl.map(|_| ReceiveCredit::new(endpoint)),
+            arriving,
             newest_only: endpoint.newest_only && !lossless,
             lossless,
             ahead: VecDeque::new(),
@@ -129,6 +138,9 @@ impl Inbound {
                     let number = self.credit.as_mut().and_then(ReceiveCredit::skip_last);
                     self.write_acknowledgement(number);
                 }
+                Item::Command(Command::Sample { sequence, length }) => {
+                    return self.take_sample(sequence, length).map(Some);
+                }
                 Item::Command(Command::Behind) => (self.behind, self.gave_up) = (true, false),
                 Item::Command(Command::CaughtUp(number)) => self.handle_caught_up(number),
                 Item::Command(Command::Flush) => self.handle_flush(),
@@ -137,6 +149,17 @@ impl Inbound {
             }
         }
         Ok(None)
+    }
+
+    fn take_sample(&mut self, sequence: u64, length: u64) -> Result<Bytes, Closed> {
+        let message = self.arriving.receive(sequence, length)?;
+        let waits = self.arriving.count_taken();
+        // Its memory is not the socket's, so its bytes do not count.
+        self.count_taken(0);
+        if waits && !self.credit.as_ref().is_some_and(ReceiveCredit::is_deferred) {
+            self.acknowledge();
+        }
+        Ok(message)
     }
 
     fn handle_caught_up(&mut self, number: u64) {
@@ -164,6 +187,7 @@ impl Inbound {
     }
 
     fn acknowledge(&mut self) {
+        self.arriving.acknowledged();
         let number = self.credit.as_mut().map(ReceiveCredit::acknowledge);
         self.write_acknowledgement(number);
     }

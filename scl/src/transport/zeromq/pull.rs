@@ -38,14 +38,25 @@ struct Pusher {
 
 impl Puller {
     pub(super) fn open(dir: &Arc<SystemDir>, medium: Medium, endpoint: &Endpoint) -> Result<Self, TransportError> {
-        let acceptor = Acceptor::open(dir, medium, endpoint, SocketType::Pull, receiving(endpoint))?;
+        let acceptor =
+            Acceptor::open(dir, medium, endpoint, SocketType::Pull, receiving(endpoint))?.offering_memory(endpoint)?;
         let (pushers, untold, endpoint) = (Vec::new(), VecDeque::new(), endpoint.clone());
-        Ok(Self { acceptor, endpoint, pushers, accepted: 0, untold, finishing: false, turn: 0, delivered: 0, malformed: 0 })
+        Ok(Self {
+            acceptor,
+            endpoint,
+            pushers,
+            accepted: 0,
+            untold,
+            finishing: false,
+            turn: 0,
+            delivered: 0,
+            malformed: 0,
+        })
     }
 
     fn accept(&mut self, cx: &mut Context<'_>) {
         while let Poll::Ready((connection, ready)) = self.acceptor.poll_connection(cx, self.pushers.len()) {
-            let mut inbound = Inbound::new(connection, &ready, &self.endpoint);
+            let mut inbound = Inbound::new(connection, &ready, &self.endpoint, self.acceptor.dir());
             if self.finishing {
                 inbound.finish();
             }

@@ -35,7 +35,7 @@ impl Subscriber {
                 let (mut connection, ready) = ready!(self.dialler.poll_connected(cx));
                 // Not earlier: libzmq closes a connection on which this arrives together with READY.
                 let _reported_by_reading = connection.write(SUBSCRIBE_ALL);
-                let mut inbound = Inbound::new(connection, &ready, self.dialler.endpoint());
+                let mut inbound = Inbound::new(connection, &ready, self.dialler.endpoint(), self.dialler.dir());
                 if self.finishing {
                     inbound.finish();
                 }
