@@ -2,5 +2,6 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod deployment;
+pub mod keys;
 pub mod route;
 pub mod wire;
