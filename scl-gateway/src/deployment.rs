@@ -38,7 +38,8 @@ impl System {
         };
         let deployed = scl_run::read_deployment(launch, topology, &names);
         let (plan, errors) = read.into_inner();
-        let texts = |problems: Vec<Problem>| errors.into_iter().chain(problems.iter().map(Problem::to_string)).collect();
+        let texts =
+            |problems: Vec<Problem>| errors.into_iter().chain(problems.iter().map(Problem::to_string)).collect();
         match (deployed, plan) {
             (Ok(deployed), Some(plan)) => Ok(Self { plan, deployment: deployed.deployment }),
             (Ok(_), None) => Err(texts(Vec::new())),
@@ -54,7 +55,8 @@ impl System {
 }
 
 fn names_of(plan: &SystemPlan) -> SystemNames {
-    let gates = plan.components.iter().flat_map(|it| it.gates.iter().map(|gate| format!("{}.{}", it.component, gate.name)));
+    let gates =
+        plan.components.iter().flat_map(|it| it.gates.iter().map(|gate| format!("{}.{}", it.component, gate.name)));
     SystemNames {
         system: plan.system.clone(),
         components: plan.components.iter().map(|it| it.component.clone()).collect(),

@@ -52,3 +52,6 @@ const KEY: &str = "key.pem";
 fn authority_folder(certificates: &Path) -> PathBuf {
     certificates.join(Deployment::AUTHORITY)
 }
+
+#[cfg(test)]
+mod tests;

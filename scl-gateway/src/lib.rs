@@ -3,5 +3,7 @@
 
 pub mod deployment;
 pub mod keys;
+pub mod local;
+mod pump;
 pub mod route;
 pub mod wire;

@@ -78,10 +78,13 @@ fn report(issued: &[Issued], folder: &Path) -> String {
     let line = |it: &Issued| {
         let what = if it.is_new { "new" } else { "kept" };
         let expires = it.expires.map_or_else(|| "cannot be read".to_owned(), |at| format!("expires {}", date(at)));
-        let (folder, purpose) = (it.folder.display(), match &it.host {
-            None => "the authority: keep it here, and secret".to_owned(),
-            Some(host) => format!("copy this folder to host `{host}`"),
-        });
+        let (folder, purpose) = (
+            it.folder.display(),
+            match &it.host {
+                None => "the authority: keep it here, and secret".to_owned(),
+                Some(host) => format!("copy this folder to host `{host}`"),
+            },
+        );
         format!("{what:<4}  {folder}  {expires}; {purpose}\n")
     };
     let lines: String = issued.iter().map(line).collect();

@@ -12,7 +12,6 @@ use scl_gateway::local::{Gateway, GatewayOptions};
 use scl_gateway::route::{Route, routes};
 use scl_gateway::wire::{Peer, TlsFiles, Wire, WireOptions};
 use scl_terminal::Problem;
-use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use tokio::signal::unix::{SignalKind, signal};
@@ -81,11 +80,8 @@ fn wire_options(system: &System, host: &Host, files: Option<HostFiles>, routes: 
     let shares_routes = |other: &&Host| routes.iter().any(|it| it.from.host == other.name || it.to.host == other.name);
     let others = system.deployment.hosts.iter().filter(|other| other.name != host.name).filter(shares_routes);
     let peer = |other: &Host| Peer { host: other.name.clone(), address: Some(other.socket_address()) };
-    let tls = files.map(|files| TlsFiles {
-        authority: files.authority,
-        certificate: files.certificate,
-        key: files.key,
-    });
+    let tls =
+        files.map(|files| TlsFiles { authority: files.authority, certificate: files.certificate, key: files.key });
     WireOptions {
         system: system.plan.system.clone(),
         host: host.name.clone(),
@@ -111,16 +107,18 @@ fn system_dir(arguments: &RunArguments, system: &System) -> Result<SystemDir, Pr
     dir.map_err(|error| Problem::new(scl::host::text_with_causes(&error)))
 }
 
-/// What the ends listen on that stand in for components of other hosts. Shared memory does not reach there.
+/// What the ends listen on that stand in for components of other hosts. What is chosen for single gates, and shared memory,
+/// does not concern connections to other hosts.
 fn medium() -> Result<Medium, Problem> {
-    let value: OsString = std::env::var_os("SCL_TRANSPORT").unwrap_or_default();
-    if value.is_empty() {
-        return Ok(Medium::Ipc);
+    let value = std::env::var_os("SCL_TRANSPORT").unwrap_or_default();
+    let text = value.to_string_lossy();
+    if let Err(error) = text.parse::<MediumChoice>()
+        && !text.is_empty()
+    {
+        return Err(Problem::new(format!("`SCL_TRANSPORT` is not understood: {error}")));
     }
-    let choice = value.to_str().and_then(|text| text.parse::<MediumChoice>().ok());
-    let wrong = || Problem::new(format!("`SCL_TRANSPORT` is not understood: `{}`", value.display()));
-    match choice.ok_or_else(wrong)?.default {
-        Medium::Tcp => Ok(Medium::Tcp),
+    match text.split(',').map(str::trim).rfind(|entry| !entry.contains('=')) {
+        Some("tcp") => Ok(Medium::Tcp),
         _ => Ok(Medium::Ipc),
     }
 }
