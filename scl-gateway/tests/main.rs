@@ -2,10 +2,18 @@
 //! them a cable that loses, delays and cuts.
 
 mod accounts;
+mod bad_network;
 mod cable;
+mod clocks;
+mod control_loop;
+mod cut;
 mod direct;
+mod files;
 mod fleet;
+mod gateway;
 mod host;
+mod kills;
+mod long;
 mod namespace;
 mod network;
 mod player;
