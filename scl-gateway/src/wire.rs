@@ -6,23 +6,43 @@
 //! library, and events come back through one queue per handle, which wakes the task that polled last. The `poll_*`
 //! functions set timers and so need a tokio runtime with time enabled.
 
+mod access;
 mod announcement;
+mod command;
+mod config;
+mod envelope;
 mod error;
+mod header;
+mod keys;
+mod lane;
+mod link;
+mod mailbox;
 mod neighbour;
 mod options;
+mod presence;
 mod receiver;
 mod replier;
 mod requester;
 mod sender;
+mod session;
+mod stream;
+mod token;
 
+use std::hash::{BuildHasher, Hasher, RandomState};
+use std::sync::Arc;
 use std::task::{Context, Poll};
 
 use bytes::Bytes;
+use tokio::sync::oneshot;
 
 pub use self::announcement::Announced;
+use self::command::{Command, Commands};
 pub use self::error::WireError;
+use self::link::Link;
+use self::mailbox::Mailbox;
 pub use self::neighbour::Neighbour;
 pub use self::options::{Peer, TlsFiles, WireOptions};
+use self::presence::{Identity, Presence};
 pub use self::receiver::{ReceiverEvent, WireReceiver};
 pub use self::replier::{ReplierEvent, WireReplier};
 pub use self::requester::{RequesterEvent, WireRequester};
@@ -36,60 +56,100 @@ pub const WINDOW_MESSAGES: u32 = 64;
 /// Most bytes of one route that are on their way without an acknowledgement. A larger message travels alone.
 pub const WINDOW_BYTES: u64 = 256 * 1024;
 
-/// This host's connection to the gateways of the other hosts.
+/// This host's connection to the gateways of the other hosts. Dropping it closes it in the background.
 #[derive(Debug)]
-pub struct Wire {}
+pub struct Wire {
+    link: Link,
+    system: String,
+    host: String,
+    neighbours: Arc<Mailbox<Neighbour>>,
+}
 
 impl Wire {
     /// Starts listening and connecting. Returns as soon as the listener is bound, whether or not other gateways run.
     ///
     /// # Errors
     ///
-    /// Fails if the options contradict each other, without TLS on an address that is not loopback, if a file of the
-    /// certificates cannot be used, or if the address is taken. A second gateway of the same host, here or elsewhere, is
-    /// found when both are connected to one network: see [`Neighbour::Refused`].
+    /// Fails if an address is malformed, without TLS on an address that is not loopback, if a file of the certificates
+    /// cannot be used, or if the address is taken. A second gateway of the same host, here or elsewhere, is found when both
+    /// are connected to one network: see [`Neighbour::Refused`].
     pub async fn open(options: WireOptions) -> Result<Wire, WireError> {
-        let _ = options;
-        unimplemented!()
+        let failed = |reason: String| WireError::Start { host: options.host.clone(), reason };
+        let config = config::config(&options)?;
+        let config = zenoh::Config::from_json5(&config.to_string()).map_err(|error| failed(error.to_string()))?;
+        let instance = format!("{}-{:x}", std::process::id(), random());
+        let (commands, received) = Commands::new();
+        let neighbours = Arc::new(Mailbox::new(u64::MAX));
+        let (system, host, homes) = (&*options.system, &*options.host, &options.components);
+        let presence = Presence::new(&Identity { system, host, instance: &instance, homes }, &commands, &neighbours);
+        let setup = session::Setup {
+            config,
+            system: options.system.clone(),
+            host: options.host.clone(),
+            instance: instance.clone(),
+            peers: options.peers.iter().map(|peer| peer.host.clone()).collect(),
+            commands: commands.clone(),
+            received,
+            presence: presence.clone(),
+            neighbours: Arc::clone(&neighbours),
+        };
+        let (ready, started) = oneshot::channel();
+        std::thread::Builder::new()
+            .name("scl-wire".to_owned())
+            .spawn(move || session::run(setup, ready))
+            .map_err(|error| failed(error.to_string()))?;
+        started.await.map_err(|_| failed("its thread ended".to_owned()))??;
+        let link = Link { commands, presence, instance };
+        Ok(Wire { link, system: options.system, host: options.host, neighbours })
     }
 
     /// The end at which messages leave this host. It must be `route.from.host`. At most one per route.
     pub fn sender(&self, route: &Route) -> WireSender {
-        let _ = route;
-        unimplemented!()
+        WireSender::new(&self.link, route)
     }
 
     /// The end at which messages arrive at this host. It must be `route.to.host`. At most one per route.
     pub fn receiver(&self, route: &Route) -> WireReceiver {
-        let _ = route;
-        unimplemented!()
+        WireReceiver::new(&self.link, route)
     }
 
     /// The end at which requests leave this host: the `req` gates are here, the `rep` gate is remote.
     pub fn requester(&self, route: &Route) -> WireRequester {
-        let _ = route;
-        unimplemented!()
+        WireRequester::new(&self.link, route)
     }
 
     /// The end at which requests arrive at this host: the `rep` gate is here.
     pub fn replier(&self, route: &Route) -> WireReplier {
-        let _ = route;
-        unimplemented!()
+        WireReplier::new(&self.link, route)
     }
 
     /// Tells the other hosts that `component` runs here, until the result is dropped. `content` is its announcement and
     /// schema, up to some MiB, handed to each neighbour as [`Neighbour::Started`].
     pub fn announce(&self, component: &str, content: Bytes) -> Announced {
-        let _ = (component, content);
-        unimplemented!()
+        let key = keys::component(&self.system, component, &self.host, &self.link.instance, random());
+        Announced::new(&self.link.commands, key, content)
     }
 
     /// What the other hosts run, and what is wrong with them. Never ends.
     pub fn poll_neighbour(&self, cx: &mut Context<'_>) -> Poll<Neighbour> {
-        let _ = cx;
-        unimplemented!()
+        self.neighbours.poll(cx)
     }
 
-    /// Withdraws everything and closes all connections.
-    pub async fn close(self) {}
+    /// Withdraws everything and closes all connections. What is on its way is not waited for.
+    pub async fn close(self) {
+        let (done, closed) = oneshot::channel();
+        self.link.commands.send(Command::Close { done: Some(done) });
+        let _ = closed.await;
+    }
+}
+
+impl Drop for Wire {
+    fn drop(&mut self) {
+        self.link.commands.send(Command::Close { done: None });
+    }
+}
+
+/// A number that nobody else has. Not for secrets.
+fn random() -> u64 {
+    RandomState::new().build_hasher().finish()
 }

@@ -2,6 +2,8 @@
 
 #[cfg(all(feature = "json", feature = "memory"))]
 mod auto_traits;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod bridge;
 #[cfg(feature = "conformance")]
 mod conformance_codecs;
 #[cfg(all(feature = "conformance", feature = "memory"))]

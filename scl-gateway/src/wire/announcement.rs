@@ -1,6 +1,125 @@
 //! Announcements: components that run, with their plans and schemas.
+//!
+//! A token tells that there is one; its content is asked for in parts, so that no message is larger than what the network
+//! library sends without dropping.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use bytes::{Bytes, BytesMut};
+
+use super::command::{Command, Commands, EndId, Part};
+use super::keys::Token;
+use super::mailbox::Mailbox;
+use super::neighbour::Neighbour;
+
+pub(super) const PART: usize = 30 * 1024;
+/// Largest announcement that is fetched.
+const LARGEST: u64 = 64 << 20;
+/// Pause after a part that did not arrive.
+const RETRY: Duration = Duration::from_millis(200);
 
 /// A component is announced while this exists.
 #[derive(Debug)]
 #[must_use = "the component is announced only until this is dropped"]
-pub struct Announced {}
+pub struct Announced {
+    id: EndId,
+    commands: Commands,
+}
+
+impl Announced {
+    pub(super) fn new(commands: &Commands, key: String, content: Bytes) -> Self {
+        let id = EndId::next();
+        commands.send(Command::Announce { id, key, content });
+        Announced { id, commands: commands.clone() }
+    }
+}
+
+impl Drop for Announced {
+    fn drop(&mut self) {
+        self.commands.send(Command::Remove { id: self.id });
+    }
+}
+
+/// The announcements of the neighbours.
+#[derive(Debug)]
+pub(super) struct Announcements {
+    neighbours: Arc<Mailbox<Neighbour>>,
+    known: HashMap<String, Known>,
+}
+
+#[derive(Debug)]
+enum Known {
+    Loading { content: BytesMut, retry_at: Option<Instant> },
+    Complete,
+}
+
+impl Announcements {
+    pub(super) fn new(neighbours: &Arc<Mailbox<Neighbour>>) -> Self {
+        Announcements { neighbours: Arc::clone(neighbours), known: HashMap::new() }
+    }
+
+    /// Begins to load. The part at offset 0 has to be asked for.
+    pub(super) fn appeared(&mut self, key: &str) {
+        self.known.insert(key.to_owned(), Known::Loading { content: BytesMut::new(), retry_at: None });
+    }
+
+    pub(super) fn disappeared(&mut self, key: &str) {
+        if let (Some(Known::Complete), Some((component, host))) = (self.known.remove(key), names(key)) {
+            self.neighbours.push(0, Neighbour::Stopped { component, host });
+        }
+    }
+
+    /// Handles a part. Returns the offset of the next one to ask for.
+    pub(super) fn part(&mut self, key: &str, part: Option<Part>) -> Option<usize> {
+        let Some(Known::Loading { content, retry_at }) = self.known.get_mut(key) else { return None };
+        let fits = |part: &Part| {
+            part.offset == content.len() as u64
+                && part.total <= LARGEST
+                && part.offset + part.bytes.len() as u64 <= part.total
+                && (!part.bytes.is_empty() || part.total == 0)
+        };
+        let Some(part) = part.filter(fits) else {
+            *retry_at = Some(Instant::now() + RETRY);
+            return None;
+        };
+        content.extend_from_slice(&part.bytes);
+        if (content.len() as u64) < part.total {
+            return Some(content.len());
+        }
+        let content = std::mem::take(content).freeze();
+        self.known.insert(key.to_owned(), Known::Complete);
+        if let Some((component, host)) = names(key) {
+            self.neighbours.push(0, Neighbour::Started { component, host, content });
+        }
+        None
+    }
+
+    /// The parts to ask for once more.
+    pub(super) fn due(&mut self, now: Instant) -> Vec<(String, usize)> {
+        let due = |(key, known): (&String, &mut Known)| match known {
+            Known::Loading { content, retry_at } if retry_at.is_some_and(|at| at <= now) => {
+                *retry_at = None;
+                Some((key.clone(), content.len()))
+            }
+            _ => None,
+        };
+        self.known.iter_mut().filter_map(due).collect()
+    }
+
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        let at = |known: &Known| match known {
+            Known::Loading { retry_at, .. } => *retry_at,
+            Known::Complete => None,
+        };
+        self.known.values().filter_map(at).min()
+    }
+}
+
+fn names(key: &str) -> Option<(String, String)> {
+    match Token::parse(key)? {
+        Token::Component { component, host, .. } => Some((component.to_owned(), host.to_owned())),
+        _ => None,
+    }
+}

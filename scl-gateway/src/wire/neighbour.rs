@@ -7,11 +7,7 @@ use bytes::Bytes;
 #[non_exhaustive]
 pub enum Neighbour {
     /// `component` runs on `host`. A restart of the component or of its gateway is a `Stopped` and a `Started`.
-    Started {
-        component: String,
-        host: String,
-        content: Bytes,
-    },
+    Started { component: String, host: String, content: Bytes },
     /// `component` stopped, or the link to `host` is lost.
     Stopped { component: String, host: String },
     /// The gateway of `host` is connected.

@@ -4,9 +4,19 @@ use std::task::{Context, Poll};
 
 use bytes::Bytes;
 
+use super::keys::Side;
+use super::link::Link;
+use super::stream::{Received, ReceivingEnd, ReceivingMail};
+use super::token::EndToken;
+use crate::route::Route;
+
 /// Receives the messages of one route: in order, each at most once.
 #[derive(Debug)]
-pub struct WireReceiver {}
+pub struct WireReceiver {
+    link: Link,
+    end: ReceivingEnd,
+    token: EndToken,
+}
 
 /// Event of [`WireReceiver::poll_event`].
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,22 +33,43 @@ pub enum ReceiverEvent {
 }
 
 impl WireReceiver {
+    pub(super) fn new(link: &Link, route: &Route) -> Self {
+        let end = ReceivingEnd::new(&link.commands, &route.from.host, &route.key, route.max_size);
+        let mail = end.mail();
+        link.presence.watch(end.id(), &route.from.host, &route.key, Side::Sender, move |peer| {
+            mail.push(0, ReceivingMail::Peer(peer));
+        });
+        WireReceiver { link: link.clone(), end, token: EndToken::new(link, &route.key, Side::Receiver) }
+    }
+
     /// Opens or closes this side. Closed at first. Each opening is a new epoch: the sender gives up what the last one did
     /// not acknowledge, messages are numbered from 1 again, and what was not polled is discarded.
     pub fn set_open(&mut self, open: bool) {
-        let _ = open;
-        unimplemented!()
+        match (open, self.token.set_open(open)) {
+            (true, Some(epoch)) => self.end.open(epoch),
+            (false, _) => self.end.close(),
+            (true, None) => (),
+        }
     }
 
     /// The next event.
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<ReceiverEvent> {
-        let _ = cx;
-        unimplemented!()
+        self.end.poll(cx).map(|event| match event {
+            Received::Matched => ReceiverEvent::Matched,
+            Received::Unmatched => ReceiverEvent::Unmatched,
+            Received::Message(message) => ReceiverEvent::Message(message),
+            Received::Flush => ReceiverEvent::AcknowledgementRequested,
+        })
     }
 
     /// Tells the sender that the component has taken the first `count` messages since the last `set_open(true)`.
     pub fn acknowledge(&mut self, count: u64) {
-        let _ = count;
-        unimplemented!()
+        self.end.acknowledge(count);
+    }
+}
+
+impl Drop for WireReceiver {
+    fn drop(&mut self) {
+        self.link.presence.unwatch(self.end.id());
     }
 }

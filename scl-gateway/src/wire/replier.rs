@@ -1,12 +1,31 @@
 //! The end of a route at which requests arrive at this host.
 
+use std::collections::HashMap;
 use std::task::{Context, Poll};
 
 use bytes::Bytes;
 
+use super::envelope::{self, Envelope};
+use super::keys::{self, Side};
+use super::link::Link;
+use super::stream::{Received, ReceivingEnd, ReceivingMail, SendingEnd, SendingMail, Sent};
+use super::token::EndToken;
+use crate::route::Route;
+
 /// Answers the requests of one route.
 #[derive(Debug)]
-pub struct WireReplier {}
+pub struct WireReplier {
+    link: Link,
+    requests: ReceivingEnd,
+    replies: SendingEnd,
+    token: EndToken,
+    requester: Option<u64>,
+    /// The requester's ids by ours.
+    open: HashMap<u64, u64>,
+    last: u64,
+    /// Requests since this side was opened.
+    taken: u64,
+}
 
 /// Event of [`WireReplier::poll_event`].
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,27 +40,97 @@ pub enum ReplierEvent {
 }
 
 impl WireReplier {
+    pub(super) fn new(link: &Link, route: &Route) -> Self {
+        let (host, key) = (&route.from.host, &route.key);
+        let max_size = route.max_size.saturating_add(envelope::LENGTH as u64);
+        let requests = ReceivingEnd::new(&link.commands, host, key, max_size);
+        let replies = SendingEnd::new(&link.commands, host, &keys::replies(key), route.queue);
+        let (requests_mail, replies_mail) = (requests.mail(), replies.mail());
+        link.presence.watch(requests.id(), host, key, Side::Sender, move |peer| {
+            replies_mail.push(0, SendingMail::Peer(peer));
+            requests_mail.push(0, ReceivingMail::Peer(peer));
+        });
+        WireReplier {
+            link: link.clone(),
+            requests,
+            replies,
+            token: EndToken::new(link, key, Side::Receiver),
+            requester: None,
+            open: HashMap::new(),
+            last: 0,
+            taken: 0,
+        }
+    }
+
     /// Opens or closes this side. Closed at first. Closing gives up all open requests.
     pub fn set_open(&mut self, open: bool) {
-        let _ = open;
-        unimplemented!()
+        match (open, self.token.set_open(open)) {
+            (true, Some(epoch)) => {
+                self.taken = 0;
+                self.requests.open(epoch);
+            }
+            (true, None) => (),
+            (false, _) => {
+                // The requester ends its requests itself when it misses the token.
+                self.open.clear();
+                self.requests.close();
+            }
+        }
     }
 
     /// The next event.
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<ReplierEvent> {
-        let _ = cx;
-        unimplemented!()
+        loop {
+            match self.replies.poll(cx) {
+                Poll::Ready(Sent::Matched(requester)) if self.requester.replace(requester) != Some(requester) => {
+                    self.open.clear();
+                    continue;
+                }
+                Poll::Ready(_) => continue,
+                Poll::Pending => (),
+            }
+            let event = match self.requests.poll(cx) {
+                Poll::Ready(Received::Matched) => ReplierEvent::Matched,
+                Poll::Ready(Received::Unmatched) => ReplierEvent::Unmatched,
+                Poll::Ready(Received::Message(message)) => match self.request(&message) {
+                    Some(event) => event,
+                    None => continue,
+                },
+                Poll::Ready(Received::Flush) => continue,
+                Poll::Pending => return Poll::Pending,
+            };
+            return Poll::Ready(event);
+        }
     }
 
     /// Answers request `id`. Unknown ids are ignored.
     pub fn reply(&mut self, id: u64, body: Bytes) {
-        let _ = (id, body);
-        unimplemented!()
+        self.answer(id, false, body);
     }
 
     /// Ends request `id` without a reply: the requester gets `Gone`.
     pub fn give_up(&mut self, id: u64) {
-        let _ = id;
-        unimplemented!()
+        self.answer(id, true, Bytes::new());
+    }
+
+    fn request(&mut self, message: &Bytes) -> Option<ReplierEvent> {
+        self.taken += 1;
+        self.requests.acknowledge(self.taken);
+        let request = Envelope::decode(message)?;
+        self.last += 1;
+        self.open.insert(self.last, request.id);
+        Some(ReplierEvent::Request { id: self.last, body: request.body })
+    }
+
+    fn answer(&mut self, id: u64, is_gone: bool, body: Bytes) {
+        if let Some(id) = self.open.remove(&id) {
+            self.replies.send(Envelope { is_gone, id, body }.encode());
+        }
+    }
+}
+
+impl Drop for WireReplier {
+    fn drop(&mut self) {
+        self.link.presence.unwatch(self.requests.id());
     }
 }

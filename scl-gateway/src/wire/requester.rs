@@ -1,12 +1,33 @@
 //! The end of a route at which requests leave this host.
 
-use std::task::{Context, Poll};
+use std::collections::{HashMap, VecDeque};
+use std::task::{Context, Poll, Waker};
 
 use bytes::Bytes;
 
+use super::envelope::{self, Envelope};
+use super::keys::{self, Side};
+use super::link::Link;
+use super::stream::{Received, ReceivingEnd, SendingEnd, SendingMail, Sent};
+use super::token::EndToken;
+use crate::route::Route;
+
 /// Sends requests to the `rep` gate of another host. Always open.
 #[derive(Debug)]
-pub struct WireRequester {}
+pub struct WireRequester {
+    link: Link,
+    requests: SendingEnd,
+    replies: ReceivingEnd,
+    /// Its number tells the replier for whom its replies are.
+    _token: EndToken,
+    replier: Option<u64>,
+    /// The caller's ids by ours, which are never used twice.
+    open: HashMap<u64, u64>,
+    last: u64,
+    replied: u64,
+    events: VecDeque<RequesterEvent>,
+    waker: Option<Waker>,
+}
 
 /// Event of [`WireRequester::poll_event`].
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,16 +44,103 @@ pub enum RequesterEvent {
 }
 
 impl WireRequester {
+    pub(super) fn new(link: &Link, route: &Route) -> Self {
+        let (host, key) = (&route.to.host, &route.key);
+        let requests = SendingEnd::new(&link.commands, host, key, route.queue);
+        let max_size = route.max_size.saturating_add(envelope::LENGTH as u64);
+        let mut replies = ReceivingEnd::new(&link.commands, host, &keys::replies(key), max_size);
+        let mut token = EndToken::new(link, key, Side::Sender);
+        if let Some(number) = token.set_open(true) {
+            replies.open(number);
+        }
+        let mail = requests.mail();
+        link.presence.watch(requests.id(), host, key, Side::Receiver, move |peer| {
+            mail.push(0, SendingMail::Peer(peer));
+        });
+        WireRequester {
+            link: link.clone(),
+            requests,
+            replies,
+            _token: token,
+            replier: None,
+            open: HashMap::new(),
+            last: 0,
+            replied: 0,
+            events: VecDeque::new(),
+            waker: None,
+        }
+    }
+
     /// The next event.
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<RequesterEvent> {
-        let _ = cx;
-        unimplemented!()
+        loop {
+            if let Some(event) = self.events.pop_front() {
+                return Poll::Ready(event);
+            }
+            // Replies first: those that arrived before the replier was lost still count.
+            if let Poll::Ready(received) = self.replies.poll(cx) {
+                self.received(received);
+                continue;
+            }
+            match self.requests.poll(cx) {
+                Poll::Ready(Sent::Matched(replier)) if self.replier != Some(replier) => {
+                    self.all_gone();
+                    self.replier = Some(replier);
+                    self.events.push_back(RequesterEvent::Matched);
+                }
+                Poll::Ready(Sent::Unmatched) => {
+                    self.all_gone();
+                    self.replier = None;
+                    self.events.push_back(RequesterEvent::Unmatched);
+                }
+                Poll::Ready(Sent::Matched(_) | Sent::Settled(_) | Sent::GivenUp(_)) => (),
+                Poll::Pending => break,
+            }
+        }
+        self.waker = Some(cx.waker().clone());
+        Poll::Pending
     }
 
     /// Sends a request. `id` must be unused among the open requests. Exactly one `Reply` or `Gone` follows; without a match
     /// it is `Gone`.
     pub fn request(&mut self, id: u64, body: Bytes) {
-        let _ = (id, body);
-        unimplemented!()
+        if !self.requests.is_matched() {
+            self.events.push_back(RequesterEvent::Gone { id });
+            if let Some(waker) = self.waker.take() {
+                waker.wake();
+            }
+            return;
+        }
+        self.last += 1;
+        self.open.insert(self.last, id);
+        self.requests.send(Envelope { is_gone: false, id: self.last, body }.encode());
+    }
+
+    fn received(&mut self, received: Received) {
+        let Received::Message(message) = received else { return };
+        self.replied += 1;
+        self.replies.acknowledge(self.replied);
+        let Some(reply) = Envelope::decode(&message) else { return };
+        let Some(id) = self.open.remove(&reply.id) else { return };
+        self.events.push_back(match reply.is_gone {
+            true => RequesterEvent::Gone { id },
+            false => RequesterEvent::Reply { id, body: reply.body },
+        });
+    }
+
+    /// Ends all requests: no other replier may handle them once their callers know that they failed.
+    fn all_gone(&mut self) {
+        if self.requests.unacknowledged() > 0 {
+            self.requests.abandon();
+        }
+        let mut gone: Vec<_> = self.open.drain().collect();
+        gone.sort_unstable();
+        self.events.extend(gone.into_iter().map(|(_, id)| RequesterEvent::Gone { id }));
+    }
+}
+
+impl Drop for WireRequester {
+    fn drop(&mut self) {
+        self.link.presence.unwatch(self.requests.id());
     }
 }

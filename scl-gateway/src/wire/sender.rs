@@ -1,14 +1,28 @@
 //! The end of a route at which messages leave this host.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::task::{Context, Poll};
 
 use bytes::Bytes;
+
+use super::keys::Side;
+use super::link::Link;
+use super::stream::{SendingEnd, SendingMail, Sent};
+use super::token::EndToken;
+use crate::route::Route;
 
 /// Sends the messages of one route.
 ///
 /// Messages are numbered 1, 2, 3, ... in the order of [`send`](Self::send), over the whole life of this value.
 #[derive(Debug)]
-pub struct WireSender {}
+pub struct WireSender {
+    link: Link,
+    end: SendingEnd,
+    token: EndToken,
+    /// Whether the owner waits for credit, and whether there is more since the last time it was told.
+    wants_credit: AtomicBool,
+    has_more: bool,
+}
 
 /// Event of [`WireSender::poll_event`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,38 +42,68 @@ pub enum SenderEvent {
 }
 
 impl WireSender {
+    pub(super) fn new(link: &Link, route: &Route) -> Self {
+        let end = SendingEnd::new(&link.commands, &route.to.host, &route.key, route.queue);
+        let mail = end.mail();
+        link.presence.watch(end.id(), &route.to.host, &route.key, Side::Receiver, move |peer| {
+            mail.push(0, SendingMail::Peer(peer));
+        });
+        let token = EndToken::new(link, &route.key, Side::Sender);
+        WireSender { link: link.clone(), end, token, wants_credit: AtomicBool::new(false), has_more: false }
+    }
+
     /// Shows or withdraws this side's presence. Closed at first. Closing keeps what is unacknowledged.
     pub fn set_open(&mut self, open: bool) {
-        let _ = open;
-        unimplemented!()
+        self.token.set_open(open);
     }
 
     /// The next event. Must be polled while messages are on their way: it also sends what got lost again.
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<SenderEvent> {
-        let _ = cx;
-        unimplemented!()
+        let sent = self.end.poll(cx);
+        self.has_more |= sent.is_ready();
+        let event = match sent {
+            Poll::Ready(Sent::Matched(_)) => SenderEvent::Matched,
+            Poll::Ready(Sent::Unmatched) => SenderEvent::Unmatched,
+            Poll::Ready(Sent::Settled(count)) => SenderEvent::Acknowledged(count),
+            Poll::Ready(Sent::GivenUp(count)) => SenderEvent::GivenUp(count),
+            Poll::Pending if self.is_credit_due() => SenderEvent::Credit,
+            Poll::Pending => return Poll::Pending,
+        };
+        Poll::Ready(event)
+    }
+
+    fn is_credit_due(&mut self) -> bool {
+        let is_due = self.has_more && self.end.may_send(0) && self.wants_credit.swap(false, Ordering::Relaxed);
+        self.has_more &= !is_due;
+        is_due
     }
 
     /// Returns true if the other side is matched and a message of this length fits into the window.
     pub fn may_send(&self, length: usize) -> bool {
-        let _ = length;
-        unimplemented!()
+        let may = self.end.may_send(length);
+        self.wants_credit.store(!may && self.end.unacknowledged() > 0, Ordering::Relaxed);
+        may
     }
 
     /// Sends a message. The caller asks [`may_send`](Self::may_send) before; a message sent without credit or match is kept
     /// and sent when there is.
     pub fn send(&mut self, message: Bytes) {
-        let _ = message;
-        unimplemented!()
+        self.end.send(message);
     }
 
     /// Asks the other side for [`ReceiverEvent::AcknowledgementRequested`](super::ReceiverEvent), for a flush.
     pub fn request_acknowledgement(&mut self) {
-        unimplemented!()
+        self.end.request_flush();
     }
 
     /// Number of messages sent and neither acknowledged nor given up.
     pub fn unacknowledged(&self) -> u64 {
-        unimplemented!()
+        self.end.unacknowledged()
+    }
+}
+
+impl Drop for WireSender {
+    fn drop(&mut self) {
+        self.link.presence.unwatch(self.end.id());
     }
 }

@@ -43,7 +43,7 @@ impl Opener {
         let connections = self.connections(spec, |transport, endpoint| transport.publish(endpoint))?;
         let tap = self.tap(spec)?;
         let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, tap);
-        self.follow(index, gate.figures());
+        self.follow(index, gate.fanout.figures());
         Ok(Pub::new(gate))
     }
 
@@ -53,7 +53,7 @@ impl Opener {
         let connections = self.connections(spec, |transport, endpoint| transport.push(endpoint))?;
         // The puller has the tap.
         let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, GateTap::new(None));
-        self.follow(index, gate.figures());
+        self.follow(index, gate.fanout.figures());
         Ok(Push::new(gate))
     }
 
@@ -122,7 +122,8 @@ impl Opener {
     ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
         let connect = |link: &'static LinkSpec| {
             let lossless = spec.options.backpressure && link.when_full == WhenFull::Wait;
-            let sender = open(self.transports.of_link(spec, link), &Endpoint { lossless, ..self.connecting(spec, link) });
+            let sender =
+                open(self.transports.of_link(spec, link), &Endpoint { lossless, ..self.connecting(spec, link) });
             let sender = sender.map_err(|source| self.refused(spec, source))?;
             let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes());
             Ok(self.state.drive(connection))
@@ -160,17 +161,14 @@ impl Opener {
 }
 
 /// Takes the component's name in the runtime folder.
-fn register(
-    spec: &'static ComponentSpec,
-    options: &OpenOptions,
-) -> Result<(Registration, Transports), OpenError> {
+fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Registration, Transports), OpenError> {
     let (system, media) = (options.system_name(spec.system)?, options.chosen_media()?);
     let stats = stats_period(&|name| options.variable(name))?;
     let failed = |source| OpenError::RuntimeDir { component: spec.name, source };
     let runtime_dir = RuntimeDir::locate(&|name| options.variable(name)).map_err(failed)?;
     let dir = runtime_dir.system(&system).map_err(failed)?;
-    let transports = Transports::in_folder(spec, &dir, media)?;
-    Ok((Registration::in_folder(spec, dir, stats).map_err(failed)?, transports))
+    let transports = Transports::in_folder(spec, &dir, media.clone())?;
+    Ok((Registration::in_folder(spec, dir, stats, &media).map_err(failed)?, transports))
 }
 
 fn endpoint(name: &'static str, spec: &GateSpec) -> Endpoint {

@@ -1,0 +1,121 @@
+//! What the handles and the callbacks of the network library ask of the thread that makes all calls of that library.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc;
+
+use bytes::Bytes;
+use zenoh::query::Query;
+
+use super::header::{Ack, Header};
+use super::mailbox::Mailbox;
+use super::stream::{ReceivingMail, SendingMail};
+
+/// One end of a stream, a token or an announcement, within this process.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct EndId(u64);
+
+impl EndId {
+    pub(super) fn next() -> Self {
+        static LAST: AtomicU64 = AtomicU64::new(0);
+        EndId(LAST.fetch_add(1, Ordering::Relaxed))
+    }
+}
+
+pub(super) enum Command {
+    AddSending {
+        id: EndId,
+        host: String,
+        key: String,
+        mail: Arc<Mailbox<SendingMail>>,
+    },
+    AddReceiving {
+        id: EndId,
+        host: String,
+        key: String,
+        mail: Arc<Mailbox<ReceivingMail>>,
+    },
+    /// Ends an end, a token or an announcement.
+    Remove {
+        id: EndId,
+    },
+    /// Queues a message or, if empty, a probe behind what this end has queued.
+    Emit {
+        id: EndId,
+        header: Header,
+        message: Bytes,
+    },
+    /// Forgets what this end has queued.
+    Clear {
+        id: EndId,
+    },
+    Acknowledge {
+        id: EndId,
+        ack: Ack,
+    },
+    Token {
+        id: EndId,
+        key: String,
+    },
+    Announce {
+        id: EndId,
+        key: String,
+        content: Bytes,
+    },
+    /// A neighbour wants a part of an announcement.
+    Asked {
+        id: EndId,
+        query: Query,
+    },
+    /// A neighbour's announcement appeared or disappeared.
+    Fetch {
+        key: String,
+    },
+    Forget {
+        key: String,
+    },
+    /// A part of a neighbour's announcement arrived, or did not.
+    Part {
+        key: String,
+        part: Option<Part>,
+    },
+    /// The gateway of a host appeared, was replaced or disappeared.
+    Host {
+        host: String,
+        is_present: bool,
+    },
+    /// A neighbour wants to know when this arrived, or tells that it did.
+    Mark {
+        host: String,
+        number: u64,
+    },
+    Echo {
+        host: String,
+        number: u64,
+    },
+    Close {
+        done: Option<tokio::sync::oneshot::Sender<()>>,
+    },
+}
+
+/// A part of an announcement.
+pub(super) struct Part {
+    pub(super) offset: u64,
+    pub(super) total: u64,
+    pub(super) bytes: Bytes,
+}
+
+/// The way to the thread. Commands after its end are ignored.
+#[derive(Debug, Clone)]
+pub(super) struct Commands(mpsc::Sender<Command>);
+
+impl Commands {
+    pub(super) fn new() -> (Commands, mpsc::Receiver<Command>) {
+        let (sender, receiver) = mpsc::channel();
+        (Commands(sender), receiver)
+    }
+
+    pub(super) fn send(&self, command: Command) {
+        let _ = self.0.send(command);
+    }
+}

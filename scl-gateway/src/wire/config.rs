@@ -1,0 +1,137 @@
+//! The configuration of the network library.
+//!
+//! Every key is written out, also where the default would do, because defaults and even keys change between its versions;
+//! unknown keys are errors, and a test reads all of them back.
+
+use std::net::IpAddr;
+
+use serde_json::{Value, json};
+
+use super::access;
+use super::error::WireError;
+use super::options::{Peer, WireOptions};
+
+/// A link without any sign of life for this long is closed. A loaded machine must not get there, and a dead link should be
+/// noticed soon.
+const LEASE_MS: u64 = 2000;
+/// Signs of life per lease.
+const KEEP_ALIVE: u64 = 5;
+/// Longest pause between two attempts to connect: everything resumes within 1 s after the link is back.
+const RETRY_MS: u64 = 250;
+/// Longest attempt. A lost SYN is repeated after 1 s and then after 3 s, so a new attempt after 2 s is sooner.
+const OPEN_TIMEOUT_MS: u64 = 2000;
+
+/// Checks the options, and returns the configuration as JSON.
+pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
+    let protocol = if options.tls.is_some() { "tls" } else { "tcp" };
+    for address in options.listen.iter().chain(options.peers.iter().filter_map(|peer| peer.address.as_ref())) {
+        check_address(address, options.tls.is_some() || options.insecure)?;
+    }
+    let endpoint = |address: &String| format!("{protocol}/{address}");
+    let listen: Vec<_> = options.listen.iter().map(endpoint).collect();
+    let connect: Vec<_> =
+        options.peers.iter().filter(|peer| dials(options, peer)).filter_map(|peer| peer.address.as_ref()).collect();
+    let connect: Vec<_> = connect.into_iter().map(endpoint).collect();
+    Ok(json!({
+        "mode": "peer",
+        "listen": { "endpoints": listen, "timeout_ms": 0, "exit_on_failure": true },
+        "connect": {
+            "endpoints": connect,
+            "timeout_ms": -1,
+            "exit_on_failure": false,
+            "retry": { "period_init_ms": 100, "period_max_ms": RETRY_MS, "period_increase_factor": 1.5 },
+        },
+        "open": { "return_conditions": { "connect_scouted": false, "declares": false } },
+        "scouting": {
+            "delay": 0,
+            "multicast": { "enabled": false },
+            "gossip": { "enabled": false },
+        },
+        "timestamping": { "enabled": false },
+        "transport": {
+            "unicast": {
+                "open_timeout": OPEN_TIMEOUT_MS,
+                "accept_timeout": OPEN_TIMEOUT_MS,
+                "max_links": 1,
+                // Loses messages over 64 KiB.
+                "lowlatency": false,
+                "qos": { "enabled": true },
+            },
+            "link": {
+                "protocols": [protocol],
+                "tx": {
+                    "lease": LEASE_MS,
+                    "keep_alive": KEEP_ALIVE,
+                    "queue": {
+                        // Room for the windows of `lane`, and for the acknowledgements of all routes.
+                        "size": {
+                            "control": 4, "real_time": 1, "interactive_high": 16, "interactive_low": 1,
+                            "data_high": 1, "data": 16, "data_low": 1, "background": 1,
+                        },
+                        "congestion_control": {
+                            "drop": { "wait_before_drop": 1000, "max_wait_before_drop_fragments": 50000 },
+                            // For declarations only: nothing of ours blocks.
+                            "block": { "wait_before_close": 5000000 },
+                        },
+                        "allocation": { "mode": "lazy" },
+                    },
+                },
+                "tls": tls(options)?,
+            },
+            "shared_memory": { "enabled": false },
+        },
+        "adminspace": { "enabled": false, "permissions": { "read": false, "write": false } },
+        "access_control": access::access_control(options),
+    }))
+}
+
+/// Whether this host connects to a peer, instead of waiting for it: exactly one of two hosts does.
+fn dials(options: &WireOptions, peer: &Peer) -> bool {
+    options.listen.is_none() || options.host < peer.host
+}
+
+fn check_address(address: &str, any: bool) -> Result<(), WireError> {
+    let malformed = || WireError::Address { address: address.to_owned() };
+    let (host, port) = address.rsplit_once(':').ok_or_else(malformed)?;
+    port.parse::<u16>().map_err(|_| malformed())?;
+    let literal = host.strip_prefix('[').and_then(|host| host.strip_suffix(']')).unwrap_or(host);
+    let ip: Option<IpAddr> = literal.parse().ok();
+    let is_unbracketed = literal.contains(':') && literal.len() == host.len();
+    let is_foreign = |character: char| !character.is_ascii_alphanumeric() && !".-_:%".contains(character);
+    if literal.is_empty() || is_unbracketed || literal.contains(is_foreign) {
+        return Err(malformed());
+    }
+    match any || literal == "localhost" || ip.is_some_and(|ip| ip.is_loopback()) {
+        true => Ok(()),
+        false => Err(WireError::NoTls { address: address.to_owned() }),
+    }
+}
+
+fn tls(options: &WireOptions) -> Result<Value, WireError> {
+    let Some(files) = &options.tls else { return Ok(json!({})) };
+    let refuse = |reason: String| WireError::Certificates { host: options.host.clone(), reason };
+    let mut paths = Vec::new();
+    for (path, kind) in
+        [(&files.authority, "CERTIFICATE"), (&files.certificate, "CERTIFICATE"), (&files.key, "PRIVATE KEY")]
+    {
+        let text = std::fs::read_to_string(path).map_err(|error| refuse(format!("`{}`: {error}", path.display())))?;
+        if !text.contains(&format!("{kind}-----")) {
+            return Err(refuse(format!("`{}` is not a {} in PEM", path.display(), kind.to_lowercase())));
+        }
+        let path = path.to_str().ok_or_else(|| refuse(format!("the path `{}` is not UTF-8", path.display())))?;
+        paths.push(path.to_owned());
+    }
+    Ok(json!({
+        "root_ca_certificate": paths[0],
+        "listen_certificate": paths[1],
+        "connect_certificate": paths[1],
+        "listen_private_key": paths[2],
+        "connect_private_key": paths[2],
+        "enable_mtls": true,
+        "verify_name_on_connect": true,
+        "close_link_on_expiration": true,
+    }))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,149 @@
+//! What travels beside the bytes of a message, and the acknowledgements that come back.
+
+/// Attachment of everything that goes from a sending end to a receiving end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Header {
+    pub(super) kind: Kind,
+    /// Random number of the sending end; another one begins its messages with 1 again.
+    pub(super) stream: u64,
+    /// Random number of the receiving end that this is for.
+    pub(super) epoch: u64,
+    /// How often the sending end has started over. Lets it tell news from old losses.
+    pub(super) attempt: u32,
+    /// Number of the message; for [`Kind::Probe`] of the last message sent before.
+    pub(super) sequence: u64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Whole,
+    /// A part of a message of `total` bytes.
+    Chunk {
+        offset: u64,
+        total: u64,
+    },
+    /// Asks for an acknowledgement of what has arrived; with `flush` also for what it takes to empty the queue.
+    Probe {
+        flush: bool,
+    },
+}
+
+impl Header {
+    pub(super) fn encode(&self) -> Vec<u8> {
+        let (kind, extra) = match self.kind {
+            Kind::Whole => (0, None),
+            Kind::Chunk { offset, total } => (1, Some((offset, total))),
+            Kind::Probe { flush: false } => (2, None),
+            Kind::Probe { flush: true } => (3, None),
+        };
+        let mut bytes = Vec::with_capacity(45);
+        bytes.push(kind);
+        bytes.extend(self.stream.to_be_bytes());
+        bytes.extend(self.epoch.to_be_bytes());
+        bytes.extend(self.attempt.to_be_bytes());
+        bytes.extend(self.sequence.to_be_bytes());
+        if let Some((offset, total)) = extra {
+            bytes.extend(offset.to_be_bytes());
+            bytes.extend(total.to_be_bytes());
+        }
+        bytes
+    }
+
+    pub(super) fn decode(bytes: &[u8]) -> Option<Header> {
+        let (kind, mut rest) = bytes.split_first()?;
+        let (stream, epoch) = (take_u64(&mut rest)?, take_u64(&mut rest)?);
+        let (attempt, after) = rest.split_first_chunk()?;
+        rest = after;
+        let sequence = take_u64(&mut rest)?;
+        let kind = match kind {
+            0 => Kind::Whole,
+            1 => Kind::Chunk { offset: take_u64(&mut rest)?, total: take_u64(&mut rest)? },
+            2 => Kind::Probe { flush: false },
+            3 => Kind::Probe { flush: true },
+            _ => return None,
+        };
+        let attempt = u32::from_be_bytes(*attempt);
+        (rest.is_empty() && sequence > 0 || matches!(kind, Kind::Probe { .. })).then_some(Header {
+            kind,
+            stream,
+            epoch,
+            attempt,
+            sequence,
+        })
+    }
+}
+
+/// What a receiving end says about a stream. The counts are cumulative.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Ack {
+    pub(super) stream: u64,
+    pub(super) epoch: u64,
+    /// The attempt of the newest header.
+    pub(super) attempt: u32,
+    /// Messages that the gateway has.
+    pub(super) received: u64,
+    /// Messages that the component has.
+    pub(super) taken: u64,
+    /// All messages up to this one were sent before what this answers, so those after `received` are lost.
+    pub(super) seen: u64,
+}
+
+impl Ack {
+    pub(super) fn encode(&self) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(44);
+        bytes.extend(self.attempt.to_be_bytes());
+        for number in [self.stream, self.epoch, self.received, self.taken, self.seen] {
+            bytes.extend(number.to_be_bytes());
+        }
+        bytes
+    }
+
+    pub(super) fn decode(bytes: &[u8]) -> Option<Ack> {
+        let (attempt, mut rest) = bytes.split_first_chunk()?;
+        let mut next = || take_u64(&mut rest);
+        let (stream, epoch, received, taken, seen) = (next()?, next()?, next()?, next()?, next()?);
+        let attempt = u32::from_be_bytes(*attempt);
+        (rest.is_empty() && taken <= received).then_some(Ack { stream, epoch, attempt, received, taken, seen })
+    }
+}
+
+fn take_u64(bytes: &mut &[u8]) -> Option<u64> {
+    let (number, rest) = bytes.split_first_chunk()?;
+    *bytes = rest;
+    Some(u64::from_be_bytes(*number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_survive_and_anything_else_is_refused() {
+        let kinds = [
+            Kind::Whole,
+            Kind::Chunk { offset: 5, total: 1 << 40 },
+            Kind::Probe { flush: false },
+            Kind::Probe { flush: true },
+        ];
+        for kind in kinds {
+            let header = Header { kind, stream: 1, epoch: u64::MAX, attempt: 3, sequence: 4 };
+            let bytes = header.encode();
+            assert_eq!(Header::decode(&bytes), Some(header));
+            for end in 0..bytes.len() {
+                assert_eq!(Header::decode(&bytes[..end]), None);
+            }
+        }
+        let number_zero = Header { kind: Kind::Whole, stream: 1, epoch: 2, attempt: 3, sequence: 0 };
+        assert_eq!(Header::decode(&number_zero.encode()), None);
+        assert_eq!(Header::decode(&[9; 29]), None);
+    }
+
+    #[test]
+    fn acknowledgements_survive_and_impossible_ones_are_refused() {
+        let ack = Ack { stream: 1, epoch: 2, attempt: 3, received: 5, taken: 4, seen: 6 };
+        let bytes = ack.encode();
+        assert_eq!(Ack::decode(&bytes), Some(ack));
+        assert_eq!(Ack::decode(&bytes[..43]), None);
+        assert_eq!(Ack::decode(&Ack { taken: 6, ..ack }.encode()), None);
+    }
+}

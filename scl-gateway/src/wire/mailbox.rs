@@ -1,0 +1,77 @@
+//! Queues between threads: anybody puts something in, one task takes it out.
+
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard};
+use std::task::{Context, Poll, Waker};
+
+/// A queue whose reader is woken. Its size is bounded by weight; what is beyond is dropped, as a network may.
+#[derive(Debug)]
+pub(super) struct Mailbox<T> {
+    inner: Mutex<Inner<T>>,
+    capacity: u64,
+}
+
+#[derive(Debug)]
+struct Inner<T> {
+    queue: VecDeque<(u64, T)>,
+    weight: u64,
+    waker: Option<Waker>,
+}
+
+impl<T> Mailbox<T> {
+    pub(super) fn new(capacity: u64) -> Self {
+        Mailbox { inner: Mutex::new(Inner { queue: VecDeque::new(), weight: 0, waker: None }), capacity }
+    }
+
+    /// Adds an item. What weighs nothing always fits. Returns false if it was dropped.
+    pub(super) fn push(&self, weight: u64, item: T) -> bool {
+        let mut inner = self.lock();
+        if weight > 0 && inner.weight + weight > self.capacity {
+            return false;
+        }
+        inner.weight += weight;
+        inner.queue.push_back((weight, item));
+        let waker = inner.waker.take();
+        drop(inner);
+        if let Some(waker) = waker {
+            waker.wake();
+        }
+        true
+    }
+
+    pub(super) fn poll(&self, cx: &mut Context<'_>) -> Poll<T> {
+        let mut inner = self.lock();
+        match inner.queue.pop_front() {
+            Some((weight, item)) => {
+                inner.weight -= weight;
+                Poll::Ready(item)
+            }
+            None => {
+                inner.waker = Some(cx.waker().clone());
+                Poll::Pending
+            }
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Inner<T>> {
+        self.inner.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn is_bounded_by_weight_but_takes_what_weighs_nothing() {
+        let mailbox = Mailbox::new(10);
+        assert!(mailbox.push(6, 'a'));
+        assert!(!mailbox.push(5, 'b'));
+        assert!(mailbox.push(0, 'c'));
+        assert!(mailbox.push(4, 'd'));
+        let cx = &mut Context::from_waker(Waker::noop());
+        assert_eq!([(); 3].map(|()| mailbox.poll(cx)), ['a', 'c', 'd'].map(Poll::Ready));
+        assert!(mailbox.poll(cx).is_pending());
+        assert!(mailbox.push(10, 'e'));
+    }
+}

@@ -1,0 +1,171 @@
+//! The decisions of a sending end: what to send, what to send again, what to give up.
+
+use std::collections::VecDeque;
+
+use bytes::Bytes;
+
+use crate::wire::header::{Ack, Header, Kind};
+use crate::wire::{WINDOW_BYTES, WINDOW_MESSAGES};
+
+/// Messages that are sent and not acknowledged, and how far they are.
+#[derive(Debug)]
+pub(super) struct Outgoing {
+    window: usize,
+    stream: u64,
+    /// The receiving end that the numbers belong to.
+    epoch: Option<u64>,
+    matched: bool,
+    waiting: VecDeque<Bytes>,
+    waiting_bytes: u64,
+    /// How many of `waiting` are on their way.
+    emitted: usize,
+    /// How many of `waiting` were ever on their way to `epoch`.
+    tried: usize,
+    attempt: u32,
+    /// Messages settled (acknowledged, given up or abandoned) in all, and how many of them before this stream.
+    settled: u64,
+    base: u64,
+    flush: bool,
+}
+
+impl Outgoing {
+    pub(super) fn new(queue: u32, stream: u64) -> Self {
+        Outgoing {
+            window: queue.clamp(1, WINDOW_MESSAGES) as usize,
+            stream,
+            epoch: None,
+            matched: false,
+            waiting: VecDeque::new(),
+            waiting_bytes: 0,
+            emitted: 0,
+            tried: 0,
+            attempt: 0,
+            settled: 0,
+            base: 0,
+            flush: false,
+        }
+    }
+
+    pub(super) fn is_matched(&self) -> bool {
+        self.matched
+    }
+
+    pub(super) fn unacknowledged(&self) -> usize {
+        self.waiting.len()
+    }
+
+    /// Whether an answer is due.
+    pub(super) fn awaits_answer(&self) -> bool {
+        self.matched && self.emitted > 0
+    }
+
+    pub(super) fn may_push(&self, length: usize) -> bool {
+        let fits = self.waiting_bytes + length as u64 <= WINDOW_BYTES || self.waiting.is_empty();
+        self.matched && fits && self.waiting.len() < self.window
+    }
+
+    pub(super) fn push(&mut self, message: Bytes) {
+        self.waiting_bytes += message.len() as u64;
+        self.waiting.push_back(message);
+    }
+
+    /// Begins or resumes with a receiving end. Returns how many messages are given up.
+    pub(super) fn matched(&mut self, epoch: u64) -> u64 {
+        self.matched = true;
+        if self.epoch == Some(epoch) {
+            self.start_over(0);
+            return 0;
+        }
+        let given_up = self.tried;
+        self.settle(given_up);
+        self.epoch = Some(epoch);
+        self.base = self.settled;
+        self.attempt = 0;
+        (self.emitted, self.tried) = (0, 0);
+        given_up as u64
+    }
+
+    pub(super) fn unmatched(&mut self) {
+        self.matched = false;
+    }
+
+    /// Forgets all messages and begins a new stream, so that the receiving end does not wait for them.
+    pub(super) fn abandon(&mut self, stream: u64) {
+        self.settle(self.waiting.len());
+        self.stream = stream;
+        self.base = self.settled;
+        self.attempt = 0;
+        (self.emitted, self.tried) = (0, 0);
+    }
+
+    /// The next message to put on its way, within the window.
+    pub(super) fn emit(&mut self) -> Option<(Header, Bytes)> {
+        let message = self.waiting.get(self.emitted).filter(|_| self.matched && self.emitted < self.window)?.clone();
+        self.emitted += 1;
+        self.tried = self.tried.max(self.emitted);
+        Some((self.header(Kind::Whole)?, message))
+    }
+
+    /// A header that asks for an answer.
+    pub(super) fn probe(&self) -> Option<Header> {
+        self.matched.then(|| self.header(Kind::Probe { flush: self.flush })).flatten()
+    }
+
+    pub(super) fn request_flush(&mut self) {
+        self.flush = true;
+    }
+
+    /// Handles an acknowledgement. Messages that turn out to be lost are emitted again.
+    pub(super) fn acknowledged(&mut self, ack: &Ack) -> Progress {
+        let mut progress = Progress::default();
+        if ack.stream != self.stream || Some(ack.epoch) != self.epoch {
+            return progress;
+        }
+        let last = self.settled - self.base + self.tried as u64;
+        let taken = ack.taken.min(last).saturating_sub(self.settled - self.base);
+        if taken > 0 {
+            self.settle(taken as usize);
+            self.flush &= !self.waiting.is_empty();
+            progress.settled = Some(self.settled);
+        }
+        if self.matched && ack.attempt == self.attempt && ack.received < ack.seen && ack.received < last {
+            let arrived = ack.received.saturating_sub(self.settled - self.base) as usize;
+            if arrived < self.emitted {
+                self.start_over(arrived);
+                progress.started_over = true;
+            }
+        }
+        progress
+    }
+
+    fn start_over(&mut self, arrived: usize) {
+        self.emitted = arrived.min(self.waiting.len());
+        self.attempt = self.attempt.wrapping_add(1);
+    }
+
+    fn settle(&mut self, count: usize) {
+        for message in self.waiting.drain(..count) {
+            self.waiting_bytes -= message.len() as u64;
+        }
+        self.emitted = self.emitted.saturating_sub(count);
+        self.tried = self.tried.saturating_sub(count);
+        self.settled += count as u64;
+    }
+
+    fn header(&self, kind: Kind) -> Option<Header> {
+        let sequence = self.settled - self.base + self.emitted as u64;
+        Some(Header { kind, stream: self.stream, epoch: self.epoch?, attempt: self.attempt, sequence })
+    }
+}
+
+/// What an acknowledgement changed.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(super) struct Progress {
+    /// Messages settled in all, if more than before.
+    pub(super) settled: Option<u64>,
+    /// Copies of messages that have not left yet are superfluous: all are emitted again.
+    pub(super) started_over: bool,
+}
+
+#[cfg(test)]
+mod tests;

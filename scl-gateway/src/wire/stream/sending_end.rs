@@ -1,0 +1,188 @@
+//! A sending end: its decisions, the thread that sends, the timer of its probes.
+
+use std::collections::VecDeque;
+use std::pin::Pin;
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use std::time::Duration;
+
+use bytes::Bytes;
+use tokio::time::{Instant, Sleep};
+
+use super::outgoing::Outgoing;
+use crate::wire::command::{Command, Commands, EndId};
+use crate::wire::header::Ack;
+use crate::wire::mailbox::Mailbox;
+use crate::wire::random;
+
+/// Time without progress until the first probe. Probes only find what a gap in the numbers did not show, so this may be
+/// well above a round trip.
+const FIRST_PROBE: Duration = Duration::from_millis(300);
+const LAST_PROBE: Duration = Duration::from_secs(5);
+
+/// What callbacks tell a sending end.
+#[derive(Debug)]
+pub(in crate::wire) enum SendingMail {
+    /// The receiving end that is open now.
+    Peer(Option<u64>),
+    Ack(Ack),
+}
+
+/// What a sending end tells its owner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::wire) enum Sent {
+    Matched(u64),
+    Unmatched,
+    Settled(u64),
+    GivenUp(u64),
+}
+
+#[derive(Debug)]
+pub(in crate::wire) struct SendingEnd {
+    id: EndId,
+    commands: Commands,
+    mail: Arc<Mailbox<SendingMail>>,
+    outgoing: Outgoing,
+    events: VecDeque<Sent>,
+    pause: Duration,
+    timer: Option<Pin<Box<Sleep>>>,
+}
+
+impl SendingEnd {
+    /// Sends on `key` to `host`.
+    pub(in crate::wire) fn new(commands: &Commands, host: &str, key: &str, queue: u32) -> Self {
+        let id = EndId::next();
+        let mail = Arc::new(Mailbox::new(u64::MAX));
+        commands.send(Command::AddSending { id, host: host.to_owned(), key: key.to_owned(), mail: Arc::clone(&mail) });
+        SendingEnd {
+            id,
+            commands: commands.clone(),
+            mail,
+            outgoing: Outgoing::new(queue, random()),
+            events: VecDeque::new(),
+            pause: FIRST_PROBE,
+            timer: None,
+        }
+    }
+
+    pub(in crate::wire) fn mail(&self) -> Arc<Mailbox<SendingMail>> {
+        Arc::clone(&self.mail)
+    }
+
+    pub(in crate::wire) fn id(&self) -> EndId {
+        self.id
+    }
+
+    pub(in crate::wire) fn may_send(&self, length: usize) -> bool {
+        self.outgoing.may_push(length)
+    }
+
+    pub(in crate::wire) fn is_matched(&self) -> bool {
+        self.outgoing.is_matched()
+    }
+
+    pub(in crate::wire) fn unacknowledged(&self) -> u64 {
+        self.outgoing.unacknowledged() as u64
+    }
+
+    pub(in crate::wire) fn send(&mut self, message: Bytes) {
+        self.outgoing.push(message);
+        self.emit();
+    }
+
+    pub(in crate::wire) fn request_flush(&mut self) {
+        self.outgoing.request_flush();
+        self.probe();
+    }
+
+    /// Forgets everything that is unacknowledged.
+    pub(in crate::wire) fn abandon(&mut self) {
+        self.commands.send(Command::Clear { id: self.id });
+        self.outgoing.abandon(random());
+    }
+
+    pub(in crate::wire) fn poll(&mut self, cx: &mut Context<'_>) -> Poll<Sent> {
+        loop {
+            if let Some(event) = self.events.pop_front() {
+                return Poll::Ready(event);
+            }
+            match self.mail.poll(cx) {
+                Poll::Ready(mail) => self.handle(mail),
+                Poll::Pending => break,
+            }
+        }
+        self.poll_timer(cx);
+        Poll::Pending
+    }
+
+    fn handle(&mut self, mail: SendingMail) {
+        match mail {
+            SendingMail::Peer(Some(epoch)) => {
+                self.commands.send(Command::Clear { id: self.id });
+                let given_up = self.outgoing.matched(epoch);
+                self.events.push_back(Sent::Matched(epoch));
+                if given_up > 0 {
+                    self.events.push_back(Sent::GivenUp(given_up));
+                }
+                self.restart_timer();
+                self.emit();
+            }
+            SendingMail::Peer(None) => {
+                self.commands.send(Command::Clear { id: self.id });
+                if self.outgoing.is_matched() {
+                    self.outgoing.unmatched();
+                    self.events.push_back(Sent::Unmatched);
+                }
+            }
+            SendingMail::Ack(ack) => {
+                let progress = self.outgoing.acknowledged(&ack);
+                if progress.started_over {
+                    self.commands.send(Command::Clear { id: self.id });
+                }
+                if let Some(settled) = progress.settled {
+                    self.events.push_back(Sent::Settled(settled));
+                    self.restart_timer();
+                }
+                self.emit();
+            }
+        }
+    }
+
+    fn emit(&mut self) {
+        while let Some((header, message)) = self.outgoing.emit() {
+            self.commands.send(Command::Emit { id: self.id, header, message });
+        }
+    }
+
+    fn probe(&mut self) {
+        if let Some(header) = self.outgoing.probe() {
+            self.commands.send(Command::Emit { id: self.id, header, message: Bytes::new() });
+        }
+    }
+
+    fn restart_timer(&mut self) {
+        self.pause = FIRST_PROBE;
+        self.timer = None;
+    }
+
+    /// Probes while an answer is due, less and less often.
+    fn poll_timer(&mut self, cx: &mut Context<'_>) {
+        while self.outgoing.awaits_answer() {
+            let pause = self.pause;
+            let timer = self.timer.get_or_insert_with(|| Box::pin(tokio::time::sleep(pause)));
+            if timer.as_mut().poll(cx).is_pending() {
+                return;
+            }
+            self.pause = (self.pause * 2).min(LAST_PROBE);
+            timer.as_mut().reset(Instant::now() + self.pause);
+            self.probe();
+        }
+        self.timer = None;
+    }
+}
+
+impl Drop for SendingEnd {
+    fn drop(&mut self) {
+        self.commands.send(Command::Remove { id: self.id });
+    }
+}

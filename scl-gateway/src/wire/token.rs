@@ -1,0 +1,44 @@
+//! The token of an end of a route, while it is open.
+
+use super::command::{Command, Commands, EndId};
+use super::keys::{self, Side};
+use super::link::Link;
+use super::random;
+
+#[derive(Debug)]
+pub(super) struct EndToken {
+    commands: Commands,
+    key: String,
+    side: Side,
+    instance: String,
+    open: Option<EndId>,
+}
+
+impl EndToken {
+    pub(super) fn new(link: &Link, key: &str, side: Side) -> Self {
+        let (commands, instance) = (link.commands.clone(), link.instance.clone());
+        EndToken { commands, key: key.to_owned(), side, instance, open: None }
+    }
+
+    /// Declares or withdraws the token. Returns its new number if it was opened.
+    pub(super) fn set_open(&mut self, open: bool) -> Option<u64> {
+        if open == self.open.is_some() {
+            return None;
+        }
+        if let Some(id) = self.open.take() {
+            self.commands.send(Command::Remove { id });
+            return None;
+        }
+        let (id, number) = (EndId::next(), random());
+        self.open = Some(id);
+        let key = keys::end_token(&self.key, self.side, &self.instance, number);
+        self.commands.send(Command::Token { id, key });
+        Some(number)
+    }
+}
+
+impl Drop for EndToken {
+    fn drop(&mut self) {
+        self.set_open(false);
+    }
+}
