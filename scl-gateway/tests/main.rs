@@ -18,3 +18,4 @@ mod namespace;
 mod network;
 mod player;
 mod receipts;
+mod strangers;
