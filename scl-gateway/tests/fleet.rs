@@ -77,6 +77,17 @@ impl Fleet {
         self.gateways.remove(host).unwrap().kill();
     }
 
+    /// Waits until a gateway has ended by itself; its exit status and its log.
+    pub(crate) fn wait_for_gateway(&mut self, host: &str) -> (std::process::ExitStatus, String) {
+        let gateway = self.gateways.remove(host).unwrap();
+        let status = gateway.wait_for_exit();
+        (status, std::fs::read_to_string(self.log_file(host)).unwrap())
+    }
+
+    pub(crate) fn forget_log(&mut self, host: &str) {
+        std::fs::remove_file(self.log_file(host)).unwrap();
+    }
+
     fn log_file(&self, host: &str) -> PathBuf {
         self.files.path(&format!("{host}.log"))
     }

@@ -4,6 +4,7 @@
 mod accounts;
 mod bad_network;
 mod cable;
+mod certificates;
 mod clocks;
 mod control_loop;
 mod cut;
@@ -12,6 +13,7 @@ mod files;
 mod fleet;
 mod gateway;
 mod host;
+mod identities;
 mod kills;
 mod long;
 mod namespace;
