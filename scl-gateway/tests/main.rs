@@ -1,1 +1,3 @@
 //! The gateway as processes on real networks.
+
+mod wire;
