@@ -21,3 +21,4 @@ mod network;
 mod player;
 mod receipts;
 mod strangers;
+mod wire;
