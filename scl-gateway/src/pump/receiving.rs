@@ -1,7 +1,7 @@
 //! Messages that arrive at this host.
 
-use super::local_end::{Attempts, Timer, names, window};
 use super::Counts;
+use super::local_end::{Attempts, Timer, names, window};
 use crate::local::{Held, Run, View};
 use crate::route::Route;
 use crate::wire::{ReceiverEvent, WireReceiver};
@@ -91,7 +91,6 @@ impl Receiving {
                 // Never more than a window, because none is acknowledged earlier.
                 ReceiverEvent::Message(message) => self.state.queue.push_back(message.into()),
                 ReceiverEvent::AcknowledgementRequested => self.state.flush = true,
-                _ => {}
             }
         }
         self.close_if_done(cx);
@@ -141,16 +140,17 @@ impl Receiving {
         let opened = match &self.mirror {
             Some(view) => {
                 let Some(mirror) = view.borrow().clone() else { return };
-                let sender = state.attempts.open(cx, route, || {
-                    Ok(transport.publish(&mirror.publishing(gate, names(&route.to))?)?)
-                });
+                let sender = state
+                    .attempts
+                    .open(cx, route, || Ok(transport.publish(&mirror.publishing(gate, names(&route.to))?)?));
                 debug_assert!(!component.is_empty(), "a publisher has a name");
                 sender.map(|sender| (sender, Some(mirror)))
             }
             // Without a component to connect to, nothing is tried.
             None if self.component.borrow().is_none() => return,
             None => {
-                let endpoint = Endpoint { lossless: route.lossless, ..Endpoint::new(route.endpoint.clone()) };
+                let mut endpoint = Endpoint::new(route.endpoint.clone());
+                (endpoint.lossless, endpoint.queue) = (route.lossless, route.queue as usize);
                 state.attempts.open(cx, route, || Ok(transport.push(&endpoint)?)).map(|sender| (sender, None))
             }
         };

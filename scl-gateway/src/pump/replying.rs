@@ -1,7 +1,7 @@
 //! Requests that arrive at this host.
 
-use super::local_end::{Attempts, BATCH};
 use super::Counts;
+use super::local_end::{Attempts, BATCH};
 use crate::local::{Run, View};
 use crate::route::Route;
 use crate::wire::{ReplierEvent, WireReplier};
@@ -57,7 +57,6 @@ impl Replying {
                 ReplierEvent::Matched => self.state.matched = true,
                 ReplierEvent::Unmatched => self.state.matched = false,
                 ReplierEvent::Request { id, body } => self.request(cx, id, body),
-                _ => {}
             }
             self.open_or_close(cx);
             self.connect(cx);
@@ -75,8 +74,8 @@ impl Replying {
             self.close();
         } else if is_wanted && state.local.is_none() {
             let (route, transport) = (&self.route, &self.transport);
-            let max_size = usize::try_from(route.max_size).unwrap_or(usize::MAX);
-            let endpoint = Endpoint { max_size, ..Endpoint::new(route.endpoint.clone()) };
+            let mut endpoint = Endpoint::new(route.endpoint.clone());
+            endpoint.max_size = usize::try_from(route.max_size).unwrap_or(usize::MAX);
             state.local = state.attempts.open(cx, route, || Ok(transport.request(&endpoint)?));
         }
     }

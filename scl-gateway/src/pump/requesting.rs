@@ -1,7 +1,7 @@
 //! Requests that leave this host.
 
-use super::local_end::{Attempts, BATCH, names};
 use super::Counts;
+use super::local_end::{Attempts, BATCH, names};
 use crate::local::{Held, View};
 use crate::route::Route;
 use crate::wire::{RequesterEvent, WireRequester};
@@ -87,7 +87,6 @@ impl Requesting {
                 let unanswered = state.open.remove(&id);
                 self.counts.add_given_up(u64::from(unanswered.is_some()));
             }
-            _ => {}
         }
     }
 

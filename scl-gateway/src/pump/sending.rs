@@ -1,7 +1,7 @@
 //! Messages that leave this host.
 
-use super::local_end::{Attempts, BATCH, Timer, end_name, names, window};
 use super::Counts;
+use super::local_end::{Attempts, BATCH, Timer, end_name, names, window};
 use crate::local::{Held, Run, View};
 use crate::route::Route;
 use crate::wire::{SenderEvent, WireSender};
@@ -109,7 +109,7 @@ impl Sending {
                 tracing::warn!("{count} messages from {from} to {to} were on their way when {to} was lost; given up");
                 self.settle(self.state.settled + count);
             }
-            _ => {}
+            SenderEvent::Credit => {}
         }
     }
 
@@ -156,13 +156,14 @@ impl Sending {
                 let local = |receiver| Local { receiver, mirror, finishing: false, limit: Timer::default() };
                 state.local = receiver.map(local);
             }
-            (Some(local), mirror) if !mirror.is_some_and(|mirror| mirror.is_same(&local.mirror)) => {
-                if !std::mem::replace(&mut local.finishing, true) {
+            (Some(local), mirror) => {
+                let is_wanted = mirror.is_some_and(|mirror| mirror.is_same(&local.mirror));
+                if !is_wanted && !std::mem::replace(&mut local.finishing, true) {
                     local.receiver.finish();
                     local.limit.start(FINISH_LIMIT);
                 }
             }
-            _ => {}
+            (None, None) => {}
         }
     }
 
