@@ -15,6 +15,7 @@ mod gateway;
 mod host;
 mod identities;
 mod kills;
+mod local;
 mod long;
 mod namespace;
 mod network;

@@ -1,0 +1,9 @@
+//! Components of two hosts and their gateways in one process, over loopback: the components are those of `scl`, and know
+//! nothing of gateways.
+
+mod accounts;
+mod hosts;
+mod messages;
+mod presence;
+mod requests;
+mod restarts;
