@@ -4,3 +4,7 @@
 pub mod deployment;
 pub mod route;
 pub mod wire;
+
+// For the certificates that tests of both kinds use.
+#[cfg(test)]
+extern crate self as scl_gateway;
