@@ -9,7 +9,7 @@ components:
     gates: [{frames: pub}]
   - name: viewer
     gates: [{frames: sub}]
-connections: [camera.frames -> viewer.frames]
+connections: [[camera.frames, viewer.frames]]
 ";
 
 fn launch(transports: &str) -> String {
@@ -49,9 +49,47 @@ transports:
   1: ipc";
     let system = System::of_files(&[("launch.yaml", &launch(wrong)), ("topology.yaml", TOPOLOGY)]);
     let output = system.run(&["launch.yaml"]);
-    expect![[]].assert_eq(&String::from_utf8(output.stderr).unwrap());
+    expect![[r#"
+        error: `transport` is `ipc`, `tcp` or `shm`, not `shn`
+         --> launch.yaml:2:1
+          = help: did you mean `transport: shm`?
+
+        error: unknown gate `camera.frame`
+         --> launch.yaml:4:3
+          = help: did you mean `camera.frames`?
+          = note: component `camera` has the gates `camera.frames`
+
+        error: unknown gate `camra.frames`
+         --> launch.yaml:5:3
+          = help: did you mean `camera.frames`?
+          = note: the topology has the components `camera`, `viewer`
+
+        error: unknown gate `viewer.x`
+         --> launch.yaml:6:3
+          = note: component `viewer` has the gates `viewer.frames`
+
+        error: a gate is named like `camera.frames`, not `frames`
+         --> launch.yaml:7:3
+
+        error: the transport of `viewer.frames` is `ipc`, `tcp` or `shm`, not a list
+         --> launch.yaml:8:3
+
+        error: the transport of `camera.frames` is `ipc`, `tcp` or `shm`, not `smh`
+         --> launch.yaml:9:3
+          = help: did you mean `camera.frames: shm`?
+
+        error: a gate is named like `camera.frames`, not `1`
+         --> launch.yaml:3:1
+
+    "#]]
+    .assert_eq(&String::from_utf8(output.stderr).unwrap());
     assert_eq!(output.status.code(), Some(2));
     let system = System::of_files(&[("launch.yaml", &launch("transports: shm"))]);
     let output = system.run(&["launch.yaml"]);
-    expect![[]].assert_eq(&String::from_utf8(output.stderr).unwrap());
+    expect![[r#"
+        error: `transports` is a mapping from gates like `camera.frames` to transports, not `shm`
+         --> launch.yaml:2:1
+
+    "#]]
+    .assert_eq(&String::from_utf8(output.stderr).unwrap());
 }

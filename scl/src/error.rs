@@ -186,6 +186,45 @@ pub enum SendError {
     },
 }
 
+/// No memory was lent for a message.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LoanError {
+    /// The gate's codec turns messages into other bytes than those in memory.
+    #[error(
+        "gate `{gate}` lends no memory for its messages: its codec is `{codec}`; only messages with `codec: raw` are written \
+         in place, use `send` for others"
+    )]
+    Codec {
+        /// The gate.
+        gate: GateName,
+        /// Its codec, as in the topology file.
+        codec: &'static str,
+    },
+    /// The message would be longer than a peer accepts.
+    #[error(
+        "gate `{gate}` cannot send a message of {size} bytes: {peer} accepts at most {limit}; raise its `max_size`"
+    )]
+    TooLong {
+        /// The gate.
+        gate: GateName,
+        /// The peer that accepts the shortest messages.
+        peer: PeerName,
+        /// Length of the message, in bytes.
+        size: u64,
+        /// The peer's `max_size`, in bytes.
+        limit: u64,
+    },
+    /// The gate cannot be used any more.
+    #[error("gate `{gate}` lends no memory")]
+    Blocking {
+        /// The gate.
+        gate: GateName,
+        /// Why.
+        source: BlockingError,
+    },
+}
+
 /// A message was not sent by a call that never waits.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -235,6 +274,17 @@ pub enum RecvError {
         peers: Peers,
         /// Why it cannot be read; it names the codec.
         source: DecodeError,
+    },
+    /// The gate's codec turns messages into other bytes than those in memory. No message was taken.
+    #[error(
+        "gate `{gate}` has no views of its messages: its codec is `{codec}`; only messages with `codec: raw` are read in place, \
+         use `recv` for others"
+    )]
+    NoViews {
+        /// The gate.
+        gate: GateName,
+        /// Its codec, as in the topology file.
+        codec: &'static str,
     },
     /// The call could not be made, or had to stop waiting.
     #[error("gate `{gate}` did not receive")]

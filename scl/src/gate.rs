@@ -3,10 +3,12 @@
 mod connection;
 mod encoding;
 mod exchange;
+mod fanout;
 mod foreign;
 mod inbox;
 mod incoming;
 mod io_waker;
+mod loaned;
 mod outgoing;
 mod publisher;
 mod puller;
@@ -21,10 +23,13 @@ mod sending_gate;
 mod stats;
 mod subscriber;
 mod tap;
+#[cfg(feature = "raw")]
+mod view;
 mod watch;
 
 pub(crate) use connection::Connection;
 pub(crate) use incoming::Incoming;
+pub use loaned::Loaned;
 pub(crate) use outgoing::Outgoing;
 pub use publisher::Pub;
 pub use puller::Pull;
@@ -35,6 +40,8 @@ pub use requester::Req;
 pub use stats::{GateStats, PeerStats};
 pub use subscriber::Sub;
 pub(crate) use tap::GateTap;
+#[cfg(feature = "raw")]
+pub use view::View;
 pub(crate) use watch::Watch;
 
 use crate::error::{Missing, RecvError};

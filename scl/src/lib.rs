@@ -51,10 +51,13 @@
 //!
 //! | gate | async | from a plain thread | without waiting |
 //! |---|---|---|---|
-//! | [`Pub`], [`Push`] | `send` | `send_blocking`, `send_timeout` | `try_send` |
+//! | [`Pub`], [`Push`] | `send` | `send_blocking`, `send_timeout` | `try_send`, `loan` |
 //! | [`Sub`], [`Pull`] | `recv` | `recv_blocking`, `recv_timeout` | `try_recv`, `latest` |
 //! | [`Req`] | `call`, `call_within` | `call_blocking`, `call_timeout` | |
 //! | [`Rep`] | `recv`, then [`Request::reply`] | `recv_blocking`, `recv_timeout` | `try_recv` |
+//!
+//! Large messages of fixed layout (`codec: raw`) are written in place with [`Pub::loan`] and read in place with
+//! [`Sub::recv_view`]: then they are never copied on a transport with shared memory.
 //!
 //! [`ReceivingGate::poll_ready`] tells whether a gate has something without taking it; [`untyped`] waits for several gates at
 //! once and has a file descriptor for event loops.
@@ -82,6 +85,9 @@
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+#[cfg(feature = "zeromq")]
+#[doc(hidden)]
+pub mod bridge;
 pub mod codec;
 mod component;
 #[cfg(feature = "conformance")]
@@ -117,10 +123,12 @@ pub mod untyped;
 pub use bytes;
 pub use component::Component;
 pub use error::{
-    BlockingError, CallError, Error, GateName, MissingPeer, NotFlushed, NotReady, OpenError, PeerName, Peers,
-    RecvError, RecvTimeoutError, ReplyError, Result, SendError, SendTimeoutError, TrySendError, Unflushed,
+    BlockingError, CallError, Error, GateName, LoanError, MissingPeer, NotFlushed, NotReady, OpenError, PeerName,
+    Peers, RecvError, RecvTimeoutError, ReplyError, Result, SendError, SendTimeoutError, TrySendError, Unflushed,
 };
-pub use gate::{AnyGate, GateStats, PeerStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
+#[cfg(feature = "raw")]
+pub use gate::View;
+pub use gate::{AnyGate, GateStats, Loaned, PeerStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
 pub use medium::Medium;
 pub use medium_choice::{MediumChoice, MediumError};
 pub use options::OpenOptions;

@@ -129,10 +129,7 @@ impl OpenOptions {
     /// # Errors
     /// [`OpenError::Environment`] if one of them would be refused.
     pub(crate) fn check(variables: Variables<'_>) -> Result<(), OpenError> {
-        Self::new()
-            .system_name_from(variables, "")
-            .map(drop)
-            .and_then(|()| Self::new().media_from(variables).map(drop))
+        Self::new().system_name_from(variables, "").map(drop).and_then(|()| Self::new().media_from(variables).map(drop))
     }
 
     fn system_name_from(&self, variables: Variables<'_>, topology: &str) -> Result<String, OpenError> {

@@ -1,5 +1,6 @@
 //! The registration of a running component in the runtime folder.
 
+use crate::medium_choice::MediumChoice;
 use crate::process_mark::ProcessMark;
 use crate::runtime_dir::{
     Announcement, ComponentLock, ComponentStats, FolderWatch, Holder, OwnedPath, QUIET, RuntimeDirError, StatsFile,
@@ -45,15 +46,26 @@ struct Held {
 
 impl Registration {
     /// Takes the component's lock, removes what a killed process left behind, and publishes the messages and the
-    /// announcement. The gates are opened after that. The component writes its stats with the given period, if any.
+    /// announcement. The gates are opened after that, on these media. The component writes its stats with the given
+    /// period, if any.
     pub(crate) fn in_folder(
         spec: &'static ComponentSpec,
         dir: SystemDir,
         stats_period: Option<Duration>,
+        media: &MediumChoice,
+    ) -> Result<Self, RuntimeDirError> {
+        Self::announcing(spec, dir, Announcement::of(spec, media), stats_period)
+    }
+
+    /// The same with an announcement other than the usual one, which names the component's spec.
+    pub(crate) fn announcing(
+        spec: &'static ComponentSpec,
+        dir: SystemDir,
+        announcement: Announcement,
+        stats_period: Option<Duration>,
     ) -> Result<Self, RuntimeDirError> {
         let lock = ComponentLock::take(&dir, spec.name)?;
         lock.clear_leftovers()?;
-        let announcement = Announcement::of(spec);
         // Readers of the announcement must find the messages.
         publish_messages(&dir, spec)?;
         let initial_stats =

@@ -12,12 +12,14 @@ use std::task::{Context, Poll};
 use std::time::Duration;
 
 mod frame;
+mod heap_memory;
 #[cfg(feature = "memory")]
 pub mod memory;
 #[cfg(feature = "zeromq")]
 pub mod zeromq;
 
 pub use frame::{Frame, Loan, LoanedMemory};
+pub(crate) use heap_memory::HeapMemory;
 
 /// Opens the ends of connections.
 ///
@@ -83,6 +85,9 @@ pub struct Endpoint {
     pub max_size: usize,
     /// The receiving gate's queue of this connection, in messages: what its engine has to have room for. Default: 100.
     pub queue: usize,
+    /// The longest message of this connection, in bytes: what the receiving gate accepts, or the length of all messages of
+    /// a type with a fixed one. Default: 64 MiB.
+    pub longest: usize,
     /// Whether only the newest message matters to this receiving end, as with `queue: 1`. It then keeps few messages in
     /// flight, so that [`Receiver::poll_caught_up`] can tell exactly whether the sender has a newer one.
     pub newest_only: bool,
@@ -109,6 +114,7 @@ impl Endpoint {
             name: name.into(),
             max_size: Self::MAX_SIZE,
             queue: Self::QUEUE,
+            longest: Self::MAX_SIZE,
             newest_only: false,
             lossless: false,
             deferred: None,
@@ -277,6 +283,17 @@ pub trait Receiver: Send {
     /// does. Only an end with [`Endpoint::deferred`] does; ask it after [`poll_recv`](Self::poll_recv).
     fn take_acknowledgement_request(&mut self) -> bool {
         false
+    }
+
+    /// Asks all senders to send nothing more to this end, which is about to be dropped: what they have not sent stays with
+    /// them and is not lost. Only for an end with [`Endpoint::deferred`].
+    fn finish(&mut self) {}
+
+    /// Returns true if every connected sender has done what [`finish`](Self::finish) asks, and
+    /// [`poll_recv`](Self::poll_recv) has returned all that was sent before. Ask after that returned `Pending`; its waker is
+    /// used when this changes. A sender of an older release never does.
+    fn is_finished(&self) -> bool {
+        true
     }
 
     /// Ready when the sender has nothing newer than what [`poll_recv`](Self::poll_recv) returned. Asks the sender if it

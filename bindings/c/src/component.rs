@@ -39,11 +39,13 @@ static COMPONENTS: Registry<Arc<Opened>> = Registry::new(3, "component");
 /// `plan_json`, of `plan_len` bytes, is the plan of the system or of one component, as `scl plan` prints it; generated
 /// code contains it. `options_json` is NULL for the defaults, or an object with any of these keys:
 ///
-///     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc", "tcp" or "shm", "signals": true}
+///     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc", "signals": true}
 ///
-/// The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. The first component
-/// also starts the log (SCL_LOG) and applies the real-time settings (SCL_SCHED, SCL_CPU) to the calling thread. Unless
-/// `signals` is false, SIGTERM and SIGINT no longer end the process but request a stop: see scl_stop_requested.
+/// The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. The transport is
+/// `ipc`, `tcp` or `shm`, or a list with others for single connections, like `ipc,camera.frames=shm`; `shm` needs a
+/// library that was built with the feature `iceoryx2`. The first component also starts the log (SCL_LOG) and applies the
+/// real-time settings (SCL_SCHED, SCL_CPU) to the calling thread. Unless `signals` is false, SIGTERM and SIGINT no
+/// longer end the process but request a stop: see scl_stop_requested.
 ///
 /// On success, `*opened` is the new component, to be closed with scl_close; otherwise it is NULL.
 ///

@@ -61,7 +61,8 @@ mod tests {
     #[test]
     fn options_are_read_or_refused() {
         let shown = |json| Options::read(json).map(|options| format!("{:?}", options.for_opening()));
-        let read = shown(r#"{"runtime_dir": "/run/x", "system": "rover-2", "transport": "tcp,a.b=shm", "signals": false}"#);
+        let read =
+            shown(r#"{"runtime_dir": "/run/x", "system": "rover-2", "transport": "tcp,a.b=shm", "signals": false}"#);
         let expected = r#"runtime_dir: Some("/run/x"), system: Some("rover-2"), medium: Some(Tcp), "#;
         let media = r#"medium_of: [("a.b", Shm)], transport: None"#;
         assert_eq!(read.unwrap(), format!("OpenOptions {{ {expected}{media} }}"));

@@ -2,7 +2,7 @@
 
 use super::Reading;
 use crate::list::state_text;
-use scl::runtime_dir::GateFigures;
+use scl::runtime_dir::{Announcement, GateFigures};
 use scl_observe::{Peer, connected_peers, message_count, peers};
 use scl_plan::{GateKind, GatePlan};
 use scl_terminal::{Align, Table, age_text, bytes_text, three_digits};
@@ -73,6 +73,10 @@ impl Reading {
         if let Some(tap) = &plan.tap {
             facts.row(["tap", tap]);
         }
+        if let Some(transport) = component.announcement.as_ref().and_then(|announced| transport(announced, &plan.name))
+        {
+            facts.row(["transport", &transport]);
+        }
         let figures = component.figures(index);
         match figures {
             Some(figures) => self.add_figures(&mut facts, index, plan.kind, figures),
@@ -112,6 +116,27 @@ impl Reading {
             }
             None if component.is_running() => "none: the program runs with `SCL_STATS=off`".to_owned(),
             None => "none".to_owned(),
+        }
+    }
+}
+
+/// What the ends of a gate listen on, unless that is only the default: `shm`, or `ipc, shm to viewer.frames`.
+fn transport(announced: &Announcement, gate: &str) -> Option<String> {
+    let endpoints = announced.endpoints.iter().filter(|end| end.gate == gate && !end.tap && !end.medium.is_empty());
+    let mut by_medium: Vec<(&str, Vec<&str>)> = Vec::new();
+    for end in endpoints {
+        let peers = end.peers.iter().map(String::as_str);
+        match by_medium.iter_mut().find(|(medium, _)| *medium == end.medium) {
+            Some((_, known)) => known.extend(peers),
+            None => by_medium.push((&end.medium, peers.collect())),
+        }
+    }
+    match &by_medium[..] {
+        [] | [("ipc", _)] => None,
+        [(medium, _)] => Some((*medium).to_owned()),
+        several => {
+            let texts = several.iter().map(|(medium, peers)| format!("{medium} to {}", peers.join(", ")));
+            Some(texts.collect::<Vec<_>>().join("; "))
         }
     }
 }

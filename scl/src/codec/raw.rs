@@ -15,6 +15,7 @@ pub struct Raw;
 #[diagnostic::do_not_recommend]
 impl<T: IntoBytes + FromBytes + KnownLayout + Immutable> Codec<T> for Raw {
     const NAME: &'static str = "raw";
+    const FIXED_LENGTH: Option<usize> = Some(size_of::<T>());
 
     fn encode(message: &T, buffer: &mut BytesMut) -> Result<(), EncodeError> {
         buffer.extend_from_slice(message.as_bytes());
@@ -23,9 +24,13 @@ impl<T: IntoBytes + FromBytes + KnownLayout + Immutable> Codec<T> for Raw {
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
         // The error of `read_from_bytes` borrows the bytes and contains nothing but the lengths.
-        T::read_from_bytes(&bytes).map_err(|_| {
-            let reason = format!("expected exactly {} bytes, received {}", size_of::<T>(), bytes.len());
-            DecodeError::new(<Self as Codec<T>>::NAME, reason)
-        })
+        T::read_from_bytes(&bytes).map_err(|_| Self::wrong_length::<T>(bytes.len()))
+    }
+}
+
+impl Raw {
+    /// The bytes received are too many or too few for a `T`.
+    pub(crate) fn wrong_length<T>(received: usize) -> DecodeError {
+        DecodeError::new("raw", format!("expected exactly {} bytes, received {received}", size_of::<T>()))
     }
 }

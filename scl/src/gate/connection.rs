@@ -7,7 +7,7 @@ use crate::error::{GateName, Missing, PeerName, Unflushed};
 use crate::runtime_dir::{ConnectionFigures, GateFigures};
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
 use crate::state::{Changes, SendingEnd};
-use crate::transport::{Frame, Link, Peer, PeerKind, Sender};
+use crate::transport::{Frame, Link, Loan, Peer, PeerKind, Sender};
 use std::task::{Context, Poll, Waker};
 
 /// One connection at its sending end.
@@ -98,8 +98,9 @@ impl Connection {
     /// Takes a message without waiting; a full queue treats it as declared.
     pub(crate) fn send(&mut self, message: Frame) {
         let mut cx = Context::from_waker(&self.task);
-        for peer in &mut self.foreign {
-            peer.send(&mut cx, message.to_bytes());
+        if !self.foreign.is_empty() {
+            let shared = message.to_bytes();
+            self.foreign.iter_mut().for_each(|peer| peer.send(&mut cx, shared.clone()));
         }
         if self.queue.is_full() {
             // Before a message is dropped, everything is tried to hand some over.
@@ -122,6 +123,11 @@ impl Connection {
             }
             _ => self.keep(message),
         }
+    }
+
+    /// Memory of the link to the peer, to be filled and sent without a copy.
+    pub(crate) fn loan(&mut self, length: usize) -> Option<Loan> {
+        self.peer.as_mut()?.loan(length)
     }
 
     /// The peer, if it is required and not connected.

@@ -2,6 +2,7 @@
 
 use crate::codec::{Codec, EncodeError};
 use bytes::{Bytes, BytesMut};
+use std::any::TypeId;
 
 /// Memory for encoded messages is taken in pieces of this size; a piece is used again when all its messages are gone.
 const PIECE: usize = 16 * 1024;
@@ -10,11 +11,17 @@ const PIECE: usize = 16 * 1024;
 pub(crate) struct Encoding<T> {
     to_frame: fn(&T, &mut BytesMut) -> Result<Bytes, EncodeError>,
     memory: BytesMut,
+    codec: TypeId,
 }
 
 impl<T> Encoding<T> {
     pub(crate) fn with<C: Codec<T>>() -> Self {
-        Self { to_frame: C::to_frame, memory: BytesMut::new() }
+        Self { to_frame: C::to_frame, memory: BytesMut::new(), codec: TypeId::of::<C>() }
+    }
+
+    /// Returns true if the gate's codec is `C`.
+    pub(crate) fn is<C: Codec<T>>(&self) -> bool {
+        self.codec == TypeId::of::<C>()
     }
 
     pub(crate) fn encode(&mut self, message: &T) -> Result<Bytes, EncodeError> {

@@ -3,7 +3,11 @@
 use super::inbox::{Arrived, SharedInbox};
 use super::stats::GateStats;
 use super::tap::GateTap;
+#[cfg(feature = "raw")]
+use super::view::View;
 use super::watch::Watch;
+#[cfg(feature = "raw")]
+use crate::codec::Raw;
 use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, GateName, Missing, Peers, RecvError, RecvTimeoutError};
 use crate::figures::FigureSource;
@@ -12,15 +16,21 @@ use crate::state::Owner;
 use crate::sync::lock;
 use crate::transport::Receiver;
 use bytes::Bytes;
+#[cfg(feature = "raw")]
+use std::any::TypeId;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
+#[cfg(feature = "raw")]
+use zerocopy::{FromBytes, Immutable, KnownLayout};
 
 pub(crate) struct Incoming<T> {
     pub(crate) spec: &'static GateSpec,
     name: GateName,
     inbox: SharedInbox,
     decode: fn(Bytes) -> Result<T, DecodeError>,
+    #[cfg(feature = "raw")]
+    codec: TypeId,
     /// Dropped after the ends, which are this component's only as long as it holds its lock.
     pub(crate) state: Owner,
 }
@@ -34,21 +44,35 @@ impl<T> Incoming<T> {
     ) -> Self {
         let name = GateName::new(state.spec().name, spec.name);
         let inbox = SharedInbox::new(spec, links, tap, &state);
-        Self { spec, name, inbox, decode: C::decode, state }
+        Self {
+            spec,
+            name,
+            inbox,
+            decode: C::decode,
+            #[cfg(feature = "raw")]
+            codec: TypeId::of::<C>(),
+            state,
+        }
     }
 
     pub(crate) async fn recv(&mut self) -> Result<T, RecvError> {
-        Recv { gate: self, is_waiting: false }.await
+        let arrived = Recv { gate: self, is_waiting: false }.await?;
+        self.decode(arrived)
     }
 
     pub(crate) fn recv_blocking(&mut self) -> Result<T, RecvError> {
+        let arrived = self.next_blocking()?;
+        self.decode(arrived)
+    }
+
+    fn next_blocking(&mut self) -> Result<Arrived, RecvError> {
         let (state, gate) = (Arc::clone(&self.state), self.name);
         let blocking = |source| RecvError::Blocking { gate, source };
         state.may_block().map_err(blocking)?;
         if let Some(arrived) = self.wait_directly(Duration::MAX) {
-            return self.decode(arrived);
+            return Ok(arrived);
         }
-        state.block_on(self.recv()).map_err(blocking)?
+        state.block_on(Recv { gate: self, is_waiting: false }).map_err(blocking)?
     }
 
     pub(crate) fn recv_timeout(&mut self, timeout: Duration) -> Result<T, RecvTimeoutError> {
@@ -80,10 +104,10 @@ impl<T> Incoming<T> {
 
     /// The next item of a stream, which may be dropped without notice.
     pub(crate) fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<Result<T, RecvError>> {
-        self.poll_recv(cx, true)
+        self.poll_arrived(cx, true).map(|arrived| self.decode(arrived?))
     }
 
-    fn poll_recv(&mut self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Result<T, RecvError>> {
+    fn poll_arrived(&mut self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Result<Arrived, RecvError>> {
         if let Err(source) = self.state.check() {
             return Poll::Ready(Err(self.refused(source)));
         }
@@ -92,7 +116,7 @@ impl<T> Incoming<T> {
             return Poll::Pending;
         }
         match self.inbox.poll_next(cx, may_vanish) {
-            Poll::Ready(arrived) => Poll::Ready(self.decode(arrived)),
+            Poll::Ready(arrived) => Poll::Ready(Ok(arrived)),
             Poll::Pending => self.poll_ended().map(Err),
         }
     }
@@ -114,17 +138,64 @@ impl<T> Incoming<T> {
     }
 
     pub(crate) fn try_recv(&mut self) -> Result<Option<T>, RecvError> {
-        self.look(|inbox| inbox.lock().try_next())
+        self.look(|inbox| inbox.lock().try_next())?.map(|arrived| self.decode(arrived)).transpose()
     }
 
     pub(crate) fn latest(&mut self) -> Result<Option<T>, RecvError> {
-        self.look(|inbox| inbox.lock().newest())
+        self.look(|inbox| inbox.lock().newest())?.map(|arrived| self.decode(arrived)).transpose()
     }
 
-    fn look(&mut self, look: impl FnOnce(&SharedInbox) -> Option<Arrived>) -> Result<Option<T>, RecvError> {
+    fn look(&mut self, look: impl FnOnce(&SharedInbox) -> Option<Arrived>) -> Result<Option<Arrived>, RecvError> {
         self.state.may_proceed().map_err(|source| self.refused(source))?;
         self.state.take_turn();
-        look(&self.inbox).map(|arrived| self.decode(arrived)).transpose()
+        Ok(look(&self.inbox))
+    }
+
+    #[cfg(feature = "raw")]
+    pub(crate) async fn recv_view(&mut self) -> Result<View<T>, RecvError>
+    where
+        T: FromBytes + KnownLayout + Immutable,
+    {
+        self.check_views()?;
+        let arrived = Recv { gate: self, is_waiting: false }.await?;
+        self.view(arrived)
+    }
+
+    #[cfg(feature = "raw")]
+    pub(crate) fn recv_view_blocking(&mut self) -> Result<View<T>, RecvError>
+    where
+        T: FromBytes + KnownLayout + Immutable,
+    {
+        self.check_views()?;
+        let arrived = self.next_blocking()?;
+        self.view(arrived)
+    }
+
+    #[cfg(feature = "raw")]
+    pub(crate) fn try_recv_view(&mut self) -> Result<Option<View<T>>, RecvError>
+    where
+        T: FromBytes + KnownLayout + Immutable,
+    {
+        self.check_views()?;
+        self.look(|inbox| inbox.lock().try_next())?.map(|arrived| self.view(arrived)).transpose()
+    }
+
+    /// Fails before a message is taken.
+    #[cfg(feature = "raw")]
+    fn check_views(&self) -> Result<(), RecvError> {
+        if self.codec == TypeId::of::<Raw>() {
+            return Ok(());
+        }
+        Err(RecvError::NoViews { gate: self.name, codec: self.spec.codec })
+    }
+
+    #[cfg(feature = "raw")]
+    fn view(&mut self, Arrived { link, frame }: Arrived) -> Result<View<T>, RecvError>
+    where
+        T: FromBytes + KnownLayout + Immutable,
+    {
+        let received = frame.len();
+        View::new(frame).ok_or_else(|| self.undecodable(link, Raw::wrong_length::<T>(received)))
     }
 
     fn refused(&self, source: BlockingError) -> RecvError {
@@ -132,10 +203,12 @@ impl<T> Incoming<T> {
     }
 
     fn decode(&mut self, Arrived { link, frame }: Arrived) -> Result<T, RecvError> {
-        (self.decode)(frame).map_err(|source| {
-            self.inbox.lock().undecodable += 1;
-            RecvError::Decode { gate: self.name, peers: self.senders(link), source }
-        })
+        (self.decode)(frame).map_err(|source| self.undecodable(link, source))
+    }
+
+    fn undecodable(&self, link: usize, source: DecodeError) -> RecvError {
+        self.inbox.lock().undecodable += 1;
+        RecvError::Decode { gate: self.name, peers: self.senders(link), source }
     }
 
     /// Counts a message that the program itself could not decode.
@@ -213,10 +286,10 @@ struct Recv<'a, T> {
 }
 
 impl<T> Future for Recv<'_, T> {
-    type Output = Result<T, RecvError>;
+    type Output = Result<Arrived, RecvError>;
 
     fn poll(mut self: std::pin::Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Self::Output> {
-        let polled = self.gate.poll_recv(cx, false);
+        let polled = self.gate.poll_arrived(cx, false);
         self.is_waiting = polled.is_pending();
         polled
     }

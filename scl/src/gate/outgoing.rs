@@ -1,41 +1,20 @@
-//! What `pub` and `push` share: a message is encoded once and sent over each connection.
+//! What `pub` and `push` share: a message is encoded once, or written into memory that the gate lends.
 
 use super::Connection;
 use super::encoding::Encoding;
-use super::stats::{GateStats, PeerStats};
-use super::tap::{GateTap, Observed};
-use super::watch::Watch;
+use super::fanout::{Fanout, Outbound};
+use super::loaned::Loaned;
+use super::tap::GateTap;
 use crate::codec::Codec;
-use crate::error::{GateName, Missing, PeerName, SendError, SendTimeoutError, TrySendError};
-use crate::figures::FigureSource;
-use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
-use crate::state::{Owner, SendingEnd};
-use crate::sync::lock;
-use bytes::Bytes;
-use std::future::poll_fn;
-use std::sync::{Arc, Mutex, Weak};
-use std::task::{Context, Poll, Waker};
+use crate::error::{LoanError, SendError, SendTimeoutError, TrySendError};
+use crate::spec::GateSpec;
+use crate::state::Owner;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 pub(crate) struct Outgoing<T> {
-    pub(crate) spec: &'static GateSpec,
-    name: GateName,
-    /// One per peer, in the order of `spec.links`.
-    connections: Vec<Arc<Mutex<Connection>>>,
-    tap: GateTap,
+    pub(crate) fanout: Fanout,
     encoding: Encoding<T>,
-    may_wait: bool,
-    /// Whether each message goes to one of the peers only.
-    shares: bool,
-    /// The connection whose turn it is, if the gate shares.
-    turn: usize,
-    /// The peer that accepts the shortest messages.
-    strictest: Option<&'static LinkSpec>,
-    /// Number of connects and disconnects reported by `peers_changed`.
-    reported: u64,
-    /// Counts the gate itself, whose connections may live longer.
-    open: Arc<()>,
-    pub(crate) state: Owner,
 }
 
 impl<T> Outgoing<T> {
@@ -45,239 +24,46 @@ impl<T> Outgoing<T> {
         connections: Vec<Arc<Mutex<Connection>>>,
         tap: GateTap,
     ) -> Self {
-        let may_wait = spec.options.backpressure && spec.links.iter().any(|link| link.when_full == WhenFull::Wait);
-        let shares = spec.kind == GateKind::Push && connections.len() > 1;
-        let name = GateName::new(state.spec().name, spec.name);
-        let strictest = spec.links.iter().min_by_key(|link| link.max_size);
-        let encoding = Encoding::with::<C>();
-        Self {
-            spec,
-            name,
-            connections,
-            tap,
-            encoding,
-            may_wait,
-            shares,
-            turn: 0,
-            strictest,
-            reported: 0,
-            open: Arc::default(),
-            state,
-        }
+        Self { fanout: Fanout::new(state, spec, connections, tap), encoding: Encoding::with::<C>() }
     }
 
     pub(crate) async fn send(&mut self, message: &T) -> Result<(), SendError> {
         let message = self.encode(message)?;
-        if self.may_wait || self.state.is_stopped() {
-            poll_fn(|cx| self.poll_room(cx)).await?;
-        }
-        // A program that only sends lets the connections' tasks run now and then.
-        tokio::task::coop::consume_budget().await;
-        self.hand_out(&message);
-        Ok(())
+        self.fanout.send(message).await
     }
 
-    /// Sends after [`Self::poll_room`] was ready.
+    /// Sends after [`Fanout::poll_room`] was ready.
     pub(crate) fn send_now(&mut self, message: &T) -> Result<(), SendError> {
         let message = self.encode(message)?;
-        self.hand_out(&message);
+        self.fanout.hand_out(message);
         Ok(())
     }
 
     pub(crate) fn send_blocking(&mut self, message: &T) -> Result<(), SendError> {
-        let (state, gate) = (Arc::clone(&self.state), self.name);
-        let blocking = |source| SendError::Blocking { gate, source };
-        state.may_block().map_err(blocking)?;
-        let message = self.encode(message)?;
-        if self.may_wait {
-            state.block_on(poll_fn(|cx| self.poll_room(cx))).map_err(blocking)??;
-        }
-        self.hand_out(&message);
-        state.take_turn();
-        Ok(())
+        self.fanout.send_blocking(|| self.encoding.encode(message).map(Outbound::Bytes))
     }
 
     pub(crate) fn send_timeout(&mut self, message: &T, timeout: Duration) -> Result<(), SendTimeoutError> {
-        let (state, gate) = (Arc::clone(&self.state), self.name);
-        let blocking = |source| SendError::Blocking { gate, source };
-        state.may_block().map_err(blocking)?;
-        let message = self.encode(message)?;
-        if self.may_wait {
-            let waited = state.block_on_for(timeout, poll_fn(|cx| self.poll_room(cx))).map_err(blocking)?;
-            waited.unwrap_or(Ok(()))?;
-            // Room found after the wait is as good as room found in time.
-            if let Some(peer) = self.full(&mut Context::from_waker(Waker::noop())) {
-                return Err(SendTimeoutError::Timeout { gate, peer, waited: timeout });
-            }
-        }
-        self.hand_out(&message);
-        state.take_turn();
-        Ok(())
+        self.fanout.send_timeout(|| self.encoding.encode(message).map(Outbound::Bytes), timeout)
     }
 
     pub(crate) fn try_send(&mut self, message: &T) -> Result<(), TrySendError> {
-        let gate = self.name;
-        let blocking = |source| SendError::Blocking { gate, source };
-        self.state.may_proceed().map_err(blocking)?;
-        let message = self.encode(message)?;
-        if self.may_wait {
-            let full = self.full(&mut Context::from_waker(Waker::noop()));
-            if let Some(peer) = full {
-                self.state.take_turn();
-                return Err(TrySendError::Full { gate: self.name, peer });
-            }
+        self.fanout.try_send(|| self.encoding.encode(message).map(Outbound::Bytes))
+    }
+
+    /// Memory for one message, in the layout that `C` sends it.
+    pub(crate) fn loan<C: Codec<T>, M: ?Sized>(
+        &mut self,
+        length: usize,
+        alignment: usize,
+    ) -> Result<Loaned<'_, M>, LoanError> {
+        if !self.encoding.is::<C>() {
+            return Err(LoanError::Codec { gate: self.fanout.name, codec: self.fanout.spec.codec });
         }
-        self.hand_out(&message);
-        self.state.take_turn();
-        Ok(())
+        Loaned::new(&mut self.fanout, length, alignment)
     }
 
-    /// Ready when no connection would make the message wait, so that it goes to all of them at once or to none.
-    pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), SendError>> {
-        // A stopped program's calls stay pending: what waits for them is dropped.
-        let pending = self.state.is_stopped() || self.full(cx).is_some();
-        // After the waker was registered, so that no end of the calls is missed.
-        match self.state.check() {
-            Err(source) => Poll::Ready(Err(SendError::Blocking { gate: self.name, source })),
-            Ok(()) if pending => Poll::Pending,
-            Ok(()) => Poll::Ready(Ok(())),
-        }
+    fn encode(&mut self, message: &T) -> Result<Outbound, SendError> {
+        self.fanout.accept(|| self.encoding.encode(message).map(Outbound::Bytes))
     }
-
-    pub(crate) fn poll_flushed(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        let mut flushed = self.connections.iter().map(|connection| lock(connection).poll_flushed(false, cx));
-        if flushed.all(|flushed| flushed.is_ready()) { Poll::Ready(()) } else { Poll::Pending }
-    }
-
-    pub(crate) async fn peers_changed(&mut self) -> usize {
-        poll_fn(|cx| self.poll_peers_changed(cx)).await;
-        self.stats().peers
-    }
-
-    /// The peer whose queue would make a message wait, if any.
-    fn full(&self, cx: &mut Context<'_>) -> Option<PeerName> {
-        let mut full = self
-            .connections
-            .iter()
-            .map(lock_connection)
-            .filter_map(|mut connection| connection.poll_room(cx).is_pending().then(|| connection.peer_name()));
-        let first = full.next();
-        // A shared message needs room at one of them.
-        let others = if self.shares { full.count() } else { 0 };
-        first.filter(|_| !self.shares || others + 1 == self.connections.len())
-    }
-
-    fn poll_peers_changed(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        let changes = self.connections.iter().map(|connection| lock(connection).watch_changes(cx.waker())).sum();
-        if std::mem::replace(&mut self.reported, changes) == changes { Poll::Pending } else { Poll::Ready(()) }
-    }
-
-    fn encode(&mut self, message: &T) -> Result<Bytes, SendError> {
-        let gate = self.name;
-        self.state.check().map_err(|source| SendError::Blocking { gate, source })?;
-        let frame = self.encoding.encode(message).map_err(|source| SendError::Encode { gate, source })?;
-        match self.strictest {
-            Some(link) if frame.len() as u64 > link.max_size => Err(SendError::TooLong {
-                gate,
-                peer: PeerName::of(link),
-                size: frame.len() as u64,
-                limit: link.max_size,
-            }),
-            _ => Ok(frame),
-        }
-    }
-
-    fn hand_out(&mut self, message: &Bytes) {
-        self.tap.observe(Observed::Message, 0, message);
-        if self.shares {
-            let turn = self.next_in_turn();
-            return lock(&self.connections[turn]).send(message.clone().into());
-        }
-        for connection in &self.connections {
-            lock(connection).send(message.clone().into());
-        }
-    }
-
-    /// The next puller that can take a message now, or else whose queue can, or else that declared to drop one.
-    fn next_in_turn(&mut self) -> usize {
-        let count = self.connections.len();
-        let turn = |offset| (self.turn + offset) % count;
-        let next =
-            |can: fn(&Connection) -> bool| (0..count).map(turn).find(|&index| can(&lock(&self.connections[index])));
-        let with_room = || next(Connection::has_room).or_else(|| next(|connection| !connection.would_wait()));
-        let chosen = next(Connection::is_free).or_else(with_room).unwrap_or(self.turn % count);
-        self.turn = chosen + 1;
-        chosen
-    }
-
-    pub(crate) fn missing(&self) -> Vec<Missing> {
-        self.connections.iter().filter_map(|connection| lock(connection).missing()).collect()
-    }
-
-    pub(crate) fn watch(&self) -> Watch {
-        let connections: Vec<Weak<Mutex<Connection>>> = self.connections.iter().map(Arc::downgrade).collect();
-        Watch::new(self.spec, move || {
-            let connections = connections.iter().filter_map(Weak::upgrade);
-            connections.filter_map(|connection| lock(&connection).missing()).collect()
-        })
-    }
-
-    pub(crate) fn figures(&self) -> FigureSource {
-        let connections: Vec<Weak<Mutex<Connection>>> = self.connections.iter().map(Arc::downgrade).collect();
-        let (open, dropped) = (Arc::downgrade(&self.open), self.tap.dropped_later());
-        Box::new(move |figures| {
-            // Checked first: connections outlive their gate until their peers have taken everything.
-            let is_open = open.strong_count() > 0;
-            if connections.iter().any(|connection| connection.strong_count() == 0) {
-                return is_open;
-            }
-            figures.clear();
-            for (index, connection) in connections.iter().enumerate() {
-                let Some(connection) = connection.upgrade() else { continue };
-                let own = lock(&connection).add_to_figures(figures);
-                figures.connections[index] = own;
-            }
-            figures.tap_dropped = dropped();
-            figures.dropped_for_observers += figures.tap_dropped;
-            is_open
-        })
-    }
-
-    pub(crate) fn peer_stats(&self) -> Vec<PeerStats> {
-        self.connections.iter().map(|connection| lock(connection).stats()).collect()
-    }
-
-    pub(crate) fn stats(&self) -> GateStats {
-        let mut stats = GateStats { dropped_for_observers: self.tap.dropped(), ..GateStats::default() };
-        for connection in self.connections.iter().map(lock_connection) {
-            let peer = connection.stats();
-            let (sent_to_foreign, dropped_for_foreign) = connection.foreign_counts();
-            connection.account().activity.add_to(&mut stats);
-            stats.sent += connection.account().handed() + sent_to_foreign;
-            stats.dropped_oldest += peer.dropped_oldest;
-            stats.dropped_newest += peer.dropped_newest;
-            stats.dropped_for_observers += dropped_for_foreign;
-            stats.lost += peer.lost;
-            stats.waiting += peer.waiting as usize;
-            stats.peers += usize::from(peer.connected);
-        }
-        stats
-    }
-}
-
-/// What is left to hand over stays with the component; the sockets are freed as soon as that is done.
-impl<T> Drop for Outgoing<T> {
-    fn drop(&mut self) {
-        if self.state.is_inherited() {
-            self.connections.iter().cloned().for_each(std::mem::forget);
-            return self.tap.leak();
-        }
-        for connection in self.connections.drain(..) {
-            self.state.release(connection);
-        }
-    }
-}
-
-fn lock_connection(connection: &Arc<Mutex<Connection>>) -> std::sync::MutexGuard<'_, Connection> {
-    lock(connection)
 }

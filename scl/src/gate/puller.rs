@@ -3,6 +3,8 @@
 use super::GateStats;
 use super::incoming::Incoming;
 use super::receiving_gate::receiving_gate;
+#[cfg(feature = "raw")]
+use super::view::View;
 use crate::error::{RecvError, RecvTimeoutError};
 use std::time::Duration;
 
@@ -85,6 +87,41 @@ impl<T> Pull<T> {
     /// Returns the gate's counts.
     pub fn stats(&self) -> GateStats {
         self.incoming.stats()
+    }
+}
+
+#[cfg(feature = "raw")]
+impl<T: zerocopy::FromBytes + zerocopy::KnownLayout + zerocopy::Immutable> Pull<T> {
+    /// Waits for the next message, and returns it where it arrived instead of a copy: for large messages, of a type with
+    /// `codec: raw`.
+    ///
+    /// Bytes that are not aligned for the type are copied. Those of shared memory always are aligned.
+    ///
+    /// See [`Sub::recv_view`](super::Sub::recv_view) for an example.
+    ///
+    /// # Errors
+    /// Those of [`recv`](Self::recv), and [`RecvError::NoViews`] if the gate's codec is not `raw`.
+    ///
+    /// # Cancel safety
+    /// Cancel safe: no message is lost if this is dropped before it is ready.
+    pub async fn recv_view(&mut self) -> Result<View<T>, RecvError> {
+        self.incoming.recv_view().await
+    }
+
+    /// [`recv_view`](Self::recv_view) from a plain thread.
+    ///
+    /// # Errors
+    /// Those of `recv_view`, and [`RecvError::Blocking`] inside async code or after a stop request.
+    pub fn recv_view_blocking(&mut self) -> Result<View<T>, RecvError> {
+        self.incoming.recv_view_blocking()
+    }
+
+    /// Returns the next message where it arrived, if one has; it waits no longer than [`try_recv`](Self::try_recv).
+    ///
+    /// # Errors
+    /// Those of `recv_view`, and [`RecvError::Blocking`] after a stop request.
+    pub fn try_recv_view(&mut self) -> Result<Option<View<T>>, RecvError> {
+        self.incoming.try_recv_view()
     }
 }
 

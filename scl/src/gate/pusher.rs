@@ -2,8 +2,9 @@
 
 use super::outgoing::Outgoing;
 use super::sending_gate::sending_gate;
-use super::{GateStats, PeerStats};
-use crate::error::{SendError, SendTimeoutError, TrySendError};
+use super::{GateStats, Loaned, PeerStats};
+use crate::error::{LoanError, SendError, SendTimeoutError, TrySendError};
+use bytes::Bytes;
 use std::time::Duration;
 
 /// Sends messages to the `pull` gate that this gate is connected to.
@@ -77,7 +78,7 @@ impl<T> Push<T> {
 
     /// Returns true if all required peers are connected.
     pub fn is_connected(&self) -> bool {
-        self.outgoing.missing().is_empty()
+        self.outgoing.fanout.missing().is_empty()
     }
 
     /// Waits until a puller has connected or disconnected since the last call, or since the gate was opened, and returns
@@ -96,17 +97,49 @@ impl<T> Push<T> {
     /// # Cancel safety
     /// Cancel safe: a change that was not reported is reported by the next call.
     pub async fn peers_changed(&mut self) -> usize {
-        self.outgoing.peers_changed().await
+        self.outgoing.fanout.peers_changed().await
     }
 
     /// Returns the gate's counts.
     pub fn stats(&self) -> GateStats {
-        self.outgoing.stats()
+        self.outgoing.fanout.stats()
     }
 
     /// Returns what became of the messages of each connection, in the order of the topology file.
     pub fn peer_stats(&self) -> Vec<PeerStats> {
-        self.outgoing.peer_stats()
+        self.outgoing.fanout.peer_stats()
+    }
+}
+
+#[cfg(feature = "raw")]
+impl<T> Push<T>
+where
+    T: zerocopy::FromBytes + zerocopy::IntoBytes + zerocopy::KnownLayout + zerocopy::Immutable,
+{
+    /// Lends memory for one message, to be written in place and sent: for large messages, of a type with `codec: raw`.
+    ///
+    /// On a transport with shared memory, and with a view at the receiver ([`Pull::recv_view`](super::Pull::recv_view)), the
+    /// message is never copied. Everywhere else the memory is from the heap, which spares the copy of
+    /// [`send`](Self::send) all the same.
+    ///
+    /// See [`Pub::loan`](super::Pub::loan) for an example.
+    ///
+    /// # Errors
+    /// [`LoanError::Codec`] if the gate's codec is not `raw`, [`LoanError::TooLong`] if a peer does not accept messages of
+    /// this length, [`LoanError::Blocking`] if the gate cannot be used any more.
+    pub fn loan(&mut self) -> Result<Loaned<'_, T>, LoanError> {
+        self.outgoing.loan::<crate::codec::Raw, T>(size_of::<T>(), align_of::<T>())
+    }
+}
+
+impl Push<Bytes> {
+    /// Lends memory of `length` bytes for one message, to be written in place and sent.
+    ///
+    /// # Errors
+    /// [`LoanError::TooLong`] if a peer does not accept messages of this length, [`LoanError::Blocking`] if the gate cannot
+    /// be used any more, [`LoanError::Codec`] if the gate has a type and its codec is not plain bytes.
+    pub fn loan_bytes(&mut self, length: usize) -> Result<Loaned<'_, [u8]>, LoanError> {
+        self.outgoing.loan::<crate::codec::Opaque, [u8]>(length, 1)
     }
 }
 

@@ -15,15 +15,15 @@ macro_rules! sending_gate {
 
         impl<T> AnyGate for $gate<T> {
             fn spec(&self) -> &'static GateSpec {
-                self.outgoing.spec
+                self.outgoing.fanout.spec
             }
 
             fn missing(&self) -> Vec<Missing> {
-                self.outgoing.missing()
+                self.outgoing.fanout.missing()
             }
 
             fn watch(&self) -> Watch {
-                self.outgoing.watch()
+                self.outgoing.fanout.watch()
             }
         }
 
@@ -32,7 +32,7 @@ macro_rules! sending_gate {
             type Error = SendError;
 
             fn poll_ready(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Result<(), SendError>> {
-                self.outgoing.poll_room(cx)
+                self.outgoing.fanout.poll_room(cx)
             }
 
             fn start_send(mut self: Pin<&mut Self>, message: T) -> Result<(), SendError> {
@@ -40,7 +40,7 @@ macro_rules! sending_gate {
             }
 
             fn poll_flush(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Result<(), SendError>> {
-                self.outgoing.poll_flushed(cx).map(Ok)
+                self.outgoing.fanout.poll_flushed(cx).map(Ok)
             }
 
             fn poll_close(self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Result<(), SendError>> {
@@ -50,7 +50,7 @@ macro_rules! sending_gate {
 
         impl<T> std::fmt::Debug for $gate<T> {
             fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.debug_tuple(stringify!($gate)).field(&self.outgoing.spec.name).finish()
+                f.debug_tuple(stringify!($gate)).field(&self.outgoing.fanout.spec.name).finish()
             }
         }
     };

@@ -3,6 +3,8 @@
 use super::GateStats;
 use super::incoming::Incoming;
 use super::receiving_gate::receiving_gate;
+#[cfg(feature = "raw")]
+use super::view::View;
 use crate::error::{RecvError, RecvTimeoutError};
 use std::time::Duration;
 
@@ -87,6 +89,59 @@ impl<T> Sub<T> {
     /// Returns the gate's counts.
     pub fn stats(&self) -> GateStats {
         self.incoming.stats()
+    }
+}
+
+#[cfg(feature = "raw")]
+impl<T: zerocopy::FromBytes + zerocopy::KnownLayout + zerocopy::Immutable> Sub<T> {
+    /// Waits for the next message, and returns it where it arrived instead of a copy: for large messages, of a type with
+    /// `codec: raw`.
+    ///
+    /// Bytes that are not aligned for the type are copied. Those of shared memory always are aligned.
+    ///
+    /// ```no_run
+    /// use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
+    ///
+    /// #[derive(FromBytes, IntoBytes, KnownLayout, Immutable)]
+    /// #[repr(C)]
+    /// struct Image {
+    ///     pixels: [[u8; 1920]; 1080],
+    /// }
+    ///
+    /// scl::topology!("doc/survey.yaml");
+    ///
+    /// #[scl::main]
+    /// fn main(mut detector: Detector) -> scl::Result<()> {
+    ///     loop {
+    ///         let image = detector.images.recv_view_blocking()?;
+    ///         println!("{} bright pixels", image.pixels.as_flattened().iter().filter(|&&pixel| pixel > 127).count());
+    ///     }
+    /// }
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`recv`](Self::recv), and [`RecvError::NoViews`] if the gate's codec is not `raw`.
+    ///
+    /// # Cancel safety
+    /// Cancel safe: no message is lost if this is dropped before it is ready.
+    pub async fn recv_view(&mut self) -> Result<View<T>, RecvError> {
+        self.incoming.recv_view().await
+    }
+
+    /// [`recv_view`](Self::recv_view) from a plain thread.
+    ///
+    /// # Errors
+    /// Those of `recv_view`, and [`RecvError::Blocking`] inside async code or after a stop request.
+    pub fn recv_view_blocking(&mut self) -> Result<View<T>, RecvError> {
+        self.incoming.recv_view_blocking()
+    }
+
+    /// Returns the next message where it arrived, if one has; it waits no longer than [`try_recv`](Self::try_recv).
+    ///
+    /// # Errors
+    /// Those of `recv_view`, and [`RecvError::Blocking`] after a stop request.
+    pub fn try_recv_view(&mut self) -> Result<Option<View<T>>, RecvError> {
+        self.incoming.try_recv_view()
     }
 }
 

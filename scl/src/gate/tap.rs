@@ -65,6 +65,11 @@ impl GateTap {
 
     /// Shows a message to the observers, if there are any.
     pub(crate) fn observe(&self, what: Observed, call_id: u64, payload: &Bytes) {
+        self.observe_with(what, call_id, || payload.clone());
+    }
+
+    /// The same for a message that would have to be copied first.
+    pub(crate) fn observe_with(&self, what: Observed, call_id: u64, payload: impl FnOnce() -> Bytes) {
         if let Some(shared) = &self.shared {
             shared.observe(what, call_id, payload);
         }
@@ -99,15 +104,16 @@ impl Shared {
         self.observed.store(is_observed, Ordering::Release);
     }
 
-    fn observe(&self, what: Observed, call_id: u64, payload: &Bytes) {
+    fn observe(&self, what: Observed, call_id: u64, payload: impl FnOnce() -> Bytes) {
         // Counted also while nobody observes, so that an observer can tell a gap from its own absence.
         let sequence = self.sequence.fetch_add(1, Ordering::Relaxed);
         if !self.observed.load(Ordering::Acquire) {
             return;
         }
+        let payload = payload();
         let mut end = lock(&self.end);
         let End { tap, task } = &mut *end;
-        tap.observe(&mut Context::from_waker(task), payload, &meta(sequence, now_ns(), call_id, what));
+        tap.observe(&mut Context::from_waker(task), &payload, &meta(sequence, now_ns(), call_id, what));
         self.dropped.store(tap.dropped(), Ordering::Relaxed);
     }
 }

@@ -106,7 +106,8 @@ fn the_last_exception_for_either_end_counts() {
 
 #[test]
 fn gates_that_the_component_does_not_have_are_refused() {
-    let refused = |text: &str| text.parse::<MediumChoice>().unwrap().check(&camera()).err().map(|error| error.to_string());
+    let refused =
+        |text: &str| text.parse::<MediumChoice>().unwrap().check(&camera()).err().map(|error| error.to_string());
     for known in ["shm", "ipc,camera.frames=shm,camera.jobs=tcp", "ipc,viewer.other=shm,stranger.frames=shm"] {
         assert_eq!(refused(known), None, "{known}");
     }

@@ -28,8 +28,13 @@ struct Stage {
 impl Stage {
     async fn new() -> Self {
         let root = tempfile::tempdir().unwrap();
-        let registration =
-            Registration::in_folder(&SENSOR, system(root.path()), Some(Duration::from_millis(500))).unwrap();
+        let registration = Registration::in_folder(
+            &SENSOR,
+            system(root.path()),
+            Some(Duration::from_millis(500)),
+            &MediumChoice::default(),
+        )
+        .unwrap();
         let keeping = tokio::spawn(registration.keep());
         // It is watching when it waits for the first time.
         yield_now().await;
@@ -95,7 +100,13 @@ async fn files_and_folders_that_are_removed_are_created_again() {
 #[tokio::test]
 async fn what_is_removed_before_it_is_watched_is_created_again() {
     let root = tempfile::tempdir().unwrap();
-    let registration = Registration::in_folder(&SENSOR, system(root.path()), Some(Duration::from_millis(500))).unwrap();
+    let registration = Registration::in_folder(
+        &SENSOR,
+        system(root.path()),
+        Some(Duration::from_millis(500)),
+        &MediumChoice::default(),
+    )
+    .unwrap();
     fs::remove_dir_all(root.path().join("run")).unwrap();
     let keeping = tokio::spawn(registration.keep());
     let mut stage = Stage { root, registration, keeping, seen: Seen::default() };
@@ -158,7 +169,7 @@ async fn what_a_killed_process_left_behind_is_removed() {
     let dir = system(root.path());
     let old = dir.folder().join("sensor.measurements.old.tcp");
     fs::write(&old, "127.0.0.1:80").unwrap();
-    let _registration = Registration::in_folder(&SENSOR, dir, None).unwrap();
+    let _registration = Registration::in_folder(&SENSOR, dir, None, &MediumChoice::default()).unwrap();
     assert!(!old.exists());
 }
 
@@ -166,7 +177,7 @@ async fn what_a_killed_process_left_behind_is_removed() {
 async fn a_forked_child_removes_and_restores_nothing() {
     let root = tempfile::tempdir().unwrap();
     let dir = system(root.path());
-    let mut registration = Registration::in_folder(&SENSOR, dir.clone(), None).unwrap();
+    let mut registration = Registration::in_folder(&SENSOR, dir.clone(), None, &MediumChoice::default()).unwrap();
     Arc::get_mut(registration.files.as_mut().unwrap()).unwrap().process = ProcessMark::inherited();
     let keeping = tokio::spawn(registration.keep());
     yield_now().await;

@@ -4,7 +4,9 @@ use super::SystemDir;
 use super::error::RuntimeDirError;
 use super::owned_path::OwnedPath;
 use super::small_file::{read_file, write_temp};
-use crate::spec::{ComponentSpec, GateSpec};
+use crate::medium::Medium;
+use crate::medium_choice::MediumChoice;
+use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
 use scl_plan::Plan;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -34,6 +36,8 @@ pub struct Announcement {
     pub started: SystemTime,
     /// The program. Characters that are not UTF-8 are lost in the file.
     pub program: PathBuf,
+    /// The host that it runs on, if that is another one: then the process is a gateway that stands in for it here.
+    pub host: Option<String>,
     /// The hash of the protobuf messages it was built with, which are in `<hash>.schema`.
     pub schema: Option<String>,
     /// All endpoints of all its gates, in file order.
@@ -63,6 +67,8 @@ pub struct AnnouncedEndpoint {
     pub codec: String,
     /// The gates that it connects to, as `<component>.<gate>`.
     pub peers: Vec<String>,
+    /// What it listens on: `ipc`, `tcp` or `shm`. Empty for an end that only connects, and if the writer is older.
+    pub medium: String,
 }
 
 impl Announcement {
@@ -74,6 +80,7 @@ impl Announcement {
             pid: std::process::id(),
             started: SystemTime::now(),
             program: std::env::current_exe().unwrap_or_default(),
+            host: None,
             schema: None,
             endpoints: Vec::new(),
             plan: None,
@@ -81,10 +88,10 @@ impl Announcement {
     }
 
     /// An announcement of this process, opened now, with the endpoints of a component.
-    pub(crate) fn of(spec: &ComponentSpec) -> Self {
+    pub(crate) fn of(spec: &ComponentSpec, media: &MediumChoice) -> Self {
         Self {
             schema: spec.schema.map(|schema| schema.hash.to_owned()),
-            endpoints: spec.gates.iter().flat_map(endpoints).collect(),
+            endpoints: spec.gates.iter().flat_map(|gate| endpoints(spec, gate, media)).collect(),
             plan: Some(spec.plan()),
             ..Self::of_this_process(spec.name)
         }
@@ -109,7 +116,7 @@ impl Announcement {
         Self::from_json(&serde_json::from_slice(&read_file(&path, LIMIT).ok()?).ok()?)
     }
 
-    fn to_json(&self) -> Value {
+    pub(crate) fn to_json(&self) -> Value {
         let started = self.started.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default().as_millis();
         json!({
             "version": self.version,
@@ -117,13 +124,14 @@ impl Announcement {
             "pid": self.pid,
             "started_ms": u64::try_from(started).unwrap_or(u64::MAX),
             "program": self.program.to_string_lossy(),
+            "host": self.host,
             "schema": self.schema,
             "endpoints": self.endpoints.iter().map(AnnouncedEndpoint::to_json).collect::<Vec<_>>(),
             "plan": self.plan.as_ref().and_then(plan_to_json),
         })
     }
 
-    fn from_json(json: &Value) -> Option<Self> {
+    pub(crate) fn from_json(json: &Value) -> Option<Self> {
         let started = Duration::from_millis(json["started_ms"].as_u64()?);
         let endpoints = json["endpoints"].as_array()?.iter().map(AnnouncedEndpoint::from_json);
         Some(Self {
@@ -132,6 +140,7 @@ impl Announcement {
             pid: json["pid"].as_u64()?.try_into().ok()?,
             started: SystemTime::UNIX_EPOCH.checked_add(started)?,
             program: text(json, "program")?.into(),
+            host: text(json, "host"),
             schema: text(json, "schema"),
             endpoints: endpoints.collect::<Option<_>>()?,
             plan: Some(&json["plan"])
@@ -152,6 +161,7 @@ impl AnnouncedEndpoint {
             "payload": self.payload,
             "codec": self.codec,
             "peers": self.peers,
+            "medium": self.medium,
         })
     }
 
@@ -166,11 +176,14 @@ impl AnnouncedEndpoint {
             payload: text(json, "payload")?,
             codec: text(json, "codec")?,
             peers: peers.filter_map(|peer| Some(peer.as_str()?.to_owned())).collect(),
+            medium: text(json, "medium").unwrap_or_default(),
         })
     }
 }
 
-fn endpoints(gate: &GateSpec) -> Vec<AnnouncedEndpoint> {
+fn endpoints(spec: &ComponentSpec, gate: &GateSpec, media: &MediumChoice) -> Vec<AnnouncedEndpoint> {
+    let listens = !gate.tap.is_empty();
+    let word = |medium: Medium| if listens { medium.word().to_owned() } else { String::new() };
     let peers = || gate.links.iter().map(|link| format!("{}.{}", link.peer_component, link.peer_gate));
     let endpoint = |name: &str, contract: &str, peers: Vec<String>| AnnouncedEndpoint {
         gate: gate.name.to_owned(),
@@ -181,15 +194,22 @@ fn endpoints(gate: &GateSpec) -> Vec<AnnouncedEndpoint> {
         payload: gate.payload.to_owned(),
         codec: gate.codec.to_owned(),
         peers,
+        medium: String::new(),
     };
     let mut endpoints = if gate.endpoint.is_empty() {
         let links = gate.links.iter().zip(peers());
-        links.map(|(link, peer)| endpoint(link.endpoint, link.contract, vec![peer])).collect()
+        let announced = |(link, peer): (&LinkSpec, String)| AnnouncedEndpoint {
+            medium: word(media.of_link(spec, gate, link)),
+            ..endpoint(link.endpoint, link.contract, vec![peer])
+        };
+        links.map(announced).collect()
     } else {
-        vec![endpoint(gate.endpoint, gate.contract, peers().collect())]
+        let medium = word(media.of_gate(spec, gate));
+        vec![AnnouncedEndpoint { medium, ..endpoint(gate.endpoint, gate.contract, peers().collect()) }]
     };
     if !gate.tap.is_empty() {
-        endpoints.push(AnnouncedEndpoint { tap: true, ..endpoint(gate.tap, gate.contract, Vec::new()) });
+        let medium = word(media.of_tap(spec, gate));
+        endpoints.push(AnnouncedEndpoint { tap: true, medium, ..endpoint(gate.tap, gate.contract, Vec::new()) });
     }
     endpoints
 }
@@ -206,7 +226,7 @@ fn text(json: &Value, key: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spec::{GateKind, GateOptions, LinkSpec, Schema, WhenFull};
+    use crate::spec::{GateKind, GateOptions, Schema, WhenFull};
     use scl_plan::{ConnectionPlan, GatePlan, Payload};
 
     const fn link(peer_component: &'static str, endpoint: &'static str) -> LinkSpec {
@@ -302,24 +322,24 @@ mod tests {
         ];
         let schema = Some(Schema { hash: "1111", descriptors: b"" });
         let spec = ComponentSpec { system: "nav", name: "gps", declared_at: "nav.yaml:1:2", gates: &GATES, schema };
-        let announcement = Announcement::of(&spec);
+        let announcement = Announcement::of(&spec, &"ipc,one.peer=shm".parse().unwrap());
         assert_eq!((announcement.version, announcement.pid), (VERSION, std::process::id()));
         assert_eq!(announcement.schema.as_deref(), Some("1111"));
         let said = announcement.endpoints.iter().map(|found| {
             assert_eq!((&*found.gate, &*found.contract), ("gate", "aaaa"));
             assert_eq!((&*found.payload, &*found.codec), ("nav.Position", "protobuf"));
-            format!("{} {} {} [{}]", found.kind, found.tap, found.endpoint, found.peers.join(" "))
+            format!("{} {} {} [{}] {}", found.kind, found.tap, found.endpoint, found.peers.join(" "), found.medium)
         });
         let said: Vec<_> = said.collect();
         assert_eq!(
             said,
             [
-                "pub false gps.gate--one.peer.aaaa [one.peer]",
-                "pub false gps.gate--two.peer.aaaa [two.peer]",
-                "pub true gps.gate.tap []",
-                "rep false gps.gate.aaaa [one.peer two.peer]",
-                "rep true gps.gate.tap []",
-                "req false map.peer.aaaa [map.peer]",
+                "pub false gps.gate--one.peer.aaaa [one.peer] shm",
+                "pub false gps.gate--two.peer.aaaa [two.peer] ipc",
+                "pub true gps.gate.tap [] ipc",
+                "rep false gps.gate.aaaa [one.peer two.peer] shm",
+                "rep true gps.gate.tap [] ipc",
+                "req false map.peer.aaaa [map.peer] ",
             ]
         );
     }

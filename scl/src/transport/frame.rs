@@ -44,12 +44,12 @@ impl Frame {
         }
     }
 
-    /// Its content as bytes; a loan is copied and given back.
+    /// Its content as bytes, by [`Loan::into_bytes`] if it is a loan.
     #[inline]
     pub fn into_bytes(self) -> Bytes {
         match self {
             Self::Bytes(bytes) => bytes,
-            Self::Loan(loan) => Bytes::copy_from_slice(loan.as_slice()),
+            Self::Loan(loan) => loan.into_bytes(),
         }
     }
 
@@ -62,11 +62,12 @@ impl Frame {
         }
     }
 
-    /// The frame as bytes in place: a loan is replaced by a copy and given back.
+    /// The frame as bytes in place: a loan becomes what [`Loan::into_bytes`] returns.
     #[inline]
     pub fn make_bytes(&mut self) -> &Bytes {
-        if let Self::Loan(loan) = self {
-            *self = Self::Bytes(Bytes::copy_from_slice(loan.as_slice()));
+        if matches!(self, Self::Loan(_)) {
+            let loan = std::mem::replace(self, Self::Bytes(Bytes::new()));
+            *self = Self::Bytes(loan.into_bytes());
         }
         match self {
             Self::Bytes(bytes) => bytes,
@@ -128,6 +129,12 @@ pub trait LoanedMemory: Any + Send + Sync {
 
     /// The content, to be filled.
     fn bytes_mut(&mut self) -> &mut [u8];
+
+    /// The content as bytes, for peers that cannot be sent the memory itself. The default copies and gives the memory back,
+    /// which is right for all memory of which there is not much.
+    fn into_bytes(self: Box<Self>) -> Bytes {
+        Bytes::copy_from_slice(self.bytes())
+    }
 }
 
 impl Loan {
@@ -158,6 +165,11 @@ impl Loan {
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// The content as bytes, as [`LoanedMemory::into_bytes`] makes them: usually a copy.
+    pub fn into_bytes(self) -> Bytes {
+        self.0.into_bytes()
     }
 
     /// The memory as what the transport lent, if that was an `M`.

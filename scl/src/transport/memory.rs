@@ -5,6 +5,7 @@
 //! | `pipe` | a bounded queue between two ends |
 //! | `switchboard` | endpoints by name, and connecting the ends there |
 //! | `send` | the sending ends: publish and push |
+//! | `lend` | memory that links lend |
 //! | `receive` | the receiving ends: subscribe and pull |
 //! | `catch_up` | waiting without a runtime for what senders hold back |
 //! | `request_reply` | the ends for requests and replies |
@@ -14,6 +15,7 @@
 //! finds it, and the other end uses it after it has released its lock.
 
 mod catch_up;
+mod lend;
 mod pipe;
 mod receive;
 mod request_reply;
@@ -41,7 +43,8 @@ const IN_FLIGHT_NEWEST_OF_TEST: usize = 1000;
 ///
 /// Ends may be opened in any order, in any task or thread. A connection holds at most 64 messages that the receiver has
 /// not taken (1 for an end with [`Endpoint::newest_only`]), then [`Link::send`](super::Link::send) returns the next
-/// one. What a link has accepted still arrives after the link is dropped.
+/// one. What a link has accepted still arrives after the link is dropped. Links lend memory of any length, which the
+/// receiver gets without a copy.
 ///
 /// A subscriber whose publisher drops the connection and goes on listening has been replaced by another one. It stays
 /// unconnected until a new publisher listens, because two ends that replace each other at once would never stop.

@@ -26,6 +26,7 @@ mod pull;
 mod push;
 mod reply;
 mod request;
+mod shared_memory;
 mod stream;
 mod subscribe;
 mod tap;

@@ -64,7 +64,7 @@ static void options(void) {
     EXPECT(open_program(plan_path, NULL, &component), SCL_ENVIRONMENT, "`SCL_SCHED=round` is not understood");
     unsetenv("SCL_SCHED");
     EXPECT(open_program(plan_path, "{\"sistem\": \"x\"}", &component), SCL_ARGUMENT, "unknown field `sistem`");
-    EXPECT(open_program(plan_path, "{\"transport\": \"udp\"}", &component), SCL_ARGUMENT, "unknown variant `udp`");
+    EXPECT(open_program(plan_path, "{\"transport\": \"udp\"}", &component), SCL_ARGUMENT, "`udp` is not understood");
     EXPECT(open_program(plan_path, "{\"signals\": 1}", &component), SCL_ARGUMENT, "expected a boolean");
     EXPECT(open_program(plan_path, "{", &component), SCL_ARGUMENT, "`options_json` is not valid");
     EXPECT(open_program(plan_path, "\xff", &component), SCL_ARGUMENT, "`options_json` is not UTF-8");

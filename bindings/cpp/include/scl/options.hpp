@@ -13,7 +13,8 @@ struct Options {
     std::optional<std::string> runtime_dir;
     /// The name of the system; else `SCL_SYSTEM`, or that of the topology file.
     std::optional<std::string> system;
-    /// `ipc` or `tcp`; else `SCL_TRANSPORT`.
+    /// `ipc`, `tcp` or `shm`, or a list with others for single connections, like `ipc,camera.frames=shm`; else
+    /// `SCL_TRANSPORT`.
     std::optional<std::string> transport;
     /// Whether SIGTERM and Ctrl-C request a stop, and an uncaught `scl::Error` ends the program with a message and an
     /// exit code instead of `abort`.

@@ -8,14 +8,15 @@ import time
 import warnings
 from collections.abc import Mapping
 from types import MappingProxyType, TracebackType
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 from scl import _native, _process, codec
 from scl._errors import NotReady, UnknownGate
 from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Sub
 from scl._loop import Loops
 
-Transport = Literal["ipc", "tcp"]
+# `ipc`, `tcp` or `shm`, or a list with others for single connections, like `ipc,camera.frames=shm`.
+Transport: TypeAlias = str
 
 _KINDS: dict[str, type[Any]] = {"pub": Pub, "sub": Sub, "req": Req, "rep": Rep, "push": Push, "pull": Pull}
 

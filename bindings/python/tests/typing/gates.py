@@ -9,7 +9,7 @@ sensor = Sensor(runtime_dir="/tmp/rover", system="rover", transport="ipc", signa
 controller = Controller()
 actuator = Actuator()
 user_interface = UserInterface()
-Sensor(transport="udp")  # error: udp
+Sensor(transport=1)  # error: int
 Sensor("sensor")  # error: argument
 
 # Sending.

@@ -1,6 +1,7 @@
 //! What connecting ends and `ready` say about peers that were built differently.
 
 use super::*;
+use crate::medium_choice::MediumChoice;
 use crate::runtime_dir::{OwnedPath, RuntimeDir};
 use crate::spec::{GateKind, GateOptions, WhenFull};
 use tempfile::TempDir;
@@ -63,7 +64,7 @@ impl Build {
     }
 
     fn announce(&self, dir: &SystemDir) -> OwnedPath {
-        Announcement::of(&self.spec()).publish(dir).unwrap()
+        Announcement::of(&self.spec(), &MediumChoice::default()).publish(dir).unwrap()
     }
 
     /// What this component says about its peer: when it connects, and when it waits for the peer.

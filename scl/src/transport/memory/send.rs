@@ -1,8 +1,9 @@
 //! The sending ends: publish and push.
 
+use super::lend::Lender;
 use super::pipe::{PipeReader, PipeWriter};
 use super::switchboard::{Connector, Listener};
-use crate::transport::{Disconnected, Frame, Link, Peer, PeerKind, Sender};
+use crate::transport::{Disconnected, Frame, Link, Loan, Peer, PeerKind, Sender};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -24,7 +25,7 @@ impl Sender for Publisher {
         loop {
             let subscriber = ready!(self.subscribers.poll_connection(cx));
             if subscriber.is_open() {
-                return Poll::Ready(peer(MemoryLink { pipe: subscriber, _only_link: None }));
+                return Poll::Ready(peer(MemoryLink::new(subscriber, None)));
             }
         }
     }
@@ -52,7 +53,7 @@ impl Sender for Pusher {
                 // Once the link has been dropped, the same puller is connected to again.
                 self.puller.connect_again();
                 let only_link = OnlyLink::of(&self.has_link);
-                return Poll::Ready(peer(MemoryLink { pipe: puller, _only_link: Some(only_link) }));
+                return Poll::Ready(peer(MemoryLink::new(puller, Some(only_link))));
             }
         }
     }
@@ -84,7 +85,14 @@ fn peer(link: MemoryLink) -> Peer {
 
 struct MemoryLink {
     pipe: PipeWriter<Bytes>,
+    lender: Lender,
     _only_link: Option<OnlyLink>,
+}
+
+impl MemoryLink {
+    fn new(pipe: PipeWriter<Bytes>, only_link: Option<OnlyLink>) -> Self {
+        Self { pipe, lender: Lender::default(), _only_link: only_link }
+    }
 }
 
 impl Link for MemoryLink {
@@ -93,11 +101,20 @@ impl Link for MemoryLink {
     }
 
     fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Result<(), Frame> {
-        self.pipe.send(cx, message.into_bytes()).map_err(Frame::from)
+        // A loan that cannot be sent yet stays one.
+        if matches!(message, Frame::Loan(_)) && !self.pipe.has_room(cx) {
+            return Err(message);
+        }
+        self.pipe.send(cx, self.lender.take_back(message)).map_err(Frame::from)
     }
 
     fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
-        self.pipe.send_all(cx, queue, Frame::into_bytes, |message| sent(message.len()));
+        let to_item = |message| self.lender.take_back(message);
+        self.pipe.send_all(cx, queue, to_item, |message| sent(message.len()));
+    }
+
+    fn loan(&mut self, length: usize) -> Option<Loan> {
+        Some(self.lender.lend(length))
     }
 
     /// What was sent can be received even after this end is dropped.

@@ -7,9 +7,10 @@
 use super::Medium;
 use super::connection::{Closed, Connection};
 use super::listener::{BindError, Listener};
+use super::shared_memory::Offer;
 use super::stream::{Stream, is_blocked};
 use super::timer::Timer;
-use super::zmtp::{Decoder, Item, PeerReady, SclReady, SocketType, hello};
+use super::zmtp::{Decoder, Item, PeerReady, SclReady, ServiceId, SocketType, hello};
 use crate::runtime_dir::{OwnedPath, Seen, SystemDir};
 use crate::transport::{Endpoint, TransportError};
 use bytes::Bytes;
@@ -41,7 +42,10 @@ pub(super) struct Acceptor {
     medium: Medium,
     endpoint: Endpoint,
     socket: SocketType,
+    scl: SclReady,
     hello: Bytes,
+    /// Shared memory, if it is offered to peers.
+    offer: Option<Offer>,
     runtime: Option<Handle>,
     listener: Listener,
     guard: OwnedPath,
@@ -57,6 +61,8 @@ pub(super) struct Acceptor {
 
 struct Handshake {
     connection: Connection,
+    /// The service that was offered.
+    service: Option<ServiceId>,
     deadline: Instant,
 }
 
@@ -78,7 +84,9 @@ impl Acceptor {
             medium,
             endpoint: endpoint.clone(),
             socket,
+            scl,
             hello: hello(socket, scl).into(),
+            offer: None,
             runtime: Handle::try_current().ok(),
             listener,
             guard,
@@ -89,6 +97,21 @@ impl Acceptor {
             handshakes: VecDeque::new(),
             limit: Timer::new(),
         })
+    }
+
+    /// Offers shared memory to peers if that is what this end listens on.
+    ///
+    /// # Errors
+    /// There is too little of it, or it cannot be used.
+    pub(super) fn offering_memory(mut self, longest: &Endpoint) -> Result<Self, TransportError> {
+        if self.medium == Medium::Shm {
+            self.offer = Some(Offer::open(&self.dir, longest)?);
+        }
+        Ok(self)
+    }
+
+    pub(super) fn dir(&self) -> &SystemDir {
+        &self.dir
     }
 
     /// Prepares for calls without a runtime.
@@ -157,8 +180,11 @@ impl Acceptor {
 
     fn start(&mut self, stream: Stream) {
         let decoder = Decoder::new(self.socket, self.endpoint.max_size);
-        let connection = Connection::new(stream, decoder, &self.hello);
-        self.handshakes.push_back(Handshake { connection, deadline: Instant::now() + HANDSHAKE_LIMIT });
+        let shm = self.offer.as_ref().map(Offer::next);
+        let own = shm.map(|_| hello(self.socket, SclReady { shm, ..self.scl }).into());
+        let connection = Connection::new(stream, decoder, own.as_ref().unwrap_or(&self.hello));
+        let service = shm.and_then(|shm| shm.service);
+        self.handshakes.push_back(Handshake { connection, service, deadline: Instant::now() + HANDSHAKE_LIMIT });
         if self.handshakes.len() > MOST_HANDSHAKES {
             self.handshakes.pop_front();
         }
@@ -207,7 +233,9 @@ impl Acceptor {
             match poll_handshake(&mut handshake.connection, cx) {
                 Poll::Ready(Ok(peer)) => {
                     if let Some(handshake) = self.handshakes.remove(index) {
-                        return Poll::Ready((handshake.connection, peer));
+                        let can_share = peer.scl.is_some_and(|scl| scl.shm.is_some());
+                        let service = handshake.service.filter(|_| can_share);
+                        return Poll::Ready((handshake.connection, PeerReady { service, ..peer }));
                     }
                 }
                 Poll::Ready(Err(error)) => {

@@ -14,7 +14,7 @@ const MOST_MESSAGES: u64 = 1 << 16;
 
 /// What a receiving end announces.
 pub(super) fn receiving(endpoint: &Endpoint) -> SclReady {
-    SclReady { window: Some(window(endpoint)), newest_only: endpoint.newest_only, lossless: false }
+    SclReady { window: Some(window(endpoint)), newest_only: endpoint.newest_only, ..SclReady::default() }
 }
 
 fn window(endpoint: &Endpoint) -> Window {

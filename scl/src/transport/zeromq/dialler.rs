@@ -2,10 +2,11 @@
 
 use super::acceptor::{HANDSHAKE_LIMIT, poll_handshake};
 use super::connection::{Closed, Connection};
+use super::shared_memory;
 use super::stream::{Socket, Stream};
 use super::tcp_user;
 use super::timer::Timer;
-use super::zmtp::{Decoder, PeerReady, SclReady, SocketType, hello};
+use super::zmtp::{Decoder, PeerReady, SclReady, ShmReady, SocketType, hello};
 use crate::runtime_dir::{self, Address, SystemDir};
 use crate::transport::Endpoint;
 use bytes::Bytes;
@@ -47,6 +48,8 @@ pub(super) struct Dialler {
 impl Dialler {
     /// Called inside a runtime.
     pub(super) fn new(dir: &Arc<SystemDir>, endpoint: &Endpoint, socket: SocketType, scl: SclReady) -> Self {
+        // The listening end decides whether memory is shared.
+        let scl = SclReady { shm: shared_memory::format().map(|_| ShmReady::default()), ..scl };
         Self {
             dir: Arc::clone(dir),
             endpoint: endpoint.clone(),
@@ -70,6 +73,10 @@ impl Dialler {
         if let Some(connection) = &mut self.handshake {
             connection.detach();
         }
+    }
+
+    pub(super) fn dir(&self) -> &SystemDir {
+        &self.dir
     }
 
     pub(super) fn endpoint(&self) -> &Endpoint {
@@ -109,7 +116,10 @@ impl Dialler {
             Poll::Ready(ready) => {
                 // A timer that goes on would wake a task that has nothing to do.
                 self.limit.clear();
-                Poll::Ready(ready.map(|peer| (connection, peer)))
+                Poll::Ready(ready.map(|peer| {
+                    let service = peer.scl.and_then(|scl| scl.shm).and_then(|shm| shm.service);
+                    (connection, PeerReady { service, ..peer })
+                }))
             }
             Poll::Pending => {
                 if self.limit.poll(cx).is_ready() {

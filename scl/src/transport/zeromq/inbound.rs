@@ -2,8 +2,10 @@
 
 use super::connection::{Closed, Connection};
 use super::credit::ReceiveCredit;
+use super::shared_memory::Arriving;
 use super::timer::Timer;
-use super::zmtp::{Command, Item, Message, PeerReady, acknowledgement, catch_up};
+use super::zmtp::{Command, FINISH, Item, Message, PeerReady, SHM_OPEN, acknowledgement, catch_up};
+use crate::runtime_dir::SystemDir;
 use crate::transport::Endpoint;
 use bytes::Bytes;
 use std::collections::VecDeque;
@@ -25,6 +27,8 @@ const MOST_AHEAD: usize = 4096;
 pub(super) struct Inbound {
     connection: Connection,
     credit: Option<ReceiveCredit>,
+    /// Long messages in shared memory.
+    arriving: Arriving,
     newest_only: bool,
     /// Whether the sender waits instead of dropping messages. Then older messages matter, too.
     lossless: bool,
@@ -35,6 +39,9 @@ pub(super) struct Inbound {
     malformed: u64,
     /// Whether the sender has asked a caller who acknowledges messages to do so.
     acknowledgement_requested: bool,
+    /// Whether the sender was asked to send nothing more, and has sent everything that it had sent before.
+    finishing: bool,
+    finished: bool,
     /// Whether the sender holds messages until earlier ones are acknowledged.
     behind: bool,
     /// Whether the socket was empty when `poll_next` last looked, just now.
@@ -51,17 +58,24 @@ pub(super) struct Inbound {
 }
 
 impl Inbound {
-    pub(super) fn new(connection: Connection, peer: &PeerReady, endpoint: &Endpoint) -> Self {
+    pub(super) fn new(mut connection: Connection, peer: &PeerReady, endpoint: &Endpoint, dir: &SystemDir) -> Self {
+        let arriving = Arriving::open(dir, peer, endpoint);
+        if arriving.is_open() {
+            let _reported_by_reading = connection.write(SHM_OPEN);
+        }
         let lossless = peer.scl.is_some_and(|scl| scl.lossless);
         Self {
             connection,
             credit: peer.scl.map(|_| ReceiveCredit::new(endpoint)),
+            arriving,
             newest_only: endpoint.newest_only && !lossless,
             lossless,
             ahead: VecDeque::new(),
             closed: None,
             malformed: 0,
             acknowledgement_requested: false,
+            finishing: false,
+            finished: false,
             behind: false,
             emptied: false,
             gave_up: false,
@@ -124,13 +138,28 @@ impl Inbound {
                     let number = self.credit.as_mut().and_then(ReceiveCredit::skip_last);
                     self.write_acknowledgement(number);
                 }
+                Item::Command(Command::Sample { sequence, length }) => {
+                    return self.take_sample(sequence, length).map(Some);
+                }
                 Item::Command(Command::Behind) => (self.behind, self.gave_up) = (true, false),
                 Item::Command(Command::CaughtUp(number)) => self.handle_caught_up(number),
                 Item::Command(Command::Flush) => self.handle_flush(),
+                Item::Command(Command::Finished) => self.finished = true,
                 Item::Command(_) | Item::Ready(_) => {}
             }
         }
         Ok(None)
+    }
+
+    fn take_sample(&mut self, sequence: u64, length: u64) -> Result<Bytes, Closed> {
+        let message = self.arriving.receive(sequence, length)?;
+        let waits = self.arriving.count_taken();
+        // Its memory is not the socket's, so its bytes do not count.
+        self.count_taken(0);
+        if waits && !self.credit.as_ref().is_some_and(ReceiveCredit::is_deferred) {
+            self.acknowledge();
+        }
+        Ok(message)
     }
 
     fn handle_caught_up(&mut self, number: u64) {
@@ -158,6 +187,7 @@ impl Inbound {
     }
 
     fn acknowledge(&mut self) {
+        self.arriving.acknowledged();
         let number = self.credit.as_mut().map(ReceiveCredit::acknowledge);
         self.write_acknowledgement(number);
     }
@@ -166,6 +196,18 @@ impl Inbound {
     pub(super) fn acknowledge_deferred(&mut self, count: u64) {
         let number = self.credit.as_mut().and_then(|credit| credit.acknowledge_deferred(count));
         self.write_acknowledgement(number);
+    }
+
+    /// Asks the sender to send nothing more.
+    pub(super) fn finish(&mut self) {
+        if !std::mem::replace(&mut self.finishing, true) {
+            let _reported_by_reading = self.connection.write(FINISH);
+        }
+    }
+
+    /// Returns true if nothing more will follow. A plain ZeroMQ program is not waited for.
+    pub(super) fn is_finished(&self) -> bool {
+        self.finished || self.credit.is_none()
     }
 
     pub(super) fn take_acknowledgement_request(&mut self) -> bool {

@@ -3,10 +3,11 @@
 use super::connection::{Closed, Connection};
 use super::credit::SendCredit;
 use super::link_count::LinkAlive;
+use super::shared_memory::{Sent, Sharing};
 use super::topics::Topics;
-use super::zmtp::{BEHIND, Command, FLUSH, Header, Item, PeerReady, ProtocolError, caught_up};
-use crate::transport::{Disconnected, Frame, Link};
-use bytes::{BufMut, Bytes, BytesMut};
+use super::zmtp::{BEHIND, Command, FINISHED, FLUSH, Header, Item, PeerReady, ProtocolError, caught_up};
+use crate::transport::{Disconnected, Frame, Link, Loan};
+use bytes::{BufMut, BytesMut};
 use rustix::time::{ClockId, Timespec, clock_gettime};
 use std::collections::VecDeque;
 use std::io;
@@ -34,6 +35,8 @@ pub(super) struct SendLink {
     /// What a subscriber has subscribed to. A puller gets everything.
     topics: Option<Topics>,
     credit: Option<SendCredit>,
+    /// Long messages in shared memory.
+    sharing: Sharing,
     /// Whether the peer wants to be told when messages wait for its acknowledgement, and has been.
     reports_waiting: bool,
     reported_waiting: bool,
@@ -50,18 +53,28 @@ pub(super) struct SendLink {
     /// Whether the link was driven since messages were last sent from the queue.
     driven: bool,
     broken: bool,
+    /// Whether the peer wants nothing more over this connection, and whether it has been told that nothing follows.
+    finishing: bool,
+    finished: bool,
     detached: bool,
     raw_read: Option<Instant>,
     _alive: LinkAlive,
 }
 
 impl SendLink {
-    pub(super) fn new(connection: Connection, peer: &PeerReady, topics: Option<Topics>, alive: LinkAlive) -> Self {
+    pub(super) fn new(
+        connection: Connection,
+        peer: &PeerReady,
+        topics: Option<Topics>,
+        sharing: Sharing,
+        alive: LinkAlive,
+    ) -> Self {
         let scl = peer.scl.unwrap_or_default();
         Self {
             connection,
             topics,
             credit: scl.window.map(SendCredit::new),
+            sharing,
             reports_waiting: scl.newest_only,
             reported_waiting: false,
             question: 0,
@@ -72,6 +85,8 @@ impl SendLink {
             tick: tick(),
             driven: false,
             broken: false,
+            finishing: false,
+            finished: false,
             detached: false,
             raw_read: None,
             _alive: alive,
@@ -105,7 +120,9 @@ impl SendLink {
     }
 
     fn window_is_open_after(&self, messages: usize, bytes: usize) -> bool {
-        self.detached || self.credit.as_ref().is_none_or(|credit| credit.is_open_after(messages, bytes))
+        let is_open = |credit: &SendCredit| credit.is_open_after(messages, bytes);
+        let has_credit = || self.sharing.has_room() && self.credit.as_ref().is_none_or(is_open);
+        !self.finishing && (self.detached || has_credit())
     }
 
     fn wants(&self, message: &[u8]) -> bool {
@@ -121,9 +138,12 @@ impl SendLink {
             Item::Command(Command::Acknowledged(count)) => {
                 if let Some(credit) = &mut self.credit {
                     credit.acknowledge(count)?;
+                    self.sharing.acknowledge(count);
                 }
             }
+            Item::Command(Command::ShmOpen) => self.sharing.open(),
             Item::Command(Command::CatchUp(number)) => self.question = number,
+            Item::Command(Command::Finish) => self.finishing = true,
             // Anything else that a peer sends here has no meaning.
             item => {
                 if let (Some(topics), Some(subscription)) = (&mut self.topics, item.into_subscription()) {
@@ -146,6 +166,10 @@ impl SendLink {
             }
             reads -= 1;
         }
+        if self.finishing && !std::mem::replace(&mut self.finished, true) {
+            // Behind everything that was sent.
+            self.connection.write(FINISHED)?;
+        }
         Ok(self.connection.flush(cx)?)
     }
 
@@ -161,6 +185,18 @@ impl SendLink {
             cx.waker().wake_by_ref();
         }
         Ok(self.connection.flush_raw()?)
+    }
+
+    /// Reads what a peer has sent before it left: a failed write is noticed earlier than its last acknowledgements.
+    fn read_last_acknowledgements(&mut self) {
+        for _ in 0..RAW_READS {
+            if !matches!(self.connection.fill_raw(), Ok(true)) {
+                return;
+            }
+            while let Ok(Some(item)) = self.connection.buffered_item() {
+                let _of_no_use_any_more = self.handle(item);
+            }
+        }
     }
 
     /// Returns true if the peer can take a message after all.
@@ -183,10 +219,14 @@ impl SendLink {
     }
 
     /// Sends a message to a peer that can take it.
-    fn send_one(&mut self, cx: &mut Context<'_>, message: &Bytes) -> Result<(), Closed> {
-        if !self.wants(message) {
+    fn send_one(&mut self, cx: &mut Context<'_>, message: &mut Frame) -> Result<(), Closed> {
+        if !self.wants(message.as_slice()) {
             return Ok(());
         }
+        if self.sharing.is_for(message.len()) && self.send_sample(cx, message) {
+            return Ok(());
+        }
+        let message = message.make_bytes();
         self.connection.write_message(&[], Header::new(0, message.len()).as_bytes(), message)?;
         self.connection.flush(cx)?;
         // Not earlier: a message that is handed back is not on its way.
@@ -196,10 +236,27 @@ impl SendLink {
         Ok(())
     }
 
+    /// Sends a long message in shared memory. Returns false if it is to be sent through the socket.
+    fn send_sample(&mut self, cx: &mut Context<'_>, message: &mut Frame) -> bool {
+        let Some(credit) = &mut self.credit else { return false };
+        let written = match self.sharing.send(message, credit.sent() + 1) {
+            Sent::Inline => return false,
+            Sent::Announce(command) => self.connection.write(&command).and_then(|()| self.connection.flush(cx)),
+            Sent::Lost(reason) => Err(io::Error::other(reason)),
+        };
+        // Also if that failed: the sample is gone, so the message is on its way, and lost with the connection. Its bytes
+        // are not the socket's.
+        credit.count_sent(0);
+        if let Err(error) = written {
+            self.fail(cx, &error.into());
+        }
+        true
+    }
+
     /// Sends several messages from the front of a queue in one piece. Returns how many: 0 if there are none to be sent
     /// together.
     fn send_batch(&mut self, cx: &mut Context<'_>, queue: &VecDeque<Frame>) -> Result<usize, Closed> {
-        let fits = |message: &Frame| 9 + message.len() <= BATCH / 2;
+        let fits = |message: &Frame| 9 + message.len() <= BATCH / 2 && !self.sharing.is_for(message.len());
         if !self.wants_everything() || !queue.iter().take(2).all(fits) {
             return Ok(0);
         }
@@ -208,7 +265,8 @@ impl SendLink {
         for message in queue {
             let header = Header::new(0, message.len());
             let length = self.batch.len() + header.as_bytes().len() + message.len();
-            if length > BATCH || !self.window_is_open_after(count, bytes) {
+            let is_sample = self.sharing.is_for(message.len());
+            if length > BATCH || is_sample || !self.window_is_open_after(count, bytes) {
                 break;
             }
             self.batch.put_slice(header.as_bytes());
@@ -252,8 +310,10 @@ impl SendLink {
             if batched > 0 {
                 queue.drain(..batched).for_each(|message| sent(message.len()));
             } else if let Some(message) = queue.front_mut() {
-                self.send_one(cx, message.make_bytes())?;
-                queue.pop_front().inspect(|message| sent(message.len()));
+                let length = message.len();
+                self.send_one(cx, message)?;
+                queue.pop_front();
+                sent(length);
             }
         }
         if driven && before - queue.len() >= GATHERED / 4 {
@@ -288,6 +348,7 @@ impl Link for SendLink {
             }
             self.broken = true;
         }
+        self.read_last_acknowledgements();
         Err(Disconnected)
     }
 
@@ -301,7 +362,7 @@ impl Link for SendLink {
             }
             return Err(message);
         }
-        match self.send_one(cx, message.make_bytes()) {
+        match self.send_one(cx, &mut message) {
             Ok(()) => {
                 self.count_one(cx);
                 Ok(())
@@ -317,6 +378,10 @@ impl Link for SendLink {
         if let Err(error) = self.try_send_all(cx, queue, sent) {
             self.fail(cx, &error);
         }
+    }
+
+    fn loan(&mut self, length: usize) -> Option<Loan> {
+        self.sharing.loan(length)
     }
 
     fn is_written(&self) -> bool {

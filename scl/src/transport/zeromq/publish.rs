@@ -4,6 +4,7 @@ use super::acceptor::Acceptor;
 use super::connection::{Closed, Connection};
 use super::link::SendLink;
 use super::link_count::LinkCount;
+use super::shared_memory::Sharing;
 use super::topics::Topics;
 use super::zmtp::{PeerReady, SocketType};
 use super::{Medium, zmtp};
@@ -29,14 +30,15 @@ impl Publisher {
         let scl = zmtp::SclReady { lossless: endpoint.lossless, ..zmtp::SclReady::default() };
         // What subscribers send is short, whatever the limit for messages is.
         let endpoint = Endpoint { max_size: zmtp::COMMAND_LIMIT, ..endpoint.clone() };
-        let acceptor = Acceptor::open(dir, medium, &endpoint, SocketType::XPub, scl)?;
+        let acceptor = Acceptor::open(dir, medium, &endpoint, SocketType::XPub, scl)?.offering_memory(&endpoint)?;
         Ok(Self { acceptor, unsubscribed: Vec::new(), links: Arc::default() })
     }
 
     fn peer(&self, candidate: Candidate, topics: Topics) -> Peer {
         let Candidate { connection, ready } = candidate;
         let kind = if ready.scl.is_some() { PeerKind::Component } else { PeerKind::Foreign };
-        Peer { kind, link: Box::new(SendLink::new(connection, &ready, Some(topics), self.links.new_link())) }
+        let sharing = Sharing::new(self.acceptor.dir(), &ready);
+        Peer { kind, link: Box::new(SendLink::new(connection, &ready, Some(topics), sharing, self.links.new_link())) }
     }
 }
 

@@ -3,6 +3,7 @@
 use super::dialler::Dialler;
 use super::link::SendLink;
 use super::link_count::LinkCount;
+use super::shared_memory::Sharing;
 use super::zmtp::{self, SocketType};
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Endpoint, Peer, PeerKind, Sender};
@@ -32,7 +33,8 @@ impl Sender for Pusher {
         }
         let (connection, ready) = ready!(self.dialler.poll_connected(cx));
         let kind = if ready.scl.is_some() { PeerKind::Component } else { PeerKind::Foreign };
-        let link = SendLink::new(connection, &ready, None, self.links.new_link());
+        let sharing = Sharing::new(self.dialler.dir(), &ready);
+        let link = SendLink::new(connection, &ready, None, sharing, self.links.new_link());
         Poll::Ready(Peer { kind, link: Box::new(link) })
     }
 

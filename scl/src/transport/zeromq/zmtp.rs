@@ -12,14 +12,16 @@ mod ready;
 #[cfg(test)]
 mod tests;
 
+#[cfg(feature = "iceoryx2")]
+pub(super) use command::sample;
 pub(super) use command::{
-    BEHIND, Command, FLUSH, SUBSCRIBE_ALL, SUBSCRIBE_ALL_AND_PING, Subscription, acknowledgement, catch_up, caught_up,
-    pong,
+    BEHIND, Command, FINISH, FINISHED, FLUSH, SHM_OPEN, SUBSCRIBE_ALL, SUBSCRIBE_ALL_AND_PING, Subscription,
+    acknowledgement, catch_up, caught_up, pong,
 };
 pub(super) use decoder::{COMMAND_LIMIT, Decoder, Item, Message};
 pub(super) use error::ProtocolError;
 pub(super) use frame::{Header, MORE, bodies};
-pub(super) use ready::{PeerReady, SclReady, SocketType, hello};
+pub(super) use ready::{PeerReady, SclReady, ServiceId, ShmReady, SocketType, hello};
 
 /// Decodes everything that a peer sends to a socket of a type, in pieces, and returns how many items it understood.
 ///

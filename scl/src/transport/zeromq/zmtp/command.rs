@@ -18,6 +18,13 @@ pub(in crate::transport::zeromq) const BEHIND: &[u8] = b"\x04\x0d\x0cX-SCL-BEHIN
 /// From a sending end: acknowledge everything sent before this.
 pub(in crate::transport::zeromq) const FLUSH: &[u8] = b"\x04\x0c\x0bX-SCL-FLUSH";
 
+/// From a receiving end: it has opened the connection's shared memory.
+pub(in crate::transport::zeromq) const SHM_OPEN: &[u8] = b"\x04\x0f\x0eX-SCL-SHM-OPEN";
+/// From a receiving end: send nothing more over this connection.
+pub(in crate::transport::zeromq) const FINISH: &[u8] = b"\x04\x0d\x0cX-SCL-FINISH";
+/// From a sending end: nothing more follows.
+pub(in crate::transport::zeromq) const FINISHED: &[u8] = b"\x04\x0f\x0eX-SCL-FINISHED";
+
 /// A command of a peer that has introduced itself.
 #[derive(Debug, PartialEq, Eq)]
 pub(in crate::transport::zeromq) enum Command {
@@ -38,6 +45,19 @@ pub(in crate::transport::zeromq) enum Command {
     CaughtUp(u64),
     /// The peer wants everything acknowledged that it has sent.
     Flush,
+    /// The peer has opened the connection's shared memory, and receives samples from now on.
+    ShmOpen,
+    /// The peer has put a message into shared memory, which comes before everything sent after this command.
+    Sample {
+        /// The sample's number, from 1.
+        sequence: u64,
+        /// Its length in bytes.
+        length: u64,
+    },
+    /// The peer is about to close the connection, and wants nothing more over it.
+    Finish,
+    /// The peer sends nothing more over this connection.
+    Finished,
     Unknown,
 }
 
@@ -68,7 +88,14 @@ impl Command {
             b"X-SCL-BEHIND" => Self::Behind,
             b"X-SCL-CATCH-UP" => Self::CatchUp(number(content)?),
             b"X-SCL-CAUGHT-UP" => Self::CaughtUp(number(content)?),
+            b"X-SCL-FINISH" => Self::Finish,
+            b"X-SCL-FINISHED" => Self::Finished,
             b"X-SCL-FLUSH" => Self::Flush,
+            b"X-SCL-SHM-OPEN" => Self::ShmOpen,
+            b"X-SCL-SAMPLE" => {
+                let sequence = number(content.split_to(content.len().min(8)))?;
+                Self::Sample { sequence, length: number(content)? }
+            }
             b"SUBSCRIBE" => Self::Subscription(Subscription::Add(content)),
             b"CANCEL" => Self::Subscription(Subscription::Cancel(content)),
             b"PING" => {
@@ -118,6 +145,18 @@ pub(in crate::transport::zeromq) fn catch_up(number: u64) -> [u8; 25] {
 /// From a sending end: no newer message waits.
 pub(in crate::transport::zeromq) fn caught_up(number: u64) -> [u8; 26] {
     numbered(b"\x0fX-SCL-CAUGHT-UP", number)
+}
+
+/// From a sending end: a message of `length` bytes is in shared memory, as sample number `sequence`.
+#[cfg(feature = "iceoryx2")]
+pub(in crate::transport::zeromq) fn sample(sequence: u64, length: u64) -> [u8; 31] {
+    const NAME: &[u8; 13] = b"\x0cX-SCL-SAMPLE";
+    let mut command = [0; 31];
+    let first: [u8; 23] = numbered(NAME, sequence);
+    command[..23].copy_from_slice(&first);
+    command[1] = 29;
+    command[23..].copy_from_slice(&length.to_be_bytes());
+    command
 }
 
 /// A command with a number, of known length, so that it takes no memory.

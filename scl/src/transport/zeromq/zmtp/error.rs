@@ -31,6 +31,8 @@ pub(in crate::transport::zeromq) enum ProtocolError {
     Acknowledgement { acknowledged: u64, sent: u64 },
     #[error("the peer subscribed to too many topics")]
     TooManyTopics,
+    #[error("{0}")]
+    Sample(String),
     #[error("the peer does not read the answers to its heartbeats")]
     NotReading,
 }

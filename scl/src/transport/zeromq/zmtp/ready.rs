@@ -1,5 +1,6 @@
 //! READY: what both sides say about themselves after the greeting.
 
+use super::super::shared_memory;
 use super::frame::{COMMAND, Header};
 use super::{ProtocolError, greeting};
 use crate::transport::Window;
@@ -58,6 +59,8 @@ const SCL_VERSION: &str = "1";
 pub(in crate::transport::zeromq) struct PeerReady {
     /// Present if the peer is an SCL end whose version is known.
     pub(in crate::transport::zeromq) scl: Option<SclReady>,
+    /// The service in which both ends share memory, if one offers that and both can.
+    pub(in crate::transport::zeromq) service: Option<ServiceId>,
 }
 
 /// The value of the property `X-SCL`.
@@ -69,6 +72,32 @@ pub(in crate::transport::zeromq) struct SclReady {
     pub(in crate::transport::zeromq) newest_only: bool,
     /// Whether this sending end waits instead of dropping messages.
     pub(in crate::transport::zeromq) lossless: bool,
+    /// Present if this end can share memory with one that has the same engine and user.
+    pub(in crate::transport::zeromq) shm: Option<ShmReady>,
+}
+
+/// What an end says that can share memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(in crate::transport::zeromq) struct ShmReady {
+    /// A listening end offers this service.
+    pub(in crate::transport::zeromq) service: Option<ServiceId>,
+}
+
+/// The name of a service: hexadecimal digits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::transport::zeromq) struct ServiceId([u8; 32]);
+
+impl ServiceId {
+    pub(in crate::transport::zeromq) fn parse(text: &str) -> Option<Self> {
+        let digits: [u8; 32] = text.as_bytes().try_into().ok()?;
+        digits.iter().all(|digit| matches!(digit, b'0'..=b'9' | b'a'..=b'f')).then_some(Self(digits))
+    }
+}
+
+impl std::fmt::Display for ServiceId {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.iter().try_for_each(|&digit| std::fmt::Write::write_char(f, digit.into()))
+    }
 }
 
 impl SclReady {
@@ -77,14 +106,15 @@ impl SclReady {
             self.window.map_or_else(String::new, |Window { messages, bytes }| format!(" window={messages},{bytes}"));
         let newest = if self.newest_only { " newest" } else { "" };
         let lossless = if self.lossless { " lossless" } else { "" };
-        format!("{SCL_VERSION}{window}{newest}{lossless}")
+        let shm = self.shm.map_or_else(String::new, ShmReady::encode);
+        format!("{SCL_VERSION}{window}{newest}{lossless}{shm}")
     }
 
     /// Returns `None` for another version. Unknown words are ignored, so that the value can grow.
-    fn parse(value: &[u8]) -> Option<Self> {
-        let mut words = std::str::from_utf8(value).ok()?.split(' ');
+    fn parse(value: &[u8]) -> Result<Option<Self>, ProtocolError> {
+        let mut words = std::str::from_utf8(value).unwrap_or_default().split(' ');
         if words.next() != Some(SCL_VERSION) {
-            return None;
+            return Ok(None);
         }
         let mut ready = Self::default();
         for word in words {
@@ -94,9 +124,33 @@ impl SclReady {
                 ready.newest_only = true;
             } else if word == "lossless" {
                 ready.lossless = true;
+            } else if let Some(shm) = word.strip_prefix("shm=") {
+                ready.shm = ShmReady::parse(shm)?;
             }
         }
-        Some(ready)
+        Ok(Some(ready))
+    }
+}
+
+impl ShmReady {
+    fn encode(self) -> String {
+        let Some(format) = shared_memory::format() else { return String::new() };
+        let service = self.service.map_or_else(String::new, |service| format!(",{service}"));
+        format!(" shm={format}{service}")
+    }
+
+    /// Returns `None` if the engine, its version, the width of pointers or the user is another one.
+    fn parse(text: &str) -> Result<Option<Self>, ProtocolError> {
+        let Some(rest) = shared_memory::format().and_then(|format| text.strip_prefix(&*format)) else {
+            return Ok(None);
+        };
+        match rest.strip_prefix(',') {
+            Some(service) => {
+                let service = ServiceId::parse(service).ok_or(ProtocolError::MalformedReady)?;
+                Ok(Some(Self { service: Some(service) }))
+            }
+            None => Ok(rest.is_empty().then_some(Self { service: None })),
+        }
     }
 }
 
@@ -130,7 +184,7 @@ pub(super) fn parse(socket: SocketType, mut properties: &[u8]) -> Result<PeerRea
         if name.eq_ignore_ascii_case(b"Socket-Type") {
             peer = Some(value);
         } else if name.eq_ignore_ascii_case(SCL_PROPERTY) {
-            scl = SclReady::parse(value);
+            scl = SclReady::parse(value)?;
         }
         properties = rest;
     }
@@ -139,7 +193,7 @@ pub(super) fn parse(socket: SocketType, mut properties: &[u8]) -> Result<PeerRea
         let shown = &peer[..peer.len().min(16)];
         return Err(ProtocolError::SocketType { own: socket, peer: shown.escape_ascii().to_string() });
     }
-    Ok(PeerReady { scl })
+    Ok(PeerReady { scl, service: None })
 }
 
 fn split_property(properties: &[u8]) -> Option<(&[u8], &[u8], &[u8])> {

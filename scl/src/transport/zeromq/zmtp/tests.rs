@@ -51,7 +51,7 @@ fn with_scl(value: &str) -> Option<SclReady> {
     let greeting = &hello(SocketType::Pull, SclReady::default())[..64];
     let arrived = [greeting, &command("READY", &[&property[..], socket_type].concat())].concat();
     match decode(SocketType::Sub, &arrived).as_deref() {
-        Ok([Item::Ready(PeerReady { scl })]) => *scl,
+        Ok([Item::Ready(PeerReady { scl, .. })]) => *scl,
         other => panic!("{other:?}"),
     }
 }
@@ -60,14 +60,19 @@ fn message(envelope: &[u8], body: &[u8]) -> Item {
     Item::Message(Message { envelope: Bytes::copy_from_slice(envelope), body: Bytes::copy_from_slice(body) })
 }
 
-const PLAIN: Item = Item::Ready(PeerReady { scl: None });
+const PLAIN: Item = Item::Ready(PeerReady { scl: None, service: None });
 
 #[test]
 fn our_own_hello_is_understood_by_every_role() {
     use SocketType::{Dealer, Pull, Push, Router, Sub, XPub};
-    let scl = SclReady { window: Some(Window { messages: 64, bytes: 32768 }), newest_only: true, lossless: true };
+    let scl = SclReady {
+        window: Some(Window { messages: 64, bytes: 32768 }),
+        newest_only: true,
+        lossless: true,
+        ..SclReady::default()
+    };
     for (own, peer) in [(XPub, Sub), (Sub, XPub), (Push, Pull), (Pull, Push), (Dealer, Router), (Router, Dealer)] {
-        assert_eq!(decode(own, &hello(peer, scl)), Ok(vec![Item::Ready(PeerReady { scl: Some(scl) })]));
+        assert_eq!(decode(own, &hello(peer, scl)), Ok(vec![Item::Ready(PeerReady { scl: Some(scl), service: None })]));
     }
     for (own, peer) in [(XPub, XPub), (Sub, Push), (Push, Sub), (Pull, Pull), (Dealer, Dealer), (Router, Router)] {
         let refused = Err(ProtocolError::SocketType { own, peer: peer.name().to_owned() });
@@ -99,7 +104,7 @@ fn the_property_of_scl_can_grow() {
         ("1", Some(SclReady::default())),
         ("1 window=256,1048576", Some(SclReady { window, ..SclReady::default() })),
         ("1 lossless", Some(SclReady { lossless: true, ..SclReady::default() })),
-        ("1 newest later=7 window=256,1048576 x", Some(SclReady { window, newest_only: true, lossless: false })),
+        ("1 newest later=7 window=256,1048576 x", Some(SclReady { window, newest_only: true, ..SclReady::default() })),
         ("1 window=0,0", Some(SclReady::default())),
         ("1 window=1", Some(SclReady::default())),
         ("1 window=-1,99999999999999999999999", Some(SclReady::default())),

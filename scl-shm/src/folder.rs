@@ -1,0 +1,123 @@
+//! Where a node's files are, their names, the lock, and removing what nobody uses.
+
+use crate::error::ShmError;
+use crate::limits::FOLDER;
+use iceoryx2::config::Config;
+use iceoryx2::node::{Node, NodeState};
+use iceoryx2::prelude::{CallbackProgression, FileName, Path as EnginePath, SemanticString};
+use iceoryx2::service::ipc_threadsafe::Service as Engine;
+use rustix::fs::{FlockOperation, flock};
+use std::fs::{self, DirBuilder, File, OpenOptions};
+use std::io;
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::fs::{DirBuilderExt, MetadataExt, OpenOptionsExt};
+use std::path::{Path, PathBuf};
+
+/// The name of the folder inside the system's. Endpoints have full stops in their names, so none is in the way.
+const NAME: &str = "shm";
+/// The longest path of that folder: the engine appends up to 90 bytes, and allows 255.
+const LONGEST: usize = 160;
+
+/// The folder of the engine's files in a system's folder.
+#[derive(Debug)]
+pub(crate) struct Folder {
+    path: PathBuf,
+    /// What the names of all files in [`FOLDER`] begin with, which belongs to no system: the user and the folder.
+    prefix: String,
+}
+
+impl Folder {
+    pub(crate) fn create(system: &Path) -> Result<Self, ShmError> {
+        let path = system.join(NAME);
+        if path.as_os_str().len() > LONGEST {
+            return Err(ShmError::Path { path });
+        }
+        match DirBuilder::new().mode(0o700).create(&path) {
+            Err(source) if source.kind() != io::ErrorKind::AlreadyExists => {
+                return Err(ShmError::Io { action: "create", path, source });
+            }
+            _ => {}
+        }
+        let user = rustix::process::geteuid().as_raw();
+        let prefix = format!("scl_{user}_{:016x}_", hash(path.as_os_str().as_bytes()));
+        Ok(Self { path, prefix })
+    }
+
+    /// Returns true if it is the one in the folder of this system.
+    pub(crate) fn is_of(&self, system: &Path) -> bool {
+        self.path.parent() == Some(system)
+    }
+
+    #[cfg(test)]
+    pub(crate) fn prefix(&self) -> &str {
+        &self.prefix
+    }
+
+    /// Waits until no other program creates, cleans or removes here; until the returned value is dropped.
+    pub(crate) fn lock(&self) -> Result<File, ShmError> {
+        let path = self.path.join("lock");
+        let failed = |action, source| ShmError::Io { action, path: path.clone(), source };
+        let file = OpenOptions::new().write(true).create(true).truncate(false).mode(0o600).open(&path);
+        let file = file.map_err(|source| failed("create", source))?;
+        flock(&file, FlockOperation::LockExclusive).map_err(|error| failed("lock", error.into()))?;
+        Ok(file)
+    }
+
+    pub(crate) fn config(&self) -> Result<Config, ShmError> {
+        let path = || ShmError::Path { path: self.path.clone() };
+        let mut config = Config::default();
+        config.global.set_root_path(&EnginePath::new(self.path.as_os_str().as_bytes()).map_err(|_| path())?);
+        config.global.prefix = FileName::new(self.prefix.as_bytes()).map_err(|_| path())?;
+        config.global.service.cleanup_dead_nodes_on_open = false;
+        config.global.node.cleanup_dead_nodes_on_creation = false;
+        config.global.node.cleanup_dead_nodes_on_destruction = false;
+        // At least as many as views may be kept, or the engine warns.
+        config.defaults.publish_subscribe.subscriber_expired_connection_buffer = 1024;
+        Ok(config)
+    }
+
+    /// Refuses files of other users, who could have guessed the prefix.
+    pub(crate) fn check_owners(&self) -> Result<(), ShmError> {
+        let user = rustix::process::geteuid().as_raw();
+        for path in self.files() {
+            // One that has gone meanwhile harms nobody.
+            let Ok(found) = fs::symlink_metadata(&path) else { continue };
+            if found.uid() != user {
+                return Err(ShmError::Foreign { path, owner: found.uid() });
+            }
+        }
+        Ok(())
+    }
+
+    /// Removes all files if no living program has a node here any more, also those of killed programs. Called under the
+    /// lock.
+    pub(crate) fn remove_if_unused(&self) {
+        let Ok(config) = self.config() else { return };
+        let mut used = false;
+        let listed = Node::<Engine>::list(&config, |state| {
+            used |= !matches!(state, NodeState::Dead(_));
+            CallbackProgression::Continue
+        });
+        if used || listed.is_err() {
+            return;
+        }
+        // What cannot be removed now, the next program tries.
+        for path in self.files() {
+            let _stays = fs::remove_file(path);
+        }
+        for path in [&config.global.node.directory, &config.global.service.directory] {
+            let _stays = fs::remove_dir_all(self.path.join(path.to_string()));
+        }
+    }
+
+    fn files(&self) -> impl Iterator<Item = PathBuf> {
+        let entries = fs::read_dir(FOLDER).into_iter().flatten().flatten();
+        let is_ours = |name: &std::ffi::OsStr| name.as_bytes().starts_with(self.prefix.as_bytes());
+        entries.filter(move |entry| is_ours(&entry.file_name())).map(|entry| entry.path())
+    }
+}
+
+/// FNV-1a: the same in every program of the system, whatever it was built with.
+fn hash(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+}

@@ -1,0 +1,75 @@
+//! Memory that was lent to be filled and sent.
+
+use crate::node::SharedMemory;
+use iceoryx2::sample_mut::SampleMut;
+use iceoryx2::sample_mut_uninit::SampleMutUninit;
+use iceoryx2::service::ipc_threadsafe::Service as Engine;
+use std::mem::MaybeUninit;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+pub(crate) type Uninitialised = SampleMutUninit<Engine, [MaybeUninit<u8>], ()>;
+pub(crate) type Sample = SampleMut<Engine, [u8], ()>;
+
+/// Counts a value until it is dropped.
+#[derive(Debug)]
+pub(crate) struct Counted(Arc<AtomicUsize>);
+
+impl Counted {
+    pub(crate) fn new(count: &Arc<AtomicUsize>) -> Self {
+        count.fetch_add(1, Ordering::Relaxed);
+        Self(count.clone())
+    }
+}
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// Memory lent by a [`SampleSender`](crate::SampleSender). Dropping it gives it back.
+///
+/// What it contains at first is unspecified: zeros or parts of older messages of the same connection.
+pub struct LoanedSample {
+    pub(crate) sample: Sample,
+    /// Who lent it.
+    pub(crate) sender: u128,
+    _counted: Counted,
+    // Last: the node must outlive the sample.
+    _memory: Arc<SharedMemory>,
+}
+
+// SAFETY: A shared reference gives access to the payload for reading only (`as_slice`), and to nothing else of the
+// sample. The payload is memory that nobody writes while it is lent, except through the exclusive reference of
+// `as_mut_slice`. What `as_slice` reads beside it is behind the locks of `ipc_threadsafe`.
+unsafe impl Sync for LoanedSample {}
+
+impl LoanedSample {
+    pub(crate) fn new(sample: Sample, sender: u128, counted: Counted, memory: &Arc<SharedMemory>) -> Self {
+        Self { sample, sender, _counted: counted, _memory: memory.clone() }
+    }
+
+    /// The content.
+    pub fn as_slice(&self) -> &[u8] {
+        self.sample.payload()
+    }
+
+    /// The content, to be filled.
+    pub fn as_mut_slice(&mut self) -> &mut [u8] {
+        self.sample.payload_mut()
+    }
+}
+
+impl std::fmt::Debug for LoanedSample {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("LoanedSample").field("length", &self.as_slice().len()).finish_non_exhaustive()
+    }
+}
+
+/// Takes the memory as it is. Filling it with zeros would take as long as copying a message.
+pub(crate) fn as_it_is(sample: Uninitialised) -> Sample {
+    // SAFETY: The memory is a file that the operating system has mapped. It was filled with zeros by the operating system
+    // or has been written since, so all of it is initialised; and every byte is a `u8`.
+    unsafe { sample.assume_init() }
+}

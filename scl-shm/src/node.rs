@@ -1,0 +1,113 @@
+//! The node of this process in the folder of a system: one, however many components the process has.
+
+use crate::error::ShmError;
+use crate::folder::Folder;
+use crate::limits::{self, Limits};
+use crate::receiver::SampleReceiver;
+use crate::sender::SampleSender;
+use crate::service::{self, ServiceName};
+use iceoryx2::node::{Node, NodeBuilder};
+use iceoryx2::prelude::SignalHandlingMode;
+use iceoryx2::service::ipc_threadsafe::Service as Engine;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::time::Duration;
+
+/// How long the cleaning of what killed programs have left may wait for another program that cleans as well.
+const CLEANING: Duration = Duration::from_secs(1);
+
+/// Shared memory among the programs of a system.
+pub struct SharedMemory {
+    /// `None` only while it is dropped.
+    node: Option<Mutex<Node<Engine>>>,
+    folder: Folder,
+}
+
+/// The nodes of this process. Two in one folder would each take the other's files for those of a stranger.
+static NODES: Mutex<Option<HashMap<PathBuf, Weak<SharedMemory>>>> = Mutex::new(None);
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl SharedMemory {
+    /// Opens shared memory in the folder of a system, and removes what killed programs have left there.
+    ///
+    /// # Errors
+    /// [`ShmError`] if its files cannot be created or belong to another user.
+    pub fn open(system: &Path) -> Result<Arc<Self>, ShmError> {
+        crate::log::direct();
+        let mut nodes = lock(&NODES);
+        let nodes = nodes.get_or_insert_default();
+        nodes.retain(|_, node| node.strong_count() > 0);
+        if let Some(memory) = nodes.get(system).and_then(Weak::upgrade) {
+            return Ok(memory);
+        }
+        let memory = Arc::new(Self::create(system)?);
+        nodes.insert(system.to_owned(), Arc::downgrade(&memory));
+        Ok(memory)
+    }
+
+    fn create(system: &Path) -> Result<Self, ShmError> {
+        let folder = Folder::create(system)?;
+        // Two cleaners at once can end one of them: https://github.com/eclipse-iceoryx/iceoryx2/issues/1880
+        let _locked = folder.lock()?;
+        folder.check_owners()?;
+        limits::require(0)?;
+        let config = folder.config()?;
+        let node = NodeBuilder::new()
+            .config(&config)
+            .signal_handling_mode(SignalHandlingMode::Disabled)
+            .create::<Engine>()
+            .map_err(|error| ShmError::engine("create a node", error))?;
+        node.blocking_cleanup_dead_nodes(CLEANING);
+        Ok(Self { node: Some(Mutex::new(node)), folder })
+    }
+
+    /// Opens the receiving end of a connection, and with it the connection's service. The sending end is opened next.
+    ///
+    /// # Errors
+    /// [`ShmError`] if the service exists already or cannot be created.
+    pub fn receiver(self: &Arc<Self>, name: &ServiceName, limits: Limits) -> Result<SampleReceiver, ShmError> {
+        limits::require(0)?;
+        let service = service::create(&self.node(), name, &limits)?;
+        SampleReceiver::new(&service, limits, self)
+    }
+
+    /// Opens the sending end of a connection whose receiving end is open. Messages of `expected` bytes need no second
+    /// segment.
+    ///
+    /// # Errors
+    /// [`ShmError`] if the service does not exist, or is not one that [`receiver`](Self::receiver) has created.
+    pub fn sender(self: &Arc<Self>, name: &ServiceName, expected: usize) -> Result<SampleSender, ShmError> {
+        limits::require(0)?;
+        let (service, limits) = service::open(&self.node(), name)?;
+        SampleSender::new(&service, limits, expected, self)
+    }
+
+    fn node(&self) -> MutexGuard<'_, Node<Engine>> {
+        // It is there until this value is dropped.
+        lock(self.node.as_ref().unwrap_or_else(|| unreachable!("the node is taken by `drop` only")))
+    }
+}
+
+impl Drop for SharedMemory {
+    fn drop(&mut self) {
+        let nodes = lock(&NODES);
+        let is_open_again =
+            nodes.iter().flatten().any(|(system, node)| node.strong_count() > 0 && self.folder.is_of(system));
+        // A program that opens the system meanwhile waits, so what is removed is nobody's.
+        let locked = self.folder.lock();
+        self.node = None;
+        if locked.is_ok() && !is_open_again {
+            self.folder.remove_if_unused();
+        }
+    }
+}
+
+impl std::fmt::Debug for SharedMemory {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SharedMemory").field("folder", &self.folder).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,83 @@
+//! The receiving end of a connection.
+
+use crate::error::{ReceiveError, ShmError};
+use crate::limits::Limits;
+use crate::loaned::Counted;
+use crate::node::SharedMemory;
+use crate::service::Port;
+use bytes::Bytes;
+use iceoryx2::port::subscriber::Subscriber;
+use iceoryx2::sample::Sample;
+use iceoryx2::service::ipc_threadsafe::Service as Engine;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The receiving end of a connection.
+pub struct SampleReceiver {
+    port: Subscriber<Engine, [u8], ()>,
+    limits: Limits,
+    kept: Arc<AtomicUsize>,
+    copied: u64,
+    // Last: the node must outlive the port.
+    memory: Arc<SharedMemory>,
+}
+
+/// A received sample, which is given back when it is dropped.
+struct Received {
+    sample: Sample<Engine, [u8], ()>,
+    _counted: Counted,
+    // Last: the node must outlive the sample.
+    _memory: Arc<SharedMemory>,
+}
+
+impl AsRef<[u8]> for Received {
+    fn as_ref(&self) -> &[u8] {
+        self.sample.payload()
+    }
+}
+
+impl SampleReceiver {
+    pub(crate) fn new(service: &Port, limits: Limits, memory: &Arc<SharedMemory>) -> Result<Self, ShmError> {
+        let port = service
+            .subscriber_builder()
+            .create()
+            .map_err(|error| ShmError::engine("create a receiving port", error))?;
+        Ok(Self { port, limits, kept: Arc::new(AtomicUsize::new(0)), copied: 0, memory: memory.clone() })
+    }
+
+    /// The most samples that may be sent and not acknowledged.
+    pub fn in_flight(&self) -> usize {
+        self.limits.in_flight()
+    }
+
+    /// Receives the sample that the peer has announced: called exactly once for each. The memory goes back to the peer
+    /// when the returned bytes and all their clones are dropped. If too many are kept already, it is a copy.
+    ///
+    /// # Errors
+    /// [`ReceiveError`] if there is no such sample.
+    pub fn receive(&mut self, length: u64) -> Result<Bytes, ReceiveError> {
+        let sample = self.port.receive().map_err(|error| ReceiveError::Engine(format!("{error:?}")))?;
+        let sample = sample.ok_or(ReceiveError::Missing)?;
+        let sent = sample.payload().len() as u64;
+        if sent != length {
+            return Err(ReceiveError::Length { announced: length, sent });
+        }
+        if self.kept.load(Ordering::Relaxed) >= self.limits.kept() {
+            self.copied += 1;
+            return Ok(Bytes::copy_from_slice(sample.payload()));
+        }
+        let received = Received { sample, _counted: Counted::new(&self.kept), _memory: self.memory.clone() };
+        Ok(Bytes::from_owner(received))
+    }
+
+    /// Number of samples that were copied because too many were kept.
+    pub fn copied(&self) -> u64 {
+        self.copied
+    }
+}
+
+impl std::fmt::Debug for SampleReceiver {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SampleReceiver").field("limits", &self.limits).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,121 @@
+//! The sending end of a connection: lending memory and sending it.
+
+use crate::committed::Committed;
+use crate::error::{LoanError, SendError, ShmError};
+use crate::limits::{self, Limits};
+use crate::loaned::{self, Counted, LoanedSample, Uninitialised};
+use crate::node::SharedMemory;
+use crate::service::Port;
+use iceoryx2::port::publisher::Publisher;
+use iceoryx2::port::{BackpressureAction, LoanError as EngineLoanError};
+use iceoryx2::prelude::{AllocationStrategy, BackpressureStrategy};
+use iceoryx2::service::ipc_threadsafe::Service as Engine;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The sending end of a connection.
+pub struct SampleSender {
+    port: Publisher<Engine, [u8], ()>,
+    id: u128,
+    limits: Limits,
+    /// The longest message for which the present segment has been found to have room.
+    longest: usize,
+    committed: Committed,
+    loans: Arc<AtomicUsize>,
+    // Last: the node must outlive the port.
+    memory: Arc<SharedMemory>,
+}
+
+impl SampleSender {
+    pub(crate) fn new(
+        service: &Port,
+        limits: Limits,
+        expected: usize,
+        memory: &Arc<SharedMemory>,
+    ) -> Result<Self, ShmError> {
+        let port = service
+            .publisher_builder()
+            .max_loaned_samples(limits.loans())
+            .initial_max_slice_len(expected.max(1))
+            .allocation_strategy(AllocationStrategy::PowerOfTwo)
+            .backpressure_strategy(BackpressureStrategy::DiscardData)
+            // Credit keeps the buffer from being full. If a peer breaks that, nothing must be lost unnoticed.
+            .set_backpressure_handler(|_| BackpressureAction::DiscardDataAndFail)
+            .create()
+            .map_err(|error| ShmError::engine("create a sending port", error))?;
+        let id = port.id().value();
+        let (committed, loans) = (Committed::default(), Arc::new(AtomicUsize::new(0)));
+        Ok(Self { port, id, limits, longest: 0, committed, loans, memory: memory.clone() })
+    }
+
+    /// The most samples that may be sent and not acknowledged. What is sent beyond is lost.
+    pub fn in_flight(&self) -> usize {
+        self.limits.in_flight()
+    }
+
+    /// Lends memory to be filled. One loan is left for [`copy`](Self::copy).
+    ///
+    /// # Errors
+    /// [`LoanError`] if no memory can be lent now.
+    pub fn loan(&mut self, length: usize) -> Result<LoanedSample, LoanError> {
+        if self.loans.load(Ordering::Relaxed) + 1 >= self.limits.loans() {
+            return Err(LoanError::TooMany);
+        }
+        let sample = self.lend(length)?;
+        Ok(self.count(loaned::as_it_is(sample)))
+    }
+
+    /// Lends memory with a copy of a message.
+    ///
+    /// # Errors
+    /// [`LoanError`] if no memory can be lent now.
+    pub fn copy(&mut self, message: &[u8]) -> Result<LoanedSample, LoanError> {
+        let sample = self.lend(message.len())?;
+        Ok(self.count(sample.write_from_slice(message)))
+    }
+
+    fn count(&self, sample: loaned::Sample) -> LoanedSample {
+        LoanedSample::new(sample, self.id, Counted::new(&self.loans), &self.memory)
+    }
+
+    fn lend(&mut self, length: usize) -> Result<Uninitialised, LoanError> {
+        if length > self.longest {
+            // The engine may need a new segment, in which all samples may become as long.
+            Limits { longest: length, ..self.limits }.check()?;
+            self.committed.grown();
+        } else {
+            // The engine writes its header before the memory below can be reserved.
+            limits::require(0)?;
+        }
+        let sample = self.port.loan_slice_uninit(length).map_err(|error| match error {
+            EngineLoanError::ExceedsMaxLoans => LoanError::TooMany,
+            error => LoanError::Engine(format!("{error:?}")),
+        })?;
+        self.longest = self.longest.max(length);
+        self.committed.reserve(sample.payload().as_ptr().addr(), length)?;
+        Ok(sample)
+    }
+
+    /// Returns true if this end has lent the sample.
+    pub fn has_lent(&self, sample: &LoanedSample) -> bool {
+        sample.sender == self.id
+    }
+
+    /// Sends a sample that this end has lent. The receiving end has to be told.
+    ///
+    /// # Errors
+    /// [`SendError`]; the sample is gone.
+    pub fn send(&mut self, sample: LoanedSample) -> Result<(), SendError> {
+        match sample.sample.send() {
+            Ok(1..) => Ok(()),
+            Ok(0) => Err(SendError::NoReceiver),
+            Err(error) => Err(SendError::Engine(format!("{error:?}"))),
+        }
+    }
+}
+
+impl std::fmt::Debug for SampleSender {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SampleSender").field("id", &self.id).field("limits", &self.limits).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,345 @@
+//! The connections of a sending gate: a message that is encoded goes over each of them, or over one in turn.
+
+use super::Connection;
+use super::stats::{GateStats, PeerStats};
+use super::tap::{GateTap, Observed};
+use super::watch::Watch;
+use crate::codec::EncodeError;
+use crate::error::{BlockingError, GateName, Missing, PeerName, SendError, SendTimeoutError, TrySendError};
+use crate::figures::FigureSource;
+use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
+use crate::state::{Owner, SendingEnd};
+use crate::sync::lock;
+use crate::transport::{HeapMemory, Loan};
+use bytes::Bytes;
+use std::future::poll_fn;
+use std::sync::{Arc, Mutex, Weak};
+use std::task::{Context, Poll, Waker};
+use std::time::Duration;
+
+/// The connections of a sending gate.
+pub(crate) struct Fanout {
+    pub(crate) spec: &'static GateSpec,
+    pub(super) name: GateName,
+    /// One per peer, in the order of `spec.links`.
+    connections: Vec<Arc<Mutex<Connection>>>,
+    tap: GateTap,
+    may_wait: bool,
+    /// Whether each message goes to one of the peers only.
+    shares: bool,
+    /// The connection whose turn it is, if the gate shares.
+    turn: usize,
+    /// The peer that accepts the shortest messages.
+    strictest: Option<&'static LinkSpec>,
+    /// Number of connects and disconnects reported by `peers_changed`.
+    reported: u64,
+    /// Counts the gate itself, whose connections may live longer.
+    open: Arc<()>,
+    pub(crate) state: Owner,
+}
+
+/// A message as a gate's connections get it.
+pub(super) enum Outbound {
+    Bytes(Bytes),
+    /// Memory of the connection at an index.
+    Loan(Loan, usize),
+}
+
+impl Outbound {
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Bytes(bytes) => bytes.len(),
+            Self::Loan(loan, _) => loan.len(),
+        }
+    }
+}
+
+impl Fanout {
+    pub(crate) fn new(
+        state: Owner,
+        spec: &'static GateSpec,
+        connections: Vec<Arc<Mutex<Connection>>>,
+        tap: GateTap,
+    ) -> Self {
+        let may_wait = spec.options.backpressure && spec.links.iter().any(|link| link.when_full == WhenFull::Wait);
+        let shares = spec.kind == GateKind::Push && connections.len() > 1;
+        let name = GateName::new(state.spec().name, spec.name);
+        let strictest = spec.links.iter().min_by_key(|link| link.max_size);
+        Self {
+            spec,
+            name,
+            connections,
+            tap,
+            may_wait,
+            shares,
+            turn: 0,
+            strictest,
+            reported: 0,
+            open: Arc::default(),
+            state,
+        }
+    }
+
+    /// The message that `encode` makes, if the gate can be used and each peer accepts that length.
+    pub(super) fn accept(&self, encode: impl FnOnce() -> Result<Outbound, EncodeError>) -> Result<Outbound, SendError> {
+        self.state.check().map_err(self.refused())?;
+        let message = encode().map_err(|source| SendError::Encode { gate: self.name, source })?;
+        match self.too_long(message.len()) {
+            Some(TooLong { peer, size, limit }) => Err(SendError::TooLong { gate: self.name, peer, size, limit }),
+            None => Ok(message),
+        }
+    }
+
+    /// Sends a message that was accepted.
+    pub(super) async fn send(&mut self, message: Outbound) -> Result<(), SendError> {
+        if self.may_wait || self.state.is_stopped() {
+            poll_fn(|cx| self.poll_room(cx)).await?;
+        }
+        // A program that only sends lets the connections' tasks run now and then.
+        tokio::task::coop::consume_budget().await;
+        self.hand_out(message);
+        Ok(())
+    }
+
+    pub(super) fn send_blocking(
+        &mut self,
+        encode: impl FnOnce() -> Result<Outbound, EncodeError>,
+    ) -> Result<(), SendError> {
+        self.state.may_block().map_err(self.refused())?;
+        let message = self.accept(encode)?;
+        if self.may_wait {
+            let state = Arc::clone(&self.state);
+            state.block_on(poll_fn(|cx| self.poll_room(cx))).map_err(self.refused())??;
+        }
+        self.hand_out(message);
+        self.state.take_turn();
+        Ok(())
+    }
+
+    pub(super) fn send_timeout(
+        &mut self,
+        encode: impl FnOnce() -> Result<Outbound, EncodeError>,
+        timeout: Duration,
+    ) -> Result<(), SendTimeoutError> {
+        self.state.may_block().map_err(self.refused())?;
+        let message = self.accept(encode)?;
+        if self.may_wait {
+            let state = Arc::clone(&self.state);
+            let waited = state.block_on_for(timeout, poll_fn(|cx| self.poll_room(cx))).map_err(self.refused())?;
+            waited.unwrap_or(Ok(()))?;
+            // Room found after the wait is as good as room found in time.
+            if let Some(peer) = self.full(&mut Context::from_waker(Waker::noop())) {
+                return Err(SendTimeoutError::Timeout { gate: self.name, peer, waited: timeout });
+            }
+        }
+        self.hand_out(message);
+        self.state.take_turn();
+        Ok(())
+    }
+
+    pub(super) fn try_send(
+        &mut self,
+        encode: impl FnOnce() -> Result<Outbound, EncodeError>,
+    ) -> Result<(), TrySendError> {
+        self.state.may_proceed().map_err(self.refused())?;
+        let message = self.accept(encode)?;
+        if self.may_wait {
+            let full = self.full(&mut Context::from_waker(Waker::noop()));
+            if let Some(peer) = full {
+                self.state.take_turn();
+                return Err(TrySendError::Full { gate: self.name, peer });
+            }
+        }
+        self.hand_out(message);
+        self.state.take_turn();
+        Ok(())
+    }
+
+    /// Ready when no connection would make the message wait, so that it goes to all of them at once or to none.
+    pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), SendError>> {
+        // A stopped program's calls stay pending: what waits for them is dropped.
+        let pending = self.state.is_stopped() || self.full(cx).is_some();
+        // After the waker was registered, so that no end of the calls is missed.
+        match self.state.check() {
+            Err(source) => Poll::Ready(Err(SendError::Blocking { gate: self.name, source })),
+            Ok(()) if pending => Poll::Pending,
+            Ok(()) => Poll::Ready(Ok(())),
+        }
+    }
+
+    pub(crate) fn poll_flushed(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        let mut flushed = self.connections.iter().map(|connection| lock(connection).poll_flushed(false, cx));
+        if flushed.all(|flushed| flushed.is_ready()) { Poll::Ready(()) } else { Poll::Pending }
+    }
+
+    pub(crate) async fn peers_changed(&mut self) -> usize {
+        poll_fn(|cx| self.poll_peers_changed(cx)).await;
+        self.stats().peers
+    }
+
+    /// Memory for a message, and the connection that lends it, if one does; else it is from the heap.
+    pub(super) fn lend(&self, length: usize, alignment: usize) -> (Loan, Option<usize>) {
+        let fits = |loan: &Loan| loan.len() == length && loan.as_slice().as_ptr().addr().is_multiple_of(alignment);
+        let count = self.connections.len();
+        // A gate that shares will most likely send over the connection whose turn it is.
+        let lenders = (0..count).map(|offset| (self.turn + offset) % count);
+        let mut lent = lenders.filter_map(|index| {
+            let loan = lock(&self.connections[index]).loan(length).filter(fits)?;
+            Some((loan, Some(index)))
+        });
+        lent.next().unwrap_or_else(|| (Loan::new(HeapMemory::zeroed(length, alignment)), None))
+    }
+
+    /// The limit that a message of this length exceeds.
+    pub(super) fn too_long(&self, length: usize) -> Option<TooLong> {
+        let link = self.strictest.filter(|link| length as u64 > link.max_size)?;
+        Some(TooLong { peer: PeerName::of(link), size: length as u64, limit: link.max_size })
+    }
+
+    fn refused(&self) -> impl Fn(BlockingError) -> SendError + use<> {
+        let gate = self.name;
+        move |source| SendError::Blocking { gate, source }
+    }
+
+    /// The peer whose queue would make a message wait, if any.
+    fn full(&self, cx: &mut Context<'_>) -> Option<PeerName> {
+        let mut full = self
+            .connections
+            .iter()
+            .map(lock_connection)
+            .filter_map(|mut connection| connection.poll_room(cx).is_pending().then(|| connection.peer_name()));
+        let first = full.next();
+        // A shared message needs room at one of them.
+        let others = if self.shares { full.count() } else { 0 };
+        first.filter(|_| !self.shares || others + 1 == self.connections.len())
+    }
+
+    fn poll_peers_changed(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        let changes = self.connections.iter().map(|connection| lock(connection).watch_changes(cx.waker())).sum();
+        if std::mem::replace(&mut self.reported, changes) == changes { Poll::Pending } else { Poll::Ready(()) }
+    }
+
+    /// Sends a message after [`Self::poll_room`] was ready.
+    pub(super) fn hand_out(&mut self, message: Outbound) {
+        let message = match message {
+            Outbound::Bytes(bytes) => bytes,
+            Outbound::Loan(loan, lender) => return self.hand_out_loan(loan, lender),
+        };
+        self.tap.observe(Observed::Message, 0, &message);
+        if self.shares {
+            let turn = self.next_in_turn();
+            return lock(&self.connections[turn]).send(message.into());
+        }
+        for connection in &self.connections {
+            lock(connection).send(message.clone().into());
+        }
+    }
+
+    /// The connection that lent the memory sends it as it is; the others, and observers, share one copy.
+    fn hand_out_loan(&mut self, loan: Loan, lender: usize) {
+        let mut copy = None;
+        let mut shared = || copy.get_or_insert_with(|| Bytes::copy_from_slice(loan.as_slice())).clone();
+        self.tap.observe_with(Observed::Message, 0, &mut shared);
+        if self.shares {
+            let turn = self.next_in_turn();
+            return lock(&self.connections[turn]).send(loan.into());
+        }
+        for (index, connection) in self.connections.iter().enumerate() {
+            if index != lender {
+                lock(connection).send(shared().into());
+            }
+        }
+        lock(&self.connections[lender]).send(loan.into());
+    }
+
+    /// The next puller that can take a message now, or else whose queue can, or else that declared to drop one.
+    fn next_in_turn(&mut self) -> usize {
+        let count = self.connections.len();
+        let turn = |offset| (self.turn + offset) % count;
+        let next =
+            |can: fn(&Connection) -> bool| (0..count).map(turn).find(|&index| can(&lock(&self.connections[index])));
+        let with_room = || next(Connection::has_room).or_else(|| next(|connection| !connection.would_wait()));
+        let chosen = next(Connection::is_free).or_else(with_room).unwrap_or(self.turn % count);
+        self.turn = chosen + 1;
+        chosen
+    }
+
+    pub(crate) fn missing(&self) -> Vec<Missing> {
+        self.connections.iter().filter_map(|connection| lock(connection).missing()).collect()
+    }
+
+    pub(crate) fn watch(&self) -> Watch {
+        let connections: Vec<Weak<Mutex<Connection>>> = self.connections.iter().map(Arc::downgrade).collect();
+        Watch::new(self.spec, move || {
+            let connections = connections.iter().filter_map(Weak::upgrade);
+            connections.filter_map(|connection| lock(&connection).missing()).collect()
+        })
+    }
+
+    pub(crate) fn figures(&self) -> FigureSource {
+        let connections: Vec<Weak<Mutex<Connection>>> = self.connections.iter().map(Arc::downgrade).collect();
+        let (open, dropped) = (Arc::downgrade(&self.open), self.tap.dropped_later());
+        Box::new(move |figures| {
+            // Checked first: connections outlive their gate until their peers have taken everything.
+            let is_open = open.strong_count() > 0;
+            if connections.iter().any(|connection| connection.strong_count() == 0) {
+                return is_open;
+            }
+            figures.clear();
+            for (index, connection) in connections.iter().enumerate() {
+                let Some(connection) = connection.upgrade() else { continue };
+                let own = lock(&connection).add_to_figures(figures);
+                figures.connections[index] = own;
+            }
+            figures.tap_dropped = dropped();
+            figures.dropped_for_observers += figures.tap_dropped;
+            is_open
+        })
+    }
+
+    pub(crate) fn peer_stats(&self) -> Vec<PeerStats> {
+        self.connections.iter().map(|connection| lock(connection).stats()).collect()
+    }
+
+    pub(crate) fn stats(&self) -> GateStats {
+        let mut stats = GateStats { dropped_for_observers: self.tap.dropped(), ..GateStats::default() };
+        for connection in self.connections.iter().map(lock_connection) {
+            let peer = connection.stats();
+            let (sent_to_foreign, dropped_for_foreign) = connection.foreign_counts();
+            connection.account().activity.add_to(&mut stats);
+            stats.sent += connection.account().handed() + sent_to_foreign;
+            stats.dropped_oldest += peer.dropped_oldest;
+            stats.dropped_newest += peer.dropped_newest;
+            stats.dropped_for_observers += dropped_for_foreign;
+            stats.lost += peer.lost;
+            stats.waiting += peer.waiting as usize;
+            stats.peers += usize::from(peer.connected);
+        }
+        stats
+    }
+}
+
+/// A message is longer than a peer accepts.
+pub(super) struct TooLong {
+    /// The peer that accepts the shortest messages.
+    pub(super) peer: PeerName,
+    pub(super) size: u64,
+    pub(super) limit: u64,
+}
+
+/// What is left to hand over stays with the component; the sockets are freed as soon as that is done.
+impl Drop for Fanout {
+    fn drop(&mut self) {
+        if self.state.is_inherited() {
+            self.connections.iter().cloned().for_each(std::mem::forget);
+            return self.tap.leak();
+        }
+        for connection in self.connections.drain(..) {
+            self.state.release(connection);
+        }
+    }
+}
+
+fn lock_connection(connection: &Arc<Mutex<Connection>>) -> std::sync::MutexGuard<'_, Connection> {
+    lock(connection)
+}

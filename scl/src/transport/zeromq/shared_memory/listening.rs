@@ -1,0 +1,67 @@
+//! What a listening end checks when it is opened, and offers to each of its peers.
+
+use super::super::zmtp::{ServiceId, ShmReady};
+use crate::runtime_dir::SystemDir;
+use crate::transport::{Endpoint, TransportError};
+use scl_shm::{Limits, ServiceName, SharedMemory};
+use std::error::Error;
+use std::sync::Arc;
+
+/// What two ends must have in common to share memory: the engine and its files' layout, and the user.
+pub(in super::super) fn format() -> Option<String> {
+    Some(format!("{},{}", scl_shm::FORMAT, rustix::process::geteuid().as_raw()))
+}
+
+/// Shared memory, offered by a listening end.
+pub(in super::super) struct Offer {
+    /// Open as long as the end, so that what killed programs left is removed once, and when the end is opened.
+    _memory: Arc<SharedMemory>,
+}
+
+impl Offer {
+    /// Opens shared memory for a listening end, and checks that there is enough of it.
+    ///
+    /// # Errors
+    /// [`TransportError::Refused`], with what is needed, what there is, and what to change.
+    pub(in super::super) fn open(dir: &SystemDir, endpoint: &Endpoint) -> Result<Self, TransportError> {
+        let refused = |reason| TransportError::Refused { endpoint: endpoint.name.clone().into_owned(), reason };
+        let memory = SharedMemory::open(dir.folder());
+        let memory = memory.map_err(|error| refused(format!("no shared memory: {}", with_sources(&error))))?;
+        let limits = Limits { queue: endpoint.queue, longest: endpoint.longest };
+        limits.check().map_err(|error| {
+            refused(format!(
+                "{error}, for `queue: {}` and messages of up to {} bytes; choose a smaller `max_size` or `queue` for the \
+                 receiving gate, or give /dev/shm more (`mount -o remount,size=... /dev/shm`), or choose the transport `ipc`",
+                endpoint.queue, endpoint.longest
+            ))
+        })?;
+        Ok(Self { _memory: memory })
+    }
+
+    /// What to offer to the next peer: a service of its own.
+    pub(in super::super) fn next(&self) -> ShmReady {
+        ShmReady { service: ServiceId::of(&ServiceName::unique()) }
+    }
+}
+
+impl ServiceId {
+    fn of(name: &ServiceName) -> Option<Self> {
+        Self::parse(name.as_str())
+    }
+
+    pub(super) fn name(&self) -> Option<ServiceName> {
+        ServiceName::parse(&self.to_string())
+    }
+}
+
+/// An error with its causes, in one line.
+pub(super) fn with_sources(error: &dyn Error) -> String {
+    let mut text = error.to_string();
+    let mut source = error.source();
+    while let Some(error) = source {
+        text.push_str(": ");
+        text.push_str(&error.to_string());
+        source = error.source();
+    }
+    text
+}

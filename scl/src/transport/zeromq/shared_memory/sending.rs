@@ -1,0 +1,154 @@
+//! The sending side of a connection.
+
+use super::super::zmtp::{self, PeerReady};
+use super::listening::with_sources;
+use super::{INLINE, Sent};
+use crate::runtime_dir::SystemDir;
+use crate::transport::{Frame, Loan, LoanedMemory};
+use bytes::Bytes;
+use scl_shm::{LoanedSample, SampleSender, ServiceName, SharedMemory, ShmError};
+use std::collections::VecDeque;
+use std::path::PathBuf;
+
+/// The length for which the first segment has room. Longer messages make the engine allocate another one, once.
+const EXPECTED: usize = 64 << 10;
+
+/// Shared memory at the sending side.
+pub(in super::super) struct Sharing {
+    state: State,
+    /// Number of long messages that went through the socket for want of memory.
+    inline: u64,
+}
+
+enum State {
+    /// Every message goes through the socket.
+    Off,
+    /// Both ends can share memory; the receiving one has not opened it yet.
+    Agreed {
+        service: ServiceName,
+        folder: PathBuf,
+    },
+    Open(Box<Open>),
+}
+
+struct Open {
+    sender: SampleSender,
+    /// Number of samples sent.
+    sent: u64,
+    /// The numbers of the messages in samples that are not acknowledged, among all messages of the connection.
+    unacknowledged: VecDeque<u64>,
+}
+
+impl LoanedMemory for LoanedSample {
+    fn bytes(&self) -> &[u8] {
+        self.as_slice()
+    }
+
+    fn bytes_mut(&mut self) -> &mut [u8] {
+        self.as_mut_slice()
+    }
+}
+
+impl Sharing {
+    pub(in super::super) fn new(dir: &SystemDir, peer: &PeerReady) -> Self {
+        let agreed = |service: ServiceName| State::Agreed { service, folder: dir.folder().to_owned() };
+        let service = peer.service.and_then(|service| service.name());
+        Self { state: service.map_or(State::Off, agreed), inline: 0 }
+    }
+
+    /// Opens shared memory; the peer has opened it.
+    pub(in super::super) fn open(&mut self) {
+        let State::Agreed { service, folder } = std::mem::replace(&mut self.state, State::Off) else { return };
+        match open(&folder, &service) {
+            Ok(sender) => {
+                self.state = State::Open(Box::new(Open { sender, sent: 0, unacknowledged: VecDeque::new() }));
+            }
+            Err(error) => tracing::warn!(
+                "cannot share memory with a receiving peer, sending through the socket: {}",
+                with_sources(&error)
+            ),
+        }
+    }
+
+    /// Returns true if one more sample may be unacknowledged.
+    pub(in super::super) fn has_room(&self) -> bool {
+        match &self.state {
+            State::Open(open) => open.unacknowledged.len() < open.sender.in_flight(),
+            _ => true,
+        }
+    }
+
+    /// Returns true if messages of this length are sent as samples.
+    pub(in super::super) fn is_for(&self, length: usize) -> bool {
+        length > INLINE && matches!(self.state, State::Open(_))
+    }
+
+    /// Sends a message as a sample, if it is long and there is memory. `number` is its number among all messages of the
+    /// connection. A loan of this link is taken from `message`; anything else is copied.
+    pub(in super::super) fn send(&mut self, message: &mut Frame, number: u64) -> Sent {
+        let length = message.len();
+        if !self.is_for(length) || !self.has_room() {
+            return Sent::Inline;
+        }
+        let State::Open(open) = &mut self.state else { return Sent::Inline };
+        let sample = match open.take(message).map_or_else(|| open.sender.copy(message.as_slice()), Ok) {
+            Ok(sample) => sample,
+            Err(error) => {
+                self.count_inline(&error);
+                return Sent::Inline;
+            }
+        };
+        if let Err(error) = open.sender.send(sample) {
+            return Sent::Lost(error.to_string());
+        }
+        open.sent += 1;
+        open.unacknowledged.push_back(number);
+        Sent::Announce(zmtp::sample(open.sent, length as u64))
+    }
+
+    /// Handles an acknowledgement of all messages up to a number.
+    pub(in super::super) fn acknowledge(&mut self, number: u64) {
+        if let State::Open(open) = &mut self.state {
+            while open.unacknowledged.front().is_some_and(|&oldest| oldest <= number) {
+                open.unacknowledged.pop_front();
+            }
+        }
+    }
+
+    /// Lends memory for a message of this length.
+    pub(in super::super) fn loan(&mut self, length: usize) -> Option<Loan> {
+        let State::Open(open) = &mut self.state else { return None };
+        if length <= INLINE {
+            return None;
+        }
+        match open.sender.loan(length) {
+            Ok(sample) => Some(Loan::new(sample)),
+            Err(error) => {
+                tracing::debug!(%error, "no shared memory is lent");
+                None
+            }
+        }
+    }
+
+    fn count_inline(&mut self, error: &scl_shm::LoanError) {
+        self.inline += 1;
+        // Neither every message nor only the first: one can see whether it goes on.
+        if self.inline.is_power_of_two() {
+            tracing::warn!("sending long messages through the socket, {} so far: {error}", self.inline);
+        }
+    }
+}
+
+impl Open {
+    /// Takes the sample of a frame that this connection has lent.
+    fn take(&self, message: &mut Frame) -> Option<LoanedSample> {
+        let Frame::Loan(loan) = &*message else { return None };
+        loan.downcast_ref().filter(|sample| self.sender.has_lent(sample))?;
+        let Frame::Loan(loan) = std::mem::replace(message, Frame::Bytes(Bytes::new())) else { return None };
+        loan.downcast().ok().map(|sample| *sample)
+    }
+}
+
+fn open(folder: &std::path::Path, service: &ServiceName) -> Result<SampleSender, ShmError> {
+    SharedMemory::open(folder)?.sender(service, EXPECTED)
+}
