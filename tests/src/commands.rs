@@ -6,7 +6,11 @@ use std::ops::Range;
 use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 
 /// The commands that a test gives to this program.
-pub struct Commands(UnboundedReceiver<String>);
+pub struct Commands {
+    lines: UnboundedReceiver<String>,
+    /// The next one, if it has been looked for.
+    peeked: Option<String>,
+}
 
 impl Commands {
     /// Starts reading this program's standard input.
@@ -17,17 +21,30 @@ impl Commands {
                 let _program_ends = sender.send(line);
             }
         });
-        Self(receiver)
+        Self { lines: receiver, peeked: None }
+    }
+
+    /// Whether a command has arrived, or none will.
+    pub fn is_waiting(&self) -> bool {
+        self.peeked.is_some() || !self.lines.is_empty() || self.lines.is_closed()
+    }
+
+    /// Waits until [`next`](Self::next) returns at once.
+    pub async fn arrived(&mut self) {
+        if self.peeked.is_none() {
+            self.peeked = self.lines.recv().await;
+        }
     }
 
     /// The next command, split into words; `None` when the test has closed the input.
     pub async fn next(&mut self) -> Option<Vec<String>> {
-        self.0.recv().await.map(|line| words(&line))
+        self.arrived().await;
+        self.peeked.take().map(|line| words(&line))
     }
 
     /// [`next`](Self::next) for a program without async.
     pub fn next_blocking(&mut self) -> Option<Vec<String>> {
-        self.0.blocking_recv().map(|line| words(&line))
+        self.peeked.take().or_else(|| self.lines.blocking_recv()).map(|line| words(&line))
     }
 }
 

@@ -30,6 +30,7 @@ mod runtime_folder;
 mod second_user;
 mod service;
 mod shapes;
+mod shm;
 mod signals;
 mod six_kinds;
 mod sizes;

@@ -7,6 +7,7 @@ pub(crate) const CIRCLE: &str = env!("CARGO_BIN_EXE_circle");
 pub(crate) const DROPPER: &str = env!("CARGO_BIN_EXE_dropper");
 pub(crate) const FRESH: &str = env!("CARGO_BIN_EXE_fresh");
 pub(crate) const FUZZ_ROUND: &str = env!("CARGO_BIN_EXE_fuzz_round");
+pub(crate) const IMAGES: &str = env!("CARGO_BIN_EXE_images");
 pub(crate) const LEAVER: &str = env!("CARGO_BIN_EXE_leaver");
 pub(crate) const LISTING1: &str = env!("CARGO_BIN_EXE_listing1");
 pub(crate) const MATRIX: &str = env!("CARGO_BIN_EXE_matrix");

@@ -2,6 +2,7 @@
 
 mod burst;
 mod credit;
+mod deferred;
 mod ends;
 mod hostile;
 mod plain;

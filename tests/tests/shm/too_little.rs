@@ -1,0 +1,78 @@
+//! Too little shared memory: refused before the first message, with sizes, and never a SIGBUS.
+//!
+//! The small `/dev/shm` is mounted in a mount namespace of the programs, which needs root.
+
+use super::stage::{IMAGE, Stage, share};
+use crate::programs::IMAGES;
+use scl_tests::{Process, System};
+use std::process::Command;
+
+/// A namespace with a `/dev/shm` of its own, which lives as long as the program that made it.
+struct SmallMemory {
+    maker: Process,
+}
+
+impl SmallMemory {
+    /// Returns `None`, and prints why, if it cannot be mounted here.
+    fn mount(mebibytes: u32) -> Option<Self> {
+        let script = format!("mount -t tmpfs -o size={mebibytes}m small /dev/shm && echo mounted && read -r _end");
+        let mut command = Command::new("unshare");
+        command.args(["--mount", "sh", "-c", &format!("{script} || echo failed")]);
+        let mut maker = Process::spawn(command);
+        let line = maker.next_line();
+        if line == "mounted" {
+            return Some(Self { maker });
+        }
+        println!("skipped: a small /dev/shm cannot be mounted here, which needs root");
+        None
+    }
+
+    fn start(&self, system: &System, program: &str, arguments: &[&str]) -> Process {
+        let namespace = format!("--mount=/proc/{}/ns/mnt", self.maker.id());
+        system.start("nsenter", &[&[namespace.as_str(), program], arguments].concat())
+    }
+
+    fn run(&self, script: &str) {
+        let namespace = format!("--mount=/proc/{}/ns/mnt", self.maker.id());
+        let output = Command::new("nsenter").args([&namespace, "sh", "-c", script]).output().expect("nsenter");
+        assert!(output.status.success(), "{script}: {output:?}");
+    }
+}
+
+#[test]
+fn a_camera_is_refused_with_sizes() {
+    let Some(memory) = SmallMemory::mount(32) else { return };
+    let stage = Stage::new();
+    let mut camera = memory.start(&stage.system, IMAGES, &["camera"]);
+    let error = camera.next_line();
+    assert!(error.starts_with("error: gate `camera.frames` cannot be opened"), "{error}");
+    // 4 on their way, 12 kept, 1 to be copied, 6 lent; 4 MiB and a page for each.
+    let needed = 23 * (IMAGE + 4096);
+    assert!(error.contains(&needed.to_string()) && error.contains(&(32 << 20).to_string()), "{error}");
+    assert!(error.contains("`max_size`") && error.contains("`queue`"), "{error}");
+}
+
+/// Memory that others take later: messages go through the socket, and nobody is killed by SIGBUS.
+#[test]
+fn memory_that_runs_out_later_costs_speed_only() {
+    let Some(memory) = SmallMemory::mount(256) else { return };
+    let stage = Stage::new();
+    let mut camera = memory.start(&stage.system, IMAGES, &["camera"]);
+    camera.expect("open");
+    let mut viewer = memory.start(&stage.system, IMAGES, &["viewer"]);
+    viewer.expect("open");
+    share(&mut camera);
+    memory.run("head -c 1G /dev/zero > /dev/shm/others 2> /dev/null; test -s /dev/shm/others");
+    for number in 0..8 {
+        camera.ask(&format!("send {number} {} {IMAGE}", number + 1), "sent");
+        viewer.tell("keep 1");
+        viewer.next_line();
+    }
+    viewer.ask("kept", "0..8");
+    viewer.ask("release", "released");
+    memory.run("rm /dev/shm/others");
+    share(&mut camera);
+    stage.assert_good(&mut camera, &mut viewer, 10);
+    let exits = [camera, viewer].map(Process::wait_for_exit);
+    assert!(exits.iter().all(|exit| exit.status.success()), "{exits:?}");
+}
