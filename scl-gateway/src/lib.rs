@@ -2,6 +2,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod deployment;
+pub mod keys;
 pub mod local;
 mod pump;
 pub mod route;
