@@ -2,7 +2,12 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod deployment;
+pub mod keys;
 pub mod local;
 mod pump;
 pub mod route;
 pub mod wire;
+
+// For the certificates that tests of both kinds use.
+#[cfg(test)]
+extern crate self as scl_gateway;

@@ -1,31 +1,26 @@
 //! The system of these tests on its hosts: `source` and its neighbours on `board`, `sink` on `ground`.
 
-use crate::host::Host;
+use crate::files::{Files, launch};
+use crate::gateway::Gateway;
 use crate::network::Network;
 use crate::player::Player;
-use scl_tests::Process;
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
-use tempfile::TempDir;
+use std::path::PathBuf;
 
 const TOPOLOGY: &str = include_str!("two_hosts.yaml");
 
-/// Where the components run.
-pub(crate) const HOSTS: [(&str, &[&str]); 2] =
-    [("board", &["source", "local_control", "helper"]), ("ground", &["sink"])];
+/// What runs on the host `board`.
+pub(crate) const BOARD: &[&str] = &["source", "local_control", "helper"];
+/// What runs on the host `ground`.
+pub(crate) const GROUND: &[&str] = &["sink"];
 
 /// A system on its hosts. Components that are not the test's matter are called `source` and `sink`.
 pub(crate) struct Fleet {
     // Dropped in this order: programs before the network under them.
     players: HashMap<String, Player>,
-    gateways: HashMap<String, Process>,
+    gateways: HashMap<String, Gateway>,
     pub(crate) network: Network,
     pub(crate) files: Files,
-}
-
-/// The files of a system, which all hosts have.
-pub(crate) struct Files {
-    folder: TempDir,
 }
 
 impl Fleet {
@@ -37,15 +32,69 @@ impl Fleet {
         fleet
     }
 
-    /// Nothing runs yet.
+    /// Everything runs, on two hosts, and is connected.
+    pub(crate) fn start() -> Self {
+        Self::start_on(Network::new(&["board", "ground"]))
+    }
+
+    /// Everything runs on the first two hosts of a network, and is connected.
+    pub(crate) fn start_on(network: Network) -> Self {
+        let mut fleet = Self::on(network);
+        fleet.start_gateway("board");
+        fleet.start_gateway("ground");
+        fleet.play("source");
+        fleet.play("sink");
+        fleet.player("source").ready();
+        fleet.player("sink").ready();
+        fleet
+    }
+
+    /// Nothing runs yet. There are certificates for the first two hosts.
     pub(crate) fn on(network: Network) -> Self {
         let files = Files::of(TOPOLOGY);
+        if let [board, ground, ..] = &network.hosts[..] {
+            files.write("launch.yaml", &launch(&[(board, BOARD), (ground, GROUND)]));
+            files.make_keys(&[]);
+        }
         Self { players: HashMap::new(), gateways: HashMap::new(), network, files }
+    }
+
+    /// Starts the gateway of a host.
+    pub(crate) fn start_gateway(&mut self, host: &str) {
+        let on = self.network.host(host);
+        let (topology, launch, log) = (self.files.topology(), self.files.launch(), self.log_file(host));
+        let gateway = Gateway::start(on, host, &topology, &launch, &log);
+        self.gateways.insert(host.to_owned(), gateway);
+    }
+
+    #[track_caller]
+    pub(crate) fn gateway(&mut self, host: &str) -> &mut Gateway {
+        self.gateways.get_mut(host).unwrap_or_else(|| panic!("no gateway runs on `{host}`"))
+    }
+
+    /// Kills the gateway of a host (SIGKILL).
+    pub(crate) fn kill_gateway(&mut self, host: &str) {
+        self.gateways.remove(host).unwrap().kill();
+    }
+
+    /// Waits until a gateway has ended by itself; its exit status and its log.
+    pub(crate) fn wait_for_gateway(&mut self, host: &str) -> (std::process::ExitStatus, String) {
+        let gateway = self.gateways.remove(host).unwrap();
+        let status = gateway.wait_for_exit();
+        (status, std::fs::read_to_string(self.log_file(host)).unwrap())
+    }
+
+    pub(crate) fn forget_log(&mut self, host: &str) {
+        std::fs::remove_file(self.log_file(host)).unwrap();
+    }
+
+    fn log_file(&self, host: &str) -> PathBuf {
+        self.files.path(&format!("{host}.log"))
     }
 
     /// Starts a component on its host, or on the only one.
     pub(crate) fn play(&mut self, component: &str) -> &mut Player {
-        let host = HOSTS.iter().position(|(_, components)| components.contains(&component)).unwrap();
+        let host = usize::from(GROUND.contains(&component));
         let host = &self.network.hosts[host.min(self.network.hosts.len() - 1)];
         let player = host.play(component, &self.files.plan());
         self.players.insert(component.to_owned(), player);
@@ -63,44 +112,16 @@ impl Fleet {
     }
 }
 
-impl Files {
-    /// A topology, and the plans made of it.
-    pub(crate) fn of(topology: &str) -> Self {
-        let files = Self { folder: tempfile::tempdir().unwrap() };
-        std::fs::write(files.topology(), topology).unwrap();
-        let loaded = scl_loader::load(&scl_loader::Request::new(files.topology()));
-        let plan = loaded.system_plan().unwrap_or_else(|| panic!("{:?}", loaded.diagnostics));
-        std::fs::write(files.plan(), plan.to_json()).unwrap();
-        files
+impl Drop for Fleet {
+    fn drop(&mut self) {
+        if !std::thread::panicking() {
+            return;
+        }
+        for host in ["board", "ground"] {
+            let log = std::fs::read_to_string(self.log_file(host)).unwrap_or_default();
+            let from = log.lines().count().saturating_sub(40);
+            println!("the gateway of `{host}` logged last:");
+            log.lines().skip(from).for_each(|line| println!("    {line}"));
+        }
     }
-
-    pub(crate) fn topology(&self) -> PathBuf {
-        self.path("topology.yaml")
-    }
-
-    pub(crate) fn plan(&self) -> PathBuf {
-        self.path("plan.json")
-    }
-
-    pub(crate) fn launch(&self) -> PathBuf {
-        self.path("launch.yaml")
-    }
-
-    pub(crate) fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    /// Writes a file.
-    pub(crate) fn write(&self, name: &str, text: &str) {
-        std::fs::write(self.path(name), text).unwrap();
-    }
-}
-
-/// A launch file for these hosts.
-pub(crate) fn launch(hosts: &[Host], certificates: &Path) -> String {
-    let mut text = "hosts:\n".to_owned();
-    for (host, (_, components)) in hosts.iter().zip(HOSTS) {
-        text += &format!("  {}: {{address: {}, components: {components:?}}}\n", host.name, host.address);
-    }
-    text + &format!("gateway: {{port: 7447, certificates: {}}}\n", certificates.display())
 }

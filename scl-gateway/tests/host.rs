@@ -2,7 +2,6 @@
 
 use crate::namespace::Namespace;
 use crate::player::Player;
-use scl_tests::Process;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
@@ -43,12 +42,5 @@ impl Host {
     /// Starts a component of a system on this host, whatever its launch file says.
     pub(crate) fn play(&self, component: &str, plan: &Path) -> Player {
         Player::start(self.command(std::env::current_exe().unwrap()), component, plan)
-    }
-
-    /// Starts the gateway.
-    pub(crate) fn start_gateway(&self, topology: &Path, launch: &Path) -> Process {
-        let mut command = self.command(env!("CARGO_BIN_EXE_scl-gateway"));
-        command.arg("run").arg("--topology").arg(topology).arg("--launch").arg(launch).args(["--host", &self.name]);
-        Process::spawn(command)
     }
 }

@@ -2,11 +2,24 @@
 //! them a cable that loses, delays and cuts.
 
 mod accounts;
+mod bad_network;
 mod cable;
+mod certificates;
+mod clocks;
+mod control_loop;
+mod cut;
 mod direct;
+mod files;
 mod fleet;
+mod gateway;
 mod host;
+mod identities;
+mod kills;
+mod local;
+mod long;
 mod namespace;
 mod network;
 mod player;
 mod receipts;
+mod strangers;
+mod wire;

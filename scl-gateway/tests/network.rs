@@ -29,6 +29,14 @@ impl Network {
         let cable = Cable::start(&hub, hosts.len());
         Self { hosts, cable, _hub: hub }
     }
+
+    pub(crate) fn host(&self, name: &str) -> &Host {
+        self.hosts.iter().find(|host| host.name == name).unwrap()
+    }
+
+    pub(crate) fn host_mut(&mut self, name: &str) -> &mut Host {
+        self.hosts.iter_mut().find(|host| host.name == name).unwrap()
+    }
 }
 
 pub(crate) fn address(host: usize) -> String {

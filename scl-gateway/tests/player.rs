@@ -1,6 +1,6 @@
 //! Components, each played by this test program in a process of its own.
 
-mod pace;
+pub(crate) mod pace;
 mod receiving;
 mod sending;
 
@@ -133,6 +133,14 @@ impl Counts {
     #[track_caller]
     pub(crate) fn get(&self, name: &str) -> u64 {
         *self.0.get(name).unwrap_or_else(|| panic!("no `{name}` in {:?}", self.0))
+    }
+}
+
+impl std::fmt::Display for Counts {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut counts: Vec<String> = self.0.iter().map(|(name, value)| format!("{name}={value}")).collect();
+        counts.sort();
+        f.write_str(&counts.join(" "))
     }
 }
 

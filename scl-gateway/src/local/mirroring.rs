@@ -21,7 +21,12 @@ pub(crate) enum Remote {
 }
 
 /// Shows the runs of a component, one after the other.
-pub(crate) async fn mirror(dir: SystemDir, component: String, mut remote: UnboundedReceiver<Remote>, mut slot: Slot<Mirror>) {
+pub(crate) async fn mirror(
+    dir: SystemDir,
+    component: String,
+    mut remote: UnboundedReceiver<Remote>,
+    mut slot: Slot<Mirror>,
+) {
     let mut wanted: Option<(String, Profile)> = None;
     let mut failure = None;
     loop {
@@ -50,7 +55,9 @@ pub(crate) async fn mirror(dir: SystemDir, component: String, mut remote: Unboun
             }
             Some(Remote::Stopped { host }) => {
                 if wanted.take().is_some() {
-                    tracing::info!("component `{component}` has stopped on host `{host}`, or that host is not connected");
+                    tracing::info!(
+                        "component `{component}` has stopped on host `{host}`, or that host is not connected"
+                    );
                 }
                 slot.clear().await;
             }
@@ -89,4 +96,3 @@ pub(crate) fn full_text(error: &dyn Error) -> String {
     }
     text
 }
-

@@ -1,7 +1,7 @@
 //! Messages that arrive at this host.
 
-use super::local_end::{Attempts, Timer, names, window};
 use super::Counts;
+use super::local_end::{Attempts, Timer, names, window};
 use crate::local::{Held, Run, View};
 use crate::route::Route;
 use crate::wire::{ReceiverEvent, WireReceiver};
@@ -13,6 +13,7 @@ use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
+use tokio::sync::watch;
 
 /// For how long the component here may take what has arrived, after the far one has ended.
 const DRAIN_LIMIT: Duration = Duration::from_secs(1);
@@ -44,6 +45,8 @@ pub(crate) struct State {
     handed: u64,
     confirmed: u64,
     flush: bool,
+    /// The gateway ends.
+    stopping: bool,
 }
 
 /// Dropped in this order: the mirror must outlive its ends.
@@ -58,8 +61,8 @@ struct Local {
 }
 
 impl Receiving {
-    /// Runs until the gateway ends.
-    pub(crate) async fn run(mut self) {
+    /// Runs until the gateway ends, and the component has taken what has arrived by then.
+    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
         let (mut mirror, mut component) = (self.mirror.clone(), self.component.clone());
         loop {
             let mirror_changes = async {
@@ -74,6 +77,10 @@ impl Receiving {
                     self.forget_component();
                     changed.is_ok()
                 }
+                stopping = stop.changed() => {
+                    self.state.stopping = true;
+                    stopping.is_ok()
+                }
                 () = poll_fn(|cx| self.poll(cx)) => false,
             };
             if !alive {
@@ -82,7 +89,7 @@ impl Receiving {
         }
     }
 
-    /// Does what can be done now. Never ready.
+    /// Does what can be done now. Ready when the gateway ends and nothing is left to be done.
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         while let Poll::Ready(event) = self.wire.poll_event(cx) {
             match event {
@@ -91,7 +98,6 @@ impl Receiving {
                 // Never more than a window, because none is acknowledged earlier.
                 ReceiverEvent::Message(message) => self.state.queue.push_back(message.into()),
                 ReceiverEvent::AcknowledgementRequested => self.state.flush = true,
-                _ => {}
             }
         }
         self.close_if_done(cx);
@@ -101,7 +107,7 @@ impl Receiving {
         self.ask(cx);
         self.confirm();
         self.counts.set_held(self.state.pending());
-        Poll::Pending
+        if self.state.stopping && self.state.pending() == 0 { Poll::Ready(()) } else { Poll::Pending }
     }
 
     /// The component has ended or started. If it is not connected, it will not take what it was to get.
@@ -141,16 +147,17 @@ impl Receiving {
         let opened = match &self.mirror {
             Some(view) => {
                 let Some(mirror) = view.borrow().clone() else { return };
-                let sender = state.attempts.open(cx, route, || {
-                    Ok(transport.publish(&mirror.publishing(gate, names(&route.to))?)?)
-                });
+                let sender = state
+                    .attempts
+                    .open(cx, route, || Ok(transport.publish(&mirror.publishing(gate, names(&route.to))?)?));
                 debug_assert!(!component.is_empty(), "a publisher has a name");
                 sender.map(|sender| (sender, Some(mirror)))
             }
             // Without a component to connect to, nothing is tried.
             None if self.component.borrow().is_none() => return,
             None => {
-                let endpoint = Endpoint { lossless: route.lossless, ..Endpoint::new(route.endpoint.clone()) };
+                let mut endpoint = Endpoint::new(route.endpoint.clone());
+                (endpoint.lossless, endpoint.queue) = (route.lossless, route.queue as usize);
                 state.attempts.open(cx, route, || Ok(transport.push(&endpoint)?)).map(|sender| (sender, None))
             }
         };
@@ -229,7 +236,7 @@ impl Receiving {
         let window = window(&self.route);
         let Some(Local { link: Some(link), unasked, .. }) = &mut state.local else { return };
         let is_due = 2 * unasked.0 >= window.messages || 2 * unasked.1 >= window.bytes;
-        let is_last = state.queue.is_empty() && (state.flush || !state.matched);
+        let is_last = state.queue.is_empty() && (state.flush || !state.matched || state.stopping);
         if unasked.0 > 0 && (is_due || is_last) {
             link.request_acknowledgement(cx);
             *unasked = (0, 0);

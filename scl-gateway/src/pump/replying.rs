@@ -1,7 +1,7 @@
 //! Requests that arrive at this host.
 
-use super::local_end::{Attempts, BATCH};
 use super::Counts;
+use super::local_end::{Attempts, BATCH};
 use crate::local::{Run, View};
 use crate::route::Route;
 use crate::wire::{ReplierEvent, WireReplier};
@@ -11,6 +11,7 @@ use std::collections::HashSet;
 use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
+use tokio::sync::watch;
 
 /// Carries the requests of a route from the wire to the replying component of this host, and the replies back.
 pub(crate) struct Replying {
@@ -35,11 +36,12 @@ pub(crate) struct State {
 
 impl Replying {
     /// Runs until the gateway ends.
-    pub(crate) async fn run(mut self) {
+    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
         let mut component = self.component.clone();
         loop {
             let alive = tokio::select! {
                 changed = component.changed() => changed.is_ok(),
+                _ = stop.changed() => false,
                 () = poll_fn(|cx| self.poll(cx)) => false,
             };
             if !alive {
@@ -57,7 +59,6 @@ impl Replying {
                 ReplierEvent::Matched => self.state.matched = true,
                 ReplierEvent::Unmatched => self.state.matched = false,
                 ReplierEvent::Request { id, body } => self.request(cx, id, body),
-                _ => {}
             }
             self.open_or_close(cx);
             self.connect(cx);
@@ -75,8 +76,8 @@ impl Replying {
             self.close();
         } else if is_wanted && state.local.is_none() {
             let (route, transport) = (&self.route, &self.transport);
-            let max_size = usize::try_from(route.max_size).unwrap_or(usize::MAX);
-            let endpoint = Endpoint { max_size, ..Endpoint::new(route.endpoint.clone()) };
+            let mut endpoint = Endpoint::new(route.endpoint.clone());
+            endpoint.max_size = usize::try_from(route.max_size).unwrap_or(usize::MAX);
             state.local = state.attempts.open(cx, route, || Ok(transport.request(&endpoint)?));
         }
     }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::time::{Duration, Instant};
 
 /// A loop that starts each round at its time, and what came of that.
-pub(super) struct Pace {
+pub(crate) struct Pace {
     period: Duration,
     next: Instant,
     /// By how much each round was late, in microseconds.
@@ -14,12 +14,12 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    pub(super) fn new(period: Duration) -> Self {
+    pub(crate) fn new(period: Duration) -> Self {
         Self { period, next: Instant::now() + period, late: Vec::new(), missed: 0 }
     }
 
     /// Sleeps until the next round.
-    pub(super) fn wait(&mut self) {
+    pub(crate) fn wait(&mut self) {
         let now = Instant::now();
         std::thread::sleep(self.next.saturating_duration_since(now));
         let late = self.next.elapsed();
@@ -33,7 +33,7 @@ impl Pace {
     }
 
     /// The record since the last time it was taken.
-    pub(super) fn take(&mut self) -> Record {
+    pub(crate) fn take(&mut self) -> Record {
         let mut late = std::mem::take(&mut self.late);
         late.sort_unstable();
         let at = |share: usize| late.get((late.len() * share / 100).min(late.len().saturating_sub(1))).copied();
@@ -42,8 +42,8 @@ impl Pace {
     }
 }
 
-pub(super) struct Record {
-    rounds: usize,
+pub(crate) struct Record {
+    pub(crate) rounds: usize,
     p99: u64,
     max: u64,
     missed: u64,
