@@ -121,8 +121,8 @@ impl SendLink {
 
     fn window_is_open_after(&self, messages: usize, bytes: usize) -> bool {
         let is_open = |credit: &SendCredit| credit.is_open_after(messages, bytes);
-        let has_room = || self.sharing.has_room() && self.credit.as_ref().is_none_or(is_open);
-        !self.finishing && (self.detached || has_room())
+        let has_credit = || self.sharing.has_room() && self.credit.as_ref().is_none_or(is_open);
+        !self.finishing && (self.detached || has_credit())
     }
 
     fn wants(&self, message: &[u8]) -> bool {

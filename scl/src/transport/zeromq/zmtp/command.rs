@@ -18,12 +18,12 @@ pub(in crate::transport::zeromq) const BEHIND: &[u8] = b"\x04\x0d\x0cX-SCL-BEHIN
 /// From a sending end: acknowledge everything sent before this.
 pub(in crate::transport::zeromq) const FLUSH: &[u8] = b"\x04\x0c\x0bX-SCL-FLUSH";
 
+/// From a receiving end: it has opened the connection's shared memory.
+pub(in crate::transport::zeromq) const SHM_OPEN: &[u8] = b"\x04\x0f\x0eX-SCL-SHM-OPEN";
 /// From a receiving end: send nothing more over this connection.
 pub(in crate::transport::zeromq) const FINISH: &[u8] = b"\x04\x0d\x0cX-SCL-FINISH";
 /// From a sending end: nothing more follows.
 pub(in crate::transport::zeromq) const FINISHED: &[u8] = b"\x04\x0f\x0eX-SCL-FINISHED";
-/// From a receiving end: it has opened the connection's shared memory.
-pub(in crate::transport::zeromq) const SHM_OPEN: &[u8] = b"\x04\x0f\x0eX-SCL-SHM-OPEN";
 
 /// A command of a peer that has introduced itself.
 #[derive(Debug, PartialEq, Eq)]
@@ -45,10 +45,6 @@ pub(in crate::transport::zeromq) enum Command {
     CaughtUp(u64),
     /// The peer wants everything acknowledged that it has sent.
     Flush,
-    /// The peer is about to close the connection, and wants nothing more over it.
-    Finish,
-    /// The peer sends nothing more over this connection.
-    Finished,
     /// The peer has opened the connection's shared memory, and receives samples from now on.
     ShmOpen,
     /// The peer has put a message into shared memory, which comes before everything sent after this command.
@@ -58,6 +54,10 @@ pub(in crate::transport::zeromq) enum Command {
         /// Its length in bytes.
         length: u64,
     },
+    /// The peer is about to close the connection, and wants nothing more over it.
+    Finish,
+    /// The peer sends nothing more over this connection.
+    Finished,
     Unknown,
 }
 
