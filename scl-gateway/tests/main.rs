@@ -20,4 +20,5 @@ mod namespace;
 mod network;
 mod player;
 mod receipts;
+mod steady;
 mod strangers;
