@@ -25,8 +25,14 @@ use scl::runtime_dir::SystemDir;
 use slot::Slot;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
+use std::time::Duration;
+use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::mpsc::{self, UnboundedSender};
+use tokio::sync::watch;
 use tokio::task::JoinSet;
+
+/// How long messages may take that are on their way when the gateway ends.
+const STOP_LIMIT: Duration = Duration::from_millis(1500);
 
 /// What a gateway serves.
 #[derive(Debug, Clone)]
@@ -43,11 +49,12 @@ pub struct GatewayOptions {
     pub routes: Vec<Route>,
 }
 
-/// A gateway at work.
+/// A gateway at work. At SIGUSR1 it logs what each route has carried so far.
 #[derive(Debug)]
 pub struct Gateway {
     wire: Arc<Wire>,
-    routes: Vec<(String, Arc<Counts>)>,
+    routes: Arc<Routes>,
+    stop: watch::Sender<bool>,
     /// Aborted when dropped: first the routes with their ends, then what shows and announces components.
     pumps: JoinSet<()>,
     tasks: JoinSet<()>,
@@ -86,10 +93,13 @@ impl Gateway {
                 tasks.spawn(mirror(options.dir.clone(), component.clone(), receiver, slot));
             }
         }
-        let (pumps, routes) = routes::start(&options, &wire, &runs, &mirrors);
+        let stop = watch::Sender::new(false);
+        let (pumps, routes) = routes::start(&options, &wire, &runs, &mirrors, &stop.subscribe());
+        let routes = Arc::new(routes);
+        tasks.spawn(log_figures_on_signal(Arc::clone(&routes)));
         tasks.spawn(follow_components(Presence::new(options.dir.clone(), runs.into_keys()), changes));
         tasks.spawn(neighbours::follow(Arc::clone(&wire), remotes));
-        Self { wire, routes, pumps, tasks }
+        Self { wire, routes, stop, pumps, tasks }
     }
 
     /// What the routes have carried so far, in the order of the options.
@@ -103,24 +113,41 @@ impl Gateway {
         self.routes.iter().map(figures).collect()
     }
 
-    /// Writes a line into the log for each route that has carried something.
-    pub fn log_figures(&self) {
-        for (key, counts) in &self.routes {
-            if counts.carried() + counts.given_up() + counts.held() > 0 {
-                tracing::info!("{key}: {counts}");
-            }
-        }
-    }
-
-    /// Ends the gateway: its ends are closed, components of other hosts vanish from the runtime folder, and the other hosts
-    /// are told.
+    /// Ends the gateway: what is on its way is delivered if that takes no longer than a second or two, components of other
+    /// hosts vanish from the runtime folder, and the other hosts are told. What each route has carried is logged.
     pub async fn close(mut self) {
-        self.log_figures();
+        self.stop.send_replace(true);
+        let all_done = async { while self.pumps.join_next().await.is_some() {} };
+        let _the_rest_is_aborted = tokio::time::timeout(STOP_LIMIT, all_done).await;
         self.pumps.shutdown().await;
+        log_figures(&self.routes);
         self.tasks.shutdown().await;
         if let Ok(wire) = Arc::try_unwrap(self.wire) {
             wire.close().await;
         }
+    }
+}
+
+/// The keys of the routes, and what they have carried.
+type Routes = Vec<(String, Arc<Counts>)>;
+
+/// Writes a line into the log for each route that has carried something.
+fn log_figures(routes: &Routes) {
+    for (key, counts) in routes {
+        if counts.carried() + counts.given_up() + counts.held() > 0 {
+            tracing::info!("{key}: {counts}");
+        }
+    }
+}
+
+async fn log_figures_on_signal(routes: Arc<Routes>) {
+    match signal(SignalKind::user_defined1()) {
+        Ok(mut signals) => {
+            while signals.recv().await.is_some() {
+                log_figures(&routes);
+            }
+        }
+        Err(error) => tracing::debug!(%error, "SIGUSR1 will end the gateway"),
     }
 }
 

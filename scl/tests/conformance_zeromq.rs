@@ -1,4 +1,4 @@
-//! The ZeroMQ transport keeps every guarantee, over Unix sockets and over TCP.
+//! The ZeroMQ transport keeps every guarantee, over Unix sockets, over TCP, and with shared memory.
 #![allow(clippy::unwrap_used)]
 
 use scl::runtime_dir::RuntimeDir;
@@ -11,6 +11,11 @@ mod ipc {
 
 mod tcp {
     scl::transport_conformance!(super::fresh(super::Medium::Tcp));
+}
+
+#[cfg(feature = "iceoryx2")]
+mod shm {
+    scl::transport_conformance!(super::fresh(super::Medium::Shm));
 }
 
 fn fresh(medium: Medium) -> (ZeroMq, TempDir) {

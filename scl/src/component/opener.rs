@@ -40,7 +40,7 @@ impl Opener {
     /// Opens the `pub` gate at an index of the component's list.
     pub fn publisher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Pub<T>, OpenError> {
         let spec = self.gate(index);
-        let connections = self.connections(spec, |transport, endpoint| transport.publish(endpoint))?;
+        let connections = self.connections::<T, C>(spec, |transport, endpoint| transport.publish(endpoint))?;
         let tap = self.tap(spec)?;
         let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, tap);
         self.follow(index, gate.fanout.figures());
@@ -50,7 +50,7 @@ impl Opener {
     /// Opens the `push` gate at an index of the component's list.
     pub fn pusher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Push<T>, OpenError> {
         let spec = self.gate(index);
-        let connections = self.connections(spec, |transport, endpoint| transport.push(endpoint))?;
+        let connections = self.connections::<T, C>(spec, |transport, endpoint| transport.push(endpoint))?;
         // The puller has the tap.
         let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, GateTap::new(None));
         self.follow(index, gate.fanout.figures());
@@ -71,7 +71,9 @@ impl Opener {
     /// Opens the `pull` gate at an index of the component's list.
     pub fn puller<T, C: Codec<T>>(&mut self, index: usize) -> Result<Pull<T>, OpenError> {
         let spec = self.gate(index);
-        let link = self.transports.of_gate(spec).pull(&endpoint(spec.endpoint, spec));
+        let longest = longest::<T, C>(spec.options.max_size);
+        let endpoint = Endpoint { longest, ..endpoint(spec.endpoint, spec) };
+        let link = self.transports.of_gate(spec).pull(&endpoint);
         let link = link.map_err(|source| self.refused(spec, source))?;
         let tap = self.tap(spec)?;
         let gate = Incoming::new::<C>(self.state.clone(), spec, vec![link], tap);
@@ -115,15 +117,16 @@ impl Opener {
         &self.state.spec().gates[index]
     }
 
-    fn connections(
+    fn connections<T, C: Codec<T>>(
         &self,
         spec: &'static GateSpec,
         open: impl Fn(&dyn Transport, &Endpoint) -> Result<Box<dyn Sender>, TransportError>,
     ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
         let connect = |link: &'static LinkSpec| {
             let lossless = spec.options.backpressure && link.when_full == WhenFull::Wait;
-            let sender =
-                open(self.transports.of_link(spec, link), &Endpoint { lossless, ..self.connecting(spec, link) });
+            let endpoint = self.connecting(spec, link);
+            let longest = longest::<T, C>(link.max_size);
+            let sender = open(self.transports.of_link(spec, link), &Endpoint { lossless, longest, ..endpoint });
             let sender = sender.map_err(|source| self.refused(spec, source))?;
             let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes());
             Ok(self.state.drive(connection))
@@ -169,6 +172,12 @@ fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Regi
     let dir = runtime_dir.system(&system).map_err(failed)?;
     let transports = Transports::in_folder(spec, &dir, media.clone())?;
     Ok((Registration::in_folder(spec, dir, stats, &media).map_err(failed)?, transports))
+}
+
+/// The longest message at a gate that accepts messages of up to `max_size` bytes.
+fn longest<T, C: Codec<T>>(max_size: u64) -> usize {
+    let max_size = usize::try_from(max_size).unwrap_or(usize::MAX);
+    C::FIXED_LENGTH.map_or(max_size, |length| length.min(max_size))
 }
 
 fn endpoint(name: &'static str, spec: &GateSpec) -> Endpoint {

@@ -61,7 +61,7 @@ fn the_same_programs_run_without_shared_memory() {
     for medium in [Medium::Ipc, Medium::Tcp] {
         let system = System::with_medium(medium);
         let (mut camera, mut viewer) = (open_with(&system, IMAGES, "camera"), open_with(&system, IMAGES, "viewer"));
-        camera.ask("ready", "ready");
+        camera.ask("viewer here", "viewer");
         camera.ask(&format!("lend 0 {QUEUE} {IMAGE}"), "0 shared");
         viewer.ask(&format!("receive {QUEUE}"), "0..4, 0 shared");
         camera.ask("draw 7 8", "0 shared");
@@ -84,7 +84,7 @@ fn single_connections_can_use_shared_memory() {
         camera.expect("open");
         let mut viewer = system.start_with(IMAGES, &["viewer"], &[("SCL_TRANSPORT", "ipc")]);
         viewer.expect("open");
-        camera.ask("ready", "ready");
+        camera.ask("viewer here", "viewer");
         if frames == 1 {
             camera.ask("lends frames", "lends");
         }
