@@ -51,7 +51,7 @@ impl Hosts {
             components: components.map(str::to_owned).to_vec(),
         };
         let hosts = vec![host("board", ["sensor", "camera"]), host("ground", ["controller", "assistant"])];
-        let deployment = Deployment { hosts, certificates: None };
+        let deployment = Deployment { hosts, certificates: None, insecure: false };
         let folder = || TempDir::with_prefix("scl").unwrap();
         let host = |name: &str| Host { name: name.to_owned(), folder: folder(), gateway: None };
         Self { board: host("board"), ground: host("ground"), deployment }
