@@ -1,4 +1,4 @@
-"""Subscribes to frames with plain ZeroMQ: `images.py ADDRESS COUNT`. Prints the number and the length of each."""
+"""Subscribes to frames with plain ZeroMQ: `images.py ADDRESS`. Prints the number and the length of each."""
 
 import sys
 
@@ -8,6 +8,6 @@ subscriber = zmq.Context().socket(zmq.SUB)
 subscriber.subscribe(b"")
 subscriber.connect(sys.argv[1])
 print("open", flush=True)
-for _ in range(int(sys.argv[2])):
+while True:
     frame = subscriber.recv()
     print(int.from_bytes(frame[:8], "little"), len(frame), flush=True)

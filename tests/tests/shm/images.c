@@ -29,7 +29,7 @@ int main(int argc, char **argv) {
         return 0;
     }
     scl_message *message;
-    while (scl_recv(frames, &message, -1) == SCL_OK) {
+    while (scl_recv(frames, -1, &message) == SCL_OK) {
         size_t size = 0;
         const unsigned char *bytes = scl_message_data(message, &size);
         uint64_t number = 0;

@@ -43,11 +43,11 @@ pub(crate) async fn play() -> scl::Result<()> {
                 }
                 say("worker");
             }
-            "frame_peers" => {
-                while camera.frames.stats().peers as u64 != from {
-                    camera.frames.peers_changed().await;
-                }
-                say("peers");
+            // Sends a short frame, and says how many programs get it.
+            "reach" => {
+                let before = camera.frames.stats().sent;
+                camera.frames.send(&frame(from, 9)).await?;
+                say(camera.frames.stats().sent - before);
             }
             // Until shared memory is agreed on, which takes a moment longer than to be connected, and has no event.
             "lends" => {
@@ -72,9 +72,10 @@ pub(crate) async fn play() -> scl::Result<()> {
                 }
                 say(format!("{shared} shared"));
             }
-            // Frames until the next command.
+            // Frames until the next command, whose numbers tell which program sends them.
             "stream" => {
-                let mut number = from;
+                let mut number = u64::from(std::process::id()) << 32;
+                let length = from as usize;
                 while !commands.is_waiting() {
                     let mut frame = camera.frames.loan_bytes(length)?;
                     fill(&mut frame, number);
@@ -108,7 +109,8 @@ pub(crate) async fn play() -> scl::Result<()> {
             }
             // Jobs until the next command.
             "push_stream" => {
-                let mut number = from;
+                let mut number = u64::from(std::process::id()) << 32;
+                let length = from as usize;
                 while !commands.is_waiting() {
                     let mut job = camera.jobs.loan_bytes(length)?;
                     fill(&mut job, number);
@@ -132,7 +134,6 @@ pub(crate) async fn play() -> scl::Result<()> {
                 drop(frame);
             }
             "frames" => say(account(&camera.frames.peer_stats()[0])),
-            "pictures" => say(account(&camera.pictures.peer_stats()[0])),
             "jobs" => say(account(&camera.jobs.peer_stats()[0])),
             other => say(format!("unknown command `{other}`")),
         }

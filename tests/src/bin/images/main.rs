@@ -1,6 +1,7 @@
 //! Plays a component of `images.yaml` and follows commands: `images camera`, `images viewer` or `images worker`.
 
 mod camera;
+mod order;
 mod picture;
 mod viewer;
 mod worker;
@@ -13,6 +14,9 @@ scl::topology!("topologies/images.yaml");
 
 #[tokio::main(flavor = "current_thread")]
 async fn main() -> ExitCode {
+    if let Err(error) = scl::host::start_log() {
+        say_error(error);
+    }
     let result = match std::env::args().nth(1).unwrap_or_default().as_str() {
         "camera" => camera::play().await,
         "viewer" => viewer::play().await,

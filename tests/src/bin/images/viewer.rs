@@ -1,6 +1,7 @@
 //! The viewer: receives frames and pictures, counts those in shared memory, and may keep some.
 
 use crate::Viewer;
+use crate::order::Order;
 use crate::picture::number_of;
 use scl::bytes::Bytes;
 use scl_tests::{Commands, is_shared, ranges, say, say_error, say_result};
@@ -35,19 +36,13 @@ pub(crate) async fn play() -> scl::Result<()> {
             }
             // Until the next command. Says of the first frame that it is there.
             "stream" => {
-                let mut last = None;
+                let mut order = Order::default();
                 loop {
                     let frame = tokio::select! {
                         frame = viewer.frames.recv() => frame?,
                         () = commands.arrived() => break,
                     };
-                    let number = number_of(&frame);
-                    match last {
-                        None => say("flows"),
-                        // A camera that was started again counts from 0.
-                        Some(last) => assert!(number > last || number == 0, "{number} after {last}"),
-                    }
-                    last = Some(number);
+                    order.add(number_of(&frame));
                 }
             }
             "keep" => {

@@ -1,6 +1,7 @@
 //! The worker: pulls jobs.
 
 use crate::Worker;
+use crate::order::Order;
 use crate::picture::number_of;
 use scl_tests::{Commands, is_shared, ranges, say};
 
@@ -22,19 +23,13 @@ pub(crate) async fn play() -> scl::Result<()> {
             }
             // Until the next command. Says of the first job that it is there.
             "stream" => {
-                let mut last = None;
+                let mut order = Order::without_gaps();
                 loop {
                     let job = tokio::select! {
                         job = worker.jobs.recv() => job?,
                         () = commands.arrived() => break,
                     };
-                    let number = number_of(&job);
-                    match last {
-                        None => say("flows"),
-                        // A camera that was started again counts from 0.
-                        Some(last) => assert!(number == last + 1 || number == 0, "{number} after {last}"),
-                    }
-                    last = Some(number);
+                    order.add(number_of(&job));
                 }
             }
             other => say(format!("unknown command `{other}`")),
