@@ -12,8 +12,15 @@ mod codecs;
 mod cores;
 mod delay;
 mod durations;
+mod engines;
 mod fanout;
+mod footprint;
 mod fresh;
+#[cfg(feature = "gateway")]
+mod gateway;
+mod gateway_growth;
+#[cfg(feature = "iceoryx2")]
+mod iceoryx;
 #[cfg(feature = "libzmq")]
 mod libzmq;
 mod message_size;
@@ -27,8 +34,11 @@ mod roles;
 mod roundtrip;
 mod runtime;
 mod scratch;
+mod transport;
 mod unix;
 mod worker;
+#[cfg(feature = "gateway")]
+mod zenoh_peer;
 
 pub use allocations::{AllocationCounter, measure_allocations};
 pub use codecs::{CodecsOptions, measure_codecs};
@@ -36,6 +46,7 @@ pub use cores::Cores;
 pub use delay::{DelayOptions, measure_delay};
 pub use fanout::{FanoutOptions, measure_fanout};
 pub use fresh::{FreshOptions, measure_fresh};
+pub use gateway_growth::{GatewayGrowthOptions, measure_gateway_growth};
 pub use open::{OpenOptions, measure_open};
 pub use rate::{RateOptions, measure_rate};
 pub use report::Report;
@@ -43,4 +54,5 @@ pub use restart::{RestartOptions, measure_restart};
 pub use roles::run_worker;
 pub use roundtrip::{RoundtripOptions, measure_roundtrip};
 pub use scl::{Error, Result};
+pub use transport::Transport;
 pub use worker::WORKER_COMMAND;

@@ -4,9 +4,14 @@
 
 mod batch_report;
 mod components;
+mod engines;
+#[cfg(feature = "iceoryx2")]
+mod iceoryx;
 mod message;
 mod receiver;
 mod sender;
+#[cfg(feature = "gateway")]
+mod zenoh;
 
 pub(crate) use batch_report::BatchReport;
 pub(crate) use message::MIN_SIZE;
@@ -38,6 +43,17 @@ pub(crate) const LIBZMQ_PUSH: Variant = Variant { id: "libzmq-push", name: "libz
 pub(crate) const LIBZMQ_PUSH_UNLIMITED: Variant =
     Variant { id: "libzmq-push-unlimited", name: "libzmq PUSH (no limit)" };
 pub(crate) const UNIX: Variant = Variant { id: "unix", name: "Unix socket (tokio)" };
+pub(crate) const SHM_LOAN: Variant = Variant { id: "shm-loan", name: "SCL shm, loaned" };
+pub(crate) const SHM_LOAN_BLOCKING: Variant = Variant { id: "shm-loan-blocking", name: "SCL shm, loaned (blocking)" };
+pub(crate) const SHM_COPY: Variant = Variant { id: "shm-copy", name: "SCL shm, copied" };
+pub(crate) const SHM_COPY_BLOCKING: Variant = Variant { id: "shm-copy-blocking", name: "SCL shm, copied (blocking)" };
+pub(crate) const ICEORYX_LOAN: Variant = Variant { id: "iceoryx-loan", name: "iceoryx2, loaned" };
+pub(crate) const ICEORYX_COPY: Variant = Variant { id: "iceoryx-copy", name: "iceoryx2, copied" };
+pub(crate) const IPC: Variant = Variant { id: "ipc", name: "SCL ipc" };
+pub(crate) const IPC_BLOCKING: Variant = Variant { id: "ipc-blocking", name: "SCL ipc (blocking)" };
+pub(crate) const TCP: Variant = Variant { id: "tcp", name: "SCL tcp" };
+pub(crate) const GATEWAY: Variant = Variant { id: "gateway", name: "SCL over two gateways" };
+pub(crate) const ZENOH: Variant = Variant { id: "zenoh", name: "zenoh" };
 
 /// What a receiver reports about a batch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,8 +66,9 @@ pub(crate) enum Timing {
 
 /// The sending end of a variant, and the process that receives.
 pub(crate) struct Channel {
-    sender: Sender,
+    /// Dropped before the sender, which then cleans up for both.
     receiver: Worker,
+    sender: Sender,
     bytes: usize,
     batch: usize,
 }

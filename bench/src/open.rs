@@ -1,12 +1,12 @@
 //! The cost of a component with ten gates before it exchanges messages: time to open, memory, wake-ups.
 
 mod components;
-mod footprint;
 mod station;
 
 pub(crate) use station::run_station;
 
 use crate::durations::Durations;
+use crate::footprint;
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;

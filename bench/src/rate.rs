@@ -1,15 +1,16 @@
 //! The number of messages per second from one process to another, without losing any.
 
+mod variants;
+
 use crate::message_size::check_message_sizes;
-use crate::one_way::{
-    Channel, LIBZMQ_NODROP, LIBZMQ_PUB, LIBZMQ_PUSH, LIBZMQ_PUSH_UNLIMITED, MIN_SIZE, SCL_PUB, SCL_PUB_BLOCKING,
-    SCL_PUSH, SCL_PUSH_BLOCKING, Timing, UNIX, Variant, ZEROMQ_PUB, ZEROMQ_PUSH,
-};
+use crate::one_way::{Channel, MIN_SIZE, Timing, Variant};
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
+use crate::transport::Transport;
 use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
+use variants::variants;
 
 /// The minimum number of batches of each variant, after one for warm-up.
 const MIN_BATCHES: usize = 10;
@@ -20,28 +21,6 @@ const MAX_BATCH_BYTES: usize = 32 << 20;
 /// Bytes that each variant sends at most, so that long messages do not take minutes.
 const MAX_BYTES: usize = 4 << 30;
 
-const PUB_BASELINES: &[Variant] = &[LIBZMQ_NODROP, LIBZMQ_PUB, ZEROMQ_PUB];
-const PUSH_BASELINES: &[Variant] = &[LIBZMQ_PUSH, LIBZMQ_PUSH_UNLIMITED, ZEROMQ_PUSH];
-
-/// All variants, with the variants they are compared with.
-const VARIANTS: &[(Variant, &[Variant])] = &[
-    (SCL_PUB, PUB_BASELINES),
-    (SCL_PUB_BLOCKING, PUB_BASELINES),
-    (ZEROMQ_PUB, &[]),
-    #[cfg(feature = "libzmq")]
-    (LIBZMQ_NODROP, &[]),
-    #[cfg(feature = "libzmq")]
-    (LIBZMQ_PUB, &[]),
-    (SCL_PUSH, PUSH_BASELINES),
-    (SCL_PUSH_BLOCKING, PUSH_BASELINES),
-    (ZEROMQ_PUSH, &[]),
-    #[cfg(feature = "libzmq")]
-    (LIBZMQ_PUSH, &[]),
-    #[cfg(feature = "libzmq")]
-    (LIBZMQ_PUSH_UNLIMITED, &[]),
-    (UNIX, &[]),
-];
-
 /// Options of [`measure_rate`].
 #[derive(Debug, Clone)]
 pub struct RateOptions {
@@ -49,11 +28,13 @@ pub struct RateOptions {
     pub bytes: Vec<usize>,
     /// The number of messages for each variant and size; at most 4 GiB are sent.
     pub messages: usize,
+    /// What is under the connections.
+    pub transport: Transport,
 }
 
 impl RateOptions {
-    /// The supported message sizes: 8 bytes are for the time, and up to 1000 messages wait in memory.
-    pub const BYTES: RangeInclusive<usize> = MIN_SIZE..=1 << 20;
+    /// The supported message sizes: 8 bytes are for the time.
+    pub const BYTES: RangeInclusive<usize> = MIN_SIZE..=4 << 20;
 }
 
 /// How the messages of a run are divided.
@@ -76,24 +57,25 @@ struct Measurement {
 ///
 /// # Errors
 ///
-/// A size is outside [`RateOptions::BYTES`], the folder for temporary files cannot be used, a process cannot be
+/// A size is outside [`RateOptions::BYTES`], this program was built without the transport, the folder for temporary files cannot be used, a process cannot be
 /// started, or a connection fails.
 pub fn measure_rate(options: &RateOptions) -> scl::Result<Report> {
+    options.transport.check_is_built_in()?;
     check_message_sizes(&options.bytes, RateOptions::BYTES)?;
     let mut report = Report::new("rate");
     let runtime = start_runtime()?;
     for &bytes in &options.bytes {
-        report.add(measure_size(&runtime, bytes, options.messages)?);
+        report.add(measure_size(&runtime, options, bytes)?);
     }
     report.note_rounds();
     Ok(report)
 }
 
-fn measure_size(runtime: &Runtime, bytes: usize, messages: usize) -> scl::Result<Table> {
+fn measure_size(runtime: &Runtime, options: &RateOptions, bytes: usize) -> scl::Result<Table> {
     let folder = ScratchFolder::new()?;
-    let batches = Batches::new(messages, bytes);
+    let batches = Batches::new(options.messages, bytes);
     let mut measurements = Vec::new();
-    for &(variant, baselines) in VARIANTS {
+    for &(variant, baselines) in variants(options.transport) {
         let channel = Channel::open(runtime, variant, folder.path(), bytes, batches.size, Timing::Batch)?;
         measurements.push(Measurement { variant, baselines, channel, rates: Vec::new() });
     }
@@ -160,9 +142,10 @@ mod tests {
 
     #[test]
     fn sizes_outside_the_range_are_rejected() {
-        for rejected in [7, (1 << 20) + 1] {
-            let error = measure_rate(&RateOptions { bytes: vec![20, rejected], messages: 2 }).unwrap_err();
-            assert_eq!(error.to_string(), format!("a message has 8 to 1048576 bytes, not {rejected}"));
+        for rejected in [7, (4 << 20) + 1] {
+            let options = RateOptions { bytes: vec![20, rejected], messages: 2, transport: Transport::Ipc };
+            let error = measure_rate(&options).unwrap_err();
+            assert_eq!(error.to_string(), format!("a message has 8 to 4194304 bytes, not {rejected}"));
         }
     }
 }

@@ -20,6 +20,8 @@ pub fn run_worker(arguments: &[String]) -> scl::Result<()> {
         ["delay", rest @ ..] => (delay::run_source, rest),
         ["fanout", rest @ ..] => (fanout::run_subscriber, rest),
         ["fresh", rest @ ..] => (fresh::run_subscriber, rest),
+        #[cfg(feature = "gateway")]
+        ["gateway-growth", rest @ ..] => (crate::gateway_growth::run_far_host, rest),
         ["one-way", rest @ ..] => (one_way::run_receiver, rest),
         ["open", rest @ ..] => (open::run_station, rest),
         ["restart", rest @ ..] => (restart::run_restarted, rest),

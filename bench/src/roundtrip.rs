@@ -3,8 +3,14 @@
 mod client;
 mod components;
 mod echo;
+mod engines;
+#[cfg(feature = "iceoryx2")]
+mod iceoryx;
 #[cfg(feature = "libzmq")]
 mod libzmq;
+mod variants;
+#[cfg(feature = "gateway")]
+mod zenoh;
 
 pub(crate) use echo::run_echo;
 
@@ -13,11 +19,13 @@ use crate::message_size::check_message_sizes;
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
+use crate::transport::Transport;
 use crate::worker::Worker;
 use client::Client;
 use scl::bytes::Bytes;
 use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
+use variants::{Variant, variants};
 
 /// Messages of one variant before the next variant has its turn.
 const BATCH: usize = 500;
@@ -32,51 +40,29 @@ pub struct RoundtripOptions {
     pub bytes: Vec<usize>,
     /// The number of round trips for each variant and size; at most 4 GiB are sent.
     pub messages: usize,
+    /// What is under the connections.
+    pub transport: Transport,
 }
 
 impl RoundtripOptions {
     /// The supported message sizes. Some ten processes keep a few messages each in memory.
     pub const BYTES: RangeInclusive<usize> = 1..=16 << 20;
+
+    /// The message sizes that are supported over a transport. For shared memory, all that may be in flight is reserved.
+    fn bytes(transport: Transport) -> RangeInclusive<usize> {
+        match transport {
+            Transport::Ipc => Self::BYTES,
+            Transport::Shm | Transport::Gateway => 1..=4 << 20,
+        }
+    }
 }
-
-/// A way to exchange messages: its name between the processes, in the report, and what it is compared with.
-struct Variant {
-    id: &'static str,
-    name: &'static str,
-    baselines: &'static [&'static str],
-}
-
-const SCL_PUB: &str = "SCL pub/sub";
-const SCL_PUB_BLOCKING: &str = "SCL pub/sub (blocking)";
-const SCL_REQ: &str = "SCL req/rep";
-const SCL_REQ_BLOCKING: &str = "SCL req/rep (blocking)";
-const ZEROMQ_PUB: &str = "zeromq XPUB/SUB";
-const ZEROMQ_REQ: &str = "zeromq DEALER/ROUTER";
-const LIBZMQ_PUB: &str = "libzmq XPUB/SUB";
-const LIBZMQ_REQ: &str = "libzmq REQ/REP";
-const UNIX: &str = "Unix socket (tokio)";
-const UNIX_BLOCKING: &str = "Unix socket (blocking)";
-
-const VARIANTS: &[Variant] = &[
-    Variant { id: "scl-pub", name: SCL_PUB, baselines: &[UNIX, ZEROMQ_PUB, LIBZMQ_PUB] },
-    Variant { id: "scl-req", name: SCL_REQ, baselines: &[UNIX, ZEROMQ_REQ, LIBZMQ_REQ] },
-    Variant { id: "zeromq-pub", name: ZEROMQ_PUB, baselines: &[] },
-    Variant { id: "zeromq-req", name: ZEROMQ_REQ, baselines: &[] },
-    Variant { id: "unix", name: UNIX, baselines: &[] },
-    Variant { id: "scl-pub-blocking", name: SCL_PUB_BLOCKING, baselines: &[UNIX_BLOCKING, LIBZMQ_PUB, SCL_PUB] },
-    Variant { id: "scl-req-blocking", name: SCL_REQ_BLOCKING, baselines: &[UNIX_BLOCKING, LIBZMQ_REQ, SCL_REQ] },
-    #[cfg(feature = "libzmq")]
-    Variant { id: "libzmq-pub-blocking", name: LIBZMQ_PUB, baselines: &[] },
-    #[cfg(feature = "libzmq")]
-    Variant { id: "libzmq-req-blocking", name: LIBZMQ_REQ, baselines: &[] },
-    Variant { id: "unix-blocking", name: UNIX_BLOCKING, baselines: &[] },
-];
 
 /// A variant with its two processes, and what was measured of it.
 struct Measurement {
     variant: &'static Variant,
-    client: Client,
+    /// Dropped before the client, which then cleans up for both.
     _echo: Worker,
+    client: Client,
     durations: Durations,
     /// The median of each batch, in microseconds.
     medians: Vec<f64>,
@@ -86,30 +72,32 @@ struct Measurement {
 ///
 /// # Errors
 ///
-/// A size is outside [`RoundtripOptions::BYTES`], the folder for temporary files cannot be used, a process cannot be
+/// A size is outside [`RoundtripOptions::BYTES`], or outside of what the transport supports; this program was built
+/// without the transport; the folder for temporary files cannot be used, a process cannot be
 /// started, or a connection fails.
 pub fn measure_roundtrip(options: &RoundtripOptions) -> scl::Result<Report> {
-    check_message_sizes(&options.bytes, RoundtripOptions::BYTES)?;
+    options.transport.check_is_built_in()?;
+    check_message_sizes(&options.bytes, RoundtripOptions::bytes(options.transport))?;
     let mut report = Report::new("roundtrip");
     let runtime = start_runtime()?;
     for &bytes in &options.bytes {
-        report.add(measure_size(&runtime, bytes, options.messages)?);
+        report.add(measure_size(&runtime, options, bytes)?);
     }
     report.note_rounds();
     Ok(report)
 }
 
-fn measure_size(runtime: &Runtime, bytes: usize, messages: usize) -> scl::Result<Table> {
+fn measure_size(runtime: &Runtime, options: &RoundtripOptions, bytes: usize) -> scl::Result<Table> {
     let folder = ScratchFolder::new()?;
     let mut measurements = Vec::new();
-    for variant in VARIANTS {
+    for variant in variants(options.transport) {
         let (client, echo) = Client::start(runtime, variant.id, folder.path(), bytes)?;
         let (durations, medians) = (Durations::new()?, Vec::new());
         measurements.push(Measurement { variant, client, _echo: echo, durations, medians });
     }
     let payload = Bytes::from(vec![7; bytes]);
     let mut batch = Vec::with_capacity(BATCH);
-    for messages in batches(messages.min(MAX_BYTES / bytes)) {
+    for messages in batches(options.messages.min(MAX_BYTES / bytes)) {
         for measurement in &mut measurements {
             measurement.run(runtime, &payload, messages, &mut batch)?;
         }

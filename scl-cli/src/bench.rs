@@ -5,8 +5,8 @@ mod limits;
 use clap::{Args, Subcommand, ValueEnum};
 use limits::{MESSAGES, REPETITIONS, STARTS, parse_seconds, within};
 use scl_bench::{
-    CodecsOptions, Cores, DelayOptions, FanoutOptions, FreshOptions, OpenOptions, RateOptions, Report, RestartOptions,
-    RoundtripOptions,
+    CodecsOptions, Cores, DelayOptions, FanoutOptions, FreshOptions, GatewayGrowthOptions, OpenOptions, RateOptions, Report, RestartOptions,
+    RoundtripOptions, Transport,
 };
 use scl_terminal::{print_err, print_out};
 use std::process::ExitCode;
@@ -57,8 +57,35 @@ impl From<CoresArgument> for Cores {
     }
 }
 
-/// Message sizes by default, in bytes.
-const SIZES: [usize; 3] = [20, 1024, 65536];
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum TransportArgument {
+    /// Unix sockets, beside other libraries over Unix sockets.
+    #[default]
+    Ipc,
+    /// Shared memory, beside plain iceoryx2; takes the feature `shm` of this program.
+    Shm,
+    /// Two gateways on loopback, beside plain zenoh; takes the feature `gateway` of this program.
+    Gateway,
+}
+
+impl From<TransportArgument> for Transport {
+    fn from(argument: TransportArgument) -> Self {
+        match argument {
+            TransportArgument::Ipc => Self::Ipc,
+            TransportArgument::Shm => Self::Shm,
+            TransportArgument::Gateway => Self::Gateway,
+        }
+    }
+}
+
+/// The message sizes to measure: those given, or the defaults of a transport.
+fn sizes(given: &[usize], transport: TransportArgument) -> Vec<usize> {
+    match (given, transport) {
+        ([], TransportArgument::Shm) => vec![1 << 10, 64 << 10, 4 << 20],
+        ([], _) => vec![20, 1 << 10, 64 << 10],
+        (given, _) => given.to_vec(),
+    }
+}
 
 const READING: &str = "A line `SCL pub/sub to libzmq XPUB/SUB` has the first one's value divided by the second one's: \
 1.10 is 10 % more, 0.50 is half. Quartiles tell how much the ratio varies during the run. `docs/bench.md` explains \
@@ -76,24 +103,30 @@ enum Benchmark {
     /// Baselines: Unix sockets (tokio and blocking), the same patterns of `zeromq`, and of libzmq if this program was
     /// built with its feature `libzmq`.
     Roundtrip {
-        /// The message sizes in bytes, one table each.
-        #[arg(long, value_delimiter = ',', default_values_t = SIZES, value_parser = within(RoundtripOptions::BYTES))]
+        /// The message sizes in bytes, one table each. Default: 20,1024,65536; over shared memory 1024,65536,4194304.
+        #[arg(long, value_delimiter = ',', value_parser = within(RoundtripOptions::BYTES))]
         bytes: Vec<usize>,
         /// The number of round trips for each size and line; at most 4 GiB are sent.
         #[arg(long, default_value_t = 20_000, value_parser = within(MESSAGES))]
         messages: usize,
+        /// What is under the connections of SCL, which decides what they are compared with.
+        #[arg(long, value_enum, default_value_t)]
+        transport: TransportArgument,
     },
     /// Measure messages per second from one process to another, none lost: pub/sub and push/pull, async and blocking.
     ///
     /// Baselines: the same patterns of `zeromq`, a Unix socket, and of libzmq, with bounded and unbounded queues, if
     /// this program was built with its feature `libzmq`.
     Rate {
-        /// The message sizes in bytes, one table each.
-        #[arg(long, value_delimiter = ',', default_values_t = SIZES, value_parser = within(RateOptions::BYTES))]
+        /// The message sizes in bytes, one table each. Default: 20,1024,65536; over shared memory 1024,65536,4194304.
+        #[arg(long, value_delimiter = ',', value_parser = within(RateOptions::BYTES))]
         bytes: Vec<usize>,
         /// The number of messages for each size and line; at most 4 GiB are sent.
         #[arg(long, default_value_t = 500_000, value_parser = within(MESSAGES))]
         messages: usize,
+        /// What is under the connections of SCL, which decides what they are compared with.
+        #[arg(long, value_enum, default_value_t)]
+        transport: TransportArgument,
     },
     /// Measure the age of the first value that a subscriber with `queue: 1` receives after a pause.
     ///
@@ -149,6 +182,29 @@ enum Benchmark {
         #[arg(long, default_value_t = 30, value_parser = within(STARTS))]
         starts: usize,
     },
+    /// Measure how the cost of a gateway grows with its connections: time until all are matched, memory, processor time,
+    /// round trip.
+    ///
+    /// Needs the program `scl-gateway` beside this one or in `PATH`, and the feature `gateway` of this program.
+    GatewayGrowth {
+        /// The numbers of connections, one line each.
+        #[arg(
+            long,
+            value_delimiter = ',',
+            default_values_t = [1, 10, 50, 100, 200, 500],
+            value_parser = within(GatewayGrowthOptions::CONNECTIONS)
+        )]
+        connections: Vec<usize>,
+        /// The number of other hosts, each with a gateway, between which the connections are divided.
+        #[arg(long, default_value_t = 1, value_parser = within(GatewayGrowthOptions::HOSTS))]
+        hosts: usize,
+        /// How long each line is observed while idle, and as long under load.
+        #[arg(long, default_value_t = 10.0, value_parser = parse_seconds)]
+        seconds: f64,
+        /// The number of round trips of each line.
+        #[arg(long, default_value_t = 1000, value_parser = within(MESSAGES))]
+        messages: usize,
+    },
 }
 
 /// The arguments of a worker process.
@@ -185,12 +241,16 @@ fn measure(benchmark: &Benchmark, quick: bool) -> scl_bench::Result<Report> {
     let few = |number: usize, max: usize| if quick { number.min(max) } else { number };
     let short = |seconds: f64| Duration::from_secs_f64(if quick { seconds.min(0.05) } else { seconds });
     match benchmark {
-        Benchmark::Roundtrip { bytes, messages } => {
-            scl_bench::measure_roundtrip(&RoundtripOptions { bytes: bytes.clone(), messages: few(*messages, 50) })
-        }
-        Benchmark::Rate { bytes, messages } => {
-            scl_bench::measure_rate(&RateOptions { bytes: bytes.clone(), messages: few(*messages, 50) })
-        }
+        Benchmark::Roundtrip { bytes, messages, transport } => scl_bench::measure_roundtrip(&RoundtripOptions {
+            bytes: sizes(bytes, *transport),
+            messages: few(*messages, 50),
+            transport: (*transport).into(),
+        }),
+        Benchmark::Rate { bytes, messages, transport } => scl_bench::measure_rate(&RateOptions {
+            bytes: sizes(bytes, *transport),
+            messages: few(*messages, 50),
+            transport: (*transport).into(),
+        }),
         Benchmark::Fresh { repetitions, pause } => {
             scl_bench::measure_fresh(&FreshOptions { repetitions: few(*repetitions, 2), pause: short(*pause) })
         }
@@ -198,6 +258,14 @@ fn measure(benchmark: &Benchmark, quick: bool) -> scl_bench::Result<Report> {
         Benchmark::Delay { seconds } => scl_bench::measure_delay(&DelayOptions { time: short(*seconds) }),
         Benchmark::Fanout { seconds } => scl_bench::measure_fanout(&FanoutOptions { time: short(*seconds) }),
         Benchmark::Codecs { messages } => scl_bench::measure_codecs(&CodecsOptions { messages: few(*messages, 50) }),
+        Benchmark::GatewayGrowth { connections, hosts, seconds, messages } => {
+            scl_bench::measure_gateway_growth(&GatewayGrowthOptions {
+                connections: connections.iter().map(|&connections| few(connections, 3)).collect(),
+                hosts: *hosts,
+                time: short(*seconds),
+                messages: few(*messages, 50),
+            })
+        }
         Benchmark::Open { starts } => {
             let idle = Duration::from_millis(if quick { 50 } else { 1000 });
             scl_bench::measure_open(&OpenOptions { starts: few(*starts, 1), idle })

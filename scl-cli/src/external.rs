@@ -1,4 +1,4 @@
-//! `scl x` for a program `scl-x` of the user's in `PATH`.
+//! `scl x` for a program `scl-x` beside `scl` or in `PATH`: the user's, or a part of SCL that is installed apart.
 
 use clap::Command as CommandLine;
 use scl_terminal::{Problem, closest_name, escape, print_err};
@@ -31,6 +31,10 @@ pub(crate) fn run_external(words: &[OsString], command_line: &CommandLine) -> Ex
     ExitCode::from(COULD_NOT_RUN)
 }
 
+/// Commands of SCL that are programs of their own, and how to get them.
+const PARTS: &[(&str, &str)] =
+    &[("gateway", "install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`")];
+
 enum Found {
     Program(PathBuf),
     NotExecutable(PathBuf),
@@ -44,9 +48,11 @@ fn find(name: &OsStr) -> Found {
     if Path::new(&file).components().count() != 1 {
         return Found::Nothing;
     }
+    // Programs of the same version lie beside this one.
+    let own = env::current_exe().ok().and_then(|scl| Some(scl.parent()?.to_owned()));
     let path = env::var_os("PATH").unwrap_or_default();
     let folders = env::split_paths(&path).filter(|folder| !folder.as_os_str().is_empty());
-    let files: Vec<PathBuf> = folders.map(|folder| folder.join(&file)).filter(|file| file.is_file()).collect();
+    let files: Vec<PathBuf> = own.into_iter().chain(folders).map(|folder| folder.join(&file)).filter(|file| file.is_file()).collect();
     match files.iter().find(|file| is_executable(file)) {
         Some(program) => Found::Program(program.clone()),
         None => files.into_iter().next().map_or(Found::Nothing, Found::NotExecutable),
@@ -63,11 +69,14 @@ fn cannot_run(program: &Path, error: &std::io::Error) -> Problem {
 }
 
 fn unknown(name: &str, command_line: &CommandLine) -> Problem {
+    let part = PARTS.iter().find(|(part, _)| *part == name);
     let visible = command_line.get_subcommands().filter(|command| !command.is_hide_set());
+    let names = visible.map(CommandLine::get_name).chain(PARTS.iter().map(|(part, _)| *part));
     let problem = Problem::new(format!("there is no command `{}`", escape(name)));
-    let problem = match closest_name(name, visible.map(CommandLine::get_name)) {
-        Some(close) => problem.help(format!("did you mean `scl {close}`?")),
-        None => problem.help("`scl --help` lists the commands"),
+    let problem = match (part, closest_name(name, names)) {
+        (Some((_, help)), _) => problem.help(*help),
+        (None, Some(close)) => problem.help(format!("did you mean `scl {close}`?")),
+        (None, None) => problem.help("`scl --help` lists the commands"),
     };
-    problem.note(format!("nor is there a program `scl-{}` in PATH", escape(name)))
+    problem.note(format!("nor is there a program `scl-{}` beside `scl` or in PATH", escape(name)))
 }

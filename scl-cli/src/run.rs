@@ -37,6 +37,9 @@ pub(crate) struct RunArguments {
     /// Start all components but these.
     #[arg(long, value_name = "COMPONENT,...", value_delimiter = ',', conflicts_with = "only")]
     without: Vec<String>,
+    /// Start the components of this host of the launch file, and its gateway to the other hosts.
+    #[arg(long, value_name = "HOST")]
+    host: Option<String>,
     /// Stop after this time, for example `5s`, and succeed.
     #[arg(long = "for", value_name = "TIME", value_parser = parse_duration)]
     run_for: Option<Duration>,
@@ -58,6 +61,7 @@ Examples:
   scl run rover/replay.yaml       another launch file
   scl run --profile python        the programs of a profile
   scl run --only sensor           one component, while the others run elsewhere
+  scl run --host board            on the board: its components and its gateway
   scl restart sensor              from another shell; `scl stop` stops everything
 
 A launch file (docs/launch.md has all of it):
@@ -89,6 +93,7 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
         profiles: arguments.profiles.clone(),
         only: arguments.only.clone(),
         without: arguments.without.clone(),
+        host: arguments.host.clone(),
         release: arguments.release,
         run_for: arguments.run_for,
         grace: arguments.grace,
@@ -109,7 +114,7 @@ pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
     scl_run::start_component(arguments.parent, &placement, &arguments.command)
 }
 
-fn component_names(topology: &Path) -> Option<SystemNames> {
+pub(crate) fn component_names(topology: &Path) -> Option<SystemNames> {
     let loaded = load_file(topology, MaxSize::default());
     let Some(topology) = &loaded.topology else {
         show_errors(&loaded);

@@ -189,11 +189,54 @@ fn restart_measures_every_role() {
     }
 }
 
+/// Without the feature of a transport, the command says how to build it.
+#[cfg(not(all(feature = "shm", feature = "gateway")))]
+#[test]
+fn transports_that_are_not_built_in_name_their_feature() {
+    for (arguments, feature, is_built_in) in [
+        (&["roundtrip", "--transport", "shm"][..], "shm", cfg!(feature = "shm")),
+        (&["rate", "--transport", "shm"], "shm", cfg!(feature = "shm")),
+        (&["roundtrip", "--transport", "gateway"], "gateway", cfg!(feature = "gateway")),
+        (&["rate", "--transport", "gateway"], "gateway", cfg!(feature = "gateway")),
+        (&["gateway-growth"], "gateway", cfg!(feature = "gateway")),
+    ] {
+        if is_built_in {
+            continue;
+        }
+        let output = bench(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let expected = format!(
+            "error: this `scl` was built without the transport `{feature}`; \
+             build it with `cargo build --release -p scl-cli --features {feature}`\n"
+        );
+        assert_eq!(String::from_utf8_lossy(&output.stderr), expected, "{arguments:?}");
+    }
+}
+
+#[cfg(feature = "shm")]
+#[test]
+fn shared_memory_is_compared_with_iceoryx2() {
+    for (benchmark, value) in [("roundtrip", "p50_us"), ("rate", "messages_per_s")] {
+        let report = report(&[benchmark, "--transport", "shm", "--bytes", "1024,1048576"]);
+        for (name, baselines) in [
+            ("SCL shm, loaned", ["iceoryx2, loaned", "SCL ipc"]),
+            ("SCL shm, loaned (blocking)", ["iceoryx2, loaned", "SCL ipc (blocking)"]),
+            ("SCL shm, copied", ["iceoryx2, copied", "SCL ipc"]),
+            ("SCL shm, copied (blocking)", ["iceoryx2, copied", "SCL ipc (blocking)"]),
+        ] {
+            assert_compared_everywhere(&report, value, name, &baselines);
+        }
+    }
+    let output = bench(&["roundtrip", "--transport", "shm", "--bytes", "4194305"]);
+    let expected = "error: a message has 1 to 4194304 bytes, not 4194305\n";
+    assert_eq!(String::from_utf8_lossy(&output.stderr), expected);
+}
+
 #[test]
 fn errors_say_what_an_option_accepts() {
     let (number, seconds) = ("a whole number from", "a time from 0.001 to 3600 seconds, like `5` or `500ms`");
     for (arguments, rejected, expected) in [
-        (["rate", "--bytes", "20,7"], "7' for '--bytes <BYTES>", format!("{number} 8 to 1048576")),
+        (["rate", "--bytes", "20,7"], "7' for '--bytes <BYTES>", format!("{number} 8 to 4194304")),
         (["rate", "--messages", "0"], "0' for '--messages <MESSAGES>", format!("{number} 1 to 10000000")),
         (["roundtrip", "--bytes", "0"], "0' for '--bytes <BYTES>", format!("{number} 1 to 16777216")),
         (["fresh", "--repetitions", "0"], "0' for '--repetitions <REPETITIONS>", format!("{number} 1 to 10000")),

@@ -48,7 +48,7 @@ fn misspelt_commands_get_a_suggestion() {
         &expect![[r#"
             error: there is no command `grph`
               = help: did you mean `scl graph`?
-              = note: nor is there a program `scl-grph` in PATH
+              = note: nor is there a program `scl-grph` beside `scl` or in PATH
         "#]],
     );
     check_error(
@@ -56,7 +56,7 @@ fn misspelt_commands_get_a_suggestion() {
         &expect![[r#"
             error: there is no command `../hello\u{1b}`
               = help: `scl --help` lists the commands
-              = note: nor is there a program `scl-../hello\u{1b}` in PATH
+              = note: nor is there a program `scl-../hello\u{1b}` beside `scl` or in PATH
         "#]],
     );
 }

@@ -1,3 +1,44 @@
-//! The command `scl-gateway`.
+//! The command `scl-gateway`, or `scl gateway`.
+#![cfg_attr(test, allow(clippy::unwrap_used))]
 
-fn main() {}
+mod check;
+mod files;
+mod log;
+mod make_keys;
+mod notify;
+mod run;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Connect the components of a system that run on several hosts.
+#[derive(Parser)]
+#[command(name = "scl gateway", version, arg_required_else_help = true)]
+#[command(after_help = "\
+Examples:
+  scl gateway keys                make certificates for the hosts of ./launch.yaml
+  scl gateway check --host board  on the board: see whether its gateway can run
+  scl run --host board            on the board: start its components and its gateway
+
+`scl run --host` starts the gateway by itself. docs/deploy.md is about certificates and services.
+
+Exit code: 0 fine, 1 something is wrong with the certificates, 2 could not run.")]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Check(check::CheckArguments),
+    Keys(make_keys::KeysArguments),
+    Run(run::RunArguments),
+}
+
+fn main() -> ExitCode {
+    match CommandLine::parse().command {
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Keys(arguments) => make_keys::make_keys(&arguments),
+        Command::Run(arguments) => run::run(&arguments),
+    }
+}

@@ -1,1 +1,24 @@
-//! The gateway as processes on real networks.
+//! The gateway as processes on real networks: several hosts, each with its own gateway, network and components, between
+//! them a cable that loses, delays and cuts.
+
+mod accounts;
+mod bad_network;
+mod cable;
+mod certificates;
+mod clocks;
+mod control_loop;
+mod cut;
+mod direct;
+mod files;
+mod fleet;
+mod gateway;
+mod host;
+mod identities;
+mod kills;
+mod long;
+mod namespace;
+mod network;
+mod player;
+mod receipts;
+mod strangers;
+mod wire;

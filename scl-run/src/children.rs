@@ -46,6 +46,8 @@ pub(crate) enum Role {
     Build,
     /// It runs a component.
     Component,
+    /// It connects the components to those of other hosts.
+    Gateway,
 }
 
 /// How a program is started, besides what it is.

@@ -10,6 +10,8 @@ pub struct Deployment {
     pub hosts: Vec<Host>,
     /// The folder with the certificates. Without one, all hosts are on loopback and the gateways do not encrypt.
     pub certificates: Option<PathBuf>,
+    /// Whether other addresses than loopback are accepted without certificates.
+    pub insecure: bool,
 }
 
 /// A host: where its gateway listens, and the components that run there.
@@ -26,6 +28,9 @@ pub struct Host {
 }
 
 impl Deployment {
+    /// The folder of the authority that signs the certificates, beside those of the hosts. No host has this name.
+    pub const AUTHORITY: &str = "authority";
+
     /// The host with this name.
     pub fn host(&self, name: &str) -> Option<&Host> {
         self.hosts.iter().find(|host| host.name == name)

@@ -4,6 +4,7 @@
 
 mod entry;
 mod environment;
+mod hosts;
 mod keys;
 mod profile;
 mod reader;
@@ -14,6 +15,7 @@ pub(crate) use entry::{LaunchComponent, Source};
 pub(crate) use settings::Settings;
 pub(crate) use transports::Transports;
 
+use super::deployment::Deployment;
 use super::launch_text::LaunchText;
 use super::system_names::SystemNames;
 use profile::Profile;
@@ -49,6 +51,10 @@ environment: {RUST_LOG: info}          # for all programs
 transport: ipc                         # or tcp, or shm
 transports:                            # of single connections, by a gate at either end
   sensor.measurements: shm
+hosts:                                 # for `scl run --host board`
+  board: {address: 192.0.2.10, components: [sensor, controller]}
+  ground: {address: 192.0.2.20, components: [logger]}
+gateway: {port: 7447, certificates: ./keys}
 ";
 
 /// A launch file that is valid YAML.
@@ -70,6 +76,8 @@ pub(crate) struct LaunchFile {
     pub(crate) transports: Transports,
     /// For components that lack a setting.
     pub(crate) defaults: Settings,
+    /// The hosts, if the file has any. The folder of the certificates is as written.
+    pub(crate) deployment: Option<Deployment>,
     profiles: Vec<Profile>,
 }
 
@@ -120,6 +128,7 @@ impl Reader<'_> {
             environment: self.read_environment(top.get("environment"), &["environment"]),
             transports: self.read_transports(top.get("transport"), top.get("transports")),
             defaults: self.read_defaults(top.get("defaults")),
+            deployment: self.read_deployment(top),
         }
     }
 

@@ -9,6 +9,7 @@ mod children;
 pub mod control;
 mod deployment;
 mod ending;
+mod gateway_program;
 mod launch_file;
 mod launch_text;
 mod lifecycle;
@@ -36,7 +37,7 @@ pub use launch_file::EXAMPLE as EXAMPLE_LAUNCH_FILE;
 pub use log_file::{LogEntry, LogFolder, LogReader, LogStream};
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use placement::Placement;
-pub use plan::ComponentNames;
+pub use plan::{ComponentNames, DeployedSystem, read_deployment};
 pub use system_names::SystemNames;
 
 use children::{Event, Role};
@@ -68,6 +69,8 @@ pub struct Options {
     pub profiles: Vec<String>,
     /// The components to start; all if empty.
     pub only: Vec<String>,
+    /// The host of the launch file whose components and gateway are started; without one, everything without a gateway.
+    pub host: Option<String>,
     /// Components not to start.
     pub without: Vec<String>,
     /// Whether to build the cargo package with optimizations.
@@ -87,8 +90,9 @@ pub struct Options {
 /// Every reason why the system could not be started.
 pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<bool, Vec<Problem>> {
     let plan = plan::plan_run(options, component_names)?;
+    plan.gateway.as_ref().map_or(Ok(()), gateway_program::check)?;
     let builds = plan.builds.iter().map(Build::label);
-    let names = builds.chain(plan.components.iter().map(|component| component.name.as_str()));
+    let names = builds.chain(plan.programs().map(|component| component.name.as_str()));
     let output = Arc::new(Output::new(names.map(str::to_owned).collect(), open_logs(&plan)));
     handle_stop_signals().map_err(|error| vec![Problem::new(format!("cannot handle signals: {error}"))])?;
     // Before the first thread, which inherits it: a thread that does not block them would end the process.
@@ -108,7 +112,7 @@ fn open_logs(plan: &RunPlan) -> Vec<Option<LogFile>> {
         let log = LogFile::open(folder.as_ref()?, &component.name);
         log.map_err(|report| print_err(&format!("scl: {report}; its output is not logged\n"))).ok()
     };
-    plan.components.iter().map(open).collect()
+    plan.programs().map(open).collect()
 }
 
 /// Programs inherit which signals are ignored, but not which are handled. A shell that starts `scl run` in the background
@@ -137,12 +141,14 @@ fn run_plan(plan: &RunPlan, options: &Options, output: &Arc<Output>, reports: &R
             Outcome::Stopped(signal) => return Err(vec![stopped_build(signal)]),
         }
     }
-    let problems: Vec<Problem> = plan.components.iter().filter_map(|component| component.check().err()).collect();
+    let problems: Vec<Problem> = plan.programs().filter_map(|component| component.check().err()).collect();
     if !problems.is_empty() {
         return Err(problems);
     }
-    let members = plan.components.iter().enumerate();
-    let members = members.map(|(index, component)| component_member(component, plan.builds.len() + index));
+    let gateways = plan.gateway.iter().map(|gateway| (gateway, Role::Gateway));
+    let programs = gateways.chain(plan.components.iter().map(|component| (component, Role::Component)));
+    let members = programs.enumerate();
+    let members = members.map(|(index, (program, role))| member(program, role, plan.builds.len() + index));
     let members: Vec<Member<'_>> = members.collect();
     let _control = sockets.open_control(&sender);
     Ok(!matches!(supervisor.run(&members, options.run_for), Outcome::Failed(_)))
@@ -153,9 +159,9 @@ fn build_member(build: &Build, label: usize, grace: Duration) -> Member<'_> {
     Member { name: build.label(), label, role: Role::Build, program: &build.program, policy }
 }
 
-fn component_member(component: &Component, label: usize) -> Member<'_> {
+fn member(component: &Component, role: Role, label: usize) -> Member<'_> {
     let Component { name, program, policy, .. } = component;
-    Member { name, label, role: Role::Component, program, policy: policy.clone() }
+    Member { name, label, role, program, policy: policy.clone() }
 }
 
 fn failed_build(build: &Build, ending: Option<Ending>) -> Problem {

@@ -1,6 +1,9 @@
 //! Decides what to build and to start: from a launch file, or from the cargo package beside the topology.
 
+mod host;
 mod package;
+
+pub use host::{DeployedSystem, read_deployment};
 
 use super::Options;
 use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
@@ -30,6 +33,8 @@ pub(crate) struct RunPlan {
     pub(crate) system: Option<String>,
     pub(crate) builds: Vec<Build>,
     pub(crate) components: Vec<Component>,
+    /// The program that connects this host to the others, with `--host`.
+    pub(crate) gateway: Option<Component>,
 }
 
 /// Returns what to build and to start for a system's folder or a launch file.
@@ -49,6 +54,9 @@ pub(crate) fn plan_run(options: &Options, component_names: ComponentNames<'_>) -
         if let Some(profile) = options.profiles.first() {
             return Err(vec![profile_without_file(profile, &folder)]);
         }
+        if options.host.is_some() {
+            return Err(vec![host::without_file(&folder)]);
+        }
         let names = read_names(&topology, component_names)?;
         package::plan_from_package(&folder, names, options)?
     };
@@ -60,11 +68,16 @@ impl RunPlan {
     /// What can be checked before anything is built: everything, or, with builds, what they cannot change.
     fn check(&self) -> Vec<Problem> {
         if self.builds.is_empty() {
-            return self.components.iter().filter_map(|component| component.check().err()).collect();
+            return self.programs().filter_map(|component| component.check().err()).collect();
         }
         let builds = self.builds.iter().map(Build::check_installed);
-        let programs = self.components.iter().map(Component::check_installed);
+        let programs = self.programs().map(Component::check_installed);
         builds.chain(programs).filter_map(Result::err).collect()
+    }
+
+    /// The gateway, if there is one, and the components: in the order in which they are started.
+    pub(crate) fn programs(&self) -> impl Iterator<Item = &Component> {
+        self.gateway.iter().chain(&self.components)
     }
 }
 
@@ -103,26 +116,42 @@ fn plan_from_launch_file(
     component_names: ComponentNames<'_>,
 ) -> Result<RunPlan, Vec<Problem>> {
     let shown = launch_path.display().to_string();
-    let text = std::fs::read_to_string(launch_path)
-        .map_err(|error| vec![Problem::new(format!("cannot read the launch file: {error}")).at(&shown)])?;
+    let text = read_text(launch_path)?;
     let document = LaunchDocument::parse(&shown, &text).map_err(|problem| vec![problem])?;
-    let known = match find_topology(folder, &document).map_err(|problem| vec![problem])? {
-        Some(topology) => Some(read_names(&topology, component_names)?),
-        None => None,
-    };
+    let topology = find_topology(folder, &document).map_err(|problem| vec![problem])?;
+    let known = topology.as_deref().map(|topology| read_names(topology, component_names)).transpose()?;
     let launch = document.read(known.as_ref())?;
-    let components = launch.components_with(&options.profiles)?;
-    let selection = Selection::new(options, &components, &shown)?;
+    let mut components = launch.components_with(&options.profiles)?;
+    let mut expected = known.as_ref().map_or_else(Vec::new, |names| names.components.clone());
+    let host = host::choose(&launch, options, &shown).map_err(|problem| vec![problem])?;
+    if let Some(host) = host {
+        host::check_names(&components, &shown).map_err(|problem| vec![problem])?;
+        components.retain(|component| host.components.contains(&component.name));
+        expected.clone_from(&host.components);
+    }
+    let names = components.iter().map(|component| component.name.clone());
+    let names: Vec<String> = names.chain(host.map(|_| host::GATEWAY.to_owned())).collect();
+    let selection = Selection::new(options, &names, &shown)?;
     if selection.is_everything() {
-        note_missing(&components, known.as_ref().map_or(&[], |names| names.components.as_slice()));
+        note_missing(&components, &expected);
     }
     let own_name = launch.environment.iter().rev().find(|(key, _)| key == SYSTEM).map(|(_, name)| name.clone());
+    let gateway = host.filter(|_| selection.includes(host::GATEWAY));
+    let gateway =
+        gateway.map(|host| host::plan_gateway(folder, launch_path, topology.as_deref(), &launch, host, options));
+    let gateway = gateway.transpose().map_err(|problem| vec![problem])?;
     let chosen: Vec<LaunchComponent> = components.into_iter().filter(|it| selection.includes(&it.name)).collect();
     Ok(RunPlan {
         system: own_name.or_else(system_of_environment).or_else(|| known.map(|names| names.system)),
         builds: plan_builds(folder, &launch, &chosen),
         components: chosen.iter().map(|component| plan_component(folder, &launch, component, options.grace)).collect(),
+        gateway,
     })
+}
+
+fn read_text(launch_path: &Path) -> Result<String, Vec<Problem>> {
+    let failed = |error| Problem::new(format!("cannot read the launch file: {error}"));
+    std::fs::read_to_string(launch_path).map_err(|error| vec![failed(error).at(launch_path.display().to_string())])
 }
 
 /// The topology file that the launch file names, or the one beside it, where there is one.
@@ -179,16 +208,20 @@ fn plan_component(folder: &Path, launch: &LaunchFile, component: &LaunchComponen
         Source::Command(words) => (words.iter().map(OsString::from).collect(), None),
         Source::Replay(path) => (replay_command(path, &component.name), Some(PathBuf::from(path))),
     };
-    let inherited = std::env::var(TRANSPORT).ok();
-    let transport = launch.transports.variable(inherited.as_deref()).map(|value| (TRANSPORT.to_owned(), value));
-    let environment = launch.environment.iter().chain(&component.environment).cloned();
     let program = Program {
         command,
-        environment: transport.into_iter().chain(environment).collect(),
+        environment: environment_of_programs(launch).chain(component.environment.iter().cloned()).collect(),
         folder: folder_of(folder, &settings),
         placement: Placement { cpu: settings.cpu.clone().unwrap_or_default(), fifo: settings.priority },
     };
     Component { name: component.name.clone(), program, policy: settings.policy(grace), recording }
+}
+
+/// The variables of all programs.
+fn environment_of_programs(launch: &LaunchFile) -> impl Iterator<Item = (String, String)> {
+    let inherited = std::env::var(TRANSPORT).ok();
+    let transport = launch.transports.variable(inherited.as_deref()).map(|value| (TRANSPORT.to_owned(), value));
+    transport.into_iter().chain(launch.environment.iter().cloned())
 }
 
 /// What plays a component from a recording: the running `scl`, which `scl __start` is too.

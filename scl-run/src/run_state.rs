@@ -23,6 +23,8 @@ pub(crate) enum RunEvent {
 #[derive(Debug, Clone)]
 pub(crate) struct RunState {
     components: Vec<Lifecycle>,
+    /// The one that is stopped when all others have ended: what they send while they stop passes through it.
+    last: Option<usize>,
     /// When all are stopped without being asked.
     until: Option<Time>,
     stopping: Option<Signal>,
@@ -32,10 +34,10 @@ pub(crate) struct RunState {
 }
 
 impl RunState {
-    /// Components to be started at once, which are stopped at a time, if any.
-    pub(crate) fn new(policies: impl IntoIterator<Item = Policy>, until: Option<Time>) -> Self {
+    /// Components to be started at once, which are stopped at a time, if any; `last` is stopped after all others.
+    pub(crate) fn new(policies: impl IntoIterator<Item = Policy>, last: Option<usize>, until: Option<Time>) -> Self {
         let components = policies.into_iter().map(Lifecycle::new).collect();
-        Self { components, until, stopping: None, asked: false, killing: false }
+        Self { components, last, until, stopping: None, asked: false, killing: false }
     }
 
     pub(crate) fn components(&self) -> &[Lifecycle] {
@@ -78,7 +80,7 @@ impl RunState {
         let mut actions = match event {
             // A run that stops starts nothing.
             RunEvent::One(_, Input::Restart) if self.stopping.is_some() => Vec::new(),
-            RunEvent::One(index, input) => self.step_one(now, index, &input),
+            RunEvent::One(index, input) => self.take_input(now, index, &input),
             RunEvent::Stop(_) if self.stopping.is_some() => self.kill(now),
             RunEvent::Stop(signal) => {
                 self.asked = true;
@@ -87,10 +89,41 @@ impl RunState {
             RunEvent::OutputLost => self.stop(now, Signal::SIGTERM),
             RunEvent::Time => self.take_time(now),
         };
-        if self.failed().is_some() {
+        if self.failed().is_some() || self.only_last_is_left() {
             actions.extend(self.stop(now, Signal::SIGTERM));
         }
+        actions.extend(self.stop_last(now));
         actions
+    }
+
+    fn take_input(&mut self, now: Time, index: usize, input: &Input) -> Vec<(usize, Action)> {
+        // It would be started again otherwise, for components that are about to end.
+        let ends_early = Some(index) == self.last && matches!(input, Input::Exited(_));
+        let told = self.stopping.filter(|_| ends_early);
+        let mut actions = told.map_or_else(Vec::new, |signal| self.step_one(now, index, &Input::StopAll(signal)));
+        actions.extend(self.step_one(now, index, input));
+        actions
+    }
+
+    fn is_working(&self, index: usize) -> bool {
+        self.components.get(index).is_some_and(|it| matches!(it.state(), State::Running | State::Ready))
+    }
+
+    /// Whether no component is left that needs the last one. Alone, it runs until it is asked to stop.
+    fn only_last_is_left(&self) -> bool {
+        let Some(last) = self.last else { return false };
+        let mut others = self.components.iter().enumerate().filter(|(index, _)| *index != last).peekable();
+        others.peek().is_some() && others.all(|(_, other)| matches!(other.state(), State::Ended(_)))
+    }
+
+    /// Stops the last one when its turn has come.
+    fn stop_last(&mut self, now: Time) -> Vec<(usize, Action)> {
+        let (Some(signal), Some(last)) = (self.stopping, self.last) else { return Vec::new() };
+        let is_due = self.components.len() == 1 || self.only_last_is_left();
+        if is_due && self.is_working(last) {
+            return self.step_one(now, last, &Input::StopAll(signal));
+        }
+        Vec::new()
     }
 
     fn take_time(&mut self, now: Time) -> Vec<(usize, Action)> {
@@ -107,7 +140,10 @@ impl RunState {
             return Vec::new();
         }
         self.stopping = Some(signal);
-        self.step_all(now, &Input::StopAll(signal))
+        let input = Input::StopAll(signal);
+        let is_later = |index: usize| Some(index) == self.last && self.is_working(index);
+        let now_due: Vec<usize> = (0..self.components.len()).filter(|index| !is_later(*index)).collect();
+        now_due.into_iter().flat_map(|index| self.step_one(now, index, &input)).collect()
     }
 
     fn kill(&mut self, now: Time) -> Vec<(usize, Action)> {

@@ -1,7 +1,6 @@
 //! `--only` and `--without`: which components of the system are started here.
 
 use super::Options;
-use super::launch_file::LaunchComponent;
 use scl_terminal::{Problem, closest_name, quoted_list};
 
 /// A choice of components.
@@ -17,9 +16,9 @@ impl<'a> Selection<'a> {
     /// # Errors
     ///
     /// Every name that is not a component; a choice that leaves no component.
-    pub(crate) fn new(options: &'a Options, components: &[impl Named], source: &str) -> Result<Self, Vec<Problem>> {
+    pub(crate) fn new(options: &'a Options, components: &[String], source: &str) -> Result<Self, Vec<Problem>> {
         let selection = Self { only: &options.only, without: &options.without };
-        let names: Vec<&str> = components.iter().map(Named::name).collect();
+        let names: Vec<&str> = components.iter().map(String::as_str).collect();
         let chosen = [("--only", selection.only), ("--without", selection.without)];
         let asked = chosen.into_iter().flat_map(|(option, asked)| asked.iter().map(move |name| (option, name)));
         let unknown = asked.filter(|(_, name)| !names.contains(&name.as_str()));
@@ -39,23 +38,6 @@ impl<'a> Selection<'a> {
 
     pub(crate) fn includes(&self, name: &str) -> bool {
         (self.only.is_empty() || self.only.iter().any(|it| it == name)) && !self.without.iter().any(|it| it == name)
-    }
-}
-
-/// Something with the name of a component.
-pub(crate) trait Named {
-    fn name(&self) -> &str;
-}
-
-impl Named for String {
-    fn name(&self) -> &str {
-        self
-    }
-}
-
-impl Named for LaunchComponent {
-    fn name(&self) -> &str {
-        &self.name
     }
 }
 

@@ -32,7 +32,7 @@ impl Sockets {
         };
         match Self::try_open(plan, events) {
             Ok(sockets) => Ok(sockets),
-            Err(error) if plan.components.iter().any(needs_notices) => {
+            Err(error) if plan.programs().any(needs_notices) => {
                 let problem = Problem::new(format!("cannot listen for `ready_within` and `alive_within`: {error}"));
                 Err(vec![problem.help("set `SCL_RUNTIME_DIR` to a folder of yours with a short path")])
             }

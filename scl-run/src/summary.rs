@@ -1,5 +1,6 @@
 //! The last lines of a run: which components failed and why, and which were restarted.
 
+use super::children::Role;
 use super::lifecycle::{Lifecycle, State, Verdict};
 use super::run_state::RunState;
 use super::supervisor::Member;
@@ -7,10 +8,10 @@ use super::supervisor::Member;
 /// A line for each component that failed or was restarted.
 pub(crate) fn lines(members: &[Member<'_>], state: &RunState) -> Vec<String> {
     let components = members.iter().zip(state.components());
-    components.filter_map(|(member, component)| line(member.name, component)).collect()
+    components.filter_map(|(member, component)| line(member, component)).collect()
 }
 
-fn line(name: &str, component: &Lifecycle) -> Option<String> {
+fn line(member: &Member<'_>, component: &Lifecycle) -> Option<String> {
     let failure = component.failure().unwrap_or("ended");
     let restarts = match component.restarts() {
         0 => String::new(),
@@ -19,7 +20,12 @@ fn line(name: &str, component: &Lifecycle) -> Option<String> {
         more => format!("restarted {more} times"),
     };
     let has_failed = component.state() == State::Ended(Verdict::Failed);
-    let kind = if component.policy().essential { "component" } else { "non-essential component" };
+    let name = member.name;
+    let kind = match (member.role, component.policy().essential) {
+        (Role::Gateway, _) => "program",
+        (_, true) => "component",
+        (_, false) => "non-essential component",
+    };
     match (has_failed, restarts.as_str()) {
         (true, "") => Some(format!("{kind} `{name}` failed: {failure}")),
         (true, _) => Some(format!("{kind} `{name}` failed: {failure}; it was {restarts}")),

@@ -79,7 +79,8 @@ impl<'a> Supervisor<'a> {
 
     /// Starts the programs and waits until all have ended. They are stopped after a time, if one is given.
     pub(crate) fn run(&mut self, members: &[Member<'_>], run_for: Option<Duration>) -> Outcome {
-        let state = RunState::new(members.iter().map(|member| member.policy.clone()), run_for);
+        let last = members.iter().position(|member| member.role == Role::Gateway);
+        let state = RunState::new(members.iter().map(|member| member.policy.clone()), last, run_for);
         let mut run = Run { members, state, began: Instant::now(), requests: Requests::default(), said_ready: false };
         self.processes = members.iter().map(|_| None).collect();
         self.apply(&mut run, RunEvent::Time);
@@ -94,7 +95,7 @@ impl<'a> Supervisor<'a> {
         for index in 0..self.processes.len() {
             self.discard(index);
         }
-        if members.iter().any(|member| member.role == Role::Component) {
+        if members.iter().any(|member| member.role != Role::Build) {
             summary::lines(members, &run.state).iter().for_each(|line| self.surroundings.reports.announce(line));
         }
         match (run.state.failed(), run.state.stopping()) {
@@ -199,7 +200,7 @@ impl<'a> Supervisor<'a> {
             self.discard(index);
             wait_for_group(group);
         }
-        let notify = self.notify.filter(|_| member.role == Role::Component);
+        let notify = self.notify.filter(|_| member.role != Role::Build);
         let notify = notify.map(|socket| Notified { socket, alive_within: member.policy.alive_within });
         let start = Start { process: self.next_process, label: member.label, role: member.role, notify };
         let Surroundings { output, sender, .. } = &self.surroundings;
@@ -262,7 +263,7 @@ impl Run<'_> {
 fn end_text(role: Role, ending: Ending, after: Duration) -> String {
     let after = after.as_secs_f64();
     match (role, ending) {
-        (Role::Component, _) => format!("{ending} after {after:.1} s"),
+        (Role::Component | Role::Gateway, _) => format!("{ending} after {after:.1} s"),
         (Role::Build, Ending::Exited(0)) => format!("built after {after:.1} s"),
         (Role::Build, _) => format!("build {ending} after {after:.1} s"),
     }

@@ -15,6 +15,8 @@
 //! | `committed` | reserving memory before it is written, because too little of it would be a SIGBUS |
 //! | `log` | what iceoryx2 logs |
 
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
 mod committed;
 mod error;
 mod folder;

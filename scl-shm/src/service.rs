@@ -75,7 +75,7 @@ pub(crate) fn open(node: &Node<Engine>, name: &ServiceName) -> Result<(Port, Lim
     let service = node.service_builder(&name).publish_subscribe::<[u8]>().open().map_err(|error| failed(&error))?;
     let found = {
         use iceoryx2::service::port_factory::PortFactory as _;
-        service.static_config().clone()
+        *service.static_config()
     };
     // What one queue decides, another must not: these numbers decide how much memory the sending end reserves.
     let kept = found.subscriber_max_borrowed_samples().saturating_sub(1);

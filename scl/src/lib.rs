@@ -85,6 +85,9 @@
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+#[cfg(feature = "zeromq")]
+#[doc(hidden)]
+pub mod bridge;
 pub mod codec;
 mod component;
 #[cfg(feature = "conformance")]

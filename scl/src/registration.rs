@@ -54,9 +54,18 @@ impl Registration {
         stats_period: Option<Duration>,
         media: &MediumChoice,
     ) -> Result<Self, RuntimeDirError> {
+        Self::announcing(spec, dir, Announcement::of(spec, media), stats_period)
+    }
+
+    /// The same with an announcement other than the usual one, which names the component's spec.
+    pub(crate) fn announcing(
+        spec: &'static ComponentSpec,
+        dir: SystemDir,
+        announcement: Announcement,
+        stats_period: Option<Duration>,
+    ) -> Result<Self, RuntimeDirError> {
         let lock = ComponentLock::take(&dir, spec.name)?;
         lock.clear_leftovers()?;
-        let announcement = Announcement::of(spec, media);
         // Readers of the announcement must find the messages.
         publish_messages(&dir, spec)?;
         let initial_stats =

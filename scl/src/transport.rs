@@ -285,6 +285,17 @@ pub trait Receiver: Send {
         false
     }
 
+    /// Asks all senders to send nothing more to this end, which is about to be dropped: what they have not sent stays with
+    /// them and is not lost. Only for an end with [`Endpoint::deferred`].
+    fn finish(&mut self) {}
+
+    /// Returns true if every connected sender has done what [`finish`](Self::finish) asks, and
+    /// [`poll_recv`](Self::poll_recv) has returned all that was sent before. Ask after that returned `Pending`; its waker is
+    /// used when this changes. A sender of an older release never does.
+    fn is_finished(&self) -> bool {
+        true
+    }
+
     /// Ready when the sender has nothing newer than what [`poll_recv`](Self::poll_recv) returned. Asks the sender if it
     /// may hold messages back; call it after `poll_recv` returned `Pending`, and `poll_recv` again after it is ready.
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {

@@ -2,12 +2,16 @@
 
 #[cfg(all(feature = "json", feature = "memory"))]
 mod auto_traits;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod bridge;
 #[cfg(feature = "conformance")]
 mod conformance_codecs;
 #[cfg(all(feature = "conformance", feature = "memory"))]
 mod conformance_memory;
 #[cfg(all(feature = "conformance", feature = "zeromq"))]
 mod conformance_zeromq;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "raw", feature = "zeromq"))]
+mod loans;
 #[cfg(all(feature = "json", feature = "memory"))]
 mod memory_components;
 #[cfg(all(feature = "json", feature = "memory"))]

@@ -28,7 +28,7 @@ type Values = Vec<f64>;
 const LONG: Duration = Duration::from_secs(60);
 
 /// The plans of a topology file in this folder or in `doc/`, with locations as in generated code.
-fn system_plan(file: &str) -> SystemPlan {
+pub(crate) fn system_plan(file: &str) -> SystemPlan {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     let path = if file.starts_with("doc/") { package.join(file) } else { package.join("tests").join(file) };
     let loaded = scl_loader::load(&scl_loader::Request { shown_as: file.to_owned(), ..scl_loader::Request::new(path) });

@@ -25,6 +25,11 @@ impl Message {
         let frame = frame.freeze();
         Self { payload: frame.slice(PREFIX..), frame }
     }
+
+    /// The time at which it is sent.
+    pub(super) fn time(&self) -> scl::Result<u64> {
+        sent_time(&self.payload)
+    }
 }
 
 /// The time at which a message was sent.

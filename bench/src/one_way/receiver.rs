@@ -15,11 +15,11 @@ use zeromq::{PullSocket, Socket, SocketRecv, SubSocket};
 /// Receives batches forever. The arguments are the variant's id, the scratch folder, the message size, the size of a
 /// batch, and the timing.
 pub(crate) fn run_receiver(arguments: &[&str]) -> scl::Result<()> {
-    let [id, folder, bytes, batch, timing] = arguments else { return Err(unknown_arguments(arguments)) };
+    let [id, folder, bytes, batch, timing, rest @ ..] = arguments else { return Err(unknown_arguments(arguments)) };
     let (bytes, batch) = (bytes.parse()?, batch.parse()?);
     let has_delays = *timing == Timing::EachMessage.id();
     let runtime = start_runtime()?;
-    let mut receiver = Receiver::open(&runtime, id, folder, bytes)?;
+    let mut receiver = Receiver::open(&runtime, id, folder, bytes, rest)?;
     loop {
         let mut batch = Batch::new(batch, has_delays);
         receiver.receive_batch(&runtime, &mut batch)?;
@@ -38,10 +38,17 @@ enum Receiver {
     #[cfg(feature = "libzmq")]
     Libzmq(zmq2::Socket),
     Unix(UnixStream, FrameBuffer),
+    /// The receiver of another transport or library.
+    Other(Box<dyn BatchReceiver>),
+}
+
+/// A receiver of whole batches.
+pub(super) trait BatchReceiver {
+    fn receive_batch(&mut self, runtime: &Runtime, batch: &mut Batch) -> scl::Result<()>;
 }
 
 /// The messages of a batch so far.
-struct Batch {
+pub(super) struct Batch {
     missing: usize,
     /// When the first message was sent, rather than received: a sender that queues everything before it writes is not
     /// faster than one that writes at once.
@@ -50,10 +57,19 @@ struct Batch {
 }
 
 impl Receiver {
-    fn open(runtime: &Runtime, id: &str, folder: &str, bytes: usize) -> scl::Result<Self> {
+    fn open(runtime: &Runtime, id: &str, folder: &str, bytes: usize, rest: &[&str]) -> scl::Result<Self> {
+        #[cfg(not(feature = "gateway"))]
+        let _only_for_gateway = rest;
         let paths = SocketPaths::new(folder, id);
         let options = scl::OpenOptions::new().runtime_dir(folder).system(id);
         match id {
+            "ipc" | "ipc-blocking" | "tcp" | "gateway" | "shm-loan" | "shm-loan-blocking" | "shm-copy" | "shm-copy-blocking" => {
+                return Ok(Self::Other(super::engines::open(runtime, id, folder)?));
+            }
+            #[cfg(feature = "iceoryx2")]
+            "iceoryx-loan" | "iceoryx-copy" => return Ok(Self::Other(super::iceoryx::open(id, folder)?)),
+            #[cfg(feature = "gateway")]
+            "zenoh" => return Ok(Self::Other(super::zenoh::open(rest)?)),
             "scl-pub-blocking" => return Ok(Self::SclPubBlocking(Sink::open_blocking_with(options)?)),
             "scl-push-blocking" => return Ok(Self::SclPushBlocking(Sink::open_blocking_with(options)?)),
             _ => {}
@@ -81,6 +97,7 @@ impl Receiver {
 
     fn receive_batch(&mut self, runtime: &Runtime, batch: &mut Batch) -> scl::Result<()> {
         match self {
+            Self::Other(receiver) => receiver.receive_batch(runtime, batch),
             Self::SclPubBlocking(sink) => {
                 while !batch.is_complete() {
                     batch.add(&sink.stream.recv_blocking()?)?;
@@ -111,7 +128,7 @@ impl Receiver {
             #[cfg(feature = "libzmq")]
             Self::Libzmq(socket) => batch.add(&socket.recv_msg(0)?),
             Self::Unix(stream, frames) => batch.add(&frames.read(stream).await?[PREFIX..]),
-            Self::SclPubBlocking(_) | Self::SclPushBlocking(_) => {
+            Self::SclPubBlocking(_) | Self::SclPushBlocking(_) | Self::Other(_) => {
                 Err(scl::Error::message("this variant receives whole batches only"))
             }
         }
@@ -123,11 +140,11 @@ impl Batch {
         Self { missing: size, first_sent: None, delays: has_delays.then(|| Vec::with_capacity(size)) }
     }
 
-    fn is_complete(&self) -> bool {
+    pub(super) fn is_complete(&self) -> bool {
         self.missing == 0
     }
 
-    fn add(&mut self, message: &[u8]) -> scl::Result<()> {
+    pub(super) fn add(&mut self, message: &[u8]) -> scl::Result<()> {
         self.missing -= 1;
         if self.first_sent.is_none() {
             self.first_sent = Some(sent_time(message)?);

@@ -25,6 +25,14 @@ pub(super) enum Sender {
     #[cfg(feature = "libzmq")]
     LibzmqNodrop(Worker),
     Unix(UnixStream),
+    /// The sender of another transport or library.
+    Other(Box<dyn BatchSender>),
+}
+
+/// A sender of whole batches.
+pub(super) trait BatchSender {
+    /// Sends a message many times, as fast as possible.
+    fn send_batch(&mut self, runtime: &Runtime, message: &Message, batch: usize) -> scl::Result<()>;
 }
 
 impl Sender {
@@ -38,6 +46,19 @@ impl Sender {
         batch: usize,
     ) -> scl::Result<(Self, Worker)> {
         match id {
+            "ipc" | "ipc-blocking" | "tcp" => Self::other(super::engines::start(runtime, id, folder, receiver)?),
+            #[cfg(feature = "iceoryx2")]
+            "shm-loan" | "shm-loan-blocking" | "shm-copy" | "shm-copy-blocking" => {
+                Self::other(super::engines::start(runtime, id, folder, receiver)?)
+            }
+            #[cfg(feature = "iceoryx2")]
+            "iceoryx-loan" | "iceoryx-copy" => {
+                Self::other(super::iceoryx::start(runtime, id, folder, bytes, receiver)?)
+            }
+            #[cfg(feature = "gateway")]
+            "gateway" => Self::other(super::engines::start_across_hosts(runtime, folder, receiver)?),
+            #[cfg(feature = "gateway")]
+            "zenoh" => Self::other(super::zenoh::start(runtime, receiver)?),
             "scl-pub-blocking" | "scl-push-blocking" => Self::start_blocking(id, folder, receiver),
             #[cfg(feature = "libzmq")]
             "libzmq-nodrop" => runtime.block_on(Self::start_nodrop(folder, receiver, bytes, batch)),
@@ -47,6 +68,10 @@ impl Sender {
                 runtime.block_on(Self::start_async(id, folder, receiver))
             }
         }
+    }
+
+    fn other((sender, receiver): (Box<dyn BatchSender>, Worker)) -> scl::Result<(Self, Worker)> {
+        Ok((Self::Other(sender), receiver))
     }
 
     fn start_blocking(id: &str, folder: &str, receiver: &[&str]) -> scl::Result<(Self, Worker)> {
@@ -111,6 +136,7 @@ impl Sender {
     /// Sends a message many times, as fast as possible.
     pub(super) fn send_batch(&mut self, runtime: &Runtime, message: &Message, batch: usize) -> scl::Result<()> {
         match self {
+            Self::Other(sender) => sender.send_batch(runtime, message, batch),
             Self::SclPubBlocking(source) => {
                 for _ in 0..batch {
                     source.stream.send_blocking(&message.payload)?;

@@ -19,6 +19,21 @@ const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
 pub(super) enum Client {
     Async(AsyncClient),
     Blocking(BlockingClient),
+    /// A client of another transport or library.
+    Other(Box<dyn BatchClient>),
+}
+
+/// A client that exchanges whole batches.
+pub(super) trait BatchClient {
+    /// Sends messages one after the other, each when the previous one has returned, and calls `record` after each with
+    /// the time at which it was sent.
+    fn exchange(
+        &mut self,
+        runtime: &Runtime,
+        message: &Bytes,
+        messages: usize,
+        record: &mut dyn FnMut(Instant),
+    ) -> scl::Result<()>;
 }
 
 /// A client that runs on the async runtime.
@@ -47,6 +62,23 @@ impl Client {
     /// Starts the echo process of a variant and connects to it.
     pub(super) fn start(runtime: &Runtime, id: &str, folder: &str, bytes: usize) -> scl::Result<(Self, Worker)> {
         let echo = ["roundtrip", id, folder, &bytes.to_string()];
+        let other = match id {
+            "ipc" | "ipc-blocking" | "tcp" => Some(super::engines::start(runtime, id, folder, &echo)?),
+            #[cfg(feature = "iceoryx2")]
+            "shm-loan" | "shm-loan-blocking" | "shm-copy" | "shm-copy-blocking" => {
+                Some(super::engines::start(runtime, id, folder, &echo)?)
+            }
+            #[cfg(feature = "iceoryx2")]
+            "iceoryx-loan" | "iceoryx-copy" => Some(super::iceoryx::start(runtime, id, folder, bytes, &echo)?),
+            #[cfg(feature = "gateway")]
+            "gateway" => Some(super::engines::start_across_hosts(runtime, folder, &echo)?),
+            #[cfg(feature = "gateway")]
+            "zenoh" => Some(super::zenoh::start(runtime, &echo)?),
+            _ => None,
+        };
+        if let Some((client, echo)) = other {
+            return Ok((Self::Other(client), echo));
+        }
         if id.ends_with("-blocking") {
             let (client, echo) = BlockingClient::start(id, folder, bytes, &echo)?;
             return Ok((Self::Blocking(client), echo));
@@ -67,6 +99,7 @@ impl Client {
         durations.clear();
         let mut record = |started: Instant| durations.push(started.elapsed().as_nanos().try_into().unwrap_or(u64::MAX));
         match self {
+            Self::Other(client) => client.exchange(runtime, payload, messages, &mut record),
             Self::Async(client) => runtime.block_on(async {
                 for _ in 0..messages {
                     let started = Instant::now();

@@ -11,12 +11,18 @@ use zeromq::{RouterSocket, Socket, SocketRecv, SocketSend};
 
 /// Runs the echo process of a variant. The arguments are its id, the scratch folder and the message size.
 pub(crate) fn run_echo(arguments: &[&str]) -> scl::Result<()> {
-    let [id, folder, bytes] = arguments else { return Err(unknown_arguments(arguments)) };
+    let [id, folder, bytes, rest @ ..] = arguments else { return Err(unknown_arguments(arguments)) };
     let bytes: usize = bytes.parse()?;
     let paths = SocketPaths::new(folder, id);
     let options = scl::OpenOptions::new().runtime_dir(*folder).system(*id);
     let runtime = start_runtime()?;
     match *id {
+        "ipc" | "tcp" | "gateway" | "shm-loan" | "shm-copy" => runtime.block_on(super::engines::echo(id, folder)),
+        "ipc-blocking" | "shm-loan-blocking" | "shm-copy-blocking" => super::engines::echo_blocking(id, folder),
+        #[cfg(feature = "iceoryx2")]
+        "iceoryx-loan" | "iceoryx-copy" => super::iceoryx::echo(id, folder, bytes),
+        #[cfg(feature = "gateway")]
+        "zenoh" => super::zenoh::echo(rest.first().ok_or_else(|| unknown_arguments(arguments))?),
         "scl-pub" => runtime.block_on(scl_pub(options)),
         "scl-req" => runtime.block_on(scl_req(options)),
         "scl-pub-blocking" => scl_pub_blocking(options),

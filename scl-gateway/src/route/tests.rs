@@ -16,7 +16,7 @@ fn deployment(hosts: &[(&str, &[&str])]) -> Deployment {
         port: 7447,
         components: components.iter().map(|it| (*it).to_owned()).collect(),
     };
-    Deployment { hosts: hosts.iter().map(host).collect(), certificates: None }
+    Deployment { hosts: hosts.iter().map(host).collect(), certificates: None, insecure: false }
 }
 
 fn end(host: &str, gate: Option<(&str, &str)>) -> RouteEnd {

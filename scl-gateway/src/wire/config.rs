@@ -3,7 +3,7 @@
 //! Every key is written out, also where the default would do, because defaults and even keys change between its versions;
 //! unknown keys are errors, and a test reads all of them back.
 
-use std::net::IpAddr;
+use std::net::{IpAddr, TcpListener};
 
 use serde_json::{Value, json};
 
@@ -26,6 +26,9 @@ pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
     let protocol = if options.tls.is_some() { "tls" } else { "tcp" };
     for address in options.listen.iter().chain(options.peers.iter().filter_map(|peer| peer.address.as_ref())) {
         check_address(address, options.tls.is_some() || options.insecure)?;
+    }
+    if let Some(address) = &options.listen {
+        check_free(address)?;
     }
     let endpoint = |address: &String| format!("{protocol}/{address}");
     let listen: Vec<_> = options.listen.iter().map(endpoint).collect();
@@ -105,6 +108,12 @@ fn check_address(address: &str, any: bool) -> Result<(), WireError> {
         true => Ok(()),
         false => Err(WireError::NoTls { address: address.to_owned() }),
     }
+}
+
+/// Tries to listen, because the network library's own error is hard to read.
+fn check_free(address: &str) -> Result<(), WireError> {
+    let failed = |error: std::io::Error| WireError::Listen { address: address.to_owned(), reason: error.to_string() };
+    TcpListener::bind(address).map(drop).map_err(failed)
 }
 
 fn tls(options: &WireOptions) -> Result<Value, WireError> {

@@ -138,7 +138,13 @@ impl Reader<'_> {
     }
 
     fn check_known(&mut self, name: &str, at: KeyPath<'_>) {
-        let Some(known) = self.known.map(|names| &names.components) else { return };
+        if let Some(known) = self.known {
+            self.check_among(name, at, &known.components, "the topology");
+        }
+    }
+
+    /// Reports a component that is not among these, which are those of `source`.
+    pub(super) fn check_among(&mut self, name: &str, at: KeyPath<'_>, known: &[String], source: &str) {
         if known.iter().any(|it| it == name) {
             return;
         }
@@ -148,7 +154,7 @@ impl Reader<'_> {
             None => problem,
         };
         let names = quoted_list(known.iter().map(String::as_str));
-        self.problems.push(problem.note(format!("the topology has the components {names}")));
+        self.problems.push(problem.note(format!("{source} has the components {names}")));
     }
 }
 

@@ -33,6 +33,9 @@ pub(super) enum Form {
     Flag,
     Processors,
     Priority,
+    Address,
+    Port,
+    Names,
     /// A mapping with parts of its own.
     Mapping(&'static str),
 }
@@ -51,6 +54,9 @@ impl Form {
             Form::Flag => "`true` or `false`".to_owned(),
             Form::Processors => "a list of processors like `[2, 3]`, counted from 0, or one of them".to_owned(),
             Form::Priority => "`fifo:1` to `fifo:99`".to_owned(),
+            Form::Address => "an IP address or a DNS name".to_owned(),
+            Form::Port => "a number, 1 to 65535".to_owned(),
+            Form::Names => "a list of components like `[sensor, controller]`".to_owned(),
             Form::Mapping(description) => description.to_owned(),
         }
     }
@@ -101,6 +107,22 @@ pub(super) const TOP: &[Key] = &[
         form: Form::Variables,
         default: "none",
         meaning: "Variables for all programs and builds, added to those of `scl run`.",
+        ..KEY
+    },
+    Key {
+        name: "gateway",
+        also: &["gateways", "bridge"],
+        form: Form::Mapping("a mapping with [keys of its own](#hosts)"),
+        default: "required with `hosts`",
+        meaning: "How the gateways of the hosts reach each other. See [Hosts](#hosts).",
+        ..KEY
+    },
+    Key {
+        name: "hosts",
+        also: &["machines"],
+        form: Form::Mapping("a mapping from names to [entries](#hosts)"),
+        default: "one host",
+        meaning: "Which components run on which host, chosen with `--host`. See [Hosts](#hosts).",
         ..KEY
     },
     Key {
@@ -246,7 +268,61 @@ pub(super) const COMPONENT: &[Key] = &[
     },
 ];
 
+/// The keys of a host, in `hosts`.
+pub(super) const HOST: &[Key] = &[
+    Key {
+        name: "address",
+        also: &["ip", "hostname", "addr", "host"],
+        form: Form::Address,
+        default: "required",
+        meaning: "Where the gateway of the host listens, and where the other hosts find it.",
+        ..KEY
+    },
+    Key {
+        name: "components",
+        also: &["nodes", "services", "processes"],
+        form: Form::Names,
+        default: "required",
+        meaning: "What runs there. Every component of the topology is on one host.",
+        ..KEY
+    },
+    Key {
+        name: "port",
+        form: Form::Port,
+        default: "that of `gateway`",
+        meaning: "The TCP port of the host's gateway.",
+        ..KEY
+    },
+];
+
+/// The keys of `gateway`.
+pub(super) const GATEWAY: &[Key] = &[
+    Key {
+        name: "certificates",
+        also: &["keys", "certs", "tls"],
+        form: Form::Path,
+        default: "required, unless all hosts are on loopback",
+        meaning: "The folder with the certificates, from the folder of the launch file. `scl gateway keys` makes it.",
+        ..KEY
+    },
+    Key {
+        name: "insecure",
+        also: &["allow_insecure", "unencrypted", "plaintext"],
+        form: Form::Flag,
+        default: "`false`",
+        meaning: "Accepts other addresses than loopback without certificates. Everybody on the network can then listen and send.",
+        ..KEY
+    },
+    Key {
+        name: "port",
+        form: Form::Port,
+        default: "required, unless each host has its own",
+        meaning: "The TCP port of the gateways.",
+        ..KEY
+    },
+];
+
 /// The row of a key. Unknown names get an empty row, which no caller asks for.
 pub(super) fn form_of(name: &str) -> Form {
-    TOP.iter().chain(COMPONENT).find(|key| key.name == name).map_or(KEY.form, |key| key.form)
+    TOP.iter().chain(COMPONENT).chain(HOST).chain(GATEWAY).find(|key| key.name == name).map_or(KEY.form, |key| key.form)
 }

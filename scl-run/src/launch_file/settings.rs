@@ -77,7 +77,7 @@ impl Reader<'_> {
     }
 
     /// Reads the value of a key with `read`, which returns `None` for a wrong one.
-    fn read_setting<T>(
+    pub(super) fn read_setting<T>(
         &mut self,
         keys: &Mapping,
         at: KeyPath<'_>,
@@ -126,6 +126,7 @@ pub(super) fn likely(form: Form, value: &Value) -> Option<String> {
             "no" | "off" | "n" | "0" => return Some("false".to_owned()),
             word => return closest_name(word, ["true", "false"]).map(str::to_owned),
         },
+        Form::Port => return text.parse::<u16>().ok().filter(|port| *port != 0).map(|port| port.to_string()),
         // A number without its unit: seconds, as nearly every other tool has it.
         Form::Duration => format!("{text}s"),
         Form::DelayRange => text.replacen("...", "..", 1).replacen('-', "..", 1).replacen(" to ", "..", 1),

@@ -248,7 +248,7 @@ fn the_defaults_of_the_table_are_those_of_the_policy() {
 #[test]
 fn the_reference_page_is_current() {
     let page = include_str!("../../../docs/launch.md");
-    for keys in [keys::TOP, keys::COMPONENT] {
+    for keys in [keys::TOP, keys::COMPONENT, keys::HOST, keys::GATEWAY] {
         let rows: String = keys.iter().map(row).collect();
         let table = format!("| key | value | default | meaning |\n|---|---|---|---|\n{rows}");
         assert!(page.contains(&table), "docs/launch.md lacks this table:\n{table}");

@@ -39,7 +39,12 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
     };
     let programs = components.iter().filter_map(|name| Some((*name, program_of(name)?)));
     let components = programs.map(plan).collect();
-    Ok(RunPlan { system: system_of_environment().or(Some(names.system)), builds: Vec::new(), components })
+    Ok(RunPlan {
+        system: system_of_environment().or(Some(names.system)),
+        builds: Vec::new(),
+        components,
+        gateway: None,
+    })
 }
 
 /// Cargo targets are often named with hyphens, which component names cannot contain.

@@ -18,9 +18,9 @@ struct World {
 }
 
 impl World {
-    fn new(policies: Vec<Policy>) -> Self {
+    fn new(policies: Vec<Policy>, last: Option<usize>) -> Self {
         let count = policies.len();
-        let state = RunState::new(policies, None);
+        let state = RunState::new(policies, last, None);
         let mut world = Self { state, alive: vec![false; count], killed: vec![false; count], now: Time::ZERO };
         world.step(RunEvent::Time);
         world
@@ -65,14 +65,19 @@ impl World {
         }
         if self.state.stopping().is_some() {
             let is_ending = |state| matches!(state, State::Stopping { .. } | State::Ended(_));
-            assert!(self.state.components().iter().all(|it| is_ending(it.state())), "all are being stopped");
+            let components = || self.state.components().iter().enumerate();
+            let others = || components().filter(|(index, _)| Some(*index) != self.state.last);
+            assert!(others().all(|(_, it)| is_ending(it.state())), "all are being stopped");
+            if others().all(|(_, it)| matches!(it.state(), State::Ended(_))) {
+                assert!(components().all(|(_, it)| is_ending(it.state())), "the last one too, when its turn has come");
+            }
         }
     }
 
     /// Lets time pass until nothing is due; processes ignore everything but SIGKILL.
     fn run_to_the_end(&mut self) {
         self.step(RunEvent::Stop(Signal::SIGTERM));
-        for _ in 0..10 {
+        for _ in 0..20 {
             for index in 0..self.alive.len() {
                 if self.killed[index] {
                     self.step(RunEvent::One(index, Input::Exited(Ending::Killed(Signal::SIGKILL))));
@@ -126,9 +131,10 @@ proptest! {
     #[test]
     fn every_run_keeps_its_promises_and_can_be_ended(
         policies in prop::collection::vec(policy(), 3),
+        last in prop::option::of(0..3_usize),
         events in prop::collection::vec(event(), 0..60),
     ) {
-        let mut world = World::new(policies);
+        let mut world = World::new(policies, last);
         for (pause, event) in events {
             world.now += Duration::from_millis(pause);
             world.step(event);
@@ -144,7 +150,7 @@ proptest! {
         pauses in prop::collection::vec(0..3000_u64, 0..40),
     ) {
         let limit = policy.limit;
-        let mut world = World::new(vec![policy]);
+        let mut world = World::new(vec![policy], None);
         let mut restarts = Vec::new();
         for pause in pauses {
             world.now += Duration::from_millis(pause);
@@ -165,9 +171,51 @@ proptest! {
 #[test]
 fn a_failure_of_a_component_that_is_not_essential_stops_nothing() {
     let optional = Policy { essential: false, ..Policy::default() };
-    let mut world = World::new(vec![optional, Policy::default()]);
+    let mut world = World::new(vec![optional, Policy::default()], None);
     world.step(RunEvent::One(0, Input::Exited(Ending::Exited(1))));
     assert_eq!((world.state.stopping(), world.state.failed()), (None, None));
     world.step(RunEvent::One(1, Input::Exited(Ending::Exited(1))));
     assert_eq!((world.state.stopping(), world.state.failed()), (Some(Signal::SIGTERM), Some(1)));
+}
+
+fn always() -> Policy {
+    Policy { restart: Restart::Always, essential: false, ..Policy::default() }
+}
+
+#[test]
+fn the_last_one_is_stopped_when_all_others_have_ended() {
+    let mut world = World::new(vec![always(), Policy::default(), Policy::default()], Some(0));
+    world.step(RunEvent::Stop(Signal::SIGINT));
+    let exited = |index| RunEvent::One(index, Input::Exited(Ending::Exited(0)));
+    let is_running = |world: &World| world.state.components()[0].state() == State::Running;
+    assert!(is_running(&world));
+    world.step(exited(2));
+    assert!(is_running(&world));
+    world.step(exited(1));
+    let told = StopReason::Everything(Signal::SIGINT);
+    assert!(matches!(world.state.components()[0].state(), State::Stopping { reason, .. } if reason == told));
+    world.step(exited(0));
+    assert!(world.state.is_over() && world.state.failed().is_none());
+}
+
+#[test]
+fn the_last_one_ends_with_the_others_but_runs_alone() {
+    let exited = |index| RunEvent::One(index, Input::Exited(Ending::Exited(0)));
+    let mut world = World::new(vec![always(), Policy::default()], Some(0));
+    world.step(exited(1));
+    assert!(matches!(world.state.components()[0].state(), State::Stopping { .. }));
+    let mut alone = World::new(vec![always()], Some(0));
+    alone.step(RunEvent::Time);
+    assert_eq!((alone.state.components()[0].state(), alone.state.stopping()), (State::Running, None));
+    alone.step(RunEvent::Stop(Signal::SIGTERM));
+    assert!(matches!(alone.state.components()[0].state(), State::Stopping { .. }));
+}
+
+#[test]
+fn the_last_one_is_not_restarted_while_the_others_stop() {
+    let mut world = World::new(vec![always(), Policy::default()], Some(0));
+    world.step(RunEvent::Stop(Signal::SIGTERM));
+    world.step(RunEvent::One(0, Input::Exited(Ending::Killed(Signal::SIGSEGV))));
+    assert!(matches!(world.state.components()[0].state(), State::Ended(_)));
+    assert_eq!(world.state.failed(), None);
 }

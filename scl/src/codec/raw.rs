@@ -15,7 +15,7 @@ pub struct Raw;
 #[diagnostic::do_not_recommend]
 impl<T: IntoBytes + FromBytes + KnownLayout + Immutable> Codec<T> for Raw {
     const NAME: &'static str = "raw";
-    const LENGTH: Option<usize> = Some(size_of::<T>());
+    const FIXED_LENGTH: Option<usize> = Some(size_of::<T>());
 
     fn encode(message: &T, buffer: &mut BytesMut) -> Result<(), EncodeError> {
         buffer.extend_from_slice(message.as_bytes());

@@ -40,7 +40,7 @@ impl Opener {
     /// Opens the `pub` gate at an index of the component's list.
     pub fn publisher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Pub<T>, OpenError> {
         let spec = self.gate(index);
-        let connections = self.connections(spec, C::LENGTH, |transport, endpoint| transport.publish(endpoint))?;
+        let connections = self.connections::<T, C>(spec, |transport, endpoint| transport.publish(endpoint))?;
         let tap = self.tap(spec)?;
         let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, tap);
         self.follow(index, gate.fanout.figures());
@@ -50,7 +50,7 @@ impl Opener {
     /// Opens the `push` gate at an index of the component's list.
     pub fn pusher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Push<T>, OpenError> {
         let spec = self.gate(index);
-        let connections = self.connections(spec, C::LENGTH, |transport, endpoint| transport.push(endpoint))?;
+        let connections = self.connections::<T, C>(spec, |transport, endpoint| transport.push(endpoint))?;
         // The puller has the tap.
         let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, GateTap::new(None));
         self.follow(index, gate.fanout.figures());
@@ -60,8 +60,7 @@ impl Opener {
     /// Opens the `sub` gate at an index of the component's list.
     pub fn subscriber<T, C: Codec<T>>(&mut self, index: usize) -> Result<Sub<T>, OpenError> {
         let spec = self.gate(index);
-        let endpoint = |link| at_most(C::LENGTH, self.connecting(spec, link));
-        let subscribe = |link| self.transports.of_link(spec, link).subscribe(&endpoint(link));
+        let subscribe = |link| self.transports.of_link(spec, link).subscribe(&self.connecting(spec, link));
         let links = self.links(spec).iter().map(subscribe).collect::<Result<_, _>>();
         let links = links.map_err(|source| self.refused(spec, source))?;
         let gate = Incoming::new::<C>(self.state.clone(), spec, links, GateTap::new(None));
@@ -72,7 +71,9 @@ impl Opener {
     /// Opens the `pull` gate at an index of the component's list.
     pub fn puller<T, C: Codec<T>>(&mut self, index: usize) -> Result<Pull<T>, OpenError> {
         let spec = self.gate(index);
-        let link = self.transports.of_gate(spec).pull(&at_most(C::LENGTH, endpoint(spec.endpoint, spec)));
+        let longest = longest::<T, C>(spec.options.max_size);
+        let endpoint = Endpoint { longest, ..endpoint(spec.endpoint, spec) };
+        let link = self.transports.of_gate(spec).pull(&endpoint);
         let link = link.map_err(|source| self.refused(spec, source))?;
         let tap = self.tap(spec)?;
         let gate = Incoming::new::<C>(self.state.clone(), spec, vec![link], tap);
@@ -116,17 +117,16 @@ impl Opener {
         &self.state.spec().gates[index]
     }
 
-    fn connections(
+    fn connections<T, C: Codec<T>>(
         &self,
         spec: &'static GateSpec,
-        length: Option<usize>,
         open: impl Fn(&dyn Transport, &Endpoint) -> Result<Box<dyn Sender>, TransportError>,
     ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
         let connect = |link: &'static LinkSpec| {
             let lossless = spec.options.backpressure && link.when_full == WhenFull::Wait;
-            let longest = usize::try_from(link.max_size).unwrap_or(usize::MAX);
-            let endpoint = Endpoint { lossless, longest, ..self.connecting(spec, link) };
-            let sender = open(self.transports.of_link(spec, link), &at_most(length, endpoint));
+            let endpoint = self.connecting(spec, link);
+            let longest = longest::<T, C>(link.max_size);
+            let sender = open(self.transports.of_link(spec, link), &Endpoint { lossless, longest, ..endpoint });
             let sender = sender.map_err(|source| self.refused(spec, source))?;
             let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes());
             Ok(self.state.drive(connection))
@@ -174,13 +174,14 @@ fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Regi
     Ok((Registration::in_folder(spec, dir, stats, &media).map_err(failed)?, transports))
 }
 
+/// The longest message at a gate that accepts messages of up to `max_size` bytes.
+fn longest<T, C: Codec<T>>(max_size: u64) -> usize {
+    let max_size = usize::try_from(max_size).unwrap_or(usize::MAX);
+    C::FIXED_LENGTH.map_or(max_size, |length| length.min(max_size))
+}
+
 fn endpoint(name: &'static str, spec: &GateSpec) -> Endpoint {
     let max_size = usize::try_from(spec.options.max_size).unwrap_or(usize::MAX);
     let queue = spec.options.queue as usize;
-    Endpoint { max_size, queue, longest: max_size, newest_only: spec.newest_only(), ..Endpoint::new(name) }
-}
-
-/// An endpoint whose messages all have the same length, if that is known.
-fn at_most(length: Option<usize>, endpoint: Endpoint) -> Endpoint {
-    Endpoint { longest: length.map_or(endpoint.longest, |length| length.min(endpoint.longest)), ..endpoint }
+    Endpoint { max_size, queue, newest_only: spec.newest_only(), ..Endpoint::new(name) }
 }

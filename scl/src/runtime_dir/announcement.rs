@@ -36,6 +36,8 @@ pub struct Announcement {
     pub started: SystemTime,
     /// The program. Characters that are not UTF-8 are lost in the file.
     pub program: PathBuf,
+    /// The host that it runs on, if that is another one: then the process is a gateway that stands in for it here.
+    pub host: Option<String>,
     /// The hash of the protobuf messages it was built with, which are in `<hash>.schema`.
     pub schema: Option<String>,
     /// All endpoints of all its gates, in file order.
@@ -78,6 +80,7 @@ impl Announcement {
             pid: std::process::id(),
             started: SystemTime::now(),
             program: std::env::current_exe().unwrap_or_default(),
+            host: None,
             schema: None,
             endpoints: Vec::new(),
             plan: None,
@@ -113,7 +116,7 @@ impl Announcement {
         Self::from_json(&serde_json::from_slice(&read_file(&path, LIMIT).ok()?).ok()?)
     }
 
-    fn to_json(&self) -> Value {
+    pub(crate) fn to_json(&self) -> Value {
         let started = self.started.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default().as_millis();
         json!({
             "version": self.version,
@@ -121,13 +124,14 @@ impl Announcement {
             "pid": self.pid,
             "started_ms": u64::try_from(started).unwrap_or(u64::MAX),
             "program": self.program.to_string_lossy(),
+            "host": self.host,
             "schema": self.schema,
             "endpoints": self.endpoints.iter().map(AnnouncedEndpoint::to_json).collect::<Vec<_>>(),
             "plan": self.plan.as_ref().and_then(plan_to_json),
         })
     }
 
-    fn from_json(json: &Value) -> Option<Self> {
+    pub(crate) fn from_json(json: &Value) -> Option<Self> {
         let started = Duration::from_millis(json["started_ms"].as_u64()?);
         let endpoints = json["endpoints"].as_array()?.iter().map(AnnouncedEndpoint::from_json);
         Some(Self {
@@ -136,6 +140,7 @@ impl Announcement {
             pid: json["pid"].as_u64()?.try_into().ok()?,
             started: SystemTime::UNIX_EPOCH.checked_add(started)?,
             program: text(json, "program")?.into(),
+            host: text(json, "host"),
             schema: text(json, "schema"),
             endpoints: endpoints.collect::<Option<_>>()?,
             plan: Some(&json["plan"])

@@ -157,7 +157,7 @@ impl fmt::Display for Holder {
 }
 
 impl RuntimeDirError {
-    pub(super) fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
+    pub(crate) fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
         Self::Io { action, path: path.to_owned(), source }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::SystemDir;
 use super::announcement::{AnnouncedEndpoint, Announcement};
-use super::error::running;
+use super::error::{Holder, running};
 use super::foreign_text::shown;
 use super::lock::ComponentLock;
 #[cfg(feature = "protobuf")]
@@ -19,8 +19,9 @@ use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
 /// What differs between the two programs.
 pub fn check_peer(dir: &SystemDir, own: &ComponentSpec, gate: &GateSpec, link: &LinkSpec) -> Result<(), String> {
     let Some(holder) = ComponentLock::holder(dir, link.peer_component) else { return Ok(()) };
-    let peer = format!("`{}` ({holder})", link.peer_component);
-    find_mismatch(dir, own, gate, link, &peer).map_err(|mismatch| match mismatch {
+    let announcement = Announcement::read(dir, link.peer_component);
+    let peer = format!("`{}` ({})", link.peer_component, whereabouts(announcement.as_ref(), holder));
+    find_mismatch(dir, own, gate, link, announcement.as_ref(), &peer).map_err(|mismatch| match mismatch {
         Mismatch::Connection(text) => format!("{peer} {text}"),
         Mismatch::Messages(text) => text,
     })
@@ -29,12 +30,23 @@ pub fn check_peer(dir: &SystemDir, own: &ComponentSpec, gate: &GateSpec, link: &
 /// Why a peer is not connected: the end of a sentence that starts with the name of the peer or its gate.
 pub fn explain_missing(dir: &SystemDir, own: &ComponentSpec, gate: &GateSpec, link: &LinkSpec) -> String {
     let Some(holder) = ComponentLock::holder(dir, link.peer_component) else { return "is not running".to_owned() };
-    let peer = format!("`{}` ({holder})", link.peer_component);
-    match find_mismatch(dir, own, gate, link, &peer) {
-        Ok(()) => format!("is {} but not connected", running(holder)),
-        Err(Mismatch::Connection(text)) => format!("is {} but {text}", running(holder)),
+    let announcement = Announcement::read(dir, link.peer_component);
+    let peer = format!("`{}` ({})", link.peer_component, whereabouts(announcement.as_ref(), holder));
+    let running = match announcement.as_ref().and_then(|announcement| announcement.host.as_deref()) {
+        Some(host) => format!("running on host `{}`", shown(host)),
+        None => running(holder),
+    };
+    match find_mismatch(dir, own, gate, link, announcement.as_ref(), &peer) {
+        Ok(()) => format!("is {running} but not connected"),
+        Err(Mismatch::Connection(text)) => format!("is {running} but {text}"),
         Err(Mismatch::Messages(text)) => format!("is incompatible: {text}"),
     }
+}
+
+/// Which process runs a peer, or on which other host it runs.
+fn whereabouts(announcement: Option<&Announcement>, holder: Holder) -> String {
+    let host = announcement.and_then(|announcement| announcement.host.as_deref());
+    host.map_or_else(|| holder.to_string(), |host| format!("host `{}`", shown(host)))
 }
 
 enum Mismatch {
@@ -49,10 +61,11 @@ fn find_mismatch(
     own: &ComponentSpec,
     gate: &GateSpec,
     link: &LinkSpec,
+    announcement: Option<&Announcement>,
     peer: &str,
 ) -> Result<(), Mismatch> {
-    let Some(announcement) = Announcement::read(dir, link.peer_component) else { return Ok(()) };
-    compare_connection(&announcement, own, gate, link).map_err(Mismatch::Connection)?;
+    let Some(announcement) = announcement else { return Ok(()) };
+    compare_connection(announcement, own, gate, link).map_err(Mismatch::Connection)?;
     compare_messages(dir, own, gate, announcement.schema.as_deref(), peer).map_err(Mismatch::Messages)
 }
 

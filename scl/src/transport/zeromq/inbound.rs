@@ -4,7 +4,7 @@ use super::connection::{Closed, Connection};
 use super::credit::ReceiveCredit;
 use super::shared_memory::Arriving;
 use super::timer::Timer;
-use super::zmtp::{Command, Item, Message, PeerReady, SHM_OPEN, acknowledgement, catch_up};
+use super::zmtp::{Command, FINISH, Item, Message, PeerReady, SHM_OPEN, acknowledgement, catch_up};
 use crate::runtime_dir::SystemDir;
 use crate::transport::Endpoint;
 use bytes::Bytes;
@@ -39,6 +39,9 @@ pub(super) struct Inbound {
     malformed: u64,
     /// Whether the sender has asked a caller who acknowledges messages to do so.
     acknowledgement_requested: bool,
+    /// Whether the sender was asked to send nothing more, and has sent everything that it had sent before.
+    finishing: bool,
+    finished: bool,
     /// Whether the sender holds messages until earlier ones are acknowledged.
     behind: bool,
     /// Whether the socket was empty when `poll_next` last looked, just now.
@@ -71,6 +74,8 @@ impl Inbound {
             closed: None,
             malformed: 0,
             acknowledgement_requested: false,
+            finishing: false,
+            finished: false,
             behind: false,
             emptied: false,
             gave_up: false,
@@ -139,6 +144,7 @@ impl Inbound {
                 Item::Command(Command::Behind) => (self.behind, self.gave_up) = (true, false),
                 Item::Command(Command::CaughtUp(number)) => self.handle_caught_up(number),
                 Item::Command(Command::Flush) => self.handle_flush(),
+                Item::Command(Command::Finished) => self.finished = true,
                 Item::Command(_) | Item::Ready(_) => {}
             }
         }
@@ -190,6 +196,18 @@ impl Inbound {
     pub(super) fn acknowledge_deferred(&mut self, count: u64) {
         let number = self.credit.as_mut().and_then(|credit| credit.acknowledge_deferred(count));
         self.write_acknowledgement(number);
+    }
+
+    /// Asks the sender to send nothing more.
+    pub(super) fn finish(&mut self) {
+        if !std::mem::replace(&mut self.finishing, true) {
+            let _reported_by_reading = self.connection.write(FINISH);
+        }
+    }
+
+    /// Returns true if nothing more will follow. A plain ZeroMQ program is not waited for.
+    pub(super) fn is_finished(&self) -> bool {
+        self.finished || self.credit.is_none()
     }
 
     pub(super) fn take_acknowledgement_request(&mut self) -> bool {

@@ -5,7 +5,7 @@ use super::credit::SendCredit;
 use super::link_count::LinkAlive;
 use super::shared_memory::{Sent, Sharing};
 use super::topics::Topics;
-use super::zmtp::{BEHIND, Command, FLUSH, Header, Item, PeerReady, ProtocolError, caught_up};
+use super::zmtp::{BEHIND, Command, FINISHED, FLUSH, Header, Item, PeerReady, ProtocolError, caught_up};
 use crate::transport::{Disconnected, Frame, Link, Loan};
 use bytes::{BufMut, BytesMut};
 use rustix::time::{ClockId, Timespec, clock_gettime};
@@ -53,6 +53,9 @@ pub(super) struct SendLink {
     /// Whether the link was driven since messages were last sent from the queue.
     driven: bool,
     broken: bool,
+    /// Whether the peer wants nothing more over this connection, and whether it has been told that nothing follows.
+    finishing: bool,
+    finished: bool,
     detached: bool,
     raw_read: Option<Instant>,
     _alive: LinkAlive,
@@ -82,6 +85,8 @@ impl SendLink {
             tick: tick(),
             driven: false,
             broken: false,
+            finishing: false,
+            finished: false,
             detached: false,
             raw_read: None,
             _alive: alive,
@@ -116,7 +121,8 @@ impl SendLink {
 
     fn window_is_open_after(&self, messages: usize, bytes: usize) -> bool {
         let is_open = |credit: &SendCredit| credit.is_open_after(messages, bytes);
-        self.detached || (self.sharing.has_room() && self.credit.as_ref().is_none_or(is_open))
+        let has_credit = || self.sharing.has_room() && self.credit.as_ref().is_none_or(is_open);
+        !self.finishing && (self.detached || has_credit())
     }
 
     fn wants(&self, message: &[u8]) -> bool {
@@ -137,6 +143,7 @@ impl SendLink {
             }
             Item::Command(Command::ShmOpen) => self.sharing.open(),
             Item::Command(Command::CatchUp(number)) => self.question = number,
+            Item::Command(Command::Finish) => self.finishing = true,
             // Anything else that a peer sends here has no meaning.
             item => {
                 if let (Some(topics), Some(subscription)) = (&mut self.topics, item.into_subscription()) {
@@ -159,6 +166,10 @@ impl SendLink {
             }
             reads -= 1;
         }
+        if self.finishing && !std::mem::replace(&mut self.finished, true) {
+            // Behind everything that was sent.
+            self.connection.write(FINISHED)?;
+        }
         Ok(self.connection.flush(cx)?)
     }
 
@@ -174,6 +185,18 @@ impl SendLink {
             cx.waker().wake_by_ref();
         }
         Ok(self.connection.flush_raw()?)
+    }
+
+    /// Reads what a peer has sent before it left: a failed write is noticed earlier than its last acknowledgements.
+    fn read_last_acknowledgements(&mut self) {
+        for _ in 0..RAW_READS {
+            if !matches!(self.connection.fill_raw(), Ok(true)) {
+                return;
+            }
+            while let Ok(Some(item)) = self.connection.buffered_item() {
+                let _of_no_use_any_more = self.handle(item);
+            }
+        }
     }
 
     /// Returns true if the peer can take a message after all.
@@ -325,6 +348,7 @@ impl Link for SendLink {
             }
             self.broken = true;
         }
+        self.read_last_acknowledgements();
         Err(Disconnected)
     }
 

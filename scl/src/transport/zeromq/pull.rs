@@ -24,6 +24,7 @@ pub(super) struct Puller {
     accepted: u64,
     /// For an end whose caller acknowledges messages: the pushers of those that are not acknowledged, in order.
     untold: VecDeque<u64>,
+    finishing: bool,
     /// The pusher whose turn it is, and how many messages it has delivered in it.
     turn: usize,
     delivered: usize,
@@ -40,12 +41,25 @@ impl Puller {
         let acceptor =
             Acceptor::open(dir, medium, endpoint, SocketType::Pull, receiving(endpoint))?.offering_memory(endpoint)?;
         let (pushers, untold, endpoint) = (Vec::new(), VecDeque::new(), endpoint.clone());
-        Ok(Self { acceptor, endpoint, pushers, accepted: 0, untold, turn: 0, delivered: 0, malformed: 0 })
+        Ok(Self {
+            acceptor,
+            endpoint,
+            pushers,
+            accepted: 0,
+            untold,
+            finishing: false,
+            turn: 0,
+            delivered: 0,
+            malformed: 0,
+        })
     }
 
     fn accept(&mut self, cx: &mut Context<'_>) {
         while let Poll::Ready((connection, ready)) = self.acceptor.poll_connection(cx, self.pushers.len()) {
-            let inbound = Inbound::new(connection, &ready, &self.endpoint, self.acceptor.dir());
+            let mut inbound = Inbound::new(connection, &ready, &self.endpoint, self.acceptor.dir());
+            if self.finishing {
+                inbound.finish();
+            }
             self.pushers.push(Pusher { number: self.accepted, inbound });
             self.accepted += 1;
         }
@@ -130,6 +144,15 @@ impl Receiver for Puller {
     fn take_acknowledgement_request(&mut self) -> bool {
         let requested = self.pushers.iter_mut().map(|pusher| pusher.inbound.take_acknowledgement_request());
         requested.fold(false, |any, one| any | one)
+    }
+
+    fn finish(&mut self) {
+        self.finishing = true;
+        self.pushers.iter_mut().for_each(|pusher| pusher.inbound.finish());
+    }
+
+    fn is_finished(&self) -> bool {
+        self.pushers.iter().all(|pusher| pusher.inbound.is_finished())
     }
 
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {

@@ -19,12 +19,13 @@ pub(super) struct Subscriber {
     /// the connected one.
     stale: u64,
     untold: u64,
+    finishing: bool,
 }
 
 impl Subscriber {
     pub(super) fn open(dir: &Arc<SystemDir>, endpoint: &Endpoint) -> Self {
         let dialler = Dialler::new(dir, endpoint, SocketType::Sub, receiving(endpoint));
-        Self { dialler, publisher: None, malformed: 0, stale: 0, untold: 0 }
+        Self { dialler, publisher: None, malformed: 0, stale: 0, untold: 0, finishing: false }
     }
 
     fn poll_publisher(&mut self, cx: &mut Context<'_>) -> Poll<&mut Inbound> {
@@ -34,7 +35,11 @@ impl Subscriber {
                 let (mut connection, ready) = ready!(self.dialler.poll_connected(cx));
                 // Not earlier: libzmq closes a connection on which this arrives together with READY.
                 let _reported_by_reading = connection.write(SUBSCRIBE_ALL);
-                Inbound::new(connection, &ready, self.dialler.endpoint(), self.dialler.dir())
+                let mut inbound = Inbound::new(connection, &ready, self.dialler.endpoint(), self.dialler.dir());
+                if self.finishing {
+                    inbound.finish();
+                }
+                inbound
             }
         };
         Poll::Ready(self.publisher.insert(publisher))
@@ -89,6 +94,15 @@ impl Receiver for Subscriber {
 
     fn take_acknowledgement_request(&mut self) -> bool {
         self.publisher.as_mut().is_some_and(Inbound::take_acknowledgement_request)
+    }
+
+    fn finish(&mut self) {
+        self.finishing = true;
+        self.publisher.iter_mut().for_each(Inbound::finish);
+    }
+
+    fn is_finished(&self) -> bool {
+        self.publisher.as_ref().is_none_or(Inbound::is_finished)
     }
 
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {

@@ -15,8 +15,8 @@ mod tests;
 #[cfg(feature = "iceoryx2")]
 pub(super) use command::sample;
 pub(super) use command::{
-    BEHIND, Command, FLUSH, SHM_OPEN, SUBSCRIBE_ALL, SUBSCRIBE_ALL_AND_PING, Subscription, acknowledgement, catch_up,
-    caught_up, pong,
+    BEHIND, Command, FINISH, FINISHED, FLUSH, SHM_OPEN, SUBSCRIBE_ALL, SUBSCRIBE_ALL_AND_PING, Subscription,
+    acknowledgement, catch_up, caught_up, pong,
 };
 pub(super) use decoder::{COMMAND_LIMIT, Decoder, Item, Message};
 pub(super) use error::ProtocolError;

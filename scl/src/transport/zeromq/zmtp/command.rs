@@ -20,6 +20,10 @@ pub(in crate::transport::zeromq) const FLUSH: &[u8] = b"\x04\x0c\x0bX-SCL-FLUSH"
 
 /// From a receiving end: it has opened the connection's shared memory.
 pub(in crate::transport::zeromq) const SHM_OPEN: &[u8] = b"\x04\x0f\x0eX-SCL-SHM-OPEN";
+/// From a receiving end: send nothing more over this connection.
+pub(in crate::transport::zeromq) const FINISH: &[u8] = b"\x04\x0d\x0cX-SCL-FINISH";
+/// From a sending end: nothing more follows.
+pub(in crate::transport::zeromq) const FINISHED: &[u8] = b"\x04\x0f\x0eX-SCL-FINISHED";
 
 /// A command of a peer that has introduced itself.
 #[derive(Debug, PartialEq, Eq)]
@@ -50,6 +54,10 @@ pub(in crate::transport::zeromq) enum Command {
         /// Its length in bytes.
         length: u64,
     },
+    /// The peer is about to close the connection, and wants nothing more over it.
+    Finish,
+    /// The peer sends nothing more over this connection.
+    Finished,
     Unknown,
 }
 
@@ -80,6 +88,8 @@ impl Command {
             b"X-SCL-BEHIND" => Self::Behind,
             b"X-SCL-CATCH-UP" => Self::CatchUp(number(content)?),
             b"X-SCL-CAUGHT-UP" => Self::CaughtUp(number(content)?),
+            b"X-SCL-FINISH" => Self::Finish,
+            b"X-SCL-FINISHED" => Self::Finished,
             b"X-SCL-FLUSH" => Self::Flush,
             b"X-SCL-SHM-OPEN" => Self::ShmOpen,
             b"X-SCL-SAMPLE" => {

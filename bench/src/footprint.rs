@@ -1,14 +1,14 @@
-//! Memory and wake-ups of a process, read from `/proc`.
+//! Memory, wake-ups and processor time of a process, read from `/proc`.
 
 use std::fs;
 
 /// The resident memory of a process, in KiB.
-pub(super) fn resident_kib(process: u32) -> scl::Result<u64> {
+pub(crate) fn resident_kib(process: u32) -> scl::Result<u64> {
     field(&fs::read_to_string(format!("/proc/{process}/status"))?, "VmRSS")
 }
 
 /// The number of context switches of all threads of a process so far.
-pub(super) fn context_switches(process: u32) -> scl::Result<u64> {
+pub(crate) fn context_switches(process: u32) -> scl::Result<u64> {
     let mut switches = 0;
     for thread in fs::read_dir(format!("/proc/{process}/task"))? {
         // A thread may have ended since the folder was listed.
@@ -16,6 +16,23 @@ pub(super) fn context_switches(process: u32) -> scl::Result<u64> {
         switches += field(&status, "voluntary_ctxt_switches")? + field(&status, "nonvoluntary_ctxt_switches")?;
     }
     Ok(switches)
+}
+
+/// The processor time of all threads of a process so far, in milliseconds.
+#[cfg(feature = "gateway")]
+pub(crate) fn processor_ms(process: u32) -> scl::Result<f64> {
+    let stat = fs::read_to_string(format!("/proc/{process}/stat"))?;
+    let ticks = ticks(&stat).ok_or_else(|| scl::Error::message("the status of a process has no processor time"))?;
+    Ok(ticks as f64 * 1e3 / rustix::param::clock_ticks_per_second() as f64)
+}
+
+/// The clock ticks in user mode and in the kernel: fields 14 and 15 of `stat`. The second one is the program's name in
+/// parentheses, which may contain anything.
+#[cfg(feature = "gateway")]
+fn ticks(stat: &str) -> Option<u64> {
+    let (_, fields) = stat.rsplit_once(')')?;
+    let mut fields = fields.split_ascii_whitespace().skip(11).map(str::parse::<u64>);
+    Some(fields.next()?.ok()? + fields.next()?.ok()?)
 }
 
 /// The number in a line `name:  number unit`.
@@ -37,6 +54,14 @@ mod tests {
             assert_eq!(field(status, name).unwrap(), expected);
         }
         assert_eq!(field(status, "VmHWM").unwrap_err().to_string(), "the status of a process has no field `VmHWM`");
+    }
+
+    #[cfg(feature = "gateway")]
+    #[test]
+    fn processor_time_is_found_behind_any_name() {
+        let stat = "7 (a ) b) S 1 7 7 0 -1 4194560 1 0 0 0 12 30 0 0 20 0 1 0 3 0";
+        assert_eq!(ticks(stat), Some(42));
+        assert_eq!(ticks("7 (a) S 1"), None);
     }
 
     #[test]

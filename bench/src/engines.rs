@@ -1,0 +1,33 @@
+//! The components that are measured over each transport.
+
+use scl::Medium;
+use std::path::Path;
+
+scl::topology!("engines.yaml");
+
+/// The host of the side that measures, in benchmarks over gateways.
+pub(crate) const NEAR: &str = "near";
+
+/// The host of the worker.
+pub(crate) const FAR: &str = "far";
+
+/// Options for the component of the variant `id`, whose first word is what it listens on; `host` counts over gateways.
+pub(crate) fn options(id: &str, folder: &str, host: &str) -> scl::OpenOptions {
+    let options = scl::OpenOptions::new();
+    match id.split('-').next() {
+        // All variants but this one share a runtime folder, so each is a system of its own.
+        Some("gateway") => options.runtime_dir(Path::new(folder).join("gateway").join(host)),
+        Some("shm") => options.runtime_dir(folder).system(id).medium(Medium::Shm),
+        Some("tcp") => options.runtime_dir(folder).system(id).medium(Medium::Tcp),
+        _ => options.runtime_dir(folder).system(id).medium(Medium::Ipc),
+    }
+}
+
+/// Starts the gateways between both sides.
+#[cfg(feature = "gateway")]
+pub(crate) fn start_gateways(folder: &str) -> scl::Result<crate::gateway::Gateways> {
+    use crate::gateway::{Gateways, Host};
+    let host = |name, components: [&str; 2]| Host { name, components: components.map(str::to_owned).to_vec() };
+    let hosts = [host(NEAR, ["client", "source"]), host(FAR, ["echo", "sink"])];
+    Gateways::start(&Path::new(folder).join("gateway"), include_str!("../engines.yaml"), &hosts)
+}

@@ -1,0 +1,126 @@
+//! Plain iceoryx2 as its users write it: publish and subscribe, and an event for each message that wakes the receiver.
+//!
+//! A payload is never initialised where it is loaned, which is the point of loaning; the time of a message is in the
+//! header, so that nobody has to read the payload either.
+
+use iceoryx2::node::{Node, NodeBuilder};
+use iceoryx2::port::listener::Listener;
+use iceoryx2::port::notifier::Notifier;
+use iceoryx2::port::publisher::Publisher;
+use iceoryx2::port::subscriber::Subscriber;
+use iceoryx2::prelude::{Config, SignalHandlingMode, ipc};
+use iceoryx2::sample::Sample;
+use std::mem::MaybeUninit;
+use std::time::Duration;
+
+/// Messages that a subscriber's buffer holds.
+const BUFFER: usize = 16;
+
+/// How long cleaning up after killed workers may take.
+const CLEANUP_TIMEOUT: Duration = Duration::from_secs(1);
+
+/// The bytes of a message.
+pub(crate) type Payload = [MaybeUninit<u8>];
+
+/// A received message. Its header is the time at which it was sent.
+pub(crate) type Received = Sample<ipc::Service, Payload, u64>;
+
+/// A process among the users of iceoryx2. When dropped, it removes what killed workers have left in shared memory.
+pub(crate) struct Participant(Node<ipc::Service>);
+
+/// The sending end of a channel.
+pub(crate) struct Sending {
+    publisher: Publisher<ipc::Service, Payload, u64>,
+    notifier: Notifier<ipc::Service>,
+}
+
+/// The receiving end of a channel.
+pub(crate) struct Receiving {
+    subscriber: Subscriber<ipc::Service, Payload, u64>,
+    listener: Listener<ipc::Service>,
+}
+
+impl Participant {
+    pub(crate) fn join() -> scl::Result<Self> {
+        // Without files of settings, and cleaning up at the end only: two workers that start at once would both do it.
+        let mut config = Config::default();
+        config.global.node.cleanup_dead_nodes_on_creation = false;
+        config.global.service.cleanup_dead_nodes_on_open = false;
+        let node = NodeBuilder::new().config(&config).signal_handling_mode(SignalHandlingMode::Disabled);
+        Ok(Self(node.create::<ipc::Service>()?))
+    }
+
+    /// The sending end of a channel, for messages of up to `bytes` bytes.
+    pub(crate) fn sending(&self, channel: &str, bytes: usize) -> scl::Result<Sending> {
+        let messages = self.messages(channel)?;
+        let publisher = messages.publisher_builder().initial_max_slice_len(bytes).create()?;
+        Ok(Sending { publisher, notifier: self.events(channel)?.notifier_builder().create()? })
+    }
+
+    pub(crate) fn receiving(&self, channel: &str) -> scl::Result<Receiving> {
+        let listener = self.events(channel)?.listener_builder().create()?;
+        Ok(Receiving { subscriber: self.messages(channel)?.subscriber_builder().create()?, listener })
+    }
+
+    fn messages(
+        &self,
+        channel: &str,
+    ) -> scl::Result<iceoryx2::service::port_factory::publish_subscribe::PortFactory<ipc::Service, Payload, u64>> {
+        let name = format!("{channel}/messages").as_str().try_into()?;
+        let service = self.0.service_builder(&name).publish_subscribe::<Payload>().user_header::<u64>();
+        // Without overflow the sender waits, so that no message is lost.
+        let service = service.max_publishers(1).max_subscribers(1).enable_safe_overflow(false).history_size(0);
+        Ok(service.subscriber_max_buffer_size(BUFFER).open_or_create()?)
+    }
+
+    fn events(
+        &self,
+        channel: &str,
+    ) -> scl::Result<iceoryx2::service::port_factory::event::PortFactory<ipc::Service>> {
+        Ok(self.0.service_builder(&format!("{channel}/events").as_str().try_into()?).event().open_or_create()?)
+    }
+}
+
+impl Drop for Participant {
+    fn drop(&mut self) {
+        let _state = self.0.blocking_cleanup_dead_nodes(CLEANUP_TIMEOUT);
+    }
+}
+
+impl Sending {
+    /// Sends `bytes` bytes of whatever the memory contains.
+    pub(crate) fn send_loaned(&self, bytes: usize, time: u64) -> scl::Result<()> {
+        // Writes nothing, so an optimised build contains no loop.
+        let mut sample = self.publisher.loan_slice_uninit(bytes)?.write_from_fn(|_| MaybeUninit::uninit());
+        *sample.user_header_mut() = time;
+        sample.send()?;
+        self.notifier.notify()?;
+        Ok(())
+    }
+
+    /// Copies a payload into shared memory and sends it.
+    pub(crate) fn send_copied(&self, payload: &Payload, time: u64) -> scl::Result<()> {
+        let mut sample = self.publisher.loan_slice_uninit(payload.len())?.write_from_slice(payload);
+        *sample.user_header_mut() = time;
+        sample.send()?;
+        self.notifier.notify()?;
+        Ok(())
+    }
+}
+
+impl Receiving {
+    /// Waits for the next message.
+    pub(crate) fn receive(&self) -> scl::Result<Received> {
+        loop {
+            if let Some(sample) = self.subscriber.receive()? {
+                return Ok(sample);
+            }
+            self.listener.blocking_wait(|_| {})?;
+        }
+    }
+}
+
+/// A payload for [`Sending::send_copied`].
+pub(crate) fn payload(bytes: &[u8]) -> Vec<MaybeUninit<u8>> {
+    bytes.iter().copied().map(MaybeUninit::new).collect()
+}

@@ -1,0 +1,31 @@
+//! What is under the connections that a benchmark measures.
+
+/// What is under the connections of the lines `SCL`, and so what they are compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Transport {
+    /// ZeroMQ over Unix sockets.
+    #[default]
+    Ipc,
+    /// Shared memory, beside plain iceoryx2 and Unix sockets. Takes the feature `iceoryx2`.
+    Shm,
+    /// Two gateways on loopback, beside plain zenoh and direct connections. Takes the feature `gateway`.
+    Gateway,
+}
+
+impl Transport {
+    /// Fails if this program was built without what the transport needs.
+    pub(crate) fn check_is_built_in(self) -> scl::Result<()> {
+        let (word, feature, is_built_in) = match self {
+            Self::Ipc => return Ok(()),
+            Self::Shm => ("shm", "shm", cfg!(feature = "iceoryx2")),
+            Self::Gateway => ("gateway", "gateway", cfg!(feature = "gateway")),
+        };
+        if is_built_in {
+            return Ok(());
+        }
+        Err(scl::Error::message(format!(
+            "this `scl` was built without the transport `{word}`; \
+             build it with `cargo build --release -p scl-cli --features {feature}`"
+        )))
+    }
+}

@@ -1,0 +1,100 @@
+//! The files that all commands read: launch file and topology, and the certificates of a host.
+
+use clap::Args;
+use scl_gateway::deployment::{Host, System};
+use scl_gateway::keys::{self, HostFiles, KeyProblem};
+use scl_terminal::{Problem, closest_name, print_err, quoted_list, timestamp};
+use std::path::PathBuf;
+use std::time::{Duration, SystemTime};
+
+/// When the user is told that a certificate will expire.
+const SOON: Duration = Duration::from_secs(30 * 24 * 3600);
+
+/// Which files.
+#[derive(Args)]
+pub(crate) struct FileArguments {
+    /// The launch file with the hosts, or its folder.
+    #[arg(long, value_name = "FILE", default_value = ".")]
+    pub(crate) launch: PathBuf,
+    /// The topology file, if it is another than the launch file names.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) topology: Option<PathBuf>,
+}
+
+impl FileArguments {
+    /// Reads them; all mistakes are shown and `None` is returned.
+    pub(crate) fn load(&self) -> Option<System> {
+        match System::load(&self.launch, self.topology.as_deref()) {
+            Ok(system) => Some(system),
+            Err(texts) => {
+                texts.iter().for_each(|text| print_err(&format!("{text}\n")));
+                None
+            }
+        }
+    }
+}
+
+/// The host with this name; an unknown one is shown and `None` is returned.
+pub(crate) fn find_host<'s>(system: &'s System, name: &str) -> Option<&'s Host> {
+    let host = system.deployment.host(name);
+    if host.is_none() {
+        let names = || system.deployment.hosts.iter().map(|host| host.name.as_str());
+        let problem = Problem::new(format!("unknown host `{name}`"));
+        let problem = match closest_name(name, names()) {
+            Some(close) => problem.help(format!("did you mean `{close}`?")),
+            None => problem,
+        };
+        show(&problem.note(format!("the launch file has the hosts {}", quoted_list(names()))));
+    }
+    host
+}
+
+/// The certificates of a host, if the system has any. Problems are shown and an error is returned.
+pub(crate) fn check_certificates(system: &System, host: &Host) -> Result<Option<HostFiles>, ()> {
+    let Some(folder) = &system.deployment.certificates else { return Ok(None) };
+    let files = HostFiles::of(folder, &host.name);
+    let now = SystemTime::now();
+    match keys::check(&files, host, now) {
+        Ok(expires) => {
+            if expires < now + SOON {
+                let at = timestamp(expires);
+                print_err(&format!("note: the certificate of host `{}` expires on {at}\n", host.name));
+            }
+            Ok(Some(files))
+        }
+        Err(problems) => {
+            problems.iter().for_each(|problem| show(&explained(problem, &host.name)));
+            Err(())
+        }
+    }
+}
+
+pub(crate) fn show(problem: &Problem) {
+    print_err(&format!("{problem}\n"));
+}
+
+/// A problem with its way out.
+fn explained(problem: &KeyProblem, host: &str) -> Problem {
+    let renew = format!("make a new one: `scl gateway keys --host {host} --force`, and copy its folder to the host");
+    let copy = || "run `scl gateway keys` on one machine, and copy the host's folder from there".to_owned();
+    let help = match problem {
+        KeyProblem::NoFolder { .. } | KeyProblem::Missing { .. } => copy(),
+        KeyProblem::Exposed { path, .. } => format!("run `chmod 600 '{}'`", path.display()),
+        KeyProblem::NotYetValid { .. } => "set the clock of this machine".to_owned(),
+        KeyProblem::OtherHost { found, .. } => {
+            format!("copy the folder of host `{host}` here, and that of `{found}` to its own host")
+        }
+        KeyProblem::Unreadable { .. } => "let the user who runs the gateway own the file".to_owned(),
+        KeyProblem::Foreign { .. } => {
+            "copy all three files of the host from the machine with the authority; `scl gateway keys` made them together"
+                .to_owned()
+        }
+        _ => renew,
+    };
+    let cause = std::error::Error::source(problem).map(ToString::to_string);
+    let shown = Problem::new(problem.to_string()).help(help);
+    match cause {
+        Some(cause) => shown.note(cause),
+        None => shown,
+    }
+}

@@ -1,0 +1,57 @@
+//! Certificates: by them the gateways of a system know each other, and nobody else is let in.
+//!
+//! ```text
+//! keys/authority/certificate.pem, key.pem                  stay where they were made: they sign certificates
+//! keys/<host>/authority.pem, certificate.pem, key.pem      are copied to that host
+//! ```
+//!
+//! The common name of a host's certificate is the host's name, and its subject alternative name is the host's address.
+
+mod certificate;
+mod check;
+mod folder;
+mod issue;
+
+pub use check::{KeyProblem, check};
+pub use issue::{Issued, KeysError, Wanted, issue};
+
+use crate::deployment::Deployment;
+use std::path::{Path, PathBuf};
+
+/// The files of one host.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct HostFiles {
+    /// Certificate of the authority that signed the certificates of all hosts.
+    pub authority: PathBuf,
+    /// The host's certificate.
+    pub certificate: PathBuf,
+    /// Its private key.
+    pub key: PathBuf,
+}
+
+impl HostFiles {
+    /// Where they are in the folder of the certificates.
+    pub fn of(certificates: &Path, host: &str) -> Self {
+        let folder = certificates.join(host);
+        Self {
+            authority: folder.join(AUTHORITY_CERTIFICATE),
+            certificate: folder.join(CERTIFICATE),
+            key: folder.join(KEY),
+        }
+    }
+
+    fn all(&self) -> [&Path; 3] {
+        [&self.authority, &self.certificate, &self.key]
+    }
+}
+
+const AUTHORITY_CERTIFICATE: &str = "authority.pem";
+const CERTIFICATE: &str = "certificate.pem";
+const KEY: &str = "key.pem";
+
+fn authority_folder(certificates: &Path) -> PathBuf {
+    certificates.join(Deployment::AUTHORITY)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,199 @@
+//! Makes the authority of a system and the certificates of its hosts.
+
+use super::certificate::Certificate;
+use super::{AUTHORITY_CERTIFICATE, CERTIFICATE, KEY, authority_folder, folder};
+use crate::deployment::Host;
+use rcgen::{
+    BasicConstraints, CertificateParams, DistinguishedName, DnType, ExtendedKeyUsagePurpose, IsCa, Issuer, KeyPair,
+    KeyUsagePurpose,
+};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+/// Clocks of hosts may differ, so certificates are valid from some time before now.
+const EARLIER: Duration = Duration::from_secs(24 * 3600);
+
+/// The authority serves as long as a system does; hosts get new certificates from it.
+const AUTHORITY_DAYS: u32 = 3650;
+
+/// What to make.
+#[derive(Debug)]
+pub struct Wanted<'a> {
+    /// The name of the system.
+    pub system: &'a str,
+    /// The hosts that need a certificate.
+    pub hosts: Vec<&'a Host>,
+    /// How long their certificates are valid.
+    pub days: u32,
+    /// Whether certificates that are there are replaced. Those of the other hosts stay valid.
+    pub replace_hosts: bool,
+    /// Whether an authority that is there is replaced. No earlier certificate is valid then.
+    pub replace_authority: bool,
+    /// The time from which the days count.
+    pub now: SystemTime,
+}
+
+/// What has become of the authority or a host.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Issued {
+    /// The host; `None` for the authority.
+    pub host: Option<String>,
+    /// Its folder.
+    pub folder: PathBuf,
+    /// Whether it was made now; otherwise it was there.
+    pub is_new: bool,
+    /// When it expires; `None` if that cannot be read.
+    pub expires: Option<SystemTime>,
+}
+
+/// Error of [`issue`].
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum KeysError {
+    /// A file or folder cannot be written or read.
+    #[error("cannot write `{}`", path.display())]
+    Write {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// Only the certificate of the authority is here.
+    #[error("the key of the authority is not here: `{}`", path.display())]
+    NoAuthorityKey {
+        /// Where it should be.
+        path: PathBuf,
+    },
+    /// The files of the authority are damaged.
+    #[error("cannot use the authority in `{}`: {reason}", folder.display())]
+    Authority {
+        /// Their folder.
+        folder: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// The library refused.
+    #[error("cannot make a certificate for `{host}`")]
+    Certificate {
+        /// The host, or `authority`.
+        host: String,
+        /// Why.
+        source: rcgen::Error,
+    },
+}
+
+/// Makes what is wanted and not there.
+///
+/// # Errors
+///
+/// See [`KeysError`]. What was made before stays.
+pub fn issue(certificates: &Path, wanted: &Wanted<'_>) -> Result<Vec<Issued>, KeysError> {
+    let write = |path: &Path| {
+        let path = path.to_owned();
+        move |source| KeysError::Write { path, source }
+    };
+    folder::create(certificates).map_err(write(certificates))?;
+    let own = authority_folder(certificates);
+    let is_new = wanted.replace_authority || !own.exists();
+    if is_new {
+        let (certificate, key) = new_authority(wanted)?;
+        folder::replace(&own, &[(CERTIFICATE, &certificate), (KEY, &key)]).map_err(write(&own))?;
+    }
+    let authority = Authority::read(&own)?;
+    let mut issued = vec![Issued { host: None, expires: Some(authority.expires), folder: own, is_new }];
+    for host in &wanted.hosts {
+        let folder = certificates.join(&host.name);
+        let is_new = wanted.replace_hosts || !folder.exists();
+        if is_new {
+            let (certificate, key) = authority.certify(host, wanted)?;
+            let files = [(AUTHORITY_CERTIFICATE, authority.pem.as_str()), (CERTIFICATE, &certificate), (KEY, &key)];
+            folder::replace(&folder, &files).map_err(write(&folder))?;
+        }
+        let text = fs::read_to_string(folder.join(CERTIFICATE)).unwrap_or_default();
+        let expires = Certificate::read(&text).map(|it| it.not_after);
+        issued.push(Issued { host: Some(host.name.clone()), folder, is_new, expires });
+    }
+    Ok(issued)
+}
+
+/// The authority in use.
+struct Authority {
+    pem: String,
+    issuer: Issuer<'static, KeyPair>,
+    expires: SystemTime,
+}
+
+impl Authority {
+    fn read(folder: &Path) -> Result<Self, KeysError> {
+        let damaged = |reason: &str| KeysError::Authority { folder: folder.to_owned(), reason: reason.to_owned() };
+        let read = |name: &str| {
+            let text = fs::read_to_string(folder.join(name));
+            text.map_err(|error| damaged(&format!("`{name}`: {error}")))
+        };
+        let pem = read(CERTIFICATE)?;
+        let key = folder.join(KEY);
+        if !key.exists() {
+            return Err(KeysError::NoAuthorityKey { path: key });
+        }
+        let key = KeyPair::from_pem(&read(KEY)?).map_err(|_| damaged("`key.pem` is not a private key in PEM"))?;
+        let certificate =
+            Certificate::read(&pem).ok_or_else(|| damaged("`certificate.pem` is not a certificate in PEM"))?;
+        if certificate.public_key != key.public_key_raw() {
+            return Err(damaged("its key does not belong to its certificate"));
+        }
+        // The library needs no more of the certificate than this, which is all that `new_authority` chooses.
+        let issuer = Issuer::new(authority_params(&certificate.name), key);
+        Ok(Self { pem, issuer, expires: certificate.not_after })
+    }
+
+    fn certify(&self, host: &Host, wanted: &Wanted<'_>) -> Result<(String, String), KeysError> {
+        let failed = |source| KeysError::Certificate { host: host.name.clone(), source };
+        let mut params = CertificateParams::new(vec![host.address.clone()]).map_err(failed)?;
+        params.distinguished_name = common_name(&host.name);
+        params.key_usages = vec![KeyUsagePurpose::DigitalSignature];
+        params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ServerAuth, ExtendedKeyUsagePurpose::ClientAuth];
+        params.use_authority_key_identifier_extension = true;
+        let expires = (wanted.now + days(wanted.days)).min(self.expires);
+        set_validity(&mut params, wanted.now, expires);
+        let key = KeyPair::generate().map_err(failed)?;
+        let certificate = params.signed_by(&key, &self.issuer).map_err(failed)?;
+        Ok((certificate.pem(), key.serialize_pem()))
+    }
+}
+
+fn new_authority(wanted: &Wanted<'_>) -> Result<(String, String), KeysError> {
+    let failed = |source| KeysError::Certificate { host: "authority".to_owned(), source };
+    let mut params = authority_params(&format!("SCL system {}", wanted.system));
+    set_validity(&mut params, wanted.now, wanted.now + days(wanted.days.max(AUTHORITY_DAYS)));
+    let key = KeyPair::generate().map_err(failed)?;
+    let certificate = params.self_signed(&key).map_err(failed)?;
+    Ok((certificate.pem(), key.serialize_pem()))
+}
+
+fn authority_params(name: &str) -> CertificateParams {
+    let mut params = CertificateParams::default();
+    params.distinguished_name = common_name(name);
+    // It signs certificates of hosts, and no other authorities.
+    params.is_ca = IsCa::Ca(BasicConstraints::Constrained(0));
+    params.key_usages = vec![KeyUsagePurpose::KeyCertSign];
+    params
+}
+
+fn common_name(name: &str) -> DistinguishedName {
+    let mut names = DistinguishedName::new();
+    names.push(DnType::CommonName, name);
+    names
+}
+
+fn set_validity(params: &mut CertificateParams, now: SystemTime, expires: SystemTime) {
+    let epoch = rcgen::date_time_ymd(1970, 1, 1);
+    let since_epoch = |time: SystemTime| time.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+    params.not_before = epoch + since_epoch(now).saturating_sub(EARLIER);
+    params.not_after = epoch + since_epoch(expires);
+}
+
+fn days(days: u32) -> Duration {
+    Duration::from_secs(u64::from(days) * 24 * 3600)
+}

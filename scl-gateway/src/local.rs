@@ -1,0 +1,137 @@
+//! The side of the gateway that faces the components of its own host.
+//!
+//! The gateway announces the components that run here to the other hosts, shows those that run there in the runtime
+//! folder of this host, and has one task per route that carries messages or requests, see [`pump`](crate::pump). It needs a
+//! tokio runtime, of which a current-thread one is enough; no task ever blocks.
+
+mod announcing;
+mod mirroring;
+mod neighbours;
+mod routes;
+mod slot;
+
+pub(crate) use announcing::Run;
+pub(crate) use mirroring::full_text;
+pub(crate) use slot::{Held, View};
+
+use crate::pump::Counts;
+use crate::route::Route;
+use crate::wire::Wire;
+use announcing::announce;
+use mirroring::mirror;
+use scl::Medium;
+use scl::bridge::{Change, Mirror, Presence};
+use scl::runtime_dir::SystemDir;
+use slot::Slot;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+use tokio::sync::mpsc::{self, UnboundedSender};
+use tokio::task::JoinSet;
+
+/// What a gateway serves.
+#[derive(Debug, Clone)]
+pub struct GatewayOptions {
+    /// The folder of the system on this host.
+    pub dir: SystemDir,
+    /// What the ends listen on that stand in for components of other hosts.
+    pub medium: Medium,
+    /// This host.
+    pub host: String,
+    /// The host of each component of the system.
+    pub components: BTreeMap<String, String>,
+    /// The routes that begin or end here.
+    pub routes: Vec<Route>,
+}
+
+/// A gateway at work.
+#[derive(Debug)]
+pub struct Gateway {
+    wire: Arc<Wire>,
+    routes: Vec<(String, Arc<Counts>)>,
+    /// Aborted when dropped: first the routes with their ends, then what shows and announces components.
+    pumps: JoinSet<()>,
+    tasks: JoinSet<()>,
+}
+
+/// What a route has carried so far.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RouteFigures {
+    /// The route's key.
+    pub key: String,
+    /// Messages or requests that the far side has taken or answered.
+    pub carried: u64,
+    /// Messages or requests of which it is unknown whether the far side has taken them.
+    pub given_up: u64,
+    /// Messages or requests that are in this gateway now.
+    pub held: u64,
+}
+
+impl Gateway {
+    /// Starts the gateway. Called inside a tokio runtime. Returns at once; other hosts and components may come later.
+    pub fn start(options: GatewayOptions, wire: Wire) -> Self {
+        let wire = Arc::new(wire);
+        let mut tasks = JoinSet::new();
+        let (mut runs, mut mirrors) = (HashMap::new(), HashMap::new());
+        let (mut changes, mut remotes) = (HashMap::new(), HashMap::new());
+        for (component, host) in &options.components {
+            if *host == options.host {
+                let (slot, (sender, receiver)) = (Slot::<Run>::new(), mpsc::unbounded_channel());
+                runs.insert(component.clone(), slot.view());
+                changes.insert(component.clone(), sender);
+                tasks.spawn(announce(Arc::clone(&wire), receiver, slot));
+            } else {
+                let (slot, (sender, receiver)) = (Slot::<Mirror>::new(), mpsc::unbounded_channel());
+                mirrors.insert(component.clone(), slot.view());
+                remotes.insert(component.clone(), sender);
+                tasks.spawn(mirror(options.dir.clone(), component.clone(), receiver, slot));
+            }
+        }
+        let (pumps, routes) = routes::start(&options, &wire, &runs, &mirrors);
+        tasks.spawn(follow_components(Presence::new(options.dir.clone(), runs.into_keys()), changes));
+        tasks.spawn(neighbours::follow(Arc::clone(&wire), remotes));
+        Self { wire, routes, pumps, tasks }
+    }
+
+    /// What the routes have carried so far, in the order of the options.
+    pub fn figures(&self) -> Vec<RouteFigures> {
+        let figures = |(key, counts): &(String, Arc<Counts>)| RouteFigures {
+            key: key.clone(),
+            carried: counts.carried(),
+            given_up: counts.given_up(),
+            held: counts.held(),
+        };
+        self.routes.iter().map(figures).collect()
+    }
+
+    /// Writes a line into the log for each route that has carried something.
+    pub fn log_figures(&self) {
+        for (key, counts) in &self.routes {
+            if counts.carried() + counts.given_up() + counts.held() > 0 {
+                tracing::info!("{key}: {counts}");
+            }
+        }
+    }
+
+    /// Ends the gateway: its ends are closed, components of other hosts vanish from the runtime folder, and the other hosts
+    /// are told.
+    pub async fn close(mut self) {
+        self.log_figures();
+        self.pumps.shutdown().await;
+        self.tasks.shutdown().await;
+        if let Ok(wire) = Arc::try_unwrap(self.wire) {
+            wire.close().await;
+        }
+    }
+}
+
+type Changes = HashMap<String, UnboundedSender<Change>>;
+
+async fn follow_components(mut presence: Presence, changes: Changes) {
+    loop {
+        let change = presence.next().await;
+        let (Change::Started { component, .. } | Change::Stopped { component }) = &change;
+        if let Some(changes) = changes.get(component) {
+            let _the_gateway_ends = changes.send(change);
+        }
+    }
+}

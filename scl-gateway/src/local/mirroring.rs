@@ -1,0 +1,98 @@
+//! One component of another host: shown in the runtime folder of this host while it runs there.
+
+use super::slot::Slot;
+use bytes::Bytes;
+use scl::bridge::{Mirror, Profile};
+use scl::runtime_dir::SystemDir;
+use std::error::Error;
+use std::time::Duration;
+use tokio::sync::mpsc::UnboundedReceiver;
+
+/// How soon to try again while the component runs on this host as well, or the runtime folder cannot be used.
+const RETRY: Duration = Duration::from_secs(1);
+
+/// What another host says about a component.
+#[derive(Debug)]
+pub(crate) enum Remote {
+    /// It runs there, and says this of itself.
+    Started { host: String, content: Bytes },
+    /// It has stopped, or its host is not connected any more.
+    Stopped { host: String },
+}
+
+/// Shows the runs of a component, one after the other.
+pub(crate) async fn mirror(
+    dir: SystemDir,
+    component: String,
+    mut remote: UnboundedReceiver<Remote>,
+    mut slot: Slot<Mirror>,
+) {
+    let mut wanted: Option<(String, Profile)> = None;
+    let mut failure = None;
+    loop {
+        let waits = wanted.is_some() && slot.is_empty();
+        let next = tokio::select! {
+            next = remote.recv() => next,
+            () = tokio::time::sleep(RETRY), if waits => {
+                show(&dir, &component, wanted.as_ref(), &mut slot, &mut failure);
+                continue;
+            }
+        };
+        match next {
+            None => return,
+            Some(Remote::Started { host, content }) => {
+                slot.clear().await;
+                tracing::info!("component `{component}` has started on host `{host}`");
+                wanted = match Profile::from_bytes(content) {
+                    Ok(profile) => Some((host, profile)),
+                    Err(error) => {
+                        tracing::error!(host, "cannot show component `{component}` here: {error}");
+                        None
+                    }
+                };
+                failure = None;
+                show(&dir, &component, wanted.as_ref(), &mut slot, &mut failure);
+            }
+            Some(Remote::Stopped { host }) => {
+                if wanted.take().is_some() {
+                    tracing::info!(
+                        "component `{component}` has stopped on host `{host}`, or that host is not connected"
+                    );
+                }
+                slot.clear().await;
+            }
+        }
+    }
+}
+
+/// Shows the component if that is possible now. A failure is logged when it is another than before.
+fn show(
+    dir: &SystemDir,
+    component: &str,
+    wanted: Option<&(String, Profile)>,
+    slot: &mut Slot<Mirror>,
+    failure: &mut Option<String>,
+) {
+    let Some((host, profile)) = wanted else { return };
+    match Mirror::open(dir, component, host, profile) {
+        Ok(mirror) => slot.put(mirror),
+        Err(error) => {
+            let text = full_text(&error);
+            if failure.as_ref() != Some(&text) {
+                tracing::error!("cannot show component `{component}` of host `{host}` here: {text}");
+                *failure = Some(text);
+            }
+        }
+    }
+}
+
+/// An error with its causes.
+pub(crate) fn full_text(error: &dyn Error) -> String {
+    let mut text = error.to_string();
+    let mut source = error.source();
+    while let Some(cause) = source {
+        text = format!("{text}: {cause}");
+        source = cause.source();
+    }
+    text
+}

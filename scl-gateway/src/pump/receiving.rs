@@ -1,0 +1,261 @@
+//! Messages that arrive at this host.
+
+use super::Counts;
+use super::local_end::{Attempts, Timer, names, window};
+use crate::local::{Held, Run, View};
+use crate::route::Route;
+use crate::wire::{ReceiverEvent, WireReceiver};
+use scl::bridge::Mirror;
+use scl::transport::zeromq::ZeroMq;
+use scl::transport::{Endpoint, Frame, Link, PeerKind, Sender, Transport};
+use std::collections::VecDeque;
+use std::future::poll_fn;
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use std::time::Duration;
+
+/// For how long the component here may take what has arrived, after the far one has ended.
+const DRAIN_LIMIT: Duration = Duration::from_secs(1);
+
+/// Carries the messages of a route from the wire to the receiving component of this host.
+pub(crate) struct Receiving {
+    pub(crate) route: Route,
+    pub(crate) wire: WireReceiver,
+    /// The publisher, in whose place the local end is opened; `None` for pushers, which are nobody in particular.
+    pub(crate) mirror: Option<View<Mirror>>,
+    /// The receiving component here.
+    pub(crate) component: View<Run>,
+    pub(crate) transport: Arc<ZeroMq>,
+    pub(crate) counts: Arc<Counts>,
+    pub(crate) state: State,
+}
+
+#[derive(Default)]
+pub(crate) struct State {
+    matched: bool,
+    /// Whether the far side sees this one: since the component has connected. What is not acknowledged then is known to be
+    /// missing, so it stays so while only the link between the hosts is lost.
+    open: bool,
+    local: Option<Local>,
+    attempts: Attempts,
+    /// Messages that the component has not taken from this gateway.
+    queue: VecDeque<Frame>,
+    /// Messages given to links since this side was opened, and those among them that the component has taken.
+    handed: u64,
+    confirmed: u64,
+    flush: bool,
+}
+
+/// Dropped in this order: the mirror must outlive its ends.
+struct Local {
+    link: Option<Box<dyn Link>>,
+    sender: Box<dyn Sender>,
+    mirror: Option<Held<Mirror>>,
+    /// Since the mirror was withdrawn.
+    limit: Timer,
+    /// Number and length of the messages handed since the component was asked to acknowledge.
+    unasked: (u64, u64),
+}
+
+impl Receiving {
+    /// Runs until the gateway ends.
+    pub(crate) async fn run(mut self) {
+        let (mut mirror, mut component) = (self.mirror.clone(), self.component.clone());
+        loop {
+            let mirror_changes = async {
+                match &mut mirror {
+                    Some(mirror) => mirror.changed().await,
+                    None => std::future::pending().await,
+                }
+            };
+            let alive = tokio::select! {
+                changed = mirror_changes => changed.is_ok(),
+                changed = component.changed() => {
+                    self.forget_component();
+                    changed.is_ok()
+                }
+                () = poll_fn(|cx| self.poll(cx)) => false,
+            };
+            if !alive {
+                return;
+            }
+        }
+    }
+
+    /// Does what can be done now. Never ready.
+    fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        while let Poll::Ready(event) = self.wire.poll_event(cx) {
+            match event {
+                ReceiverEvent::Matched => self.state.matched = true,
+                ReceiverEvent::Unmatched => self.state.matched = false,
+                // Never more than a window, because none is acknowledged earlier.
+                ReceiverEvent::Message(message) => self.state.queue.push_back(message.into()),
+                ReceiverEvent::AcknowledgementRequested => self.state.flush = true,
+            }
+        }
+        self.close_if_done(cx);
+        self.open(cx);
+        self.connect(cx);
+        self.carry(cx);
+        self.ask(cx);
+        self.confirm();
+        self.counts.set_held(self.state.pending());
+        Poll::Pending
+    }
+
+    /// The component has ended or started. If it is not connected, it will not take what it was to get.
+    fn forget_component(&mut self) {
+        if self.state.local.as_ref().is_none_or(|local| local.link.is_none()) {
+            self.end_epoch();
+        }
+    }
+
+    /// Closes the local end when the far side is not there and the component has taken everything.
+    fn close_if_done(&mut self, cx: &mut Context<'_>) {
+        let state = &mut self.state;
+        let pending = state.pending();
+        let Some(local) = &mut state.local else { return };
+        let is_shown = match (&self.mirror, &local.mirror) {
+            (Some(view), Some(mirror)) => view.borrow().as_ref().is_some_and(|now| now.is_same(mirror)),
+            _ => true,
+        };
+        if !is_shown {
+            local.limit.start(DRAIN_LIMIT);
+        }
+        if (pending == 0 && !(state.matched && is_shown)) || local.limit.is_over(cx) {
+            if pending > 0 {
+                self.end_epoch();
+            }
+            self.state.local = None;
+        }
+    }
+
+    fn open(&mut self, cx: &mut Context<'_>) {
+        let state = &mut self.state;
+        if state.local.is_some() || !(state.matched || state.pending() > 0) {
+            return;
+        }
+        let (route, transport) = (&self.route, &self.transport);
+        let (component, gate) = names(&route.from);
+        let opened = match &self.mirror {
+            Some(view) => {
+                let Some(mirror) = view.borrow().clone() else { return };
+                let sender = state
+                    .attempts
+                    .open(cx, route, || Ok(transport.publish(&mirror.publishing(gate, names(&route.to))?)?));
+                debug_assert!(!component.is_empty(), "a publisher has a name");
+                sender.map(|sender| (sender, Some(mirror)))
+            }
+            // Without a component to connect to, nothing is tried.
+            None if self.component.borrow().is_none() => return,
+            None => {
+                let mut endpoint = Endpoint::new(route.endpoint.clone());
+                (endpoint.lossless, endpoint.queue) = (route.lossless, route.queue as usize);
+                state.attempts.open(cx, route, || Ok(transport.push(&endpoint)?)).map(|sender| (sender, None))
+            }
+        };
+        let local = |(sender, mirror)| Local { link: None, sender, mirror, limit: Timer::default(), unasked: (0, 0) };
+        state.local = opened.map(local);
+    }
+
+    /// Accepts the component, and notices that it is gone.
+    fn connect(&mut self, cx: &mut Context<'_>) {
+        loop {
+            while let Some(Poll::Ready(peer)) = self.state.local.as_mut().map(|local| local.sender.poll_peer(cx)) {
+                let is_connected = self.state.local.as_ref().is_some_and(|local| local.link.is_some());
+                // A plain ZeroMQ program is served in the component's place, not beside it.
+                if is_connected && peer.kind == PeerKind::Foreign {
+                    continue;
+                }
+                self.lose_link();
+                self.begin_epoch();
+                if let Some(local) = &mut self.state.local {
+                    (local.link, local.unasked) = (Some(peer.link), (0, 0));
+                }
+            }
+            let link = self.state.local.as_mut().and_then(|local| local.link.as_mut());
+            match link.map(|link| link.drive(cx)) {
+                Some(Err(_)) => self.lose_link(),
+                _ => return,
+            }
+        }
+    }
+
+    fn lose_link(&mut self) {
+        let Some(local) = &mut self.state.local else { return };
+        if let Some(link) = local.link.take() {
+            // What the component has acknowledged at last still counts.
+            let confirmed = self.state.handed - link.unacknowledged();
+            self.tell(confirmed);
+            drop(link);
+            self.end_epoch();
+        }
+    }
+
+    fn begin_epoch(&mut self) {
+        if !std::mem::replace(&mut self.state.open, true) {
+            self.wire.set_open(true);
+        }
+    }
+
+    /// What the component has not taken is given up by the far side, which knows how much that is.
+    fn end_epoch(&mut self) {
+        let state = &mut self.state;
+        if !std::mem::replace(&mut state.open, false) {
+            return;
+        }
+        let unknown = state.pending();
+        if unknown > 0 {
+            tracing::debug!(route = %self.route.key, "{unknown} messages were not taken; the far gateway gives them up");
+        }
+        state.queue.clear();
+        (state.handed, state.confirmed, state.flush) = (0, 0, false);
+        self.wire.set_open(false);
+    }
+
+    fn carry(&mut self, cx: &mut Context<'_>) {
+        let state = &mut self.state;
+        let Some(Local { link: Some(link), unasked, .. }) = &mut state.local else { return };
+        let handed = &mut state.handed;
+        link.send_all(cx, &mut state.queue, &mut |length| {
+            *handed += 1;
+            *unasked = (unasked.0 + 1, unasked.1 + length as u64);
+        });
+    }
+
+    /// Asks the component to acknowledge when half of the window is on its way, at a flush, and before the end is closed.
+    fn ask(&mut self, cx: &mut Context<'_>) {
+        let state = &mut self.state;
+        let window = window(&self.route);
+        let Some(Local { link: Some(link), unasked, .. }) = &mut state.local else { return };
+        let is_due = 2 * unasked.0 >= window.messages || 2 * unasked.1 >= window.bytes;
+        let is_last = state.queue.is_empty() && (state.flush || !state.matched);
+        if unasked.0 > 0 && (is_due || is_last) {
+            link.request_acknowledgement(cx);
+            *unasked = (0, 0);
+        }
+        state.flush &= !state.queue.is_empty();
+    }
+
+    fn confirm(&mut self) {
+        if let Some(Local { link: Some(link), .. }) = &self.state.local {
+            let confirmed = self.state.handed - link.unacknowledged();
+            self.tell(confirmed);
+        }
+    }
+
+    fn tell(&mut self, confirmed: u64) {
+        if confirmed > self.state.confirmed {
+            self.counts.add_carried(confirmed - self.state.confirmed);
+            self.state.confirmed = confirmed;
+            self.wire.acknowledge(confirmed);
+        }
+    }
+}
+
+impl State {
+    /// Number of messages that the component has not taken, as far as is known.
+    fn pending(&self) -> u64 {
+        self.queue.len() as u64 + self.handed - self.confirmed
+    }
+}

@@ -1,0 +1,221 @@
+//! Messages that leave this host.
+
+use super::Counts;
+use super::local_end::{Attempts, BATCH, Timer, end_name, names, window};
+use crate::local::{Held, Run, View};
+use crate::route::Route;
+use crate::wire::{SenderEvent, WireSender};
+use scl::bridge::Mirror;
+use scl::transport::zeromq::ZeroMq;
+use scl::transport::{Receiver, Transport};
+use std::future::poll_fn;
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use std::time::Duration;
+
+/// How long a sending component may take to stop sending before the local end is closed all the same. Only one that
+/// hangs, or an old release, takes so long; what it sends meanwhile counts as lost there.
+const FINISH_LIMIT: Duration = Duration::from_secs(1);
+/// For how long a publisher that has ended is shown to the far host because its last messages are on their way.
+const DRAIN_LIMIT: Duration = Duration::from_secs(2);
+
+/// Carries the messages of a route from components of this host to the wire.
+pub(crate) struct Sending {
+    pub(crate) route: Route,
+    pub(crate) wire: WireSender,
+    /// The far component, in whose place the local end is opened.
+    pub(crate) mirror: View<Mirror>,
+    /// The publisher here; `None` for pushers, which connect to the local end.
+    pub(crate) publisher: Option<View<Run>>,
+    pub(crate) transport: Arc<ZeroMq>,
+    pub(crate) counts: Arc<Counts>,
+    pub(crate) state: State,
+}
+
+#[derive(Default)]
+pub(crate) struct State {
+    matched: bool,
+    /// The publisher's run that the far host knows, and for how long still after it has ended.
+    run: Option<Held<Run>>,
+    draining: Timer,
+    local: Option<Local>,
+    attempts: Attempts,
+    /// Messages taken from components here, those taken by the far component or given up, and those acknowledged to
+    /// components here.
+    sent: u64,
+    settled: u64,
+    told: u64,
+}
+
+/// Dropped in this order: the mirror must outlive its ends.
+struct Local {
+    receiver: Box<dyn Receiver>,
+    mirror: Held<Mirror>,
+    finishing: bool,
+    limit: Timer,
+}
+
+impl Sending {
+    /// Runs until the gateway ends.
+    pub(crate) async fn run(mut self) {
+        if self.publisher.is_none() {
+            self.wire.set_open(true);
+        }
+        let mut mirror = self.mirror.clone();
+        let mut publisher = self.publisher.clone();
+        loop {
+            let publisher_changes = async {
+                match &mut publisher {
+                    Some(publisher) => publisher.changed().await,
+                    None => std::future::pending().await,
+                }
+            };
+            let alive = tokio::select! {
+                changed = mirror.changed() => changed.is_ok(),
+                changed = publisher_changes => changed.is_ok(),
+                () = poll_fn(|cx| self.poll(cx)) => false,
+            };
+            if !alive {
+                return;
+            }
+        }
+    }
+
+    /// Does what can be done now. Never ready.
+    fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        while let Poll::Ready(event) = self.wire.poll_event(cx) {
+            self.handle(event);
+        }
+        self.follow_publisher();
+        self.open_or_finish(cx);
+        self.carry(cx);
+        self.close_if_finished(cx);
+        self.end_run_if_drained(cx);
+        self.counts.set_held(self.state.sent - self.state.settled);
+        Poll::Pending
+    }
+
+    fn handle(&mut self, event: SenderEvent) {
+        match event {
+            SenderEvent::Matched => self.state.matched = true,
+            SenderEvent::Unmatched => self.state.matched = false,
+            SenderEvent::Acknowledged(number) => {
+                self.counts.add_carried(number.saturating_sub(self.state.settled));
+                self.settle(number);
+            }
+            SenderEvent::GivenUp(count) => {
+                self.counts.add_given_up(count);
+                let (from, to) = (end_name(&self.route.from), end_name(&self.route.to));
+                tracing::warn!("{count} messages from {from} to {to} were on their way when {to} was lost; given up");
+                self.settle(self.state.settled + count);
+            }
+            SenderEvent::Credit => {}
+        }
+    }
+
+    /// The far component has taken everything up to a number, or that was given up.
+    fn settle(&mut self, number: u64) {
+        let state = &mut self.state;
+        state.settled = state.settled.max(number).min(state.sent);
+        if state.settled > state.told {
+            if let Some(local) = &mut state.local {
+                local.receiver.acknowledge(state.settled - state.told);
+            }
+            state.told = state.settled;
+        }
+    }
+
+    /// Shows the far host that the publisher runs.
+    fn follow_publisher(&mut self) {
+        let Some(publisher) = &self.publisher else { return };
+        let now = publisher.borrow().clone();
+        match (&self.state.run, now) {
+            (None, Some(run)) => {
+                self.state.run = Some(run);
+                self.wire.set_open(true);
+            }
+            (Some(_), None) => self.state.draining.start(DRAIN_LIMIT),
+            _ => {}
+        }
+    }
+
+    fn open_or_finish(&mut self, cx: &mut Context<'_>) {
+        let state = &mut self.state;
+        let mirror = self.mirror.borrow().clone().filter(|_| state.matched);
+        let mirror = mirror.filter(|_| self.publisher.is_none() || state.run.is_some());
+        match (&mut state.local, mirror) {
+            (None, Some(mirror)) => {
+                let (route, transport) = (&self.route, &self.transport);
+                let receiver = state.attempts.open(cx, route, || {
+                    let (gate, window) = (names(&route.to).1, window(route));
+                    Ok(match names(&route.from) {
+                        ("", _) => transport.pull(&mirror.pulling(gate, window)?)?,
+                        publisher => transport.subscribe(&mirror.subscribing(gate, publisher, window)?)?,
+                    })
+                });
+                let local = |receiver| Local { receiver, mirror, finishing: false, limit: Timer::default() };
+                state.local = receiver.map(local);
+            }
+            (Some(local), mirror) => {
+                let is_wanted = mirror.is_some_and(|mirror| mirror.is_same(&local.mirror));
+                if !is_wanted && !std::mem::replace(&mut local.finishing, true) {
+                    local.receiver.finish();
+                    local.limit.start(FINISH_LIMIT);
+                }
+            }
+            (None, None) => {}
+        }
+    }
+
+    /// Takes what fits into the window. While the local end finishes, everything: no more than one window is on its way.
+    fn carry(&mut self, cx: &mut Context<'_>) {
+        let Some(local) = &mut self.state.local else { return };
+        let mut taken = 0;
+        while local.finishing || self.wire.may_send(0) {
+            if taken == BATCH {
+                cx.waker().wake_by_ref();
+                break;
+            }
+            let Poll::Ready(message) = local.receiver.poll_recv(cx) else { break };
+            self.state.sent += 1;
+            self.wire.send(message);
+            taken += 1;
+        }
+        if local.receiver.take_acknowledgement_request() {
+            self.wire.request_acknowledgement();
+        }
+    }
+
+    /// Closes the local end when nothing is on its way into it. From then on its messages are in this gateway's custody.
+    fn close_if_finished(&mut self, cx: &mut Context<'_>) {
+        let state = &mut self.state;
+        let Some(local) = state.local.as_mut().filter(|local| local.finishing) else { return };
+        if local.receiver.is_finished() || local.limit.is_over(cx) {
+            local.receiver.acknowledge(state.sent - state.told);
+            state.told = state.sent;
+            state.local = None;
+            // There may be another mirror already.
+            cx.waker().wake_by_ref();
+        }
+    }
+
+    /// Tells the far host that the publisher has ended, once everything that it sent has arrived.
+    fn end_run_if_drained(&mut self, cx: &mut Context<'_>) {
+        let state = &mut self.state;
+        let has_ended = state.run.is_some() && self.publisher.as_ref().is_some_and(|view| view.borrow().is_none());
+        if !has_ended {
+            return;
+        }
+        let is_read = state.local.as_ref().is_none_or(|local| local.receiver.peers() == 0);
+        if (is_read && self.wire.unacknowledged() == 0) || state.draining.is_over(cx) {
+            state.draining.stop();
+            state.local = None;
+            state.run = None;
+            self.wire.set_open(false);
+            // The publisher may run again already.
+            cx.waker().wake_by_ref();
+        } else if is_read {
+            self.wire.request_acknowledgement();
+        }
+    }
+}

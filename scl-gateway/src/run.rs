@@ -1,0 +1,138 @@
+//! `scl gateway run`: the gateway of a host, until it is told to stop.
+
+use crate::files::{FileArguments, check_certificates, find_host, show};
+use crate::log;
+use crate::notify::notify;
+use clap::Args;
+use scl::runtime_dir::{RuntimeDir, SystemDir};
+use scl::{Medium, MediumChoice};
+use scl_gateway::deployment::{Host, System};
+use scl_gateway::keys::HostFiles;
+use scl_gateway::local::{Gateway, GatewayOptions};
+use scl_gateway::route::{Route, routes};
+use scl_gateway::wire::{Peer, TlsFiles, Wire, WireOptions};
+use scl_terminal::Problem;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use tokio::signal::unix::{SignalKind, signal};
+
+/// Run the gateway of a host until SIGTERM or SIGINT.
+///
+/// `scl run --host` starts it by itself.
+#[derive(Args)]
+pub(crate) struct RunArguments {
+    #[command(flatten)]
+    files: FileArguments,
+    /// The host on which it runs.
+    #[arg(long, value_name = "HOST")]
+    host: String,
+    /// The runtime folder of the components, as in `SCL_RUNTIME_DIR`.
+    #[arg(long, value_name = "FOLDER")]
+    runtime_dir: Option<PathBuf>,
+}
+
+/// The body of `scl gateway run`.
+pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
+    match try_run(arguments) {
+        Some(()) => ExitCode::SUCCESS,
+        None => ExitCode::from(2),
+    }
+}
+
+/// Problems are shown and `None` is returned.
+fn try_run(arguments: &RunArguments) -> Option<()> {
+    shown(log::start())?;
+    let system = arguments.files.load()?;
+    let host = find_host(&system, &arguments.host)?;
+    let certificates = check_certificates(&system, host).ok()?;
+    let dir = shown(system_dir(arguments, &system))?;
+    let medium = shown(medium())?;
+    let routes = routes(&system.plan, &system.deployment, &host.name);
+    let wire = wire_options(&system, host, certificates, &routes);
+    let options =
+        GatewayOptions { dir, medium, host: host.name.clone(), components: system.hosts_of_components(), routes };
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
+    let runtime = shown(runtime.map_err(|error| Problem::new(format!("cannot start the runtime: {error}"))))?;
+    shown(runtime.block_on(serve(wire, options)))
+}
+
+async fn serve(wire: WireOptions, options: GatewayOptions) -> Result<(), Problem> {
+    let signals = |error| Problem::new(format!("cannot handle signals: {error}"));
+    let mut terminate = signal(SignalKind::terminate()).map_err(signals)?;
+    let mut interrupt = signal(SignalKind::interrupt()).map_err(signals)?;
+    let status = match (&wire.listen, wire.peers.as_slice()) {
+        (Some(address), [_, ..]) => format!("STATUS=listening on {address}"),
+        _ => "STATUS=no connection crosses to another host".to_owned(),
+    };
+    let wire = Wire::open(wire).await.map_err(|error| problem_of(&error))?;
+    let gateway = Gateway::start(options, wire);
+    notify(&format!("{status}\nREADY=1"));
+    tokio::select! {
+        _ = terminate.recv() => {}
+        _ = interrupt.recv() => {}
+    }
+    notify("STOPPING=1");
+    gateway.close().await;
+    Ok(())
+}
+
+fn wire_options(system: &System, host: &Host, files: Option<HostFiles>, routes: &[Route]) -> WireOptions {
+    let shares_routes = |other: &&Host| routes.iter().any(|it| it.from.host == other.name || it.to.host == other.name);
+    let others = system.deployment.hosts.iter().filter(|other| other.name != host.name).filter(shares_routes);
+    let peer = |other: &Host| Peer { host: other.name.clone(), address: Some(other.socket_address()) };
+    let tls =
+        files.map(|files| TlsFiles { authority: files.authority, certificate: files.certificate, key: files.key });
+    WireOptions {
+        system: system.plan.system.clone(),
+        host: host.name.clone(),
+        listen: Some(host.socket_address()),
+        peers: others.map(peer).collect(),
+        tls,
+        insecure: system.deployment.insecure,
+        routes: routes.to_vec(),
+        components: system.hosts_of_components(),
+    }
+}
+
+/// The folder where the components of this host meet.
+fn system_dir(arguments: &RunArguments, system: &System) -> Result<SystemDir, Problem> {
+    let own = arguments.runtime_dir.as_ref().map(|folder| folder.clone().into_os_string());
+    let variable = |name: &str| match (name, &own) {
+        ("SCL_RUNTIME_DIR", Some(folder)) => Some(folder.clone()),
+        _ => std::env::var_os(name),
+    };
+    let name = std::env::var("SCL_SYSTEM").ok().filter(|name| !name.is_empty());
+    let name = name.unwrap_or_else(|| system.plan.system.clone());
+    let dir = RuntimeDir::locate(&variable).and_then(|dir| dir.system(&name));
+    dir.map_err(|error| Problem::new(scl::host::text_with_causes(&error)))
+}
+
+/// What the ends listen on that stand in for components of other hosts. What is chosen for single gates, and shared memory,
+/// does not concern connections to other hosts.
+fn medium() -> Result<Medium, Problem> {
+    let value = std::env::var_os("SCL_TRANSPORT").unwrap_or_default();
+    let text = value.to_string_lossy();
+    if let Err(error) = text.parse::<MediumChoice>()
+        && !text.is_empty()
+    {
+        return Err(Problem::new(format!("`SCL_TRANSPORT` is not understood: {error}")));
+    }
+    match text.split(',').map(str::trim).rfind(|entry| !entry.contains('=')) {
+        Some("tcp") => Ok(Medium::Tcp),
+        _ => Ok(Medium::Ipc),
+    }
+}
+
+fn problem_of(error: &dyn std::error::Error) -> Problem {
+    let text = scl::host::text_with_causes(error);
+    let mut lines = text.lines();
+    let mut problem = Problem::new(lines.next().unwrap_or_default());
+    for line in lines {
+        problem = problem.help(line.trim_start().trim_start_matches("help: "));
+    }
+    problem
+}
+
+fn shown<T>(result: Result<T, Problem>) -> Option<T> {
+    result.map_err(|problem| show(&problem)).ok()
+}

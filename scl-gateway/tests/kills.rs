@@ -1,0 +1,134 @@
+//! Gateways and components that are killed (SIGKILL) and started again.
+
+use crate::accounts::{Account, CONNECTIONS, Connection, JOBS, LOSSLESS};
+use crate::control_loop::Reference;
+use crate::fleet::Fleet;
+use crate::long::short_or_long;
+use std::time::Instant;
+
+/// Per kill and connection: what a gateway may have in its hands, whose fate nobody knows after that. The window is 64.
+const IN_HAND: u64 = 64;
+
+#[test]
+fn a_gateway_that_is_killed_where_messages_come_from() {
+    check("board");
+}
+
+#[test]
+fn a_gateway_that_is_killed_where_messages_go() {
+    check("ground");
+}
+
+fn check(host: &str) {
+    let kills = short_or_long(5, 100);
+    let mut fleet = Fleet::start();
+    fleet.send_all();
+    fleet.player("sink").answer_to_next("lossless");
+    let reference = Reference::start(&mut fleet);
+    let mut longest = std::time::Duration::ZERO;
+    for _ in 0..kills {
+        fleet.kill_gateway(host);
+        fleet.start_gateway(host);
+        let started = Instant::now();
+        for gate in ["control", "lossless", "jobs", "readings"] {
+            fleet.player("sink").answer_to_next(gate);
+        }
+        longest = longest.max(started.elapsed());
+    }
+    println!("{kills} kills of the gateway of `{host}`: all resumed within {longest:?}");
+    reference.compare(&mut fleet, "during the kills");
+    fleet.stop_all();
+    for connection in CONNECTIONS {
+        let account = fleet.account_after(connection, kills * IN_HAND);
+        println!("{connection:?}: {account:?}");
+        if [LOSSLESS.to, JOBS.to].contains(&connection.to) {
+            assert_eq!(account.dropped, 0, "{connection:?}: {account:?}");
+        }
+    }
+    fleet.still_works();
+}
+
+impl Fleet {
+    /// The account where up to `unknown` messages were in the hands of programs that were killed.
+    #[track_caller]
+    pub(crate) fn account_after(&mut self, connection: Connection, unknown: u64) -> Account {
+        let mut account = self.account(connection);
+        scl_tests::wait_until(&format!("what is left of {connection:?} has arrived"), || {
+            account = self.account(connection);
+            account.received + unknown >= account.published - account.dropped
+        });
+        assert!(account.received <= account.published - account.dropped, "{connection:?}: {account:?}");
+        account
+    }
+}
+
+#[test]
+fn a_receiving_component_that_is_killed() {
+    let mut fleet = Fleet::start();
+    fleet.send_all();
+    fleet.player("sink").answer_to_next("lossless");
+    let reference = Reference::start(&mut fleet);
+    for _ in 0..short_or_long(3, 30) {
+        fleet.kill("sink");
+        fleet.play("sink");
+        let started = Instant::now();
+        for gate in ["control", "lossless", "jobs", "readings"] {
+            fleet.player("sink").answer_to_next(gate);
+        }
+        println!("a new `sink` gets messages within {:?}", started.elapsed());
+    }
+    reference.compare(&mut fleet, "during the kills");
+    fleet.stop_all();
+    for connection in CONNECTIONS {
+        let account = fleet.account(connection);
+        assert!(account.received <= account.published - account.dropped, "{connection:?}: {account:?}");
+    }
+    fleet.still_works();
+}
+
+#[test]
+fn a_sending_component_that_is_killed() {
+    let mut fleet = Fleet::start();
+    for _ in 0..short_or_long(3, 30) {
+        fleet.send_all();
+        fleet.player("sink").answer_to_next("lossless");
+        fleet.kill("source");
+        fleet.play("source");
+        let started = Instant::now();
+        fleet.player("source").ready();
+        println!("a new `source` is ready within {:?}", started.elapsed());
+    }
+    // Of several senders in a row, too, everything came in order.
+    for gate in ["control", "readings", "newest_kept", "lossless", "jobs"] {
+        let report = fleet.player("sink").counts(gate, "report");
+        assert_eq!(["out_of_order", "damaged"].map(|name| report.get(name)), [0, 0], "{gate}: {report:?}");
+    }
+    fleet.still_works();
+}
+
+#[test]
+fn several_components_push_to_another_host() {
+    let mut fleet = Fleet::start();
+    fleet.play("helper").ready();
+    for component in ["source", "helper"] {
+        fleet.player(component).ask("jobs", "send 500 0 300");
+    }
+    let report = fleet.player("sink").wait_for("jobs", "report", |counts| counts.get("count") == 1000);
+    assert_eq!(["out_of_order", "gaps", "damaged"].map(|name| report.get(name)), [0, 0, 0], "{report:?}");
+    fleet.kill("helper");
+    fleet.still_works();
+}
+
+/// With the folder, all sockets and locks are gone. As on one host, programs that start again find each other.
+#[test]
+fn a_runtime_folder_that_is_removed() {
+    for host in ["board", "ground"] {
+        let mut fleet = Fleet::start();
+        fleet.still_works();
+        std::fs::remove_dir_all(fleet.network.host(host).runtime_dir()).unwrap();
+        let component = if host == "board" { "source" } else { "sink" };
+        fleet.kill(component);
+        fleet.play(component).ready();
+        fleet.still_works();
+    }
+}

@@ -1,0 +1,13 @@
+//! How long the tests take.
+//!
+//! By default the faults are short and few, so that all tests take some minutes. With `SCL_TEST_LONG=1` in the environment
+//! they are as long and as many as the gateway promises to survive: half a minute without a network, a hundred kills.
+
+/// The value for short tests or that for long ones.
+pub(crate) fn short_or_long<T>(short: T, long: T) -> T {
+    match std::env::var("SCL_TEST_LONG").as_deref() {
+        Ok("1") => long,
+        Ok(other) => panic!("SCL_TEST_LONG={other}, not `1`"),
+        Err(_) => short,
+    }
+}

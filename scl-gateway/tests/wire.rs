@@ -1,0 +1,10 @@
+//! The wire: several of them in one process, over loopback.
+
+mod certificates;
+mod faults;
+mod messages;
+mod neighbours;
+mod network;
+mod proxy;
+mod requests;
+mod tls;

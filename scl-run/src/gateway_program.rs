@@ -1,0 +1,56 @@
+//! The program `scl-gateway`, which is installed apart from `scl`.
+
+use super::program::Component;
+use scl_terminal::{Problem, print_err};
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The name of its file.
+const PROGRAM: &str = "scl-gateway";
+
+/// Finds it beside the running `scl`, else in the search path.
+///
+/// # Errors
+///
+/// If it is not there.
+pub(crate) fn find() -> Result<PathBuf, Problem> {
+    let own = std::env::current_exe().ok().and_then(|scl| Some(scl.parent()?.to_owned()));
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let mut folders = own.into_iter().chain(std::env::split_paths(&path).filter(|folder| folder.is_absolute()));
+    folders.find_map(|folder| Some(folder.join(PROGRAM)).filter(|file| is_executable(file))).ok_or_else(missing)
+}
+
+/// Lets it check its certificates and the other things that it needs, so that a mistake is reported once and at the start. Later
+/// failures are retried.
+///
+/// # Errors
+///
+/// If it cannot run. It has said why.
+pub(crate) fn check(gateway: &Component) -> Result<(), Vec<Problem>> {
+    let [program, _run, arguments @ ..] = gateway.program.command.as_slice() else { return Ok(()) };
+    let mut command = Command::new(program);
+    command.arg("check").args(arguments).current_dir(&gateway.program.folder);
+    command.envs(gateway.program.environment.iter().cloned()).stdin(Stdio::null()).stdout(Stdio::null());
+    let failed = |problem: Problem| vec![problem.note("nothing was started")];
+    let output = command.output().map_err(|error| failed(cannot_run(program.as_ref(), &error)))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    print_err(&String::from_utf8_lossy(&output.stderr));
+    Err(failed(Problem::new("the gateway cannot run with these files")))
+}
+
+fn is_executable(path: &Path) -> bool {
+    path.metadata().is_ok_and(|it| it.is_file() && it.permissions().mode() & 0o111 != 0)
+}
+
+fn missing() -> Problem {
+    Problem::new(format!("the program `{PROGRAM}` is not installed, which connects the hosts"))
+        .help("install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`")
+        .note("it is looked for beside `scl`, then in PATH")
+}
+
+fn cannot_run(program: &Path, error: &std::io::Error) -> Problem {
+    Problem::new(format!("cannot run `{}`: {error}", program.display()))
+}

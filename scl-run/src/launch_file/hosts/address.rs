@@ -1,0 +1,101 @@
+//! `address`: where the gateway of a host listens, and where the others find it.
+
+use super::super::entry::joined;
+use super::super::keys;
+use super::super::reader::{KeyPath, Reader, likely_key, scalar_text, shown};
+use scl_terminal::Problem;
+use serde_yaml::{Mapping, Value};
+use std::net::{IpAddr, SocketAddr};
+
+/// The longest DNS name.
+const LONGEST: usize = 253;
+
+impl Reader<'_> {
+    pub(super) fn read_address(&mut self, host: &str, keys: &Mapping, at: KeyPath<'_>) -> Option<String> {
+        let Some(value) = keys.get("address") else {
+            let means_it = |key: &str| likely_key(key, keys::HOST) == Some("address");
+            if !keys.keys().filter_map(Value::as_str).any(means_it) {
+                let problem = Problem::new(format!("host `{host}` has no `address`")).at(self.text.place(at));
+                self.problems.push(problem.help("write `address: 192.0.2.10`, as the other hosts reach it"));
+            }
+            return None;
+        };
+        let at = joined(at, "address");
+        let text = scalar_text(value).unwrap_or_default();
+        if let Some(meant) = with_port(&text) {
+            let problem = Problem::new(format!("`address` is an address alone, not {}", shown(value)));
+            self.problems.push(problem.at(self.text.place(&at)).help(format!("write `{meant}`")));
+            return None;
+        }
+        if text.parse().is_ok_and(|address: IpAddr| address.is_unspecified()) {
+            let problem = Problem::new(format!("the other hosts cannot connect to `{text}`")).at(self.text.place(&at));
+            self.problems.push(problem.help("write the address of one of the host's network interfaces"));
+            return None;
+        }
+        if !is_address(&text) {
+            self.wrong_value(&at, value);
+            return None;
+        }
+        Some(text)
+    }
+}
+
+fn is_address(text: &str) -> bool {
+    text.parse::<IpAddr>().is_ok() || is_dns_name(text)
+}
+
+/// A name whose last label is a number would be an IPv4 address with a mistake.
+fn is_dns_name(text: &str) -> bool {
+    let is_label = |label: &str| {
+        let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || letter == '-';
+        (1..=63).contains(&label.len())
+            && label.chars().all(is_allowed)
+            && !label.starts_with('-')
+            && !label.ends_with('-')
+    };
+    let last = text.rsplit('.').next().unwrap_or_default();
+    text.len() <= LONGEST && text.split('.').all(is_label) && !last.chars().all(|letter| letter.is_ascii_digit())
+}
+
+/// What `192.0.2.10:7447` and `tcp/192.0.2.10:7447` were meant to be.
+fn with_port(text: &str) -> Option<String> {
+    let text = text.rsplit(['/', '@']).next()?;
+    let parts = match text.parse::<SocketAddr>() {
+        Ok(address) => (address.ip().to_string(), address.port()),
+        Err(_) => {
+            let (name, port) = text.split_once(':').filter(|(name, _)| is_dns_name(name))?;
+            (name.to_owned(), port.parse().ok()?)
+        }
+    };
+    Some(format!("address: {}, port: {}", parts.0, parts.1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{is_address, with_port};
+
+    #[test]
+    fn addresses_are_those_of_ip_and_dns() {
+        for good in ["192.0.2.10", "::1", "2001:db8::10", "localhost", "board", "board-2.lab.example"] {
+            assert!(is_address(good), "{good}");
+        }
+        let long = ["a".repeat(63).as_str(); 4].join(".");
+        for bad in ["", "192.0.2", "192.0.2.256", "a b", "a_b", "-a", "a-", "a..b", "[::1]", "a:1", "12", &long] {
+            assert!(!is_address(bad), "{bad}");
+        }
+    }
+
+    #[test]
+    fn ports_are_told_apart() {
+        for (text, meant) in [
+            ("192.0.2.10:7447", Some("address: 192.0.2.10, port: 7447")),
+            ("[::1]:1", Some("address: ::1, port: 1")),
+            ("tls/board.local:7447", Some("address: board.local, port: 7447")),
+            ("::1", None),
+            ("192.0.2.10", None),
+            ("board:http", None),
+        ] {
+            assert_eq!(with_port(text).as_deref(), meant, "{text}");
+        }
+    }
+}

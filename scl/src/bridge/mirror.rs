@@ -1,0 +1,160 @@
+//! A component of another host, present in this host's runtime folder.
+
+use super::{Profile, ProfileError};
+use crate::error::OpenError;
+use crate::registration::Registration;
+use crate::runtime_dir::{Announcement, Holder, RuntimeDirError, SystemDir};
+use crate::spec::{ComponentSpec, GateSpec, LinkSpec, WhenFull};
+use crate::sync::AbortOnDrop;
+use crate::transport::{Endpoint, Window};
+use crate::untyped::intern;
+
+/// Stands in for a component that runs on another host: components of this host see its lock, its announcement and its
+/// messages as if it ran here. Drop it after all ends that were opened for it.
+#[derive(Debug)]
+pub struct Mirror {
+    spec: &'static ComponentSpec,
+    registration: Registration,
+    _restored: AbortOnDrop,
+}
+
+/// A component of another host cannot be shown here.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MirrorError {
+    /// Its announcement cannot be used.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// Its plan contradicts itself.
+    #[error(transparent)]
+    Plan(#[from] OpenError),
+    /// What it announces is another component, or one of another system.
+    #[error("host `{host}` announces component `{expected}` with the plan of `{found}`")]
+    WrongPlan {
+        /// The host.
+        host: String,
+        /// The component.
+        expected: String,
+        /// The component of the plan.
+        found: String,
+    },
+    /// It runs here, too.
+    #[error(
+        "component `{component}` runs on host `{host}`, and on this host as well ({holder})\n\
+         help: stop one of the two, or correct `hosts` in the launch file"
+    )]
+    RunsHere {
+        /// The component.
+        component: String,
+        /// The other host.
+        host: String,
+        /// Who runs it here.
+        holder: Holder,
+    },
+    /// The runtime folder cannot be used.
+    #[error(transparent)]
+    RuntimeDir(RuntimeDirError),
+    /// Its program was built without a connection.
+    #[error("component `{component}` was built without {what}; build all programs from the same topology")]
+    NoConnection {
+        /// The component.
+        component: String,
+        /// What is missing: a gate, or its connection to a peer.
+        what: String,
+    },
+}
+
+impl Mirror {
+    /// Shows `component`, which runs on `host`. Called inside a tokio runtime, where a task creates the files again if they
+    /// are removed.
+    ///
+    /// # Errors
+    /// [`MirrorError`]; nothing is left behind.
+    pub fn open(dir: &SystemDir, component: &str, host: &str, profile: &Profile) -> Result<Self, MirrorError> {
+        let plan = profile.plan()?;
+        if plan.component != component || profile.announcement().component != component {
+            let (host, expected) = (host.to_owned(), component.to_owned());
+            return Err(MirrorError::WrongPlan { host, expected, found: plan.component });
+        }
+        let spec = intern(&plan)?;
+        // The process and its start are this one's, which is what a tool can look at. Endpoints are as announced there.
+        let own = Announcement::of_this_process(component);
+        let announcement = Announcement {
+            pid: own.pid,
+            started: own.started,
+            program: own.program,
+            host: Some(host.to_owned()),
+            ..profile.announcement().clone()
+        };
+        let registration = Registration::announcing(spec, dir.clone(), announcement, None);
+        let registration = registration.map_err(|error| match error {
+            RuntimeDirError::AlreadyRunning { component, holder, .. } => {
+                MirrorError::RunsHere { component, host: host.to_owned(), holder }
+            }
+            error => MirrorError::RuntimeDir(error),
+        })?;
+        let restored = AbortOnDrop(tokio::spawn(registration.keep()).abort_handle());
+        Ok(Self { spec, registration, _restored: restored })
+    }
+
+    /// The endpoint at which this component's `sub` gate connects to a publisher. What it receives is acknowledged by the
+    /// caller, within `window`.
+    ///
+    /// # Errors
+    /// [`MirrorError::NoConnection`].
+    pub fn subscribing(&self, gate: &str, peer: (&str, &str), window: Window) -> Result<Endpoint, MirrorError> {
+        let (gate, link) = self.link(gate, peer)?;
+        let check = self.registration.peer_check(gate, link);
+        Ok(Endpoint { check, deferred: Some(window), ..self.endpoint(gate, link.endpoint) })
+    }
+
+    /// The endpoint at which this component's `pub` gate listens for a subscriber.
+    ///
+    /// # Errors
+    /// [`MirrorError::NoConnection`].
+    pub fn publishing(&self, gate: &str, peer: (&str, &str)) -> Result<Endpoint, MirrorError> {
+        let (gate, link) = self.link(gate, peer)?;
+        let lossless = gate.options.backpressure && link.when_full == WhenFull::Wait;
+        Ok(Endpoint { lossless, ..self.endpoint(gate, link.endpoint) })
+    }
+
+    /// The endpoint at which this component's `pull` gate listens for pushers. What it receives is acknowledged by the
+    /// caller, within `window`.
+    ///
+    /// # Errors
+    /// [`MirrorError::NoConnection`].
+    pub fn pulling(&self, gate: &str, window: Window) -> Result<Endpoint, MirrorError> {
+        let gate = self.gate(gate)?;
+        Ok(Endpoint { deferred: Some(window), ..self.endpoint(gate, gate.endpoint) })
+    }
+
+    /// The endpoint at which this component's `rep` gate listens for requesters.
+    ///
+    /// # Errors
+    /// [`MirrorError::NoConnection`].
+    pub fn replying(&self, gate: &str) -> Result<Endpoint, MirrorError> {
+        let gate = self.gate(gate)?;
+        Ok(self.endpoint(gate, gate.endpoint))
+    }
+
+    fn endpoint(&self, gate: &'static GateSpec, name: &'static str) -> Endpoint {
+        let max_size = usize::try_from(gate.options.max_size).unwrap_or(usize::MAX);
+        Endpoint { max_size, ..Endpoint::new(name) }
+    }
+
+    fn gate(&self, name: &str) -> Result<&'static GateSpec, MirrorError> {
+        let gate = self.spec.gates.iter().find(|gate| gate.name == name);
+        gate.ok_or_else(|| self.missing(format!("gate `{name}`")))
+    }
+
+    fn link(&self, gate: &str, peer: (&str, &str)) -> Result<(&'static GateSpec, &'static LinkSpec), MirrorError> {
+        let gate = self.gate(gate)?;
+        let link = gate.links.iter().find(|link| (link.peer_component, link.peer_gate) == peer);
+        let missing = || self.missing(format!("a connection of `{}` to `{}.{}`", gate.name, peer.0, peer.1));
+        link.map(|link| (gate, link)).ok_or_else(missing)
+    }
+
+    fn missing(&self, what: String) -> MirrorError {
+        MirrorError::NoConnection { component: self.spec.name.to_owned(), what }
+    }
+}

@@ -1,0 +1,109 @@
+//! Which components run on this host: learned from events in the folder of the system, not by looking again and again.
+
+use super::Profile;
+use super::folder_events::{FolderEvents, Happened};
+use crate::runtime_dir::{ComponentLock, QUIET, SystemDir};
+use std::collections::{BTreeSet, HashMap, VecDeque};
+use std::error::Error;
+
+/// Watches some components of a system on this host.
+#[derive(Debug)]
+pub struct Presence {
+    dir: SystemDir,
+    components: BTreeSet<String>,
+    running: HashMap<String, Profile>,
+    changes: VecDeque<Change>,
+    events: Option<FolderEvents>,
+    /// Whether it was logged that the folder cannot be watched.
+    warned: bool,
+}
+
+/// A component has started or stopped.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Change {
+    /// A process runs it, and has announced it.
+    Started {
+        /// The component.
+        component: String,
+        /// What it says of itself.
+        profile: Box<Profile>,
+    },
+    /// It was closed, or its process has ended. A restart is this and [`Started`](Self::Started), however quick it was.
+    Stopped {
+        /// The component.
+        component: String,
+    },
+}
+
+impl Presence {
+    /// Watches these components. Those that run at first are reported as started.
+    pub fn new(dir: SystemDir, components: impl IntoIterator<Item = String>) -> Self {
+        let components = components.into_iter().collect();
+        let (running, changes) = (HashMap::new(), VecDeque::new());
+        Self { dir, components, running, changes, events: None, warned: false }
+    }
+
+    /// Waits for the next change.
+    ///
+    /// # Cancel safety
+    /// No change is lost when the future is dropped.
+    pub async fn next(&mut self) -> Change {
+        loop {
+            if let Some(change) = self.changes.pop_front() {
+                return change;
+            }
+            let Some(events) = &self.events else {
+                self.watch().await;
+                continue;
+            };
+            match events.next().await {
+                Happened::To(names) => names.iter().for_each(|name| self.look(name)),
+                Happened::Unknown => {
+                    self.events = None;
+                    // Whoever removes a folder must not meet new files in it.
+                    tokio::time::sleep(QUIET).await;
+                }
+            }
+        }
+    }
+
+    /// Starts watching, in a folder that is created again if it was removed, and looks at everything.
+    async fn watch(&mut self) {
+        match self.dir.create_again().and_then(|()| FolderEvents::start(&self.dir)) {
+            Ok(events) => {
+                self.events = Some(events);
+                // Only after that, so that no event in between is missed.
+                let all: Vec<_> = self.components.iter().cloned().collect();
+                all.iter().for_each(|name| self.look(name));
+            }
+            Err(error) => {
+                if !std::mem::replace(&mut self.warned, true) {
+                    let error = &error as &(dyn Error + 'static);
+                    tracing::warn!(error, "cannot watch which components run; trying again");
+                }
+                tokio::time::sleep(QUIET).await;
+            }
+        }
+    }
+
+    fn look(&mut self, name: &str) {
+        if !self.components.contains(name) {
+            return;
+        }
+        let is_held = ComponentLock::holder(&self.dir, name).is_some();
+        let profile = is_held.then(|| Profile::read(&self.dir, name)).flatten();
+        // Not one that only stands in for a component of another host.
+        let now = profile.filter(|profile| profile.announcement().host.is_none());
+        if self.running.get(name) == now.as_ref() {
+            return;
+        }
+        let component = name.to_owned();
+        if self.running.remove(name).is_some() {
+            self.changes.push_back(Change::Stopped { component: component.clone() });
+        }
+        if let Some(profile) = now {
+            self.running.insert(component.clone(), profile.clone());
+            self.changes.push_back(Change::Started { component, profile: Box::new(profile) });
+        }
+    }
+}
