@@ -52,7 +52,8 @@ fn find(name: &OsStr) -> Found {
     let own = env::current_exe().ok().and_then(|scl| Some(scl.parent()?.to_owned()));
     let path = env::var_os("PATH").unwrap_or_default();
     let folders = env::split_paths(&path).filter(|folder| !folder.as_os_str().is_empty());
-    let files: Vec<PathBuf> = own.into_iter().chain(folders).map(|folder| folder.join(&file)).filter(|file| file.is_file()).collect();
+    let files: Vec<PathBuf> =
+        own.into_iter().chain(folders).map(|folder| folder.join(&file)).filter(|file| file.is_file()).collect();
     match files.iter().find(|file| is_executable(file)) {
         Some(program) => Found::Program(program.clone()),
         None => files.into_iter().next().map_or(Found::Nothing, Found::NotExecutable),

@@ -18,15 +18,21 @@ use crate::pump::Counts;
 use crate::route::Route;
 use crate::wire::Wire;
 use announcing::announce;
-use mirroring::mirror;
+use mirroring::{Remote, mirror};
 use scl::Medium;
 use scl::bridge::{Change, Mirror, Presence};
 use scl::runtime_dir::SystemDir;
 use slot::Slot;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
+use std::time::Duration;
+use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::mpsc::{self, UnboundedSender};
+use tokio::sync::watch;
 use tokio::task::JoinSet;
+
+/// How long messages may take that are on their way when the gateway ends.
+const STOP_LIMIT: Duration = Duration::from_millis(1500);
 
 /// What a gateway serves.
 #[derive(Debug, Clone)]
@@ -43,11 +49,12 @@ pub struct GatewayOptions {
     pub routes: Vec<Route>,
 }
 
-/// A gateway at work.
+/// A gateway at work. At SIGUSR1 it logs what each route has carried so far.
 #[derive(Debug)]
 pub struct Gateway {
     wire: Arc<Wire>,
-    routes: Vec<(String, Arc<Counts>)>,
+    routes: Arc<Routes>,
+    stop: watch::Sender<bool>,
     /// Aborted when dropped: first the routes with their ends, then what shows and announces components.
     pumps: JoinSet<()>,
     tasks: JoinSet<()>,
@@ -86,10 +93,14 @@ impl Gateway {
                 tasks.spawn(mirror(options.dir.clone(), component.clone(), receiver, slot));
             }
         }
-        let (pumps, routes) = routes::start(&options, &wire, &runs, &mirrors);
-        tasks.spawn(follow_components(Presence::new(options.dir.clone(), runs.into_keys()), changes));
+        let stop = watch::Sender::new(false);
+        let (pumps, routes) = routes::start(&options, &wire, &runs, &mirrors, &stop.subscribe());
+        let routes = Arc::new(routes);
+        tasks.spawn(log_figures_on_signal(Arc::clone(&routes)));
+        let presence = Presence::new(options.dir.clone(), runs.into_keys());
+        tasks.spawn(follow_components(presence, changes, remotes.clone()));
         tasks.spawn(neighbours::follow(Arc::clone(&wire), remotes));
-        Self { wire, routes, pumps, tasks }
+        Self { wire, routes, stop, pumps, tasks }
     }
 
     /// What the routes have carried so far, in the order of the options.
@@ -103,20 +114,14 @@ impl Gateway {
         self.routes.iter().map(figures).collect()
     }
 
-    /// Writes a line into the log for each route that has carried something.
-    pub fn log_figures(&self) {
-        for (key, counts) in &self.routes {
-            if counts.carried() + counts.given_up() + counts.held() > 0 {
-                tracing::info!("{key}: {counts}");
-            }
-        }
-    }
-
-    /// Ends the gateway: its ends are closed, components of other hosts vanish from the runtime folder, and the other hosts
-    /// are told.
+    /// Ends the gateway: what is on its way is delivered if that takes no longer than a second or two, components of other
+    /// hosts vanish from the runtime folder, and the other hosts are told. What each route has carried is logged.
     pub async fn close(mut self) {
-        self.log_figures();
+        self.stop.send_replace(true);
+        let all_done = async { while self.pumps.join_next().await.is_some() {} };
+        let _the_rest_is_aborted = tokio::time::timeout(STOP_LIMIT, all_done).await;
         self.pumps.shutdown().await;
+        log_figures(&self.routes);
         self.tasks.shutdown().await;
         if let Ok(wire) = Arc::try_unwrap(self.wire) {
             wire.close().await;
@@ -124,14 +129,45 @@ impl Gateway {
     }
 }
 
-type Changes = HashMap<String, UnboundedSender<Change>>;
+/// The keys of the routes, and what they have carried.
+type Routes = Vec<(String, Arc<Counts>)>;
 
-async fn follow_components(mut presence: Presence, changes: Changes) {
+/// Writes a line into the log for each route that has carried something.
+fn log_figures(routes: &Routes) {
+    for (key, counts) in routes {
+        if counts.carried() + counts.given_up() + counts.held() > 0 {
+            tracing::info!("{key}: {counts}");
+        }
+    }
+}
+
+async fn log_figures_on_signal(routes: Arc<Routes>) {
+    match signal(SignalKind::user_defined1()) {
+        Ok(mut signals) => {
+            while signals.recv().await.is_some() {
+                log_figures(&routes);
+            }
+        }
+        Err(error) => tracing::debug!(%error, "SIGUSR1 will end the gateway"),
+    }
+}
+
+type Senders<T> = HashMap<String, UnboundedSender<T>>;
+
+async fn follow_components(mut presence: Presence, changes: Senders<Change>, remotes: Senders<Remote>) {
     loop {
         let change = presence.next().await;
-        let (Change::Started { component, .. } | Change::Stopped { component }) = &change;
-        if let Some(changes) = changes.get(component) {
-            let _the_gateway_ends = changes.send(change);
+        match &change {
+            Change::Started { component, .. } | Change::Stopped { component } => {
+                if let Some(changes) = changes.get(component) {
+                    let _the_gateway_ends = changes.send(change);
+                }
+            }
+            Change::Removed => {
+                for remote in remotes.values() {
+                    let _the_gateway_ends = remote.send(Remote::Removed);
+                }
+            }
         }
     }
 }

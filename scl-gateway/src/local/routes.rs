@@ -8,6 +8,7 @@ use scl::bridge::Mirror;
 use scl::transport::zeromq::ZeroMq;
 use std::collections::HashMap;
 use std::sync::Arc;
+use tokio::sync::watch;
 use tokio::task::JoinSet;
 
 type Views<T> = HashMap<String, View<T>>;
@@ -19,13 +20,14 @@ pub(super) fn start(
     wire: &Wire,
     runs: &Views<Run>,
     mirrors: &Views<Mirror>,
+    stop: &watch::Receiver<bool>,
 ) -> (JoinSet<()>, Vec<(String, Arc<Counts>)>) {
     let transport = Arc::new(ZeroMq::new(options.dir.clone(), options.medium));
     let (mut pumps, mut counted) = (JoinSet::new(), Vec::new());
     for route in &options.routes {
         let counts = Arc::new(Counts::default());
         counted.push((route.key.clone(), Arc::clone(&counts)));
-        let start = Start { wire, runs, mirrors, transport: &transport, counts, route };
+        let start = Start { wire, runs, mirrors, transport: &transport, counts, route, stop };
         let leaves = route.from.host == options.host;
         let started = match (route.pattern, leaves) {
             (Pattern::Messages { .. }, true) => start.sending(&mut pumps),
@@ -47,6 +49,7 @@ struct Start<'a> {
     transport: &'a Arc<ZeroMq>,
     counts: Arc<Counts>,
     route: &'a Route,
+    stop: &'a watch::Receiver<bool>,
 }
 
 impl Start<'_> {
@@ -55,7 +58,7 @@ impl Start<'_> {
         let mirror = of(&self.route.to, self.mirrors)?;
         let (route, transport) = (self.route.clone(), Arc::clone(self.transport));
         let (wire, counts, state) = (self.wire.sender(&route), self.counts, Default::default());
-        pumps.spawn(Sending { route, wire, mirror, publisher, transport, counts, state }.run());
+        pumps.spawn(Sending { route, wire, mirror, publisher, transport, counts, state }.run(self.stop.clone()));
         Some(())
     }
 
@@ -64,7 +67,7 @@ impl Start<'_> {
         let component = of(&self.route.to, self.runs)?;
         let (route, transport) = (self.route.clone(), Arc::clone(self.transport));
         let (wire, counts, state) = (self.wire.receiver(&route), self.counts, Default::default());
-        pumps.spawn(Receiving { route, wire, mirror, component, transport, counts, state }.run());
+        pumps.spawn(Receiving { route, wire, mirror, component, transport, counts, state }.run(self.stop.clone()));
         Some(())
     }
 
@@ -72,7 +75,7 @@ impl Start<'_> {
         let mirror = of(&self.route.to, self.mirrors)?;
         let (route, transport) = (self.route.clone(), Arc::clone(self.transport));
         let (wire, counts, state) = (self.wire.requester(&route), self.counts, Default::default());
-        pumps.spawn(Requesting { route, wire, mirror, transport, counts, state }.run());
+        pumps.spawn(Requesting { route, wire, mirror, transport, counts, state }.run(self.stop.clone()));
         Some(())
     }
 
@@ -80,7 +83,7 @@ impl Start<'_> {
         let component = of(&self.route.to, self.runs)?;
         let (route, transport) = (self.route.clone(), Arc::clone(self.transport));
         let (wire, counts, state) = (self.wire.replier(&route), self.counts, Default::default());
-        pumps.spawn(Replying { route, wire, component, transport, counts, state }.run());
+        pumps.spawn(Replying { route, wire, component, transport, counts, state }.run(self.stop.clone()));
         Some(())
     }
 }

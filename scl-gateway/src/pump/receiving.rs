@@ -13,6 +13,7 @@ use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
+use tokio::sync::watch;
 
 /// For how long the component here may take what has arrived, after the far one has ended.
 const DRAIN_LIMIT: Duration = Duration::from_secs(1);
@@ -44,6 +45,8 @@ pub(crate) struct State {
     handed: u64,
     confirmed: u64,
     flush: bool,
+    /// The gateway ends.
+    stopping: bool,
 }
 
 /// Dropped in this order: the mirror must outlive its ends.
@@ -58,8 +61,8 @@ struct Local {
 }
 
 impl Receiving {
-    /// Runs until the gateway ends.
-    pub(crate) async fn run(mut self) {
+    /// Runs until the gateway ends, and the component has taken what has arrived by then.
+    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
         let (mut mirror, mut component) = (self.mirror.clone(), self.component.clone());
         loop {
             let mirror_changes = async {
@@ -74,6 +77,10 @@ impl Receiving {
                     self.forget_component();
                     changed.is_ok()
                 }
+                stopping = stop.changed() => {
+                    self.state.stopping = true;
+                    stopping.is_ok()
+                }
                 () = poll_fn(|cx| self.poll(cx)) => false,
             };
             if !alive {
@@ -82,7 +89,7 @@ impl Receiving {
         }
     }
 
-    /// Does what can be done now. Never ready.
+    /// Does what can be done now. Ready when the gateway ends and nothing is left to be done.
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         while let Poll::Ready(event) = self.wire.poll_event(cx) {
             match event {
@@ -100,7 +107,7 @@ impl Receiving {
         self.ask(cx);
         self.confirm();
         self.counts.set_held(self.state.pending());
-        Poll::Pending
+        if self.state.stopping && self.state.pending() == 0 { Poll::Ready(()) } else { Poll::Pending }
     }
 
     /// The component has ended or started. If it is not connected, it will not take what it was to get.
@@ -229,7 +236,7 @@ impl Receiving {
         let window = window(&self.route);
         let Some(Local { link: Some(link), unasked, .. }) = &mut state.local else { return };
         let is_due = 2 * unasked.0 >= window.messages || 2 * unasked.1 >= window.bytes;
-        let is_last = state.queue.is_empty() && (state.flush || !state.matched);
+        let is_last = state.queue.is_empty() && (state.flush || !state.matched || state.stopping);
         if unasked.0 > 0 && (is_due || is_last) {
             link.request_acknowledgement(cx);
             *unasked = (0, 0);

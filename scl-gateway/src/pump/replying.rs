@@ -11,6 +11,7 @@ use std::collections::HashSet;
 use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
+use tokio::sync::watch;
 
 /// Carries the requests of a route from the wire to the replying component of this host, and the replies back.
 pub(crate) struct Replying {
@@ -35,11 +36,12 @@ pub(crate) struct State {
 
 impl Replying {
     /// Runs until the gateway ends.
-    pub(crate) async fn run(mut self) {
+    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
         let mut component = self.component.clone();
         loop {
             let alive = tokio::select! {
                 changed = component.changed() => changed.is_ok(),
+                _ = stop.changed() => false,
                 () = poll_fn(|cx| self.poll(cx)) => false,
             };
             if !alive {

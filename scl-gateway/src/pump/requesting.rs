@@ -13,6 +13,7 @@ use std::collections::HashMap;
 use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
+use tokio::sync::watch;
 
 /// Most requests that wait for their replies. More wait in the requesters' sockets.
 const MOST_OPEN: usize = 1024;
@@ -46,11 +47,13 @@ struct Local {
 
 impl Requesting {
     /// Runs until the gateway ends.
-    pub(crate) async fn run(mut self) {
+    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
         let mut mirror = self.mirror.clone();
         loop {
             let alive = tokio::select! {
                 changed = mirror.changed() => changed.is_ok(),
+                // Its requesters notice at once.
+                _ = stop.changed() => false,
                 () = poll_fn(|cx| self.poll(cx)) => false,
             };
             if !alive {

@@ -12,6 +12,7 @@ use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
+use tokio::sync::watch;
 
 /// How long a sending component may take to stop sending before the local end is closed all the same. Only one that
 /// hangs, or an old release, takes so long; what it sends meanwhile counts as lost there.
@@ -45,6 +46,10 @@ pub(crate) struct State {
     sent: u64,
     settled: u64,
     told: u64,
+    /// The last message that the far side was asked to acknowledge.
+    asked: u64,
+    /// The gateway ends.
+    stopping: bool,
 }
 
 /// Dropped in this order: the mirror must outlive its ends.
@@ -56,8 +61,9 @@ struct Local {
 }
 
 impl Sending {
-    /// Runs until the gateway ends.
-    pub(crate) async fn run(mut self) {
+    /// Runs until the gateway ends. Then what is on its way from components here is taken, and what the far side does not
+    /// acknowledge soon is left unacknowledged here, too.
+    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
         if self.publisher.is_none() {
             self.wire.set_open(true);
         }
@@ -73,6 +79,10 @@ impl Sending {
             let alive = tokio::select! {
                 changed = mirror.changed() => changed.is_ok(),
                 changed = publisher_changes => changed.is_ok(),
+                stopping = stop.changed() => {
+                    self.state.stopping = true;
+                    stopping.is_ok()
+                }
                 () = poll_fn(|cx| self.poll(cx)) => false,
             };
             if !alive {
@@ -81,7 +91,7 @@ impl Sending {
         }
     }
 
-    /// Does what can be done now. Never ready.
+    /// Does what can be done now. Ready when the gateway ends and nothing is left to be done.
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         while let Poll::Ready(event) = self.wire.poll_event(cx) {
             self.handle(event);
@@ -92,7 +102,7 @@ impl Sending {
         self.close_if_finished(cx);
         self.end_run_if_drained(cx);
         self.counts.set_held(self.state.sent - self.state.settled);
-        Poll::Pending
+        if self.state.stopping && self.state.local.is_none() { Poll::Ready(()) } else { Poll::Pending }
     }
 
     fn handle(&mut self, event: SenderEvent) {
@@ -141,7 +151,7 @@ impl Sending {
 
     fn open_or_finish(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
-        let mirror = self.mirror.borrow().clone().filter(|_| state.matched);
+        let mirror = self.mirror.borrow().clone().filter(|_| state.matched && !state.stopping);
         let mirror = mirror.filter(|_| self.publisher.is_none() || state.run.is_some());
         match (&mut state.local, mirror) {
             (None, Some(mirror)) => {
@@ -190,12 +200,27 @@ impl Sending {
     fn close_if_finished(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         let Some(local) = state.local.as_mut().filter(|local| local.finishing) else { return };
-        if local.receiver.is_finished() || local.limit.is_over(cx) {
+        let is_over = local.limit.is_over(cx);
+        if !local.receiver.is_finished() && !is_over {
+            return;
+        }
+        if state.stopping {
+            // There is no custody any more: what the far side does not take counts as lost here.
+            if self.wire.unacknowledged() > 0 && state.matched && !is_over {
+                return self.ask_far_side();
+            }
+        } else {
             local.receiver.acknowledge(state.sent - state.told);
             state.told = state.sent;
-            state.local = None;
-            // There may be another mirror already.
-            cx.waker().wake_by_ref();
+        }
+        state.local = None;
+        // There may be another mirror already.
+        cx.waker().wake_by_ref();
+    }
+
+    fn ask_far_side(&mut self) {
+        if std::mem::replace(&mut self.state.asked, self.state.sent) != self.state.sent {
+            self.wire.request_acknowledgement();
         }
     }
 
@@ -215,7 +240,7 @@ impl Sending {
             // The publisher may run again already.
             cx.waker().wake_by_ref();
         } else if is_read {
-            self.wire.request_acknowledgement();
+            self.ask_far_side();
         }
     }
 }
