@@ -15,6 +15,8 @@ mod complete_gates;
 mod completions;
 #[cfg(feature = "observe")]
 mod delay;
+#[cfg(feature = "run")]
+mod deploy;
 mod diff;
 #[cfg(feature = "observe")]
 mod doctor;
@@ -103,6 +105,8 @@ enum Command {
     Completions(completions::CompletionsArguments),
     #[cfg(feature = "observe")]
     Delay(delay::DelayArguments),
+    #[cfg(feature = "run")]
+    Deploy(deploy::DeployArguments),
     Diff(diff::DiffArguments),
     #[cfg(feature = "observe")]
     Doctor(doctor::DoctorArguments),
@@ -170,6 +174,8 @@ fn main() -> ExitCode {
         Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
         #[cfg(feature = "observe")]
         Command::Delay(arguments) => delay::delay(&arguments),
+        #[cfg(feature = "run")]
+        Command::Deploy(arguments) => deploy::deploy(&arguments),
         Command::Diff(arguments) => diff::diff(&arguments),
         #[cfg(feature = "observe")]
         Command::Doctor(arguments) => doctor::doctor(&arguments),

@@ -7,3 +7,7 @@ pub mod local;
 mod pump;
 pub mod route;
 pub mod wire;
+
+// For the certificates that tests of both kinds use.
+#[cfg(test)]
+extern crate self as scl_gateway;

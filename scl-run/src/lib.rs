@@ -31,6 +31,7 @@ mod sockets;
 mod summary;
 mod supervisor;
 mod system_names;
+mod units;
 
 pub use deployment::{Deployment, Host};
 pub use launch_file::EXAMPLE as EXAMPLE_LAUNCH_FILE;
@@ -39,6 +40,7 @@ pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use placement::Placement;
 pub use plan::{ComponentNames, DeployedSystem, read_deployment};
 pub use system_names::SystemNames;
+pub use units::{Unit, UnitOptions, systemd_units};
 
 use children::{Event, Role};
 use ending::Ending;

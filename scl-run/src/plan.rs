@@ -64,6 +64,21 @@ pub(crate) fn plan_run(options: &Options, component_names: ComponentNames<'_>) -
     if problems.is_empty() { Ok(plan) } else { Err(problems) }
 }
 
+/// As [`plan_run`], but only from a launch file: nothing is built.
+pub(crate) fn plan_run_launch_file(
+    options: &Options,
+    component_names: ComponentNames<'_>,
+) -> Result<RunPlan, Vec<Problem>> {
+    let (folder, launch_path) = find_folder(&options.folder).map_err(|problem| vec![problem])?;
+    if !launch_path.is_file() {
+        let problem = Problem::new(format!("there is no `{LAUNCH_FILE}` in `{}`", folder.display()));
+        return Err(vec![problem.help("give the folder of a system, or a launch file; `scl run --help` shows one")]);
+    }
+    let plan = plan_from_launch_file(&folder, &launch_path, options, component_names)?;
+    let problems = plan.check();
+    if problems.is_empty() { Ok(plan) } else { Err(problems) }
+}
+
 impl RunPlan {
     /// What can be checked before anything is built: everything, or, with builds, what they cannot change.
     fn check(&self) -> Vec<Problem> {
@@ -131,7 +146,8 @@ fn plan_from_launch_file(
     }
     let names = components.iter().map(|component| component.name.clone());
     let names: Vec<String> = names.chain(host.map(|_| host::GATEWAY.to_owned())).collect();
-    let selection = Selection::new(options, &names, &shown)?;
+    let source = host.map_or_else(|| format!("`{shown}`"), |host| format!("host `{}`", host.name));
+    let selection = Selection::new(options, &names, &source)?;
     if selection.is_everything() {
         note_missing(&components, &expected);
     }

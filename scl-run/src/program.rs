@@ -113,9 +113,15 @@ impl Program {
         }
     }
 
+    /// The absolute path of a program in the search path.
+    pub(crate) fn find_installed(&self, name: &OsStr) -> Option<PathBuf> {
+        let folders = search_path(self).into_iter();
+        folders.map(|folder| self.folder.join(folder).join(name)).find(|file| is_executable(file))
+    }
+
     fn check_installed(&self, what: &str, owner: &str) -> Result<(), Problem> {
         let Some(name) = self.command.first().filter(|name| !is_path(name)) else { return Ok(()) };
-        if search_path(self).iter().any(|folder| is_executable(&self.folder.join(folder).join(name))) {
+        if self.find_installed(name).is_some() {
             return Ok(());
         }
         let name = name.display();

@@ -105,3 +105,6 @@ impl Permissions {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -96,6 +96,11 @@ impl WireSender {
         self.end.request_flush();
     }
 
+    /// How often messages had to be sent again because they got lost, other than with the link.
+    pub fn losses(&self) -> u64 {
+        self.end.losses()
+    }
+
     /// Number of messages sent and neither acknowledged nor given up.
     pub fn unacknowledged(&self) -> u64 {
         self.end.unacknowledged()

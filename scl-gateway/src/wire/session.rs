@@ -241,7 +241,7 @@ impl Thread {
             let header = sample.attachment().and_then(|bytes| Header::decode(&bytes.to_bytes()));
             if let Some(header) = header {
                 // A copy: a slice would keep a whole buffer of the link alive.
-                let payload = Bytes::copy_from_slice(&sample.payload().to_bytes());
+                let payload = Bytes::from(sample.payload().to_bytes().into_owned());
                 mail.push(payload.len() as u64 + WEIGHT, ReceivingMail::Arrived(header, payload));
             }
         })?;
@@ -270,10 +270,10 @@ impl Thread {
     }
 
     fn remove(&mut self, id: EndId) {
-        if let Some(end) = self.ends.remove(&id) {
-            if let Some(host) = self.hosts.get_mut(&end.host) {
-                host.lane.clear(id);
-            }
+        if let Some(end) = self.ends.remove(&id)
+            && let Some(host) = self.hosts.get_mut(&end.host)
+        {
+            host.lane.clear(id);
         }
         self.tokens.remove(&id);
         self.announced.remove(&id);
@@ -377,7 +377,7 @@ impl Answer {
         let Some(place) = sample.attachment().map(|place| place.to_bytes()) else { return };
         let Some((offset, total)) = place.split_first_chunk() else { return };
         let Ok(total) = total.try_into() else { return };
-        let bytes = Bytes::copy_from_slice(&sample.payload().to_bytes());
+        let bytes = Bytes::from(sample.payload().to_bytes().into_owned());
         let part = Part { offset: u64::from_be_bytes(*offset), total: u64::from_be_bytes(total), bytes };
         self.has_come = true;
         self.commands.send(Command::Part { key: self.key.clone(), part: Some(part) });

@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use rcgen::{
-    BasicConstraints, CertificateParams, CertifiedIssuer, DnType, ExtendedKeyUsagePurpose, IsCa, KeyPair, date_time_ymd,
-};
+use rcgen::{BasicConstraints, CertificateParams, CertifiedIssuer, DnType, ExtendedKeyUsagePurpose, IsCa, KeyPair};
 use scl_gateway::wire::TlsFiles;
 
 pub(super) struct Authority(CertifiedIssuer<'static, KeyPair>);
@@ -48,9 +46,4 @@ impl Authority {
             key: write("key", key.serialize_pem()),
         }
     }
-}
-
-pub(super) fn expired(params: &mut CertificateParams) {
-    params.not_before = date_time_ymd(2020, 1, 1);
-    params.not_after = date_time_ymd(2021, 1, 1);
 }

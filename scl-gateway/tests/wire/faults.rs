@@ -108,6 +108,8 @@ async fn a_link_below_the_data_rate_loses_nothing_and_stays_fair() {
     assert!(large == image);
     assert!(arrived == small);
     assert!(is_fair);
+    // More was never given to the network library than it holds.
+    assert_eq!((images.losses(), poses.losses()), (0, 0));
 }
 
 /// The link is still there: a slow one must not be taken for a dead one.

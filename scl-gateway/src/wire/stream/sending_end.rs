@@ -44,6 +44,7 @@ pub(in crate::wire) struct SendingEnd {
     mail: Arc<Mailbox<SendingMail>>,
     outgoing: Outgoing,
     events: VecDeque<Sent>,
+    losses: u64,
     pause: Duration,
     timer: Option<Pin<Box<Sleep>>>,
 }
@@ -60,6 +61,7 @@ impl SendingEnd {
             mail,
             outgoing: Outgoing::new(queue, random()),
             events: VecDeque::new(),
+            losses: 0,
             pause: FIRST_PROBE,
             timer: None,
         }
@@ -83,6 +85,10 @@ impl SendingEnd {
 
     pub(in crate::wire) fn unacknowledged(&self) -> u64 {
         self.outgoing.unacknowledged() as u64
+    }
+
+    pub(in crate::wire) fn losses(&self) -> u64 {
+        self.losses
     }
 
     pub(in crate::wire) fn send(&mut self, message: Bytes) {
@@ -137,6 +143,7 @@ impl SendingEnd {
             SendingMail::Ack(ack) => {
                 let progress = self.outgoing.acknowledged(&ack);
                 if progress.started_over {
+                    self.losses += 1;
                     self.commands.send(Command::Clear { id: self.id });
                 }
                 if let Some(settled) = progress.settled {

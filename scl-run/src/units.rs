@@ -1,0 +1,189 @@
+//! The unit files of systemd that run the programs of a launch file as services, in place of `scl run`.
+//!
+//! What has no counterpart there is left out: `essential`, because services do not stop each other, and the growth of
+//! `restart_delay`.
+
+mod text;
+
+use super::Options;
+use super::plan::{ComponentNames, RunPlan, plan_run_launch_file};
+use super::policy::{Policy, Restart};
+use super::program::{Component, Program};
+use scl_terminal::Problem;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use text::{duration, environment, quoted};
+
+/// The shortest limit: systemd understands 0 as no limit.
+const SHORTEST: Duration = Duration::from_millis(1);
+
+/// Whose services they become.
+#[derive(Debug, Clone, Default)]
+pub struct UnitOptions {
+    /// What they run; builds are not run.
+    pub run: Options,
+    /// The user of all services; that of the service manager if `None`.
+    pub user: Option<String>,
+}
+
+/// A unit file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unit {
+    /// `rover-sensor.service`, or `rover.target` for all.
+    pub name: String,
+    /// What is in it.
+    pub text: String,
+}
+
+/// The unit files of the components, the gateway if there is one, and last the target that starts them all.
+///
+/// # Errors
+///
+/// Every reason why the system could not be started; also if it has no name or no launch file.
+pub fn systemd_units(options: &UnitOptions, component_names: ComponentNames<'_>) -> Result<Vec<Unit>, Vec<Problem>> {
+    let plan = plan_run_launch_file(&options.run, component_names)?;
+    let system = plan.system.clone().ok_or_else(|| vec![without_name()])?;
+    let units =
+        Units { system: &system, user: options.user.as_deref(), host: options.run.host.as_deref(), plan: &plan };
+    let services = plan.gateway.iter().map(|gateway| units.gateway(gateway));
+    let services = services.chain(plan.components.iter().map(|component| units.component(component)));
+    let services: Result<Vec<Unit>, Problem> = services.collect();
+    let mut services = services.map_err(|problem| vec![problem])?;
+    services.push(units.target(&services));
+    Ok(services)
+}
+
+struct Units<'u> {
+    system: &'u str,
+    user: Option<&'u str>,
+    host: Option<&'u str>,
+    plan: &'u RunPlan,
+}
+
+impl Units<'_> {
+    fn component(&self, component: &Component) -> Result<Unit, Problem> {
+        let policy = &component.policy;
+        // What it sends while it stops passes through the gateway, which systemd then stops later.
+        let gateway = self.plan.gateway.as_ref().map(|gateway| self.service_name(gateway));
+        let order = gateway.map_or_else(String::new, |name| format!("Wants={name}\nAfter={name}\n"));
+        let limit = match policy.restart {
+            Restart::Never => String::new(),
+            // The first start counts, too.
+            _ => format!(
+                "StartLimitIntervalSec={}\nStartLimitBurst={}\n",
+                duration(policy.limit.within),
+                policy.limit.count.saturating_add(1)
+            ),
+        };
+        let unit = format!("Description=Component {} of {}\n{order}{limit}", component.name, self.system);
+        let service = [readiness(policy), restarts(policy), placement(&component.program)].concat();
+        self.service(component, &unit, &service)
+    }
+
+    fn gateway(&self, gateway: &Component) -> Result<Unit, Problem> {
+        let host = self.host.unwrap_or_default();
+        // Nothing else brings the connections back, so there is no limit.
+        let unit = format!(
+            "Description=Gateway of {} on host {host}\nWants=network-online.target\nAfter=network-online.target\nStartLimitIntervalSec=0\n",
+            self.system
+        );
+        self.service(gateway, &unit, "Type=notify\nRestart=always\nRestartSec=1s\n")
+    }
+
+    fn service(&self, component: &Component, unit: &str, service: &str) -> Result<Unit, Problem> {
+        let Component { program, policy, .. } = component;
+        let system = self.system;
+        let variables =
+            [("SCL_RUNTIME_DIR".to_owned(), format!("/run/{system}")), ("SCL_SYSTEM".to_owned(), system.to_owned())];
+        let variables: String = variables.iter().chain(&program.environment).map(environment).collect();
+        let user = self.user.map_or_else(String::new, |user| format!("User={user}\n"));
+        let text = format!(
+            "# Written by `scl deploy systemd`.\n\
+             [Unit]\n{unit}PartOf={system}.target\n\n\
+             [Service]\n{service}NotifyAccess=all\n{user}\
+             RuntimeDirectory={system}\nRuntimeDirectoryMode=0700\nRuntimeDirectoryPreserve=yes\n\
+             WorkingDirectory={}\n{variables}ExecStart={}\nTimeoutStopSec={}\n",
+            text::path(&program.folder),
+            command(program)?,
+            duration(policy.stop_within.max(SHORTEST)),
+        );
+        Ok(Unit { name: self.service_name(component), text })
+    }
+
+    fn target(&self, services: &[Unit]) -> Unit {
+        let wants: String = services.iter().map(|unit| format!("Wants={}\n", unit.name)).collect();
+        let place = self.host.map_or_else(String::new, |host| format!(" on host {host}"));
+        let text = format!(
+            "# Written by `scl deploy systemd`.\n[Unit]\nDescription=System {}{place}\n{wants}\n[Install]\nWantedBy=multi-user.target\n",
+            self.system
+        );
+        Unit { name: format!("{}.target", self.system), text }
+    }
+
+    fn service_name(&self, component: &Component) -> String {
+        format!("{}-{}.service", self.system, component.name)
+    }
+}
+
+/// A program that reports nothing must not be waited for, and the launch file says which ones report.
+fn readiness(policy: &Policy) -> String {
+    match (policy.ready_within, policy.alive_within) {
+        (None, None) => "Type=exec\n".to_owned(),
+        (ready, alive) => {
+            let ready = ready.map_or_else(|| "infinity".to_owned(), duration);
+            let alive = alive.map_or_else(String::new, |limit| format!("WatchdogSec={}\n", duration(limit)));
+            format!("Type=notify\nTimeoutStartSec={ready}\n{alive}")
+        }
+    }
+}
+
+fn restarts(policy: &Policy) -> String {
+    let when = match policy.restart {
+        Restart::Never => return "Restart=no\n".to_owned(),
+        Restart::OnAbnormal => "on-abnormal",
+        Restart::OnFailure => "on-failure",
+        Restart::Always => "always",
+    };
+    format!("Restart={when}\nRestartSec={}\n", duration(policy.delay.first))
+}
+
+fn placement(program: &Program) -> String {
+    let cpu: Vec<String> = program.placement.cpu.iter().map(usize::to_string).collect();
+    let cpu = if cpu.is_empty() { String::new() } else { format!("CPUAffinity={}\n", cpu.join(" ")) };
+    let Some(priority) = program.placement.fifo else { return cpu };
+    // With `SCL_SCHED` a program with SCL also locks its memory, as under `scl run`.
+    format!(
+        "{cpu}CPUSchedulingPolicy=fifo\nCPUSchedulingPriority={priority}\nLimitRTPRIO={priority}\nLimitMEMLOCK=infinity\n\
+         Environment=SCL_SCHED=fifo:{priority}\n"
+    )
+}
+
+fn command(program: &Program) -> Result<String, Problem> {
+    let [first, arguments @ ..] = program.command.as_slice() else { return Ok(String::new()) };
+    let executable = executable(program, first)?;
+    let words = [executable.into_os_string()].into_iter().chain(arguments.iter().cloned());
+    Ok(words.map(|word| quoted(&word.to_string_lossy(), true)).collect::<Vec<_>>().join(" "))
+}
+
+/// The absolute path of the program: systemd has another search path.
+fn executable(program: &Program, first: &OsString) -> Result<PathBuf, Problem> {
+    if first == "/proc/self/exe" {
+        return std::env::current_exe().map_err(|error| Problem::new(format!("cannot find `scl`: {error}")));
+    }
+    if !first.as_encoded_bytes().contains(&b'/') {
+        let found = program.find_installed(first);
+        return found
+            .ok_or_else(|| Problem::new(format!("the program `{}` is not in the search path", first.display())));
+    }
+    // Without the `./` that a path in a launch file usually starts with.
+    Ok(program.folder.join(Path::new(first)).components().collect())
+}
+
+fn without_name() -> Problem {
+    Problem::new("the system has no name, by which its services are called")
+        .help("write `topology:` into the launch file, or set `SCL_SYSTEM`")
+}
+
+#[cfg(test)]
+mod tests;

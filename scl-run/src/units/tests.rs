@@ -1,0 +1,133 @@
+//! Launch files in, exact unit files out.
+
+use super::text::{duration, quoted};
+use super::{UnitOptions, systemd_units};
+use crate::{Options, SystemNames};
+use expect_test::expect;
+use std::time::Duration;
+
+const LAUNCH: &str = "\
+components:
+  sensor:
+    command: [/bin/cat, --rate, '100 %', '$HOME']
+    restart: on_failure
+    restart_delay: 200ms..5s
+    ready_within: 5s
+    alive_within: 500ms
+    cpu: [2, 3]
+    priority: fifo:80
+  logger: {command: cat > log, working_directory: logs, environment: {NAME: a \"b\" 5%}}
+environment: {RUST_LOG: info}
+defaults: {stop_within: 3s}
+";
+
+/// All unit files of the launch file, one after the other; the folder of the test is shown as `FOLDER`.
+fn units(launch: &str, user: Option<&str>) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().canonicalize().unwrap();
+    std::fs::create_dir(path.join("logs")).unwrap();
+    std::fs::write(path.join("launch.yaml"), launch).unwrap();
+    std::fs::write(path.join("topology.yaml"), "").unwrap();
+    let names = SystemNames {
+        system: "rover".to_owned(),
+        components: vec!["sensor".to_owned(), "logger".to_owned()],
+        gates: Vec::new(),
+    };
+    let run = Options { folder: path.clone(), grace: Duration::from_secs(5), ..Options::default() };
+    let options = UnitOptions { run, user: user.map(str::to_owned) };
+    let units = systemd_units(&options, &|_| Some(names.clone())).unwrap();
+    let text: String = units.iter().map(|unit| format!("== {}\n{}", unit.name, unit.text)).collect();
+    text.replace(path.to_str().unwrap(), "FOLDER")
+}
+
+#[test]
+fn services_do_what_the_launch_file_says() {
+    expect![[r#"
+        == rover-sensor.service
+        # Written by `scl deploy systemd`.
+        [Unit]
+        Description=Component sensor of rover
+        StartLimitIntervalSec=60s
+        StartLimitBurst=6
+        PartOf=rover.target
+
+        [Service]
+        Type=notify
+        TimeoutStartSec=5s
+        WatchdogSec=500ms
+        Restart=on-failure
+        RestartSec=200ms
+        CPUAffinity=2 3
+        CPUSchedulingPolicy=fifo
+        CPUSchedulingPriority=80
+        LimitRTPRIO=80
+        LimitMEMLOCK=infinity
+        Environment=SCL_SCHED=fifo:80
+        NotifyAccess=all
+        User=rover
+        RuntimeDirectory=rover
+        RuntimeDirectoryMode=0700
+        RuntimeDirectoryPreserve=yes
+        WorkingDirectory=FOLDER
+        Environment=SCL_RUNTIME_DIR=/run/rover
+        Environment=SCL_SYSTEM=rover
+        Environment=RUST_LOG=info
+        ExecStart=/bin/cat --rate "100 %%" "$$HOME"
+        TimeoutStopSec=3s
+        == rover-logger.service
+        # Written by `scl deploy systemd`.
+        [Unit]
+        Description=Component logger of rover
+        PartOf=rover.target
+
+        [Service]
+        Type=exec
+        Restart=no
+        NotifyAccess=all
+        User=rover
+        RuntimeDirectory=rover
+        RuntimeDirectoryMode=0700
+        RuntimeDirectoryPreserve=yes
+        WorkingDirectory=FOLDER/logs
+        Environment=SCL_RUNTIME_DIR=/run/rover
+        Environment=SCL_SYSTEM=rover
+        Environment=RUST_LOG=info
+        Environment="NAME=a \"b\" 5%%"
+        ExecStart=/bin/sh -c "cat > log"
+        TimeoutStopSec=3s
+        == rover.target
+        # Written by `scl deploy systemd`.
+        [Unit]
+        Description=System rover
+        Wants=rover-sensor.service
+        Wants=rover-logger.service
+
+        [Install]
+        WantedBy=multi-user.target
+    "#]]
+    .assert_eq(&units(LAUNCH, Some("rover")));
+}
+
+#[test]
+fn words_are_read_as_they_were_written() {
+    for (word, in_command, expected) in [
+        ("--rate=100", true, "--rate=100"),
+        ("", true, "\"\""),
+        ("a b", true, "\"a b\""),
+        ("$A 5% \"\\\n", true, r#""$$A 5%% \"\\\x0a""#),
+        ("A=$B", false, "\"A=$B\""),
+        ("'", true, "\"'\""),
+        ("\u{e9}", true, "\"\u{e9}\""),
+    ] {
+        assert_eq!(quoted(word, in_command), expected, "{word:?}");
+    }
+}
+
+#[test]
+fn times_have_a_unit() {
+    let micros = Duration::from_micros;
+    let cases = [(0, "0s"), (1, "1us"), (1_000, "1ms"), (1_500_000, "1500ms"), (60_000_000, "60s")];
+    for (time, expected) in cases {
+        assert_eq!(duration(micros(time)), expected);
+    }
+}
