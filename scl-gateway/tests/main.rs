@@ -21,5 +21,6 @@ mod namespace;
 mod network;
 mod player;
 mod receipts;
+mod steady;
 mod strangers;
 mod wire;

@@ -270,10 +270,10 @@ impl Thread {
     }
 
     fn remove(&mut self, id: EndId) {
-        if let Some(end) = self.ends.remove(&id) {
-            if let Some(host) = self.hosts.get_mut(&end.host) {
-                host.lane.clear(id);
-            }
+        if let Some(end) = self.ends.remove(&id)
+            && let Some(host) = self.hosts.get_mut(&end.host)
+        {
+            host.lane.clear(id);
         }
         self.tokens.remove(&id);
         self.announced.remove(&id);
