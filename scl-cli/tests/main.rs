@@ -19,6 +19,8 @@ mod complete_names;
 mod completions;
 #[cfg(feature = "observe")]
 mod delay;
+#[cfg(feature = "run")]
+mod deploy;
 mod diff;
 #[cfg(feature = "observe")]
 mod doctor;
@@ -62,6 +64,8 @@ mod run_build;
 mod run_control;
 #[cfg(all(feature = "run", feature = "observe"))]
 mod run_hang;
+#[cfg(feature = "run")]
+mod run_hosts;
 #[cfg(feature = "run")]
 mod run_mistakes;
 #[cfg(feature = "run")]

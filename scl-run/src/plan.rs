@@ -146,7 +146,8 @@ fn plan_from_launch_file(
     }
     let names = components.iter().map(|component| component.name.clone());
     let names: Vec<String> = names.chain(host.map(|_| host::GATEWAY.to_owned())).collect();
-    let selection = Selection::new(options, &names, &shown)?;
+    let source = host.map_or_else(|| format!("`{shown}`"), |host| format!("host `{}`", host.name));
+    let selection = Selection::new(options, &names, &source)?;
     if selection.is_everything() {
         note_missing(&components, &expected);
     }

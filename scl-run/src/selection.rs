@@ -11,7 +11,7 @@ pub(crate) struct Selection<'a> {
 }
 
 impl<'a> Selection<'a> {
-    /// Checks the names of both options; `source` is the file that has the components.
+    /// Checks the names of both options; `source` is what has the components, for messages.
     ///
     /// # Errors
     ///
@@ -47,5 +47,5 @@ fn unknown_name(option: &str, name: &str, names: &[&str], source: &str) -> Probl
         Some(close) => problem.help(format!("did you mean `{close}`?")),
         None => problem,
     };
-    problem.note(format!("`{source}` has the components {}", quoted_list(names.iter().copied())))
+    problem.note(format!("{source} has the components {}", quoted_list(names.iter().copied())))
 }

@@ -6,7 +6,7 @@ mod together;
 use super::super::deployment::{Deployment, Host};
 use super::entry::joined;
 use super::keys;
-use super::reader::{KeyPath, Reader, shown};
+use super::reader::{KeyPath, Reader, likely_key, shown};
 use scl_terminal::Problem;
 use serde_yaml::{Mapping, Value};
 use std::path::PathBuf;
@@ -87,9 +87,9 @@ impl Reader<'_> {
         self.check_keys(keys, &at, keys::GATEWAY, "in `gateway`");
         Gateway {
             port: self.read_setting(keys, &at, "port", port),
-            has_port: keys.contains_key("port"),
+            has_port: means_to_have(keys, "port"),
             certificates: self.read_path(keys.get("certificates"), &joined(&at, "certificates")),
-            has_certificates: keys.contains_key("certificates"),
+            has_certificates: means_to_have(keys, "certificates"),
             insecure: self.read_setting(keys, &at, "insecure", Value::as_bool).unwrap_or_default(),
         }
     }
@@ -141,7 +141,7 @@ impl Reader<'_> {
         let value = keys.get("components");
         let names = value.and_then(Value::as_sequence).filter(|names| !names.is_empty());
         let Some(names) = names.and_then(|names| names.iter().map(Value::as_str).collect::<Option<Vec<&str>>>()) else {
-            let means_it = |key: &str| super::reader::likely_key(key, keys::HOST) == Some("components");
+            let means_it = |key: &str| likely_key(key, keys::HOST) == Some("components");
             if value.is_some() || !keys.keys().filter_map(Value::as_str).any(means_it) {
                 let place =
                     if value.is_some() { self.text.place(&joined(at, "components")) } else { self.text.place(at) };
@@ -154,6 +154,12 @@ impl Reader<'_> {
         names.iter().for_each(|name| self.check_is_component(name, &at, components));
         names.into_iter().map(str::to_owned).collect()
     }
+}
+
+/// Whether `gateway` has this key, maybe misspelt, which has been reported.
+fn means_to_have(keys: &Mapping, key: &str) -> bool {
+    let mut words = keys.keys().filter_map(Value::as_str);
+    words.any(|word| word == key || likely_key(word, keys::GATEWAY) == Some(key))
 }
 
 fn port(value: &Value) -> Option<u16> {

@@ -16,7 +16,7 @@ use std::path::Path;
 ///
 /// Everything that is missing.
 pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Options) -> Result<RunPlan, Vec<Problem>> {
-    let source = folder.join(TOPOLOGY_FILE).display().to_string();
+    let source = format!("`{}`", folder.join(TOPOLOGY_FILE).display());
     let selection = Selection::new(options, &names.components, &source)?;
     let components: Vec<&String> = names.components.iter().filter(|name| selection.includes(name)).collect();
     let built = build_package(folder, options.release).map_err(|problem| vec![problem])?;

@@ -104,7 +104,8 @@ fn services_do_what_the_launch_file_says() {
 
         [Install]
         WantedBy=multi-user.target
-    "#]].assert_eq(&units(LAUNCH, Some("rover")));
+    "#]]
+    .assert_eq(&units(LAUNCH, Some("rover")));
 }
 
 #[test]

@@ -36,8 +36,10 @@ impl Reader<'_> {
         }
         let missing: Vec<String> = names.into_iter().filter(|name| !placed().any(|(it, _)| it == name)).collect();
         if !missing.is_empty() {
-            let noun = if missing.len() == 1 { "component is" } else { "components are" };
-            let problem = Problem::new(format!("{} {noun} on no host: {}", missing.len(), list(&missing)));
+            let problem = Problem::new(match missing.as_slice() {
+                [one] => format!("component `{one}` is on no host"),
+                several => format!("the components {} are on no host", list(several)),
+            });
             let place = self.text.place(&["hosts"]);
             self.problems.push(problem.at(place).help("add each to `components` of the host that runs it"));
         }
@@ -71,16 +73,15 @@ impl Reader<'_> {
                 let help = "on one machine, give each a `port` of its own";
                 self.problems.push(Problem::new(message).at(place).help(help));
             }
-            let is_open = !gateway.has_certificates && !gateway.insecure;
-            if is_open && !host.is_loopback() {
-                let message = format!("host `{}` is not on loopback, and `gateway` has no `certificates`", host.name);
-                let place = self.text.place(&["hosts", &host.name, "address"]);
-                let problem = Problem::new(message).at(place);
-                let problem =
-                    problem.help("write `gateway: {port: 7447, certificates: ./keys}`, and run `scl gateway keys`");
-                self.problems.push(problem.note("without certificates everybody on the network could listen and send"));
-            }
             seen.push(host);
+        }
+        let is_open = !gateway.has_certificates && !gateway.insecure;
+        if let Some(host) = seen.iter().find(|host| is_open && !host.is_loopback()) {
+            let message = format!("host `{}` is not on loopback, and `gateway` has no `certificates`", host.name);
+            let problem = Problem::new(message).at(self.text.place(&["hosts", &host.name, "address"]));
+            let problem =
+                problem.help("write `gateway: {port: 7447, certificates: ./keys}`, and run `scl gateway keys`");
+            self.problems.push(problem.note("without certificates everybody on the network could listen and send"));
         }
     }
 
