@@ -123,8 +123,9 @@ pub mod untyped;
 pub use bytes;
 pub use component::Component;
 pub use error::{
-    BlockingError, CallError, Error, GateName, LoanError, MissingPeer, NotFlushed, NotReady, OpenError, PeerName,
-    Peers, RecvError, RecvTimeoutError, ReplyError, Result, SendError, SendTimeoutError, TrySendError, Unflushed,
+    BlockingError, CallError, Error, GateName, LoanError, MissingGuarantee, MissingPeer, NotFlushed, NotReady,
+    OpenError, PeerName, Peers, RecvError, RecvTimeoutError, ReplyError, Result, SendError, SendTimeoutError,
+    TrySendError, Unflushed,
 };
 #[cfg(feature = "raw")]
 pub use gate::View;

@@ -101,6 +101,16 @@ impl Registration {
         }
     }
 
+    /// Creates the component's files again if they were removed, for a process that watches the folder by itself. Returns
+    /// true if something was missing.
+    #[cfg(feature = "zeromq")]
+    pub(crate) fn restore_if_removed(&self) -> Result<bool, RuntimeDirError> {
+        match &self.files {
+            Some(files) if !files.are_in_place() => files.restore(),
+            _ => Ok(false),
+        }
+    }
+
     /// The figures of a component that has done nothing yet, and what writes later ones, unless it writes none.
     pub(crate) fn stats(&self) -> Option<(ComponentStats, StatsWriter)> {
         let files = self.files.as_ref()?;

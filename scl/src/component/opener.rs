@@ -1,7 +1,7 @@
 //! Opening a component: its registration, then its gates one by one.
 
-use super::ComponentHandle;
 use super::transports::Transports;
+use super::{ComponentHandle, needs};
 use crate::codec::Codec;
 use crate::error::{GateName, OpenError};
 use crate::figures::FigureSource;
@@ -29,7 +29,11 @@ impl Opener {
         runtime: Option<Arc<OwnedRuntime>>,
     ) -> Result<Self, OpenError> {
         let (registration, transports) = match options.chosen_transport() {
-            Some(transport) => (Registration::without_files(), Transports::Own(transport)),
+            Some(transport) => {
+                let transports = Transports::Own(transport);
+                needs::check(spec, &transports)?;
+                (Registration::without_files(), transports)
+            }
             None => register(spec, options)?,
         };
         let state = Owner::new(ComponentState::new(spec, registration, runtime).of_test(options.is_test()));
@@ -171,6 +175,7 @@ fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Regi
     let runtime_dir = RuntimeDir::locate(&|name| options.variable(name)).map_err(failed)?;
     let dir = runtime_dir.system(&system).map_err(failed)?;
     let transports = Transports::in_folder(spec, &dir, media.clone())?;
+    needs::check(spec, &transports)?;
     Ok((Registration::in_folder(spec, dir, stats, &media).map_err(failed)?, transports))
 }
 
