@@ -64,6 +64,7 @@ impl SharedMemory {
             .signal_handling_mode(SignalHandlingMode::Disabled)
             .create::<Engine>()
             .map_err(|error| ShmError::engine("create a node", error))?;
+        folder.close_to_others();
         node.blocking_cleanup_dead_nodes(CLEANING);
         Ok(Self { node: Some(Mutex::new(node)), folder })
     }
