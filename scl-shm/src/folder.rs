@@ -48,6 +48,11 @@ impl Folder {
         self.path.parent() == Some(system)
     }
 
+    /// Returns true if somebody has removed it.
+    pub(crate) fn is_gone(&self) -> bool {
+        matches!(fs::symlink_metadata(&self.path), Err(error) if error.kind() == io::ErrorKind::NotFound)
+    }
+
     #[cfg(test)]
     pub(crate) fn prefix(&self) -> &str {
         &self.prefix

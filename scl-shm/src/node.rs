@@ -111,7 +111,8 @@ impl Drop for SharedMemory {
         // A program that opens the system meanwhile waits, so what is removed is nobody's.
         let locked = self.folder.lock();
         self.node = None;
-        if locked.is_ok() && !is_open_again {
+        // Without the folder, nobody can find what is left.
+        if (locked.is_ok() || self.folder.is_gone()) && !is_open_again {
             self.folder.remove_if_unused();
         }
     }

@@ -185,6 +185,16 @@ fn nothing_stays() {
 }
 
 #[test]
+fn nothing_stays_if_the_folder_is_removed_first() {
+    let Pair { folder, sender, receiver } = pair(3);
+    let prefix = prefix_of(folder.path());
+    drop(folder);
+    assert!(!files(&prefix).is_empty());
+    drop((sender, receiver));
+    assert_eq!(files(&prefix), [""; 0]);
+}
+
+#[test]
 fn what_a_killed_program_left_is_removed() {
     let folder = TempDir::with_prefix("scl-shm").unwrap();
     let prefix = prefix_of(folder.path());
