@@ -10,7 +10,7 @@ use rustix::fs::{FlockOperation, flock};
 use std::fs::{self, DirBuilder, File, OpenOptions};
 use std::io;
 use std::os::unix::ffi::OsStrExt;
-use std::os::unix::fs::{DirBuilderExt, MetadataExt, OpenOptionsExt};
+use std::os::unix::fs::{DirBuilderExt, MetadataExt, OpenOptionsExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 
 /// The name of the folder inside the system's. Endpoints have full stops in their names, so none is in the way.
@@ -87,6 +87,17 @@ impl Folder {
             }
         }
         Ok(())
+    }
+
+    /// Takes away the rights of other users. The engine lets everybody write to the file that counts its nodes.
+    pub(crate) fn restrict(&self) {
+        for path in self.files() {
+            let is_open_to_others = |found: fs::Metadata| found.mode() & 0o077 != 0;
+            if fs::symlink_metadata(&path).is_ok_and(is_open_to_others) {
+                // One that has gone meanwhile harms nobody.
+                let _gone = fs::set_permissions(&path, fs::Permissions::from_mode(0o600));
+            }
+        }
     }
 
     /// Removes all files if no living program has a node here any more, also those of killed programs. Called under the

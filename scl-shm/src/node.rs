@@ -55,12 +55,15 @@ impl SharedMemory {
         let _locked = folder.lock()?;
         folder.check_owners()?;
         limits::require(0)?;
+        // Files that are damaged or of no use to the engine would be in its way.
+        folder.remove_if_unused();
         let config = folder.config()?;
         let node = NodeBuilder::new()
             .config(&config)
             .signal_handling_mode(SignalHandlingMode::Disabled)
             .create::<Engine>()
             .map_err(|error| ShmError::engine("create a node", error))?;
+        folder.restrict();
         node.blocking_cleanup_dead_nodes(CLEANING);
         Ok(Self { node: Some(Mutex::new(node)), folder })
     }
