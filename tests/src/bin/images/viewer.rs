@@ -46,7 +46,7 @@ pub(crate) async fn play() -> scl::Result<()> {
                 let shared = kept.iter().filter(|frame| is_shared(frame)).count();
                 say(format!("{shared} of {} shared", kept.len()));
             }
-            "kept" => say(ranges(&kept.iter().map(|frame| number_of(frame)).collect::<Vec<_>>())),
+            "kept" => say(ranges(&kept.iter().map(number_of).collect::<Vec<_>>())),
             "release" => {
                 kept.clear();
                 say("released");
