@@ -14,9 +14,9 @@ fn a_good_network_delivers_everything_in_time() {
     fleet.send_all();
     let started = Instant::now();
     // A loop that sends 500 times in a second has run for two seconds.
-    fleet.player("source").wait_for("control", "account sink.control", |counts| {
-        counts.get("published") >= before[2].published + 1000
-    });
+    fleet
+        .player("source")
+        .wait_for("control", "account sink.control", |counts| counts.get("published") >= before[2].published + 1000);
     let took = started.elapsed();
     reference.compare(&mut fleet, "without faults");
     for (connection, before) in CONNECTIONS.into_iter().zip(&before) {
