@@ -87,11 +87,21 @@ mod tests {
 
     #[test]
     fn a_launch_file_has_every_host_and_component() {
-        let host = |name, components: &[&str]| Host { name, components: components.iter().map(|&c| c.into()).collect() };
+        let host =
+            |name, components: &[&str]| Host { name, components: components.iter().map(|&c| c.into()).collect() };
         let text = launch_file(&[host("left", &["a", "b"]), host("right", &["c"])]).unwrap();
         let lines: Vec<&str> = text.lines().collect();
         assert!(lines[2].starts_with("  left: {address: 127.0.0.1, port: "), "{text}");
         assert!(lines[2].ends_with(", components: [a, b]}"), "{text}");
-        assert_eq!(lines[4..], ["gateway: {}", "components:", "  a: {command: ['true']}", "  b: {command: ['true']}", "  c: {command: ['true']}"]);
+        assert_eq!(
+            lines[4..],
+            [
+                "gateway: {}",
+                "components:",
+                "  a: {command: ['true']}",
+                "  b: {command: ['true']}",
+                "  c: {command: ['true']}"
+            ]
+        );
     }
 }

@@ -14,6 +14,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
 
+#[cfg(test)]
+type Builder = iceoryx2::service::builder::publish_subscribe::Builder<[u8], (), Engine>;
+
 /// How long the cleaning of what killed programs have left may wait for another program that cleans as well.
 const CLEANING: Duration = Duration::from_secs(1);
 
@@ -61,6 +64,7 @@ impl SharedMemory {
             .signal_handling_mode(SignalHandlingMode::Disabled)
             .create::<Engine>()
             .map_err(|error| ShmError::engine("create a node", error))?;
+        folder.close_to_others();
         node.blocking_cleanup_dead_nodes(CLEANING);
         Ok(Self { node: Some(Mutex::new(node)), folder })
     }
@@ -86,6 +90,13 @@ impl SharedMemory {
         SampleSender::new(&service, limits, expected, self)
     }
 
+    /// A service that no end of SCL would create.
+    #[cfg(test)]
+    pub(crate) fn foreign_service(&self, name: &ServiceName, settings: impl Fn(Builder) -> Builder) -> service::Port {
+        let builder = self.node().service_builder(&name.as_str().try_into().unwrap());
+        settings(builder.publish_subscribe::<[u8]>()).create().unwrap()
+    }
+
     fn node(&self) -> MutexGuard<'_, Node<Engine>> {
         // It is there until this value is dropped.
         lock(self.node.as_ref().unwrap_or_else(|| unreachable!("the node is taken by `drop` only")))
@@ -100,7 +111,8 @@ impl Drop for SharedMemory {
         // A program that opens the system meanwhile waits, so what is removed is nobody's.
         let locked = self.folder.lock();
         self.node = None;
-        if locked.is_ok() && !is_open_again {
+        // Without the folder, nobody can find what is left.
+        if (locked.is_ok() || self.folder.is_gone()) && !is_open_again {
             self.folder.remove_if_unused();
         }
     }

@@ -131,6 +131,44 @@ fn services_are_found_by_their_name_only_and_once() {
 }
 
 #[test]
+fn services_with_other_settings_are_refused() {
+    let folder = TempDir::with_prefix("scl-shm").unwrap();
+    let memory = SharedMemory::open(folder.path()).unwrap();
+    let foreign = |name: &ServiceName, overflow, publishers| {
+        memory.foreign_service(name, |service| service.enable_safe_overflow(overflow).max_publishers(publishers))
+    };
+    for (overflow, publishers, expected) in [
+        (true, 1, "the peer's service has an overflow or a history"),
+        (false, 2, "the peer's service has room for more than one connection"),
+        (false, 1, "the peer's service has room for more than one connection"),
+    ] {
+        let name = ServiceName::unique();
+        let _service = foreign(&name, overflow, publishers);
+        assert_eq!(memory.sender(&name, 1).unwrap_err().to_string(), expected);
+    }
+}
+
+#[test]
+fn more_than_there_is_is_not_lent() {
+    let Pair { folder: _folder, mut sender, mut receiver } = pair(2);
+    let LoanError::TooLittle(error) = sender.loan(1 << 50).unwrap_err() else { panic!("another error") };
+    assert!(error.needed > 1 << 50 && error.available < 1 << 50, "{error}");
+    let sample = sender.copy(b"still there").unwrap();
+    sender.send(sample).unwrap();
+    assert_eq!(receiver.receive(11).unwrap(), "still there");
+}
+
+#[test]
+fn no_file_is_open_to_other_users() {
+    use std::os::unix::fs::PermissionsExt;
+    let Pair { folder, sender: _sender, receiver: _receiver } = pair(1);
+    for name in files(&prefix_of(folder.path())) {
+        let mode = std::fs::metadata(format!("/dev/shm/{name}")).unwrap().permissions().mode();
+        assert_eq!(mode & 0o077, 0, "{name}: {mode:o}");
+    }
+}
+
+#[test]
 fn nothing_stays() {
     let Pair { folder, mut sender, mut receiver } = pair(3);
     let prefix = prefix_of(folder.path());
@@ -143,6 +181,16 @@ fn nothing_stays() {
     drop(sender);
     assert!(!files(&prefix).is_empty());
     drop(receiver);
+    assert_eq!(files(&prefix), [""; 0]);
+}
+
+#[test]
+fn nothing_stays_if_the_folder_is_removed_first() {
+    let Pair { folder, sender, receiver } = pair(3);
+    let prefix = prefix_of(folder.path());
+    drop(folder);
+    assert!(!files(&prefix).is_empty());
+    drop((sender, receiver));
     assert_eq!(files(&prefix), [""; 0]);
 }
 
