@@ -52,11 +52,15 @@ pub(super) fn run(ports: usize) {
     });
     for port in 0..ports {
         let (reading, writing) = (Arc::clone(&hub), Arc::clone(&hub));
-        thread::spawn(move || loop {
-            reading.take(port, reading.ports[port].read().into());
+        thread::spawn(move || {
+            loop {
+                reading.take(port, reading.ports[port].read().into());
+            }
         });
-        thread::spawn(move || loop {
-            writing.ports[port].write(&writing.next(port));
+        thread::spawn(move || {
+            loop {
+                writing.ports[port].write(&writing.next(port));
+            }
         });
     }
     println!("= hub");

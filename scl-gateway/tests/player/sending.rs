@@ -117,9 +117,7 @@ fn account(peers: &[PeerStats], peer: &str) -> String {
     let PeerStats { connected, published, taken, dropped_oldest, dropped_newest, lost, waiting, .. } =
         found.unwrap_or_else(|| panic!("no `{peer}` in {:?}", names()));
     let (connected, dropped) = (u8::from(*connected), dropped_oldest + dropped_newest);
-    format!(
-        "connected={connected} published={published} taken={taken} dropped={dropped} lost={lost} waiting={waiting}"
-    )
+    format!("connected={connected} published={published} taken={taken} dropped={dropped} lost={lost} waiting={waiting}")
 }
 
 /// Calls when it is told: `call COUNT MILLISECONDS`, one after the other, with a time limit for each.
