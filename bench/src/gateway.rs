@@ -36,7 +36,8 @@ impl Gateways {
             let mut command = Command::new(&program);
             command.args(["run", "--topology", "topology.yaml", "--launch", "launch.yaml", "--host", host.name]);
             command.current_dir(folder).env("SCL_RUNTIME_DIR", &runtime_dir).env_remove("SCL_SYSTEM");
-            // The tables go to standard output, and what a gateway logs would be between them.
+            // Gateways end one after the other, which the rest would warn of.
+            command.env("SCL_LOG", "error");
             gateways.push(Worker::spawn(command)?);
         }
         Ok(Self { gateways })
@@ -72,7 +73,8 @@ fn launch_file(hosts: &[Host<'_>]) -> scl::Result<String> {
         let (port, components) = (free_port()?, components.join(", "));
         writeln!(text, "  {name}: {{address: 127.0.0.1, port: {port}, components: [{components}]}}")?;
     }
-    text.push_str("components:\n");
+    // Every host has a port of its own, but the key is required. Without certificates, because all are on loopback.
+    text.push_str("gateway: {}\ncomponents:\n");
     for component in hosts.iter().flat_map(|host| &host.components) {
         writeln!(text, "  {component}: {{command: ['true']}}")?;
     }
@@ -85,11 +87,21 @@ mod tests {
 
     #[test]
     fn a_launch_file_has_every_host_and_component() {
-        let host = |name, components: &[&str]| Host { name, components: components.iter().map(|&c| c.into()).collect() };
+        let host =
+            |name, components: &[&str]| Host { name, components: components.iter().map(|&c| c.into()).collect() };
         let text = launch_file(&[host("left", &["a", "b"]), host("right", &["c"])]).unwrap();
         let lines: Vec<&str> = text.lines().collect();
         assert!(lines[2].starts_with("  left: {address: 127.0.0.1, port: "), "{text}");
         assert!(lines[2].ends_with(", components: [a, b]}"), "{text}");
-        assert_eq!(lines[4..], ["components:", "  a: {command: ['true']}", "  b: {command: ['true']}", "  c: {command: ['true']}"]);
+        assert_eq!(
+            lines[4..],
+            [
+                "gateway: {}",
+                "components:",
+                "  a: {command: ['true']}",
+                "  b: {command: ['true']}",
+                "  c: {command: ['true']}"
+            ]
+        );
     }
 }

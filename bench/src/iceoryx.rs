@@ -73,10 +73,7 @@ impl Participant {
         Ok(service.subscriber_max_buffer_size(BUFFER).open_or_create()?)
     }
 
-    fn events(
-        &self,
-        channel: &str,
-    ) -> scl::Result<iceoryx2::service::port_factory::event::PortFactory<ipc::Service>> {
+    fn events(&self, channel: &str) -> scl::Result<iceoryx2::service::port_factory::event::PortFactory<ipc::Service>> {
         Ok(self.0.service_builder(&format!("{channel}/events").as_str().try_into()?).event().open_or_create()?)
     }
 }

@@ -5,8 +5,8 @@ mod limits;
 use clap::{Args, Subcommand, ValueEnum};
 use limits::{MESSAGES, REPETITIONS, STARTS, parse_seconds, within};
 use scl_bench::{
-    CodecsOptions, Cores, DelayOptions, FanoutOptions, FreshOptions, GatewayGrowthOptions, OpenOptions, RateOptions, Report, RestartOptions,
-    RoundtripOptions, Transport,
+    CodecsOptions, Cores, DelayOptions, FanoutOptions, FreshOptions, GatewayGrowthOptions, OpenOptions, RateOptions,
+    Report, RestartOptions, RoundtripOptions, Transport,
 };
 use scl_terminal::{print_err, print_out};
 use std::process::ExitCode;

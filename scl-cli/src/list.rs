@@ -77,6 +77,7 @@ fn component_table(components: &[Component], now: SystemTime) -> String {
         let started = announcement.filter(|_| component.is_running()).map(|it| it.started);
         let program =
             announcement.and_then(|it| it.program.file_name()).map(|name| name.to_string_lossy().into_owned());
+        let program = component.host().map(|host| format!("on host {}", scl_terminal::escape(host))).or(program);
         table.row([
             component.name.clone(),
             state_text(component, now),

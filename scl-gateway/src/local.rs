@@ -18,7 +18,7 @@ use crate::pump::Counts;
 use crate::route::Route;
 use crate::wire::Wire;
 use announcing::announce;
-use mirroring::mirror;
+use mirroring::{Remote, mirror};
 use scl::Medium;
 use scl::bridge::{Change, Mirror, Presence};
 use scl::runtime_dir::SystemDir;
@@ -97,7 +97,8 @@ impl Gateway {
         let (pumps, routes) = routes::start(&options, &wire, &runs, &mirrors, &stop.subscribe());
         let routes = Arc::new(routes);
         tasks.spawn(log_figures_on_signal(Arc::clone(&routes)));
-        tasks.spawn(follow_components(Presence::new(options.dir.clone(), runs.into_keys()), changes));
+        let presence = Presence::new(options.dir.clone(), runs.into_keys());
+        tasks.spawn(follow_components(presence, changes, remotes.clone()));
         tasks.spawn(neighbours::follow(Arc::clone(&wire), remotes));
         Self { wire, routes, stop, pumps, tasks }
     }
@@ -151,14 +152,22 @@ async fn log_figures_on_signal(routes: Arc<Routes>) {
     }
 }
 
-type Changes = HashMap<String, UnboundedSender<Change>>;
+type Senders<T> = HashMap<String, UnboundedSender<T>>;
 
-async fn follow_components(mut presence: Presence, changes: Changes) {
+async fn follow_components(mut presence: Presence, changes: Senders<Change>, remotes: Senders<Remote>) {
     loop {
         let change = presence.next().await;
-        let (Change::Started { component, .. } | Change::Stopped { component }) = &change;
-        if let Some(changes) = changes.get(component) {
-            let _the_gateway_ends = changes.send(change);
+        match &change {
+            Change::Started { component, .. } | Change::Stopped { component } => {
+                if let Some(changes) = changes.get(component) {
+                    let _the_gateway_ends = changes.send(change);
+                }
+            }
+            Change::Removed => {
+                for remote in remotes.values() {
+                    let _the_gateway_ends = remote.send(Remote::Removed);
+                }
+            }
         }
     }
 }

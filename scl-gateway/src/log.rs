@@ -1,8 +1,6 @@
 //! The log of the gateway on standard error, as detailed as `SCL_LOG` says.
 
-mod refusals;
-
-use refusals::Refusals;
+use scl_gateway::wire::ConnectionLog;
 use scl_terminal::Problem;
 use std::io::{self, IsTerminal};
 use tracing_subscriber::Layer;
@@ -23,13 +21,13 @@ pub(crate) fn start() -> Result<(), Problem> {
         })?,
         _ => LevelFilter::WARN,
     };
-    // The network library repeats its warnings with every attempt to connect. What matters of them, `Refusals` says.
-    let library = if level >= LevelFilter::DEBUG { level } else { level.min(LevelFilter::ERROR) };
+    // The network library warns of every attempt to reach a host that is off. What matters, the gateway says itself.
+    let library = if level >= LevelFilter::DEBUG { level } else { LevelFilter::OFF };
     let filter = Targets::new().with_default(level).with_targets([("zenoh", library), ("rustls", library)]);
     let use_colour = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    let text = tracing_subscriber::fmt::layer().with_writer(io::stderr).with_ansi(use_colour);
-    let text = text.with_target(false).without_time().with_filter(filter);
-    let refusals = (level >= LevelFilter::WARN).then(|| Refusals::default().with_filter(refusals::filter()));
-    let _already_set = tracing_subscriber::registry().with(text).with(refusals).try_init();
+    let layer = tracing_subscriber::fmt::layer().with_writer(io::stderr).with_ansi(use_colour);
+    let layer = layer.with_target(false).without_time().with_filter(filter);
+    let reasons = ConnectionLog.with_filter(Targets::new().with_target("zenoh", LevelFilter::WARN));
+    let _already_set = tracing_subscriber::registry().with(layer).with(reasons).try_init();
     Ok(())
 }

@@ -60,6 +60,9 @@ pub(crate) fn launch(hosts: &[(&Host, &[&str])]) -> String {
     let host = |(host, components): &(&Host, &[&str])| {
         format!("  {}: {{address: {}, components: [{}]}}\n", host.name, host.address, components.join(", "))
     };
+    let programs = hosts.iter().flat_map(|(_, components)| components.iter());
+    // The test starts the programs itself.
+    let programs: String = programs.map(|component| format!("  {component}: {{command: /bin/true}}\n")).collect();
     let hosts: String = hosts.iter().map(host).collect();
-    format!("hosts:\n{hosts}gateway: {{port: 7447, certificates: ./keys}}\n")
+    format!("components:\n{programs}hosts:\n{hosts}gateway: {{port: 7447, certificates: ./keys}}\n")
 }

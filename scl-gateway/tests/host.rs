@@ -31,7 +31,8 @@ impl Host {
     /// A program that will run on this host.
     pub(crate) fn command(&self, program: impl AsRef<Path>) -> Command {
         let mut command = self.namespace.command(program.as_ref());
-        for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS", "SCL_LOG"] {
+        // `SCL_LOG` is that of the test.
+        for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS"] {
             command.env_remove(name);
         }
         command.env("SCL_RUNTIME_DIR", self.runtime_dir());

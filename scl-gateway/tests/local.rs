@@ -5,6 +5,7 @@
 mod accounts;
 mod hosts;
 mod messages;
+mod outages;
 mod presence;
 mod requests;
 mod restarts;

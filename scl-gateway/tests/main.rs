@@ -22,5 +22,6 @@ mod network;
 mod player;
 mod quickstart;
 mod receipts;
+mod steady;
 mod strangers;
 mod wire;

@@ -5,6 +5,6 @@ mod faults;
 mod messages;
 mod neighbours;
 mod network;
-mod proxy;
+pub(crate) mod proxy;
 mod requests;
 mod tls;

@@ -29,6 +29,11 @@ impl Component {
         }
     }
 
+    /// The other host that it runs on. The process here is then the gateway that stands in for it.
+    pub fn host(&self) -> Option<&str> {
+        self.announcement.as_ref()?.host.as_deref()
+    }
+
     /// The latest figures of its gate with this number, if they are those of its plan and of this run.
     pub fn figures(&self, gate: usize) -> Option<&GateFigures> {
         let (stats, announcement) = (self.stats.as_ref()?, self.announcement.as_ref()?);
@@ -43,6 +48,7 @@ impl Component {
             "name": self.name,
             "state": self.state_word(),
             "pid": self.process_id(),
+            "host": self.host(),
             "program": announcement.map(|it| it.program.to_string_lossy()),
             "started": announcement.map(|it| timestamp(it.started)),
             "declared_at": self.plan().map(|plan| &plan.declared_at),

@@ -2,6 +2,7 @@
 
 mod main;
 mod methods;
+mod needs;
 mod opener;
 mod outcome;
 mod realtime;

@@ -39,25 +39,77 @@ fn run_on<F: Future<Output = ()>>(builder: &mut Builder, guarantee: &str, test: 
 /// The expression is evaluated for each test. It returns a [`Transport`](crate::transport::Transport) without any ends,
 /// and a value that is dropped after the test, such as the folder of its sockets.
 ///
+/// | before the expression | for a transport that |
+/// |---|---|
+/// | nothing | declares all [`Guarantees`](crate::transport::Guarantees), and lends no memory |
+/// | `lends;` | declares all of them, and whose links [lend memory](crate::transport::Link::loan) of 64 KiB and more |
+/// | `only [Waiting, Requests];` | declares these, and lends no memory |
+/// | `lends, only [Waiting];` | declares these, and lends memory |
+///
+/// What a transport declares is what is tested: a test compares the two.
+///
 /// ```
 /// mod memory {
-///     scl::transport_conformance!((scl::transport::memory::Memory::new(), ()));
+///     scl::transport_conformance!(lends; (scl::transport::memory::Memory::new(), ()));
 /// }
 /// ```
 #[macro_export]
 macro_rules! transport_conformance {
-    ($fresh:expr) => {
+    (lends, only [$($guarantee:ident),*]; $fresh:expr) => {
+        $crate::transport_conformance! { @lending $fresh }
+        $crate::transport_conformance! { @only [$($guarantee)*] $fresh }
+    };
+    (only [$($guarantee:ident),*]; $fresh:expr) => {
+        $crate::transport_conformance! { @tests $fresh; lends_nothing }
+        $crate::transport_conformance! { @only [$($guarantee)*] $fresh }
+    };
+    (lends; $fresh:expr) => {
+        $crate::transport_conformance! { lends, only [Acknowledgement, Waiting, Freshness, Requests]; $fresh }
+    };
+    (@lending $fresh:expr) => {
+        $crate::transport_conformance! { @tests $fresh;
+            carries_loans returns_loans_that_it_refuses takes_dropped_loans_back copies_loans_of_a_lost_link
+            leaves_loans_to_their_holder
+        }
+    };
+    (@only [$($guarantee:ident)*] $fresh:expr) => {
         $crate::transport_conformance! { @tests $fresh;
             keeps_order carries_every_size never_delivers_an_oversized_message delivers_what_was_written
             serves_every_pusher
             waits_for_a_late_peer yields_each_peer_once serves_the_next_receiver serves_the_next_sender
             reconnects_after_a_dropped_link frees_its_endpoint finds_the_peer_that_stays releases_an_idle_connection
             counts_peers connects_only_if_the_check_passes
-            stops_and_resumes keeps_subscribers_independent acknowledges_what_was_taken stays_quiet_when_idle
-            returns_the_newest_message catches_up_with_a_busy_sender catches_up_without_a_runtime
+            keeps_subscribers_independent
             delivers_when_detached accepts_peers_when_detached delivers_after_its_runtime_has_ended
+            moves_between_threads
+        }
+        $($crate::transport_conformance! { @guarantee $guarantee $fresh })*
+
+        #[test]
+        fn declares_what_is_tested() {
+            $crate::conformance::run("declares_what_is_tested", || async {
+                let (transport, _kept) = $fresh;
+                let tested = [$($crate::transport::Guarantee::$guarantee),*];
+                $crate::conformance::transport::declares(&transport, &tested);
+            });
+        }
+    };
+    (@guarantee Acknowledgement $fresh:expr) => {
+        $crate::transport_conformance! { @tests $fresh; acknowledges_what_was_taken counts_what_was_not_taken }
+    };
+    (@guarantee Waiting $fresh:expr) => {
+        $crate::transport_conformance! { @tests $fresh; stops_and_resumes tells_who_waits }
+    };
+    (@guarantee Freshness $fresh:expr) => {
+        $crate::transport_conformance! { @tests $fresh;
+            returns_the_newest_message catches_up_with_a_busy_sender catches_up_without_a_runtime
+        }
+    };
+    (@guarantee Requests $fresh:expr) => {
+        $crate::transport_conformance! { @tests $fresh;
+            stays_quiet_when_idle counts_requesters requests_only_if_the_check_passes
             replies_when_detached
-            moves_between_threads moves_requests_between_threads
+            moves_requests_between_threads
             answers_in_any_order keeps_request_numbers carries_requests_of_every_size
             never_delivers_an_oversized_request refuses_requests_without_a_replier reports_a_lost_replier
             finds_the_replier_that_stays survives_a_lost_requester delivers_written_replies
@@ -72,4 +124,7 @@ macro_rules! transport_conformance {
             });
         }
     )*};
+    ($fresh:expr) => {
+        $crate::transport_conformance! { only [Acknowledgement, Waiting, Freshness, Requests]; $fresh }
+    };
 }

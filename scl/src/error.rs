@@ -13,7 +13,7 @@ pub use not_ready::{MissingPeer, NotReady};
 
 use crate::codec::{DecodeError, EncodeError};
 use crate::time::Rounded;
-use crate::transport::TransportError;
+use crate::transport::{Guarantee, TransportError};
 use std::fmt;
 use std::time::Duration;
 use thiserror::Error;
@@ -29,6 +29,14 @@ pub enum OpenError {
         component: &'static str,
         /// The problem, and what to do.
         source: crate::runtime_dir::RuntimeDirError,
+    },
+    /// The component could not be registered, see [`OpenOptions::registry`](crate::OpenOptions::registry).
+    #[error("component `{component}` cannot be opened")]
+    Registry {
+        /// The component.
+        component: &'static str,
+        /// Why.
+        source: crate::registry::RegistryError,
     },
     /// A gate's connection could not be set up.
     #[error("gate `{gate}` cannot be opened")]
@@ -86,6 +94,17 @@ pub enum OpenError {
         /// The gate that was probably meant.
         nearest: Option<String>,
     },
+    /// The component's gates need more than its transport offers.
+    #[error(
+        "component `{component}` needs more than its transport offers: {}; choose another transport",
+        listed(missing)
+    )]
+    Guarantees {
+        /// The component.
+        component: &'static str,
+        /// What is missing.
+        missing: Vec<MissingGuarantee>,
+    },
     /// Shared memory was chosen, and the `scl` crate was built without it.
     #[error(
         "component `{component}` cannot use shared memory: enable the feature `iceoryx2` of the crate `scl`, or choose the transport `ipc`"
@@ -123,6 +142,25 @@ pub enum OpenError {
         /// The values it may have.
         expected: &'static str,
     },
+}
+
+/// What a gate needs and its transport does not offer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct MissingGuarantee {
+    /// The gate.
+    pub gate: GateName,
+    /// The part of its declaration that needs it: `queue: 1`.
+    pub option: &'static str,
+    /// What is missing.
+    pub guarantee: Guarantee,
+}
+
+impl fmt::Display for MissingGuarantee {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { gate, option, guarantee } = self;
+        write!(f, "gate `{gate}` (`{option}`) needs {guarantee}")
+    }
 }
 
 fn suggestion(nearest: &Option<String>) -> String {

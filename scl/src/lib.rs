@@ -108,6 +108,7 @@ mod options;
 pub mod private;
 mod process_mark;
 mod registration;
+pub mod registry;
 pub mod runtime_dir;
 mod service;
 pub mod spec;
@@ -123,8 +124,9 @@ pub mod untyped;
 pub use bytes;
 pub use component::Component;
 pub use error::{
-    BlockingError, CallError, Error, GateName, LoanError, MissingPeer, NotFlushed, NotReady, OpenError, PeerName,
-    Peers, RecvError, RecvTimeoutError, ReplyError, Result, SendError, SendTimeoutError, TrySendError, Unflushed,
+    BlockingError, CallError, Error, GateName, LoanError, MissingGuarantee, MissingPeer, NotFlushed, NotReady,
+    OpenError, PeerName, Peers, RecvError, RecvTimeoutError, ReplyError, Result, SendError, SendTimeoutError,
+    TrySendError, Unflushed,
 };
 #[cfg(feature = "raw")]
 pub use gate::View;

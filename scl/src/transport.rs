@@ -12,6 +12,7 @@ use std::task::{Context, Poll};
 use std::time::Duration;
 
 mod frame;
+mod guarantees;
 mod heap_memory;
 #[cfg(feature = "memory")]
 pub mod memory;
@@ -19,12 +20,19 @@ pub mod memory;
 pub mod zeromq;
 
 pub use frame::{Frame, Loan, LoanedMemory};
+pub use guarantees::{Guarantee, Guarantees};
 pub(crate) use heap_memory::HeapMemory;
 
 /// Opens the ends of connections.
 ///
 /// Its methods are called inside a tokio runtime of any kind.
 pub trait Transport: Send + Sync + 'static {
+    /// What this transport promises. A component whose gates need more is refused when it is opened, with the gate, its
+    /// option and the guarantee that is missing.
+    ///
+    /// [`transport_conformance!`](crate::transport_conformance) tests what is declared here.
+    fn guarantees(&self) -> Guarantees;
+
     /// Opens the publishing end of one connection. This end listens.
     ///
     /// # Errors

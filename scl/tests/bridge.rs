@@ -173,8 +173,19 @@ async fn a_mirror_is_restored_when_the_folder_is_removed() {
     let mirror = host.mirror("sensor", &profile).unwrap();
     let endpoint = mirror.publishing("raw", ("controller", "raw")).unwrap();
     let mut publisher = host.transport().publish(&endpoint).unwrap();
-    std::fs::remove_dir_all(host.dir.folder()).unwrap();
+    let mut presence = Presence::new(host.dir.clone(), []);
+    assert_eq!(presence.next().await, Change::Removed, "before the watch began");
     let mut subscriber = host.transport().subscribe(&scl::transport::Endpoint::new(endpoint.name.clone())).unwrap();
+    let announcement = host.dir.folder().join("sensor.json");
+    let removals: [&dyn Fn(); 2] =
+        [&|| std::fs::remove_file(&announcement).unwrap(), &|| std::fs::remove_dir_all(host.dir.folder()).unwrap()];
+    for remove in removals {
+        remove();
+        assert_eq!(presence.next().await, Change::Removed);
+        mirror.restore().unwrap();
+        assert!(announcement.exists());
+    }
+    // Its end listens again.
     poll_fn(|cx| {
         assert!(subscriber.poll_recv(cx).is_pending());
         publisher.poll_peer(cx)
@@ -194,25 +205,68 @@ async fn components_that_start_and_stop_are_reported() {
     let controller = host.open(&plan("controller")).await;
     assert_eq!(started(&mut presence).await, "controller");
     drop(sensor);
-    assert_eq!(presence.next().await, Change::Stopped { component: "sensor".to_owned() });
+    assert_eq!(next(&mut presence).await, Change::Stopped { component: "sensor".to_owned() });
     // Neither one that is not watched nor a component of another host.
     let _logger = host.open(&plan("logger")).await;
     let mirror = host.mirror("sensor", &profile(&plan("sensor")).await).unwrap();
     drop(controller);
-    assert_eq!(presence.next().await, Change::Stopped { component: "controller".to_owned() });
+    assert_eq!(next(&mut presence).await, Change::Stopped { component: "controller".to_owned() });
     drop(mirror);
     // A quick restart is two changes.
     let sensor = host.open(&plan("sensor")).await;
     assert_eq!(started(&mut presence).await, "sensor");
     drop(sensor);
     let _sensor = host.open(&plan("sensor")).await;
-    assert_eq!(presence.next().await, Change::Stopped { component: "sensor".to_owned() });
+    assert_eq!(next(&mut presence).await, Change::Stopped { component: "sensor".to_owned() });
     assert_eq!(started(&mut presence).await, "sensor");
 }
 
+/// The next change of components that run here.
+async fn next(presence: &mut Presence) -> Change {
+    loop {
+        let change = tokio::time::timeout(LONG, presence.next()).await.unwrap();
+        if change != Change::Removed {
+            return change;
+        }
+    }
+}
+
 async fn started(presence: &mut Presence) -> String {
-    let change = tokio::time::timeout(LONG, presence.next()).await.unwrap();
+    let change = next(presence).await;
     let Change::Started { component, profile } = change else { panic!("{change:?}") };
     assert_eq!(profile.announcement().component, component);
     component
+}
+
+#[test]
+fn a_killed_process_is_noticed() {
+    if let Some(folder) = std::env::var_os(FOLDER) {
+        return run_until_killed(Path::new(&folder));
+    }
+    let host = Host::new();
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
+    runtime.block_on(async {
+        let mut presence = Presence::new(host.dir.clone(), ["sensor".to_owned()]);
+        for _ in 0..3 {
+            let mut process = std::process::Command::new(std::env::current_exe().unwrap())
+                .args(["--exact", "bridge::a_killed_process_is_noticed", "--nocapture"])
+                .env(FOLDER, host.folder.path())
+                .stdin(std::process::Stdio::piped())
+                .spawn()
+                .unwrap();
+            assert_eq!(started(&mut presence).await, "sensor");
+            process.kill().unwrap();
+            process.wait().unwrap();
+            assert_eq!(next(&mut presence).await, Change::Stopped { component: "sensor".to_owned() });
+        }
+    });
+}
+
+const FOLDER: &str = "SCL_TEST_BRIDGE_FOLDER";
+
+fn run_until_killed(folder: &Path) {
+    let options = OpenOptions::new().runtime_dir(folder);
+    let _sensor = Component::open_blocking_with(&plan("sensor"), options).unwrap();
+    // Until the test kills this process, or ends itself.
+    std::io::stdin().lines().for_each(drop);
 }

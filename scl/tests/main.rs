@@ -10,6 +10,8 @@ mod conformance_codecs;
 mod conformance_memory;
 #[cfg(all(feature = "conformance", feature = "zeromq"))]
 mod conformance_zeromq;
+#[cfg(all(feature = "conformance", feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod guarantees;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "raw", feature = "zeromq"))]
 mod loans;
 #[cfg(all(feature = "json", feature = "memory"))]
@@ -18,6 +20,8 @@ mod memory_components;
 mod memory_queues;
 #[cfg(all(feature = "memory", feature = "zeromq"))]
 mod model;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod registry;
 mod runtime_dir_files;
 mod runtime_dir_folder;
 mod runtime_dir_processes;

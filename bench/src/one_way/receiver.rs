@@ -63,7 +63,8 @@ impl Receiver {
         let paths = SocketPaths::new(folder, id);
         let options = scl::OpenOptions::new().runtime_dir(folder).system(id);
         match id {
-            "ipc" | "ipc-blocking" | "tcp" | "gateway" | "shm-loan" | "shm-loan-blocking" | "shm-copy" | "shm-copy-blocking" => {
+            "ipc" | "ipc-blocking" | "tcp" | "gateway" | "shm-loan" | "shm-loan-blocking" | "shm-copy"
+            | "shm-copy-blocking" => {
                 return Ok(Self::Other(super::engines::open(runtime, id, folder)?));
             }
             #[cfg(feature = "iceoryx2")]

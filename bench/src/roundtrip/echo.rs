@@ -12,6 +12,8 @@ use zeromq::{RouterSocket, Socket, SocketRecv, SocketSend};
 /// Runs the echo process of a variant. The arguments are its id, the scratch folder and the message size.
 pub(crate) fn run_echo(arguments: &[&str]) -> scl::Result<()> {
     let [id, folder, bytes, rest @ ..] = arguments else { return Err(unknown_arguments(arguments)) };
+    #[cfg(not(feature = "gateway"))]
+    let _only_for_gateway = rest;
     let bytes: usize = bytes.parse()?;
     let paths = SocketPaths::new(folder, id);
     let options = scl::OpenOptions::new().runtime_dir(*folder).system(*id);

@@ -26,6 +26,12 @@ impl Reading {
             let id = component.process_id().map_or_else(|| "in another container".to_owned(), |id| id.to_string());
             facts.row([label, &id]);
             facts.row(["program", &announcement.program.to_string_lossy()]);
+            if let Some(host) = component.host() {
+                facts.row([
+                    "runs on",
+                    &format!("host {}, for which this gateway stands in", scl_terminal::escape(host)),
+                ]);
+            }
             facts.row(["started", &format!("{} ago", ago(self.now, announcement.started))]);
         }
         if let Some(plan) = component.plan() {
@@ -114,6 +120,7 @@ impl Reading {
             Some(stats) => {
                 format!("written {} ago, every {}", ago(self.now, stats.written), age_text(stats.period))
             }
+            None if component.host().is_some() => "none here: they are on its own host".to_owned(),
             None if component.is_running() => "none: the program runs with `SCL_STATS=off`".to_owned(),
             None => "none".to_owned(),
         }

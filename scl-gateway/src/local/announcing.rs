@@ -21,6 +21,7 @@ pub(crate) async fn announce(wire: Arc<Wire>, mut changes: UnboundedReceiver<Cha
                 tracing::info!("component `{component}` has stopped");
                 run.clear().await;
             }
+            Change::Removed => {}
         }
     }
 }

@@ -18,6 +18,8 @@ pub(crate) enum Remote {
     Started { host: String, content: Bytes },
     /// It has stopped, or its host is not connected any more.
     Stopped { host: String },
+    /// Files of components of other hosts were removed from the runtime folder.
+    Removed,
 }
 
 /// Shows the runs of a component, one after the other.
@@ -53,6 +55,7 @@ pub(crate) async fn mirror(
                 failure = None;
                 show(&dir, &component, wanted.as_ref(), &mut slot, &mut failure);
             }
+            Some(Remote::Removed) => restore(&component, &slot),
             Some(Remote::Stopped { host }) => {
                 if wanted.take().is_some() {
                     tracing::info!(
@@ -62,6 +65,12 @@ pub(crate) async fn mirror(
                 slot.clear().await;
             }
         }
+    }
+}
+
+fn restore(component: &str, slot: &Slot<Mirror>) {
+    if let Some(Err(error)) = slot.view().borrow().as_deref().map(Mirror::restore) {
+        tracing::error!("cannot show component `{component}` here any longer: {}", full_text(&error));
     }
 }
 

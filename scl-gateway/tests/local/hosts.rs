@@ -1,5 +1,6 @@
 //! Two hosts: each with a runtime folder and a gateway.
 
+use crate::wire::proxy::{Proxy, Weather};
 use scl::OpenOptions;
 use scl::plan::{Plan, SystemPlan};
 use scl::runtime_dir::RuntimeDir;
@@ -31,9 +32,25 @@ pub(super) struct Hosts {
     pub(super) board: Host,
     pub(super) ground: Host,
     deployment: Deployment,
+    /// Between the two gateways, if there is one: `board` connects to `ground`.
+    proxy: Option<Proxy>,
 }
 
 impl Hosts {
+    /// Both with their gateways, between which a proxy is.
+    pub(super) async fn with_proxy() -> Self {
+        let mut hosts = Self::new();
+        let ground = hosts.deployment.host("ground").unwrap().socket_address();
+        hosts.proxy = Some(Proxy::to(&ground).await);
+        hosts.start_gateway("ground").await;
+        hosts.start_gateway("board").await;
+        hosts
+    }
+
+    pub(super) fn set_weather(&self, weather: Weather) {
+        self.proxy.as_ref().unwrap().set(weather);
+    }
+
     /// Both with their gateways.
     pub(super) async fn start() -> Self {
         let mut hosts = Self::new();
@@ -51,10 +68,10 @@ impl Hosts {
             components: components.map(str::to_owned).to_vec(),
         };
         let hosts = vec![host("board", ["sensor", "camera"]), host("ground", ["controller", "assistant"])];
-        let deployment = Deployment { hosts, certificates: None };
+        let deployment = Deployment { hosts, certificates: None, insecure: false };
         let folder = || TempDir::with_prefix("scl").unwrap();
         let host = |name: &str| Host { name: name.to_owned(), folder: folder(), gateway: None };
-        Self { board: host("board"), ground: host("ground"), deployment }
+        Self { board: host("board"), ground: host("ground"), deployment, proxy: None }
     }
 
     pub(super) async fn start_gateway(&mut self, name: &str) {
@@ -66,7 +83,12 @@ impl Hosts {
             .collect();
         let routes = routes(&system(), &self.deployment, name);
         let peers = self.deployment.hosts.iter().filter(|host| host.name != name);
-        let peers = peers.map(|host| Peer { host: host.name.clone(), address: Some(host.socket_address()) });
+        let proxy = self.proxy.as_ref().map(|proxy| proxy.address.clone());
+        let peer = |host: &HostPlan| Peer {
+            host: host.name.clone(),
+            address: proxy.clone().filter(|_| host.name == "ground").or_else(|| Some(host.socket_address())),
+        };
+        let peers = peers.map(peer);
         let wire = Wire::open(WireOptions {
             system: "local".to_owned(),
             host: name.to_owned(),

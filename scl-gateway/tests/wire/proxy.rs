@@ -10,7 +10,7 @@ use tokio::time::Instant;
 
 /// What the link is like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Weather {
+pub(crate) enum Weather {
     Good,
     /// Connections are closed and refused.
     Cut,
@@ -22,14 +22,14 @@ pub(super) enum Weather {
     Throttled(u64),
 }
 
-pub(super) struct Proxy {
-    pub(super) address: String,
+pub(crate) struct Proxy {
+    pub(crate) address: String,
     weather: watch::Sender<Weather>,
     closed: watch::Receiver<usize>,
 }
 
 impl Proxy {
-    pub(super) async fn to(target: &str) -> Proxy {
+    pub(crate) async fn to(target: &str) -> Proxy {
         let listener = TcpListener::bind("127.0.0.1:0").await.expect("no free port");
         let address = listener.local_addr().expect("address").to_string();
         let (weather, watcher) = watch::channel(Weather::Good);
@@ -39,11 +39,11 @@ impl Proxy {
     }
 
     /// Number of connections that began and ended.
-    pub(super) fn closed(&self) -> watch::Receiver<usize> {
+    pub(crate) fn closed(&self) -> watch::Receiver<usize> {
         self.closed.clone()
     }
 
-    pub(super) fn set(&self, weather: Weather) {
+    pub(crate) fn set(&self, weather: Weather) {
         let _ = self.weather.send(weather);
     }
 }

@@ -3,7 +3,7 @@
 use crate::runtime_dir::{RuntimeDirError, SystemDir};
 use rustix::fs::inotify::{self, CreateFlags, ReadFlags, Reader, WatchFlags};
 use rustix::io::Errno;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::io;
 use std::mem::MaybeUninit;
 use std::os::fd::OwnedFd;
@@ -18,8 +18,8 @@ pub(super) struct FolderEvents {
 /// What has happened in the folder.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Happened {
-    /// Something about these components.
-    To(BTreeSet<String>),
+    /// Something about these components; of some, a file was removed.
+    To(BTreeMap<String, bool>),
     /// The folder is gone, or events were lost: look at everything, and watch anew.
     Unknown,
 }
@@ -58,7 +58,7 @@ impl FolderEvents {
 fn read(inotify: &OwnedFd) -> io::Result<Happened> {
     let mut buffer = [MaybeUninit::uninit(); 16384];
     let mut events = Reader::new(inotify, &mut buffer);
-    let mut components = BTreeSet::new();
+    let mut components = BTreeMap::new();
     loop {
         let event = events.next()?;
         let gone = ReadFlags::DELETE_SELF | ReadFlags::MOVE_SELF | ReadFlags::IGNORED | ReadFlags::QUEUE_OVERFLOW;
@@ -67,7 +67,9 @@ fn read(inotify: &OwnedFd) -> io::Result<Happened> {
         }
         let name = event.file_name().and_then(|name| name.to_str().ok()).unwrap_or_default();
         let component = name.strip_suffix(".lock").or_else(|| name.strip_suffix(".json"));
-        components.extend(component.map(str::to_owned));
+        if let Some(component) = component {
+            *components.entry(component.to_owned()).or_default() |= event.events().contains(ReadFlags::DELETE);
+        }
         if events.is_buffer_empty() {
             return Ok(Happened::To(components));
         }

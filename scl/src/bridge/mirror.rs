@@ -3,9 +3,9 @@
 use super::{Profile, ProfileError};
 use crate::error::OpenError;
 use crate::registration::Registration;
+use crate::registry::Registered;
 use crate::runtime_dir::{Announcement, Holder, RuntimeDirError, SystemDir};
 use crate::spec::{ComponentSpec, GateSpec, LinkSpec, WhenFull};
-use crate::sync::AbortOnDrop;
 use crate::transport::{Endpoint, Window};
 use crate::untyped::intern;
 
@@ -15,7 +15,6 @@ use crate::untyped::intern;
 pub struct Mirror {
     spec: &'static ComponentSpec,
     registration: Registration,
-    _restored: AbortOnDrop,
 }
 
 /// A component of another host cannot be shown here.
@@ -65,8 +64,7 @@ pub enum MirrorError {
 }
 
 impl Mirror {
-    /// Shows `component`, which runs on `host`. Called inside a tokio runtime, where a task creates the files again if they
-    /// are removed.
+    /// Shows `component`, which runs on `host`.
     ///
     /// # Errors
     /// [`MirrorError`]; nothing is left behind.
@@ -93,8 +91,16 @@ impl Mirror {
             }
             error => MirrorError::RuntimeDir(error),
         })?;
-        let restored = AbortOnDrop(tokio::spawn(registration.keep()).abort_handle());
-        Ok(Self { spec, registration, _restored: restored })
+        Ok(Self { spec, registration })
+    }
+
+    /// Creates the files of the component again if they were removed, and lets its ends listen again. One watch of the
+    /// folder is enough for all mirrors of a process, see [`Change::Removed`](super::Change::Removed): a user may have few.
+    ///
+    /// # Errors
+    /// [`MirrorError::RuntimeDir`], also if another process runs the component by now.
+    pub fn restore(&self) -> Result<(), MirrorError> {
+        self.registration.restore_if_removed().map(drop).map_err(MirrorError::RuntimeDir)
     }
 
     /// The endpoint at which this component's `sub` gate connects to a publisher. What it receives is acknowledged by the

@@ -5,6 +5,7 @@ use super::folder_events::{FolderEvents, Happened};
 use crate::runtime_dir::{ComponentLock, QUIET, SystemDir};
 use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::error::Error;
+use tokio::time::Instant;
 
 /// Watches some components of a system on this host.
 #[derive(Debug)]
@@ -14,6 +15,8 @@ pub struct Presence {
     running: HashMap<String, Profile>,
     changes: VecDeque<Change>,
     events: Option<FolderEvents>,
+    /// When files of other components were last removed, until that is reported.
+    removed: Option<Instant>,
     /// Whether it was logged that the folder cannot be watched.
     warned: bool,
 }
@@ -33,6 +36,9 @@ pub enum Change {
         /// The component.
         component: String,
     },
+    /// Files of components of other hosts were removed, perhaps because these have stopped: [`Mirror`](super::Mirror)s that
+    /// still exist are to be [restored](super::Mirror::restore).
+    Removed,
 }
 
 impl Presence {
@@ -40,7 +46,7 @@ impl Presence {
     pub fn new(dir: SystemDir, components: impl IntoIterator<Item = String>) -> Self {
         let components = components.into_iter().collect();
         let (running, changes) = (HashMap::new(), VecDeque::new());
-        Self { dir, components, running, changes, events: None, warned: false }
+        Self { dir, components, running, changes, events: None, removed: None, warned: false }
     }
 
     /// Waits for the next change.
@@ -56,11 +62,27 @@ impl Presence {
                 self.watch().await;
                 continue;
             };
-            match events.next().await {
-                Happened::To(names) => names.iter().for_each(|name| self.look(name)),
+            let happened = match self.removed {
+                // Whoever removes a folder must not meet new files in it.
+                Some(at) => match tokio::time::timeout_at(at + QUIET, events.next()).await {
+                    Ok(happened) => happened,
+                    Err(_quiet) => {
+                        self.removed = None;
+                        self.changes.push_back(Change::Removed);
+                        continue;
+                    }
+                },
+                None => events.next().await,
+            };
+            match happened {
+                Happened::To(names) => {
+                    names.keys().for_each(|name| self.look(name));
+                    if names.iter().any(|(name, removed)| *removed && !self.components.contains(name)) {
+                        self.removed = Some(Instant::now());
+                    }
+                }
                 Happened::Unknown => {
                     self.events = None;
-                    // Whoever removes a folder must not meet new files in it.
                     tokio::time::sleep(QUIET).await;
                 }
             }
@@ -75,6 +97,7 @@ impl Presence {
                 // Only after that, so that no event in between is missed.
                 let all: Vec<_> = self.components.iter().cloned().collect();
                 all.iter().for_each(|name| self.look(name));
+                self.changes.push_back(Change::Removed);
             }
             Err(error) => {
                 if !std::mem::replace(&mut self.warned, true) {

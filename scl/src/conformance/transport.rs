@@ -11,12 +11,16 @@
 //! | `freshness` | ends that want only the newest message |
 //! | `detached` | calls without a runtime |
 //! | `threads` | ends that are moved between tasks and threads |
+//! | `loans` | memory that links lend |
+//! | `declared` | what the transport declares, and promises no test needs to drive |
 //! | `requests` | requests and replies |
 
+mod declared;
 mod delivery;
 mod detached;
 mod ends;
 mod freshness;
+mod loans;
 mod pace;
 mod peers;
 mod request_ends;
@@ -24,6 +28,7 @@ mod requests;
 mod threads;
 mod watched;
 
+pub use declared::{counts_what_was_not_taken, declares, tells_who_waits};
 pub use delivery::{
     carries_every_size, delivers_what_was_written, keeps_order, never_delivers_an_oversized_message,
     serves_every_pusher,
@@ -32,11 +37,15 @@ pub use detached::{
     accepts_peers_when_detached, delivers_after_its_runtime_has_ended, delivers_when_detached, replies_when_detached,
 };
 pub use freshness::{catches_up_with_a_busy_sender, catches_up_without_a_runtime, returns_the_newest_message};
+pub use loans::{
+    carries_loans, copies_loans_of_a_lost_link, leaves_loans_to_their_holder, lends_nothing,
+    returns_loans_that_it_refuses, takes_dropped_loans_back,
+};
 pub use pace::{acknowledges_what_was_taken, keeps_subscribers_independent, stays_quiet_when_idle, stops_and_resumes};
 pub use peers::{
-    connects_only_if_the_check_passes, counts_peers, finds_the_peer_that_stays, frees_its_endpoint,
-    reconnects_after_a_dropped_link, releases_an_idle_connection, serves_the_next_receiver, serves_the_next_sender,
-    waits_for_a_late_peer, yields_each_peer_once,
+    connects_only_if_the_check_passes, counts_peers, counts_requesters, finds_the_peer_that_stays, frees_its_endpoint,
+    reconnects_after_a_dropped_link, releases_an_idle_connection, requests_only_if_the_check_passes,
+    serves_the_next_receiver, serves_the_next_sender, waits_for_a_late_peer, yields_each_peer_once,
 };
 pub use requests::{
     answers_in_any_order, carries_requests_of_every_size, delivers_written_replies, finds_the_replier_that_stays,

@@ -363,7 +363,12 @@ impl SendingEnd for Connection {
             link.request_acknowledgement(&mut Context::from_waker(&self.task));
         }
         let taken = !acknowledged || self.unacknowledged() == 0;
-        if taken && self.is_written() { Poll::Ready(()) } else { Poll::Pending }
+        if !taken || !self.is_written() {
+            return Poll::Pending;
+        }
+        // The end may be removed next, and its task with it, which would have woken the others.
+        self.waiting_flushes.drain(..).filter(|waiting| !waiting.will_wake(cx.waker())).for_each(Waker::wake);
+        Poll::Ready(())
     }
 
     fn waits_for_absent_peer(&self) -> Option<Unflushed> {

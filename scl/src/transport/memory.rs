@@ -25,12 +25,12 @@ mod switchboard;
 #[cfg(test)]
 mod tests;
 
-use super::{Endpoint, Receiver, Replier, Requester, Sender, Transport, TransportError};
+use super::{Endpoint, Guarantees, Receiver, Replier, Requester, Sender, Transport, TransportError};
 use bytes::Bytes;
 use pipe::{PipeReader, PipeWriter};
 use request_reply::{ToReplier, ToRequester};
 use std::sync::Arc;
-use switchboard::Switchboard;
+use switchboard::{EndTerms, Switchboard};
 
 /// How many messages a connection holds that the receiver has not taken.
 const IN_FLIGHT: usize = 64;
@@ -87,9 +87,9 @@ impl Memory {
     /// `NEWEST`: how many messages are in flight to an end that wants only the newest one.
     fn holding<const NEWEST: usize>() -> Self {
         // Only the receiving end decides how much is in flight.
-        let publishing = Switchboard::new(|newest_only| message_pipe(newest_only.connector, NEWEST));
-        let pulling = Switchboard::new(|newest_only| {
-            let (writer, reader) = message_pipe(newest_only.listener, NEWEST);
+        let publishing = Switchboard::new(|ends| message_pipe(ends.listener, ends.connector, NEWEST));
+        let pulling = Switchboard::new(|ends| {
+            let (writer, reader) = message_pipe(ends.connector, ends.listener, NEWEST);
             (reader, writer)
         });
         let replying = Switchboard::new(request_reply::connect);
@@ -97,8 +97,13 @@ impl Memory {
     }
 }
 
-fn message_pipe(newest_only: bool, in_flight_newest: usize) -> (PipeWriter<Bytes>, PipeReader<Bytes>) {
-    pipe::pipe(if newest_only { in_flight_newest } else { IN_FLIGHT })
+fn message_pipe(
+    sending: EndTerms,
+    receiving: EndTerms,
+    in_flight_newest: usize,
+) -> (PipeWriter<Bytes>, PipeReader<Bytes>) {
+    let capacity = if receiving.newest_only { in_flight_newest } else { IN_FLIGHT };
+    pipe::pipe_of(capacity, sending.lossless)
 }
 
 impl Default for Memory {
@@ -109,6 +114,10 @@ impl Default for Memory {
 
 /// A second listening end at one endpoint is refused.
 impl Transport for Memory {
+    fn guarantees(&self) -> Guarantees {
+        Guarantees::ALL
+    }
+
     fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
         Ok(Box::new(send::Publisher::new(self.endpoints.publishing.listen(endpoint)?)))
     }

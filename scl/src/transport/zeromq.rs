@@ -38,7 +38,7 @@ mod timer;
 mod topics;
 mod zmtp;
 
-use super::{Endpoint, Receiver, Replier, Requester, Sender, Tap, Transport, TransportError};
+use super::{Endpoint, Guarantees, Receiver, Replier, Requester, Sender, Tap, Transport, TransportError};
 use crate::runtime_dir::SystemDir;
 use std::sync::Arc;
 
@@ -61,7 +61,12 @@ impl ZeroMq {
     }
 }
 
+/// Its guarantees are those of connections between SCL's ends; plain ZeroMQ programs acknowledge nothing.
 impl Transport for ZeroMq {
+    fn guarantees(&self) -> Guarantees {
+        Guarantees::ALL
+    }
+
     fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
         Ok(Box::new(publish::Publisher::open(&self.dir, self.medium, endpoint)?))
     }

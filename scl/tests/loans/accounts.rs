@@ -131,7 +131,24 @@ fn loans_are_handed_over_when_their_gate_is_dropped() {
                 assert_eq!(images.recv_view().await.unwrap().number(), expected);
             }
         };
-        drop(camera);
-        tokio::join!(receive(&mut detector.images), receive(&mut viewer.images));
+        let (closed, (), ()) =
+            tokio::join!(camera.close(LONG), receive(&mut detector.images), receive(&mut viewer.images));
+        closed.unwrap();
     });
+}
+
+/// The gate's own hand-over may be done first, and its end is gone then.
+#[tokio::test(start_paused = true)]
+async fn closing_ends_as_soon_as_everything_is_taken() {
+    let options = OpenOptions::new().transport(Memory::new());
+    let mut camera = Camera::open_with(options.clone()).await.unwrap();
+    let mut detector = Detector::open_with(options).await.unwrap();
+    camera.ready(LONG).await.unwrap();
+    send(&mut camera, 1).await;
+    let started = tokio::time::Instant::now();
+    let (closed, received) = tokio::join!(camera.close(LONG), detector.images.recv_view());
+    closed.unwrap();
+    assert_eq!(received.unwrap().number(), 1);
+    // The clock stands still while anything can happen.
+    assert_eq!(started.elapsed(), Duration::ZERO);
 }

@@ -3,7 +3,7 @@
 use super::plan;
 use bytes::Bytes;
 use scl::transport::{
-    Answer, Endpoint, Receiver, Replier, Requester, Sender, Transport, TransportError, memory::Memory,
+    Answer, Endpoint, Guarantees, Receiver, Replier, Requester, Sender, Transport, TransportError, memory::Memory,
 };
 use scl::untyped::{Closer, Component};
 use scl::{BlockingError, OpenOptions, RecvError};
@@ -59,6 +59,10 @@ impl Requester for Silent {
 }
 
 impl Transport for Trapped {
+    fn guarantees(&self) -> Guarantees {
+        self.memory.guarantees()
+    }
+
     fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
         self.memory.publish(endpoint)
     }

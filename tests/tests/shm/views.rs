@@ -13,8 +13,7 @@ fn views_beyond_the_limit_are_copied_and_stay_as_they_are() {
         viewer.ask("keep 1", &format!("{} of {kept} shared", kept.min(limit)));
     }
     viewer.ask("kept", "0..20");
-    let account = Account::when_taken(&mut camera, "frames");
-    assert_eq!(account, Account { published: 20, taken: 20, dropped: 0, lost: 0, waiting: 0 });
+    Account::assert_all_taken(&mut camera, "frames", 20);
     viewer.ask("release", "released");
     stage.assert_good(&mut camera, &mut viewer, 30);
     stage.end([camera, viewer]);

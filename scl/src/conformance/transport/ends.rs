@@ -1,7 +1,7 @@
 //! The ends of messages, as the tests use them.
 
 use super::watched::Watched;
-use crate::transport::{Frame, Link, PeerKind, Receiver, Sender};
+use crate::transport::{Frame, Link, Loan, PeerKind, Receiver, Sender};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::future::poll_fn;
@@ -45,6 +45,11 @@ impl TestSender {
 
     pub(super) fn queue(&mut self, messages: impl IntoIterator<Item = Bytes>) {
         self.queue.extend(messages.into_iter().map(Frame::from));
+    }
+
+    /// Queues one frame.
+    pub(super) fn queue_frame(&mut self, frame: Frame) {
+        self.queue.push_back(frame);
     }
 
     /// Sends `message` instead of those that are still waiting.
@@ -177,6 +182,10 @@ impl TestLink {
         self.refused = !queue.is_empty();
     }
 
+    pub(super) fn loan(&mut self, length: usize) -> Option<Loan> {
+        self.watched.end.loan(length)
+    }
+
     pub(super) fn unacknowledged(&self) -> u64 {
         self.watched.end.unacknowledged()
     }
@@ -216,6 +225,10 @@ impl TestReceiver {
 
     pub(super) fn refusal(&self) -> Option<String> {
         self.watched.end.refusal()
+    }
+
+    pub(super) fn is_lossless(&self) -> bool {
+        self.watched.end.is_lossless()
     }
 
     pub(super) fn poll(&mut self, test: &Context<'_>) -> Poll<Bytes> {

@@ -126,7 +126,7 @@ pub async fn releases_an_idle_connection(transport: &dyn Transport) {
     }
 }
 
-/// Receivers and repliers know how many peers are connected, and are woken when that changes.
+/// Receivers know how many peers are connected, and are woken when that changes.
 pub async fn counts_peers(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let mut receiver = pattern.receiver(transport);
@@ -147,6 +147,10 @@ pub async fn counts_peers(transport: &dyn Transport) {
         poll_fn(|cx| has_peers(&mut receiver, 0, cx)).await;
         poll_fn(|_| if receiver.wakes() > woken { Poll::Ready(()) } else { Poll::Pending }).await;
     }
+}
+
+/// Repliers know how many peers are connected, and are woken when that changes.
+pub async fn counts_requesters(transport: &dyn Transport) {
     let mut replier = requests::replier(transport, &Endpoint::new(ENDPOINT));
     assert_eq!(replier.peers(), 0, "peers of a replier without requesters");
     let mut first = requests::requester(transport, &Endpoint::new(ENDPOINT));
@@ -196,7 +200,10 @@ pub async fn connects_only_if_the_check_passes(transport: &dyn Transport) {
     let mut puller = Pattern::PushPull.receiver(transport);
     check_carried(Pattern::PushPull, &mut pusher, &mut puller, &numbered(3)).await;
     assert_eq!(pusher.refusal(), None, "the reason of a refusal remains after it");
+}
 
+/// A requester does not connect to a replier that its [`Endpoint::check`] refuses, and says why.
+pub async fn requests_only_if_the_check_passes(transport: &dyn Transport) {
     let (checked, accepts) = with_check();
     let mut requester = requests::requester(transport, &checked);
     let mut replier = requests::replier(transport, &Endpoint::new(ENDPOINT));

@@ -7,6 +7,11 @@ use std::task::{Context, Poll, Waker};
 
 /// Creates a queue of at most `capacity` items.
 pub(super) fn pipe<T>(capacity: usize) -> (PipeWriter<T>, PipeReader<T>) {
+    pipe_of(capacity, false)
+}
+
+/// The same, and the reader knows whether the writer waits instead of dropping items.
+pub(super) fn pipe_of<T>(capacity: usize, lossless: bool) -> (PipeWriter<T>, PipeReader<T>) {
     let state = State {
         queue: VecDeque::new(),
         untaken: 0,
@@ -18,7 +23,7 @@ pub(super) fn pipe<T>(capacity: usize) -> (PipeWriter<T>, PipeReader<T>) {
         writer: None,
         reader: None,
     };
-    let shared = Arc::new(Shared { state: Mutex::new(state), capacity });
+    let shared = Arc::new(Shared { state: Mutex::new(state), capacity, lossless });
     (PipeWriter { shared: Arc::clone(&shared) }, PipeReader { shared })
 }
 
@@ -33,6 +38,7 @@ pub(super) struct PipeReader<T> {
 struct Shared<T> {
     state: Mutex<State<T>>,
     capacity: usize,
+    lossless: bool,
 }
 
 struct State<T> {
@@ -208,6 +214,11 @@ impl<T> PipeReader<T> {
         state.question = Question::Asked;
         keep(&mut state.reader, cx);
         false
+    }
+
+    /// Returns true if the writer waits instead of dropping items.
+    pub(super) fn is_lossless(&self) -> bool {
+        self.shared.lossless
     }
 
     /// Makes the next [`poll_caught_up`](Self::poll_caught_up) ask again.

@@ -63,6 +63,10 @@ impl Receiver for Subscriber {
         usize::from(is_connected || self.connector.has_connection(PipeReader::is_open))
     }
 
+    fn is_lossless(&self) -> bool {
+        self.publisher.as_ref().is_some_and(|publisher| publisher.is_open() && publisher.is_lossless())
+    }
+
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         let Some(publisher) = &self.publisher else { return Poll::Ready(()) };
         if !publisher.poll_caught_up(cx) {
@@ -117,6 +121,10 @@ impl Receiver for Puller {
     fn peers(&self) -> usize {
         let open = self.pushers.iter().filter(|pusher| pusher.is_open()).count();
         open + self.listener.count(PipeReader::is_open)
+    }
+
+    fn is_lossless(&self) -> bool {
+        self.pushers.iter().any(|pusher| pusher.is_open() && pusher.is_lossless())
     }
 
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {

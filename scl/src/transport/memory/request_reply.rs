@@ -3,7 +3,7 @@
 use super::IN_FLIGHT;
 use super::pipe::{PipeReader, PipeWriter, pipe};
 use super::round_robin::RoundRobin;
-use super::switchboard::{Connector, Listener, NewestOnly};
+use super::switchboard::{Connector, Listener, Terms};
 use crate::transport::{Answer, Endpoint, IncomingRequest, Replier, ReplyPath, Requester, RequesterGone};
 use bytes::{BufMut, Bytes, BytesMut};
 use std::sync::Arc;
@@ -30,7 +30,7 @@ pub(super) struct ToReplier {
 
 /// Replies are not limited in number: each belongs to a request, and requesters discard old ones before the next
 /// request.
-pub(super) fn connect(_newest_only: NewestOnly) -> (ToRequester, ToReplier) {
+pub(super) fn connect(_terms: Terms) -> (ToRequester, ToReplier) {
     let (request, requests) = pipe(IN_FLIGHT);
     let (reply, replies) = pipe(usize::MAX);
     let to_requester = ToRequester { requests, replies: Arc::new(Replies(reply)), envelopes: BytesMut::new() };

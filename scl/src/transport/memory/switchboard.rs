@@ -17,12 +17,22 @@ struct Endpoints<L, C> {
     pair: Pair<L, C>,
 }
 
-/// Creates a connection. Tells it whether the listener and the connector want only the newest message.
-type Pair<L, C> = fn(NewestOnly) -> (L, C);
+/// Creates a connection, from what its ends are like.
+type Pair<L, C> = fn(Terms) -> (L, C);
 
-pub(super) struct NewestOnly {
-    pub(super) listener: bool,
-    pub(super) connector: bool,
+/// The two ends of a connection.
+pub(super) struct Terms {
+    pub(super) listener: EndTerms,
+    pub(super) connector: EndTerms,
+}
+
+/// What one end is like.
+#[derive(Clone, Copy)]
+pub(super) struct EndTerms {
+    /// It wants only the newest message.
+    pub(super) newest_only: bool,
+    /// It waits instead of dropping messages.
+    pub(super) lossless: bool,
 }
 
 struct Table<L, C> {
@@ -39,7 +49,7 @@ struct Registered<L, C> {
 
 struct Registration<H> {
     backlog: Arc<Mutex<Backlog<H>>>,
-    newest_only: bool,
+    terms: EndTerms,
     /// Of a listener: its number. Of a connector: unused.
     number: u64,
     /// Of a connector: whether it decides itself when to connect.
@@ -115,8 +125,8 @@ impl<L, C> Switchboard<L, C> {
 impl<L, C> Endpoints<L, C> {
     /// Connects two ends; returns the connector's half, and the waker of the listener.
     fn connect(&self, listener: &Registration<L>, connector: &Registration<C>) -> (C, Option<Waker>) {
-        let newest_only = NewestOnly { listener: listener.newest_only, connector: connector.newest_only };
-        let (to_listener, to_connector) = (self.pair)(newest_only);
+        let terms = Terms { listener: listener.terms, connector: connector.terms };
+        let (to_listener, to_connector) = (self.pair)(terms);
         lock(&connector.backlog).listener = listener.number;
         let mut backlog = lock(&listener.backlog);
         backlog.connections.push_back(to_listener);
@@ -128,7 +138,8 @@ impl<H> Registration<H> {
     fn new(endpoint: &Endpoint, number: u64) -> Self {
         let backlog = Backlog { connections: VecDeque::new(), listener: 0, waiting: None };
         let has_check = endpoint.check.is_some();
-        Self { backlog: Arc::new(Mutex::new(backlog)), newest_only: endpoint.newest_only, number, has_check }
+        let terms = EndTerms { newest_only: endpoint.newest_only, lossless: endpoint.lossless };
+        Self { backlog: Arc::new(Mutex::new(backlog)), terms, number, has_check }
     }
 
     fn belongs_to(&self, backlog: &Arc<Mutex<Backlog<H>>>) -> bool {

@@ -1,7 +1,7 @@
 //! A transport whose replier is connected and accepts no request.
 
 use bytes::Bytes;
-use scl::transport::{Answer, Endpoint, Receiver, Replier, Requester, Sender, Transport, TransportError};
+use scl::transport::{Answer, Endpoint, Guarantees, Receiver, Replier, Requester, Sender, Transport, TransportError};
 use std::task::{Context, Poll};
 
 pub(super) struct Refusing;
@@ -27,6 +27,10 @@ impl Requester for RefusingRequester {
 }
 
 impl Transport for Refusing {
+    fn guarantees(&self) -> Guarantees {
+        Guarantees::ALL
+    }
+
     fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
         Err(refused(endpoint))
     }

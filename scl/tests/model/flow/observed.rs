@@ -5,7 +5,7 @@ use super::message::Message;
 use super::model::Model;
 use bytes::Bytes;
 use scl::transport::{
-    Disconnected, Endpoint, Frame, Link, Loan, Peer, Receiver, Replier, Requester, Sender, Tap, Transport,
+    Disconnected, Endpoint, Frame, Guarantees, Link, Loan, Peer, Receiver, Replier, Requester, Sender, Tap, Transport,
     TransportError,
 };
 use std::collections::VecDeque;
@@ -40,6 +40,10 @@ impl<T> ObservedTransport<T> {
 }
 
 impl<T: Transport> Transport for ObservedTransport<T> {
+    fn guarantees(&self) -> Guarantees {
+        self.transport.guarantees()
+    }
+
     fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
         Ok(Box::new(self.observed(endpoint, self.transport.publish(endpoint)?)))
     }

@@ -134,7 +134,6 @@ pub(crate) async fn play() -> scl::Result<()> {
                 drop(frame);
             }
             "frames" => say(account(&camera.frames.peer_stats()[0])),
-            "pictures" => say(account(&camera.pictures.peer_stats()[0])),
             "jobs" => say(account(&camera.jobs.peer_stats()[0])),
             other => say(format!("unknown command `{other}`")),
         }

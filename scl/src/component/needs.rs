@@ -1,0 +1,47 @@
+//! What the gates of a component need of their transports, checked before the component is registered.
+
+use super::transports::Transports;
+use crate::error::{GateName, MissingGuarantee, OpenError};
+use crate::spec::{ComponentSpec, GateKind, GateSpec, WhenFull};
+use crate::transport::{Guarantee, Transport};
+
+/// Refuses a component that needs more than its transports offer, and names everything that is missing.
+pub(super) fn check(spec: &'static ComponentSpec, transports: &Transports) -> Result<(), OpenError> {
+    let missing: Vec<MissingGuarantee> = spec
+        .gates
+        .iter()
+        .flat_map(|gate| {
+            let lacks = |(guarantee, option)| {
+                let offered = |transport: &dyn Transport| transport.guarantees().contains(guarantee);
+                let offered = if gate.links.is_empty() || !gate.endpoint.is_empty() {
+                    offered(transports.of_gate(gate))
+                } else {
+                    gate.links.iter().all(|link| offered(transports.of_link(gate, link)))
+                };
+                (!offered).then(|| MissingGuarantee { gate: GateName::new(spec.name, gate.name), option, guarantee })
+            };
+            needs(gate).into_iter().filter_map(lacks)
+        })
+        .collect();
+    if missing.is_empty() { Ok(()) } else { Err(OpenError::Guarantees { component: spec.name, missing }) }
+}
+
+/// What a gate needs, and the part of its declaration that asks for it.
+fn needs(gate: &GateSpec) -> Vec<(Guarantee, &'static str)> {
+    let options = &gate.options;
+    match gate.kind {
+        GateKind::Req => vec![(Guarantee::Requests, "req")],
+        GateKind::Rep => vec![(Guarantee::Requests, "rep")],
+        GateKind::Sub | GateKind::Pull if options.when_full == WhenFull::Wait => {
+            vec![(Guarantee::Waiting, "when_full: wait")]
+        }
+        GateKind::Sub | GateKind::Pull if gate.newest_only() => vec![(Guarantee::Freshness, "queue: 1")],
+        // A gate that waits rather than drop must also know, when its program ends, that everything was taken.
+        GateKind::Pub | GateKind::Push
+            if options.backpressure && gate.links.iter().any(|link| link.when_full == WhenFull::Wait) =>
+        {
+            vec![(Guarantee::Waiting, "backpressure: true"), (Guarantee::Acknowledgement, "backpressure: true")]
+        }
+        _ => Vec::new(),
+    }
+}
