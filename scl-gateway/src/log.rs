@@ -1,7 +1,9 @@
 //! The log of the gateway on standard error, as detailed as `SCL_LOG` says.
 
+use scl_gateway::wire::ConnectionLog;
 use scl_terminal::Problem;
 use std::io::{self, IsTerminal};
+use tracing_subscriber::Layer;
 use tracing_subscriber::filter::{LevelFilter, Targets};
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
@@ -24,7 +26,8 @@ pub(crate) fn start() -> Result<(), Problem> {
     let filter = Targets::new().with_default(level).with_targets([("zenoh", library), ("rustls", library)]);
     let use_colour = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let layer = tracing_subscriber::fmt::layer().with_writer(io::stderr).with_ansi(use_colour);
-    let layer = layer.with_target(false).without_time();
-    let _already_set = tracing_subscriber::registry().with(layer).with(filter).try_init();
+    let layer = layer.with_target(false).without_time().with_filter(filter);
+    let reasons = ConnectionLog.with_filter(Targets::new().with_target("zenoh", LevelFilter::WARN));
+    let _already_set = tracing_subscriber::registry().with(layer).with(reasons).try_init();
     Ok(())
 }

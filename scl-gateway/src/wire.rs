@@ -10,6 +10,7 @@ mod access;
 mod announcement;
 mod command;
 mod config;
+mod connection_log;
 mod envelope;
 mod error;
 mod header;
@@ -37,6 +38,7 @@ use tokio::sync::oneshot;
 
 pub use self::announcement::Announced;
 use self::command::{Command, Commands};
+pub use self::connection_log::ConnectionLog;
 pub use self::error::WireError;
 use self::link::Link;
 use self::mailbox::Mailbox;
@@ -87,7 +89,7 @@ impl Wire {
             system: options.system.clone(),
             host: options.host.clone(),
             instance: instance.clone(),
-            peers: options.peers.iter().map(|peer| peer.host.clone()).collect(),
+            peers: options.peers.iter().map(|peer| (peer.host.clone(), config::endpoint(&options, peer))).collect(),
             commands: commands.clone(),
             received,
             presence: presence.clone(),

@@ -38,6 +38,6 @@ impl Reference {
         let reference = self.thread.join().unwrap().take();
         println!("{during}: control loop {answer}; without gates {reference}");
         let (rounds, expected) = (answer.get("rounds"), reference.rounds as u64);
-        assert!(rounds >= expected * 9 / 10, "{rounds} rounds, {expected} in a loop without gates");
+        assert!(rounds >= expected * 3 / 4, "{rounds} rounds, {expected} in a loop without gates");
     }
 }

@@ -38,12 +38,12 @@ fn a_gateway_of_another_topology_connects_what_is_the_same() {
     let other = fleet.beside(&changed);
     let ground = fleet.network.host("ground");
     let log = other.path("log");
-    let gateway = Gateway::start(ground, "ground", &other.topology(), &other.launch(), &log);
+    let mut gateway = Gateway::start(ground, "ground", &other.topology(), &other.launch(), &log);
     let sink = ground.play("sink", &other.plan());
     fleet.player("source").ask("lossless", "send 100 0 100");
     fleet.player("source").wait_for("lossless", "account sink.lossless", |counts| counts.get("connected") == 1);
-    // Both types are named.
-    fleet.gateway("board").wait_for_log("fleet.Reading");
+    // Said where the receiver is, which waits for the sender.
+    gateway.wait_for_log("host `board` has the connection `source/readings/sink/readings` with contract ");
     assert_eq!(fleet.player("source").counts("readings", "account sink.readings").get("connected"), 0);
     gateway.kill();
     sink.kill();
@@ -60,7 +60,7 @@ fn a_second_gateway_on_the_same_host_does_not_start() {
     let second = Gateway::start(host, "ground", &fleet.files.topology(), &fleet.files.launch(), &log);
     let status = second.wait_for_exit();
     let log = std::fs::read_to_string(log).unwrap();
-    assert!(!status.success() && log.contains("already running"), "{status}: {log}");
+    assert!(!status.success() && log.contains("cannot listen on `10.77.0.2:7447`"), "{status}: {log}");
     fleet.stop_all();
     fleet.exact_accounts();
     fleet.still_works();
@@ -97,11 +97,11 @@ fn a_second_gateway_of_a_host_elsewhere_is_refused() {
 fn a_host_that_claims_components_of_another_gets_nothing() {
     let mut fleet = Fleet::on(Network::new(&["board", "ground", "guest"]));
     let [board, ground, guest] = ["board", "ground", "guest"].map(|name| fleet.network.host(name));
-    let own = &["source", "local_control"];
-    fleet.files.write("launch.yaml", &launch(&[(board, own), (ground, GROUND), (guest, &["helper"])]));
+    let (own, little) = (&["source", "helper"], &["local_control"]);
+    fleet.files.write("launch.yaml", &launch(&[(board, own), (ground, GROUND), (guest, little)]));
     fleet.files.make_keys(&[]);
     let files = fleet.beside(TOPOLOGY);
-    files.write("launch.yaml", &launch(&[(board, own), (ground, &["helper"]), (guest, GROUND)]));
+    files.write("launch.yaml", &launch(&[(board, own), (ground, little), (guest, GROUND)]));
     let log = files.path("log");
     let gateway = Gateway::start(guest, "guest", &files.topology(), &files.launch(), &log);
     let sink = guest.play("sink", &files.plan());

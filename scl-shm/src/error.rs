@@ -88,7 +88,7 @@ pub enum SendError {
 #[non_exhaustive]
 pub enum ReceiveError {
     /// There is no sample.
-    #[error("the peer announced a sample that it did not send")]
+    #[error("the announced sample is not there: the peer did not send it, or this program cannot map more memory")]
     Missing,
     /// The sample has another length than announced.
     #[error("the peer announced a sample of {announced} bytes and sent one of {sent}")]

@@ -14,6 +14,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
 
+#[cfg(test)]
+type Builder = iceoryx2::service::builder::publish_subscribe::Builder<[u8], (), Engine>;
+
 /// How long the cleaning of what killed programs have left may wait for another program that cleans as well.
 const CLEANING: Duration = Duration::from_secs(1);
 
@@ -84,6 +87,13 @@ impl SharedMemory {
         limits::require(0)?;
         let (service, limits) = service::open(&self.node(), name)?;
         SampleSender::new(&service, limits, expected, self)
+    }
+
+    /// A service that no end of SCL would create.
+    #[cfg(test)]
+    pub(crate) fn foreign_service(&self, name: &ServiceName, settings: impl Fn(Builder) -> Builder) -> service::Port {
+        let builder = self.node().service_builder(&name.as_str().try_into().unwrap());
+        settings(builder.publish_subscribe::<[u8]>()).create().unwrap()
     }
 
     fn node(&self) -> MutexGuard<'_, Node<Engine>> {

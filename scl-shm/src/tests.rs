@@ -131,6 +131,34 @@ fn services_are_found_by_their_name_only_and_once() {
 }
 
 #[test]
+fn services_with_other_settings_are_refused() {
+    let folder = TempDir::with_prefix("scl-shm").unwrap();
+    let memory = SharedMemory::open(folder.path()).unwrap();
+    let foreign = |name: &ServiceName, overflow, publishers| {
+        memory.foreign_service(name, |service| service.enable_safe_overflow(overflow).max_publishers(publishers))
+    };
+    for (overflow, publishers, expected) in [
+        (true, 1, "the peer's service has an overflow or a history"),
+        (false, 2, "the peer's service has room for more than one connection"),
+        (false, 1, "the peer's service has room for more than one connection"),
+    ] {
+        let name = ServiceName::unique();
+        let _service = foreign(&name, overflow, publishers);
+        assert_eq!(memory.sender(&name, 1).unwrap_err().to_string(), expected);
+    }
+}
+
+#[test]
+fn more_than_there_is_is_not_lent() {
+    let Pair { folder: _folder, mut sender, mut receiver } = pair(2);
+    let LoanError::TooLittle(error) = sender.loan(1 << 50).unwrap_err() else { panic!("another error") };
+    assert!(error.needed > 1 << 50 && error.available < 1 << 50, "{error}");
+    let sample = sender.copy(b"still there").unwrap();
+    sender.send(sample).unwrap();
+    assert_eq!(receiver.receive(11).unwrap(), "still there");
+}
+
+#[test]
 fn nothing_stays() {
     let Pair { folder, mut sender, mut receiver } = pair(3);
     let prefix = prefix_of(folder.path());

@@ -30,6 +30,14 @@ pub enum OpenError {
         /// The problem, and what to do.
         source: crate::runtime_dir::RuntimeDirError,
     },
+    /// The component could not be registered, see [`OpenOptions::registry`](crate::OpenOptions::registry).
+    #[error("component `{component}` cannot be opened")]
+    Registry {
+        /// The component.
+        component: &'static str,
+        /// Why.
+        source: crate::registry::RegistryError,
+    },
     /// A gate's connection could not be set up.
     #[error("gate `{gate}` cannot be opened")]
     Gate {

@@ -108,6 +108,7 @@ mod options;
 pub mod private;
 mod process_mark;
 mod registration;
+pub mod registry;
 pub mod runtime_dir;
 mod service;
 pub mod spec;

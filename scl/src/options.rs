@@ -4,6 +4,7 @@ use crate::environment::{self, Variables};
 use crate::error::OpenError;
 use crate::medium::Medium;
 use crate::medium_choice::MediumChoice;
+use crate::registry::Registry;
 use crate::transport::Transport;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -17,7 +18,7 @@ use std::sync::Arc;
 /// | [`system`](Self::system) | `SCL_SYSTEM` | `system` in the topology file |
 /// | [`medium`](Self::medium), [`media`](Self::media) | `SCL_TRANSPORT=ipc`, `tcp` or `shm`, or `ipc,camera.frames=shm` | `ipc` |
 /// | [`medium_of`](Self::medium_of) | added to `SCL_TRANSPORT` | |
-/// | [`transport`](Self::transport) | | ZeroMQ, in the runtime folder |
+/// | [`transport`](Self::transport), [`registry`](Self::registry) | | ZeroMQ, in the runtime folder |
 ///
 /// ```
 /// let options = scl::OpenOptions::new().system("rover-2").medium_of("camera.frames", scl::Medium::Shm);
@@ -31,6 +32,7 @@ pub struct OpenOptions {
     /// Gates as `component.gate`, in order.
     medium_of: Vec<(String, Medium)>,
     transport: Option<Arc<dyn Transport>>,
+    registry: Option<Arc<dyn Registry>>,
     is_test: bool,
 }
 
@@ -77,10 +79,19 @@ impl OpenOptions {
 
     /// A transport of your own, or `scl::transport::memory::Memory` for gates within this process.
     ///
-    /// The component then uses no runtime folder: it reads and writes no files, the other options have no effect, and
-    /// only the transport can keep the component from being opened twice.
+    /// The component then uses no runtime folder: it reads and writes no files, the options of the runtime folder have no
+    /// effect, and only the transport or a [`registry`](Self::registry) can keep the component from being opened twice.
+    ///
+    /// Opening fails if its gates need more than [the transport guarantees](Transport::guarantees).
     pub fn transport(mut self, transport: impl Transport) -> Self {
         self.transport = Some(Arc::new(transport));
+        self
+    }
+
+    /// A registry of your own, beside a [`transport`](Self::transport) of your own: it keeps the component from being opened
+    /// twice, and knows which peers run. Without such a transport it has no effect, because the runtime folder is a registry.
+    pub fn registry(mut self, registry: impl Registry) -> Self {
+        self.registry = Some(Arc::new(registry));
         self
     }
 
@@ -94,6 +105,10 @@ impl OpenOptions {
 
     pub(crate) fn is_test(&self) -> bool {
         self.is_test
+    }
+
+    pub(crate) fn chosen_registry(&self) -> Option<&Arc<dyn Registry>> {
+        self.registry.as_ref()
     }
 
     pub(crate) fn chosen_transport(&self) -> Option<Arc<dyn Transport>> {

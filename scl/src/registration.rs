@@ -2,6 +2,7 @@
 
 use crate::medium_choice::MediumChoice;
 use crate::process_mark::ProcessMark;
+use crate::registry::{Neighbour, Registered};
 use crate::runtime_dir::{
     Announcement, ComponentLock, ComponentStats, FolderWatch, Holder, OwnedPath, QUIET, RuntimeDirError, StatsFile,
     SystemDir, check_peer, explain_missing, publish_schema,
@@ -10,16 +11,15 @@ use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
 use crate::sync::lock;
 use crate::transport::PeerCheck;
 use std::error::Error;
+use std::pin::Pin;
 use std::sync::{Arc, Mutex, Weak};
 use std::time::Duration;
 
 /// What makes this process the one that runs a component. Dropped after everything that the component has bound: then
 /// another process may run it.
-///
-/// A component on a transport of the user's choice has no files; nothing is known about its peers then.
 #[derive(Debug)]
 pub(crate) struct Registration {
-    files: Option<Arc<Files>>,
+    files: Arc<Files>,
 }
 
 /// The component's files in the folder of its system.
@@ -73,32 +73,13 @@ impl Registration {
         let stats = initial_stats.as_ref().and_then(|stats| create_stats(&dir, spec, stats));
         let held = Held { announcement: announcement.publish(&dir)?, stats, lock };
         let (held, process) = (Mutex::new(Some(held)), ProcessMark::new());
-        Ok(Self { files: Some(Arc::new(Files { dir, spec, announcement, initial_stats, held, process })) })
-    }
-
-    /// For a component on a transport of the user's choice.
-    pub(crate) fn without_files() -> Self {
-        Self { files: None }
+        Ok(Self { files: Arc::new(Files { dir, spec, announcement, initial_stats, held, process }) })
     }
 
     /// The folder of the system.
     #[cfg(test)]
-    pub(crate) fn dir(&self) -> Option<&SystemDir> {
-        self.files.as_ref().map(|files| &files.dir)
-    }
-
-    /// Keeps the registration while the program runs: if the folder or files in it are removed, creates them again and
-    /// reports that through [`SystemDir::poll_restored`]. For a task of the component.
-    ///
-    /// Returns if the files cannot be watched, or if they cannot be created again because another process has taken the
-    /// component's lock in the meantime.
-    pub(crate) fn keep(&self) -> impl Future<Output = ()> + Send + use<> {
-        let files = self.files.as_ref().map(Arc::downgrade);
-        async {
-            if let Some(files) = files {
-                keep(files).await;
-            }
-        }
+    pub(crate) fn dir(&self) -> &SystemDir {
+        &self.files.dir
     }
 
     /// Creates the component's files again if they were removed, for a process that watches the folder by itself. Returns
@@ -113,28 +94,34 @@ impl Registration {
 
     /// The figures of a component that has done nothing yet, and what writes later ones, unless it writes none.
     pub(crate) fn stats(&self) -> Option<(ComponentStats, StatsWriter)> {
-        let files = self.files.as_ref()?;
-        Some((files.initial_stats.clone()?, StatsWriter(Arc::downgrade(files))))
+        Some((self.files.initial_stats.clone()?, StatsWriter(Arc::downgrade(&self.files))))
+    }
+}
+
+impl Registered for Registration {
+    fn neighbour(&self, component: &str) -> Option<Neighbour> {
+        ComponentLock::holder(&self.files.dir, component).map(|holder| match holder {
+            Holder::ThisProcess => Neighbour::ThisProcess,
+            _ => Neighbour::OtherProcess,
+        })
     }
 
-    /// What a connecting end calls before it connects.
-    pub(crate) fn peer_check(&self, gate: &'static GateSpec, link: &'static LinkSpec) -> Option<PeerCheck> {
-        let files = self.files.as_ref()?;
-        let (dir, spec) = (files.dir.clone(), files.spec);
+    fn peer_check(&self, gate: &'static GateSpec, link: &'static LinkSpec) -> Option<PeerCheck> {
+        let (dir, spec) = (self.files.dir.clone(), self.files.spec);
         Some(Arc::new(move || check_peer(&dir, spec, gate, link)))
     }
 
-    /// The process that holds the lock of a component of this system.
-    pub(crate) fn holder(&self, component: &str) -> Option<Holder> {
-        ComponentLock::holder(&self.files.as_ref()?.dir, component)
+    fn explain_missing(&self, gate: &GateSpec, link: &LinkSpec) -> String {
+        explain_missing(&self.files.dir, self.files.spec, gate, link)
     }
 
-    /// Why a peer is not connected, to follow its name in a text: `is not running`.
-    pub(crate) fn explain_missing(&self, gate: &GateSpec, link: &LinkSpec) -> String {
-        match &self.files {
-            Some(files) => explain_missing(&files.dir, files.spec, gate, link),
-            None => "is not connected".to_owned(),
-        }
+    /// If the folder or files in it are removed, creates them again and reports that through
+    /// [`SystemDir::poll_restored`].
+    ///
+    /// Returns if the files cannot be watched, or if they cannot be created again because another process has taken the
+    /// component's lock in the meantime.
+    fn keep(&self) -> Pin<Box<dyn Future<Output = ()> + Send>> {
+        Box::pin(keep(Arc::downgrade(&self.files)))
     }
 }
 
@@ -155,8 +142,8 @@ impl Drop for Registration {
     fn drop(&mut self) {
         // The task in `keep` may be restoring the files at this moment, so dropping the reference is not enough. In a
         // forked child, the mutex may be locked by a thread that does not exist there.
-        if let Some(files) = self.files.as_ref().filter(|files| files.process.is_own()) {
-            *lock(&files.held) = None;
+        if self.files.process.is_own() {
+            *lock(&self.files.held) = None;
         }
     }
 }

@@ -20,8 +20,9 @@ use monitor::Monitor;
 
 use crate::error::{Missing, NotFlushed, PeerName, Unflushed};
 use crate::process_mark::ProcessMark;
-use crate::registration::Registration;
-use crate::runtime_dir::Holder;
+use crate::registration::StatsWriter;
+use crate::registry::{Neighbour, Registered as RegisteredComponent};
+use crate::runtime_dir::ComponentStats;
 use crate::service::{self, Member};
 use crate::spec::{ComponentSpec, GateSpec};
 use crate::sync::{AbortOnDrop, lock};
@@ -66,7 +67,7 @@ pub(crate) struct ComponentState {
     /// Keeps the registration if the runtime folder is removed.
     _keeper: AbortOnDrop,
     /// Dropped last: once the lock is released, another process may run this component.
-    registration: Registration,
+    registration: Box<dyn RegisteredComponent>,
 }
 
 /// A sending end and the task that drives it.
@@ -105,7 +106,8 @@ impl ComponentState {
     /// Needs a tokio runtime.
     pub(crate) fn new(
         spec: &'static ComponentSpec,
-        registration: Registration,
+        registration: Box<dyn RegisteredComponent>,
+        stats: Option<(ComponentStats, StatsWriter)>,
         runtime: Option<Arc<OwnedRuntime>>,
     ) -> Self {
         let handle = Handle::current();
@@ -118,7 +120,7 @@ impl ComponentState {
             std::future::pending::<()>().await;
         });
         let keeper = AbortOnDrop(keeper.abort_handle());
-        let (monitor, stats) = monitor::start(spec, &registration, &handle);
+        let (monitor, stats) = monitor::start(spec, stats, &handle);
         let member = service::join(|| reported::follows_calls(runtime.is_some(), &handle));
         Self {
             spec,
@@ -157,8 +159,8 @@ impl ComponentState {
         self.spec
     }
 
-    pub(crate) fn registration(&self) -> &Registration {
-        &self.registration
+    pub(crate) fn registration(&self) -> &dyn RegisteredComponent {
+        &*self.registration
     }
 
     pub(crate) fn monitor(&self) -> &Monitor {
@@ -250,7 +252,7 @@ impl ComponentState {
     /// Returns true if another process runs a component. One of this process cannot be waited for while its thread may be
     /// the one that waits.
     fn runs_elsewhere(&self, component: &str) -> bool {
-        self.registration.holder(component).is_some_and(|holder| holder != Holder::ThisProcess)
+        self.registration.neighbour(component) == Some(Neighbour::OtherProcess)
     }
 
     /// Waits until peers have taken everything, at most for a given time.

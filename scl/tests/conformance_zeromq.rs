@@ -15,7 +15,7 @@ mod tcp {
 
 #[cfg(feature = "iceoryx2")]
 mod shm {
-    scl::transport_conformance!(super::fresh(super::Medium::Shm));
+    scl::transport_conformance!(lends; super::fresh(super::Medium::Shm));
 }
 
 fn fresh(medium: Medium) -> (ZeroMq, TempDir) {

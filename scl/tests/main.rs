@@ -20,6 +20,8 @@ mod memory_components;
 mod memory_queues;
 #[cfg(all(feature = "memory", feature = "zeromq"))]
 mod model;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod registry;
 mod runtime_dir_files;
 mod runtime_dir_folder;
 mod runtime_dir_processes;

@@ -23,18 +23,15 @@ const OPEN_TIMEOUT_MS: u64 = 2000;
 
 /// Checks the options, and returns the configuration as JSON.
 pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
-    let protocol = if options.tls.is_some() { "tls" } else { "tcp" };
     for address in options.listen.iter().chain(options.peers.iter().filter_map(|peer| peer.address.as_ref())) {
         check_address(address, options.tls.is_some() || options.insecure)?;
     }
     if let Some(address) = &options.listen {
         check_free(address)?;
     }
-    let endpoint = |address: &String| format!("{protocol}/{address}");
-    let listen: Vec<_> = options.listen.iter().map(endpoint).collect();
-    let connect: Vec<_> =
-        options.peers.iter().filter(|peer| dials(options, peer)).filter_map(|peer| peer.address.as_ref()).collect();
-    let connect: Vec<_> = connect.into_iter().map(endpoint).collect();
+    let protocol = protocol(options);
+    let listen: Vec<_> = options.listen.iter().map(|address| format!("{protocol}/{address}")).collect();
+    let connect: Vec<_> = options.peers.iter().filter_map(|peer| endpoint(options, peer)).collect();
     Ok(json!({
         "mode": "peer",
         "listen": { "endpoints": listen, "timeout_ms": 0, "exit_on_failure": true },
@@ -88,9 +85,14 @@ pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
     }))
 }
 
-/// Whether this host connects to a peer, instead of waiting for it: exactly one of two hosts does.
-fn dials(options: &WireOptions, peer: &Peer) -> bool {
-    options.listen.is_none() || options.host < peer.host
+/// Where this host connects to a peer. `None` if it waits for it: exactly one of two hosts connects.
+pub(super) fn endpoint(options: &WireOptions, peer: &Peer) -> Option<String> {
+    let address = peer.address.as_ref().filter(|_| options.listen.is_none() || options.host < peer.host)?;
+    Some(format!("{}/{address}", protocol(options)))
+}
+
+fn protocol(options: &WireOptions) -> &'static str {
+    if options.tls.is_some() { "tls" } else { "tcp" }
 }
 
 fn check_address(address: &str, any: bool) -> Result<(), WireError> {

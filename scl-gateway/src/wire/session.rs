@@ -16,6 +16,7 @@ use zenoh::{Config, Session, Wait};
 
 use super::announcement::{Announcements, PART};
 use super::command::{Command, Commands, EndId, Part};
+use super::connection_log;
 use super::error::WireError;
 use super::header::{Ack, Header};
 use super::keys;
@@ -27,6 +28,8 @@ use super::stream::{ReceivingMail, SendingMail};
 
 /// How often what has been wrong for a while is looked for.
 const TICK: Duration = Duration::from_millis(500);
+/// Time without a connection until the reason is logged: hosts do not start at the same moment.
+const MISSING_AFTER: Duration = Duration::from_secs(3);
 /// Time for a part of an announcement.
 const PART_TIMEOUT: Duration = Duration::from_secs(3);
 /// What a message in a queue weighs besides its payload.
@@ -40,7 +43,8 @@ pub(super) struct Setup {
     pub(super) system: String,
     pub(super) host: String,
     pub(super) instance: String,
-    pub(super) peers: Vec<String>,
+    /// The other hosts, and where this one connects to them.
+    pub(super) peers: Vec<(String, Option<String>)>,
     pub(super) commands: Commands,
     pub(super) received: Receiver<Command>,
     pub(super) presence: Presence,
@@ -95,6 +99,10 @@ struct Host {
     lane: Lane,
     marks: Publisher<'static>,
     echoes: Publisher<'static>,
+    endpoint: Option<String>,
+    missing_since: Option<Instant>,
+    /// The last reason that was logged for it.
+    reason: Option<String>,
 }
 
 impl Thread {
@@ -113,8 +121,8 @@ impl Thread {
             hosts: HashMap::new(),
             _subscribers: Vec::new(),
         };
-        for peer in &setup.peers {
-            thread.add_host(peer)?;
+        for (peer, endpoint) in setup.peers {
+            thread.add_host(&peer, endpoint)?;
         }
         thread.declare(EndId::next(), keys::host_token(&thread.system, &thread.host, &setup.instance))?;
         for key in keys::tokens(&thread.system, &thread.host) {
@@ -152,6 +160,7 @@ impl Thread {
             let now = Instant::now();
             if now >= next_tick {
                 self.presence.tick();
+                self.log_missing();
                 next_tick = now + TICK;
             }
             self.send_due(now);
@@ -205,6 +214,8 @@ impl Thread {
             Command::Host { host, is_present } => {
                 if let Some(host) = self.hosts.get_mut(&host) {
                     host.lane.set_open(is_present);
+                    host.missing_since = (!is_present).then(Instant::now);
+                    host.reason = None;
                 }
                 Ok(())
             }
@@ -249,10 +260,12 @@ impl Thread {
         Ok(())
     }
 
-    fn add_host(&mut self, host: &str) -> Result<()> {
+    fn add_host(&mut self, host: &str, endpoint: Option<String>) -> Result<()> {
         let marks = self.publisher(keys::mark(&self.system, &self.host, host), Priority::Data)?;
         let echoes = self.publisher(keys::echo(&self.system, &self.host, host), Priority::InteractiveHigh)?;
-        self.hosts.insert(host.to_owned(), Host { lane: Lane::new(), marks, echoes });
+        let missing_since = Some(Instant::now());
+        let state = Host { lane: Lane::new(), marks, echoes, endpoint, missing_since, reason: None };
+        self.hosts.insert(host.to_owned(), state);
         let (commands, name) = (self.commands.clone(), host.to_owned());
         let mark = self.subscribe(keys::mark(&self.system, host, &self.host), move |sample| {
             if let Some(number) = number(&sample) {
@@ -333,6 +346,19 @@ impl Thread {
 
     fn put(&self, publisher: Option<&Publisher<'static>>, payload: Vec<u8>) -> Result<()> {
         publisher.map_or(Ok(()), |publisher| publisher.put(payload).wait())
+    }
+
+    /// Logs why hosts are missing, each reason once.
+    fn log_missing(&mut self) {
+        for (name, host) in &mut self.hosts {
+            let is_missing = host.missing_since.is_some_and(|since| since.elapsed() > MISSING_AFTER);
+            let Some(endpoint) = host.endpoint.as_ref().filter(|_| is_missing) else { continue };
+            let reason = connection_log::take(endpoint);
+            if reason.is_some() && reason != host.reason {
+                tracing::warn!("cannot reach host `{name}` at `{endpoint}`: {}", reason.as_deref().unwrap_or_default());
+                host.reason = reason;
+            }
+        }
     }
 
     fn deadline(&self) -> Option<Instant> {

@@ -3,6 +3,7 @@
 use super::{Profile, ProfileError};
 use crate::error::OpenError;
 use crate::registration::Registration;
+use crate::registry::Registered;
 use crate::runtime_dir::{Announcement, Holder, RuntimeDirError, SystemDir};
 use crate::spec::{ComponentSpec, GateSpec, LinkSpec, WhenFull};
 use crate::transport::{Endpoint, Window};

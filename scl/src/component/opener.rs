@@ -7,8 +7,9 @@ use crate::error::{GateName, OpenError};
 use crate::figures::FigureSource;
 use crate::gate::{Connection, GateTap, Incoming, Outgoing, Pub, Pull, Push, Rep, Req, Sub};
 use crate::options::OpenOptions;
-use crate::registration::Registration;
-use crate::runtime_dir::RuntimeDir;
+use crate::registration::{Registration, StatsWriter};
+use crate::registry::{Registered, Unregistered};
+use crate::runtime_dir::{ComponentStats, RuntimeDir};
 use crate::spec::{ComponentSpec, GateSpec, LinkSpec, WhenFull};
 use crate::state::{ComponentState, OwnedRuntime, Owner, stats_period};
 use crate::time::Watchdog;
@@ -28,15 +29,15 @@ impl Opener {
         options: &OpenOptions,
         runtime: Option<Arc<OwnedRuntime>>,
     ) -> Result<Self, OpenError> {
-        let (registration, transports) = match options.chosen_transport() {
+        let (Joined { registration, stats }, transports) = match options.chosen_transport() {
             Some(transport) => {
                 let transports = Transports::Own(transport);
                 needs::check(spec, &transports)?;
-                (Registration::without_files(), transports)
+                (join(spec, options)?, transports)
             }
             None => register(spec, options)?,
         };
-        let state = Owner::new(ComponentState::new(spec, registration, runtime).of_test(options.is_test()));
+        let state = Owner::new(ComponentState::new(spec, registration, stats, runtime).of_test(options.is_test()));
         state.start_reporting();
         Ok(Self { state, transports })
     }
@@ -167,8 +168,25 @@ impl Opener {
     }
 }
 
+/// A component that has its name, and what writes its stats, if it has any.
+struct Joined {
+    registration: Box<dyn Registered>,
+    stats: Option<(ComponentStats, StatsWriter)>,
+}
+
+/// Takes the component's name in the registry of the user's, if there is one.
+fn join(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Joined, OpenError> {
+    let registration = match options.chosen_registry() {
+        Some(registry) => {
+            registry.register(spec).map_err(|source| OpenError::Registry { component: spec.name, source })?
+        }
+        None => Box::new(Unregistered),
+    };
+    Ok(Joined { registration, stats: None })
+}
+
 /// Takes the component's name in the runtime folder.
-fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Registration, Transports), OpenError> {
+fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Joined, Transports), OpenError> {
     let (system, media) = (options.system_name(spec.system)?, options.chosen_media()?);
     let stats = stats_period(&|name| options.variable(name))?;
     let failed = |source| OpenError::RuntimeDir { component: spec.name, source };
@@ -176,7 +194,9 @@ fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Regi
     let dir = runtime_dir.system(&system).map_err(failed)?;
     let transports = Transports::in_folder(spec, &dir, media.clone())?;
     needs::check(spec, &transports)?;
-    Ok((Registration::in_folder(spec, dir, stats, &media).map_err(failed)?, transports))
+    let registration = Registration::in_folder(spec, dir, stats, &media).map_err(failed)?;
+    let stats = registration.stats();
+    Ok((Joined { registration: Box::new(registration), stats }, transports))
 }
 
 /// The longest message at a gate that accepts messages of up to `max_size` bytes.

@@ -46,12 +46,12 @@ impl Stage {
     }
 
     async fn restored(&mut self) {
-        let dir = self.registration.dir().unwrap().clone();
+        let dir = self.registration.dir().clone();
         poll_fn(|cx| dir.poll_restored(&mut self.seen, cx)).await;
     }
 
     fn assert_in_place(&self, what: &str) {
-        let dir = self.registration.dir().unwrap();
+        let dir = self.registration.dir();
         assert_eq!(ComponentLock::holder(dir, "sensor"), Some(Holder::ThisProcess), "{what}");
         assert!(ComponentLock::take(dir, "sensor").is_err(), "{what}");
         assert_eq!(Announcement::read(dir, "sensor").map(|found| found.pid), Some(std::process::id()), "{what}");
@@ -117,7 +117,7 @@ async fn what_is_removed_before_it_is_watched_is_created_again() {
 #[tokio::test]
 async fn owners_of_sockets_are_told_of_their_removal() {
     let mut stage = Stage::new().await;
-    let dir = stage.registration.dir().unwrap().clone();
+    let dir = stage.registration.dir().clone();
     let bound = bind_ipc(&dir, "sensor.measurements.aaaa").unwrap();
     fs::remove_file(bound.guard.path()).unwrap();
     stage.restored().await;
@@ -141,7 +141,7 @@ async fn a_component_that_another_process_runs_by_then_is_left_to_it() {
 #[tokio::test]
 async fn a_closed_component_leaves_its_name_at_once_and_is_not_restored() {
     let stage = Stage::new().await;
-    let dir = stage.registration.dir().unwrap().clone();
+    let dir = stage.registration.dir().clone();
     drop(stage.registration);
     assert_eq!(ComponentLock::holder(&dir, "sensor"), None);
     assert_eq!(Announcement::read(&dir, "sensor"), None);
@@ -155,9 +155,9 @@ async fn a_closed_component_leaves_its_name_at_once_and_is_not_restored() {
 #[tokio::test]
 async fn a_component_closed_while_its_files_are_restored_leaves_its_name_too() {
     let stage = Stage::new().await;
-    let dir = stage.registration.dir().unwrap().clone();
+    let dir = stage.registration.dir().clone();
     // As the task holds it while it restores them.
-    let files = stage.registration.files.clone().unwrap();
+    let files = stage.registration.files.clone();
     drop(stage.registration);
     assert_eq!(ComponentLock::holder(&dir, "sensor"), None);
     assert!(!files.restore().unwrap() && Announcement::read(&dir, "sensor").is_none());
@@ -178,22 +178,14 @@ async fn a_forked_child_removes_and_restores_nothing() {
     let root = tempfile::tempdir().unwrap();
     let dir = system(root.path());
     let mut registration = Registration::in_folder(&SENSOR, dir.clone(), None, &MediumChoice::default()).unwrap();
-    Arc::get_mut(registration.files.as_mut().unwrap()).unwrap().process = ProcessMark::inherited();
+    Arc::get_mut(&mut registration.files).unwrap().process = ProcessMark::inherited();
     let keeping = tokio::spawn(registration.keep());
     yield_now().await;
     fs::remove_file(dir.folder().join("1111.schema")).unwrap();
     keeping.await.unwrap();
     assert!(!dir.folder().join("1111.schema").exists());
     // As if another thread had been restoring the files while the process forked.
-    let files = registration.files.clone().unwrap();
+    let files = registration.files.clone();
     let _held = lock(&files.held);
     drop(registration);
-}
-
-#[tokio::test]
-async fn without_files_nothing_is_known_about_peers() {
-    let registration = Registration::without_files();
-    registration.keep().await;
-    assert!(registration.dir().is_none() && registration.holder("sensor").is_none());
-    assert_eq!(registration.holder("sensor"), None);
 }

@@ -3,7 +3,7 @@
 use crate::environment::{self, Variables};
 use crate::error::OpenError;
 use crate::figures::FigureSource;
-use crate::registration::{Registration, StatsWriter};
+use crate::registration::StatsWriter;
 use crate::runtime_dir::ComponentStats;
 use crate::spec::{ComponentSpec, LinkSpec};
 use crate::sync::{AbortOnDrop, lock};
@@ -87,11 +87,11 @@ impl Followed {
 /// Follows what the component does, and writes it where it has files.
 pub(super) fn start(
     spec: &'static ComponentSpec,
-    registration: &Registration,
+    stats: Option<(ComponentStats, StatsWriter)>,
     handle: &Handle,
 ) -> (Arc<Monitor>, Option<AbortOnDrop>) {
     let unwritten = || ComponentStats::initial(spec, std::process::id(), SystemTime::now(), Duration::ZERO);
-    let (initial, writer) = registration.stats().unzip();
+    let (initial, writer) = stats.unzip();
     let monitor = Arc::new(Monitor::new(spec, initial.unwrap_or_else(unwritten)));
     let task = writer.map(|writer| {
         let task = handle.spawn(write_stats(Arc::downgrade(&monitor), writer));

@@ -62,7 +62,7 @@ pub(super) fn await_other_users<T: ?Sized>(value: &Arc<T>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::registration::Registration;
+    use crate::registry::Unregistered;
     use crate::spec::ComponentSpec;
 
     static SPEC: ComponentSpec =
@@ -70,7 +70,7 @@ mod tests {
 
     #[tokio::test]
     async fn the_last_owner_outlives_those_who_use_the_component_for_a_moment() {
-        let owner = Owner::new(ComponentState::new(&SPEC, Registration::without_files(), None));
+        let owner = Owner::new(ComponentState::new(&SPEC, Box::new(Unregistered), None, None));
         let (another, used) = (owner.clone(), Arc::clone(&owner));
         drop(owner);
         let weak = Arc::downgrade(&used);

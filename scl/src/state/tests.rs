@@ -2,6 +2,7 @@
 
 use super::calls::DIRECT_WAIT;
 use super::*;
+use crate::registry::Unregistered;
 
 static SPEC: ComponentSpec =
     ComponentSpec { system: "rover", name: "sensor", declared_at: "rover.yaml:1:1", gates: &[], schema: None };
@@ -42,7 +43,7 @@ fn a_call_writes_what_all_gates_hold_back_before_it_waits() {
     let runtime = OwnedRuntime::start("sensor").unwrap();
     let state = {
         let _inside = runtime.enter();
-        ComponentState::new(&SPEC, Registration::without_files(), Some(runtime.clone()))
+        ComponentState::new(&SPEC, Box::new(Unregistered), None, Some(runtime.clone()))
     };
     let register = |peer_takes_them| {
         let end = Arc::new(Mutex::new(Holding { messages: 3, peer_takes_them }));

@@ -25,7 +25,9 @@ pub(super) struct Outgoing {
     /// Messages settled (acknowledged, given up or abandoned) in all, and how many of them before this stream.
     settled: u64,
     base: u64,
+    /// Whether a flush is wanted, and of how many messages in all.
     flush: bool,
+    flushed: u64,
 }
 
 impl Outgoing {
@@ -43,6 +45,7 @@ impl Outgoing {
             settled: 0,
             base: 0,
             flush: false,
+            flushed: 0,
         }
     }
 
@@ -111,8 +114,12 @@ impl Outgoing {
         self.matched.then(|| self.header(Kind::Probe { flush: self.flush })).flatten()
     }
 
-    pub(super) fn request_flush(&mut self) {
-        self.flush = true;
+    /// Marks what is on its way to be flushed. Returns false if that was asked for already.
+    pub(super) fn request_flush(&mut self) -> bool {
+        let last = self.settled + self.emitted as u64;
+        let is_news = !self.flush || self.flushed < last;
+        (self.flush, self.flushed) = (true, last);
+        is_news
     }
 
     /// Handles an acknowledgement. Messages that turn out to be lost are emitted again.

@@ -97,8 +97,9 @@ impl SendingEnd {
     }
 
     pub(in crate::wire) fn request_flush(&mut self) {
-        self.outgoing.request_flush();
-        self.probe();
+        if self.outgoing.request_flush() {
+            self.probe();
+        }
     }
 
     /// Forgets everything that is unacknowledged.

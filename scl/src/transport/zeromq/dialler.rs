@@ -2,7 +2,6 @@
 
 use super::acceptor::{HANDSHAKE_LIMIT, poll_handshake};
 use super::connection::{Closed, Connection};
-use super::shared_memory;
 use super::stream::{Socket, Stream};
 use super::tcp_user;
 use super::timer::Timer;
@@ -48,8 +47,7 @@ pub(super) struct Dialler {
 impl Dialler {
     /// Called inside a runtime.
     pub(super) fn new(dir: &Arc<SystemDir>, endpoint: &Endpoint, socket: SocketType, scl: SclReady) -> Self {
-        // The listening end decides whether memory is shared.
-        let scl = SclReady { shm: shared_memory::format().map(|_| ShmReady::default()), ..scl };
+        let scl = SclReady { shm: ShmReady::of_dialling(socket), ..scl };
         Self {
             dir: Arc::clone(dir),
             endpoint: endpoint.clone(),

@@ -79,3 +79,16 @@ fn a_new_stream_does_not_wait_for_what_was_abandoned() {
     assert_eq!((header.stream, header.sequence), (2, 1));
     assert_eq!(outgoing.acknowledged(&ack(2, 2, 2, 0)), Progress::default());
 }
+
+#[test]
+fn a_flush_is_asked_for_once_for_the_same_messages() {
+    let mut outgoing = matched_with(1);
+    assert!(outgoing.request_flush());
+    assert!(!outgoing.request_flush());
+    outgoing.push(message(1));
+    emit(&mut outgoing);
+    assert!(outgoing.request_flush());
+    assert_eq!(outgoing.probe().map(|probe| probe.kind), Some(Kind::Probe { flush: true }));
+    outgoing.acknowledged(&ack(2, 2, 2, 0));
+    assert_eq!(outgoing.probe().map(|probe| probe.kind), Some(Kind::Probe { flush: false }));
+}

@@ -4,7 +4,7 @@ use super::ends::{answer, ask, echo};
 use super::stage::{Stage, next, numbered, once, pattern};
 use crate::runtime_dir::bind_ipc;
 use crate::transport::zeromq::Medium;
-use crate::transport::zeromq::zmtp::{SclReady, SocketType, hello};
+use crate::transport::zeromq::zmtp::{SclReady, ShmReady, SocketType, hello};
 use crate::transport::{PeerKind, Transport};
 use bytes::Bytes;
 use std::future::poll_fn;
@@ -91,7 +91,8 @@ async fn a_plain_publisher_is_subscribed_to_after_its_ready() {
         (messages, subscriber.malformed(), subscriber)
     });
     let (mut stream, _) = listener.accept().await.unwrap();
-    let scl = super::super::credit::receiving(&super::stage::endpoint());
+    let shm = ShmReady::of_dialling(SocketType::Sub);
+    let scl = SclReady { shm, ..super::super::credit::receiving(&super::stage::endpoint()) };
     read_after_hello(&mut stream, SocketType::Sub, scl, 0).await;
     let mut early = [0];
     assert!(stream.try_read(&mut early).is_err(), "sent something before READY arrived");

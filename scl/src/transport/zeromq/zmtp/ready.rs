@@ -133,6 +133,12 @@ impl SclReady {
 }
 
 impl ShmReady {
+    /// What a connecting end says: that it can share memory, if its messages go one way. The listening end decides.
+    pub(in crate::transport::zeromq) fn of_dialling(socket: SocketType) -> Option<Self> {
+        let goes_one_way = matches!(socket, SocketType::Sub | SocketType::Push);
+        shared_memory::format().filter(|_| goes_one_way).map(|_| Self::default())
+    }
+
     fn encode(self) -> String {
         let Some(format) = shared_memory::format() else { return String::new() };
         let service = self.service.map_or_else(String::new, |service| format!(",{service}"));

@@ -1,0 +1,83 @@
+//! Why other hosts cannot be reached. The network library only logs it, at every attempt; this keeps the newest reason for
+//! each address, and the gateway logs it when it is new.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::{Mutex, MutexGuard};
+
+use tracing::field::{Field, Visit};
+use tracing::{Event, Level, Subscriber};
+use tracing_subscriber::Layer;
+use tracing_subscriber::layer::Context;
+
+/// The newest reason by endpoint. Global, as the log is.
+static REASONS: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
+/// Endpoints are configured, so there are few; but the texts are another library's.
+const MOST: usize = 1000;
+
+/// Catches the warnings of the target `zenoh` about failed connections; to be installed with the log of the program.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ConnectionLog;
+
+impl<S: Subscriber> Layer<S> for ConnectionLog {
+    fn on_event(&self, event: &Event<'_>, _: Context<'_, S>) {
+        if *event.metadata().level() > Level::WARN || !event.metadata().target().starts_with("zenoh") {
+            return;
+        }
+        let mut text = Text(String::new());
+        event.record(&mut text);
+        if let Some((endpoint, reason)) = parse(&text.0) {
+            let mut reasons = reasons();
+            if reasons.len() < MOST {
+                reasons.insert(endpoint.to_owned(), reason);
+            }
+        }
+    }
+}
+
+/// Why the last attempt to connect to an endpoint failed.
+pub(super) fn take(endpoint: &str) -> Option<String> {
+    reasons().remove(endpoint)
+}
+
+fn reasons() -> MutexGuard<'static, BTreeMap<String, String>> {
+    REASONS.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}
+
+struct Text(String);
+
+impl Visit for Text {
+    fn record_debug(&mut self, field: &Field, value: &dyn fmt::Debug) {
+        if field.name() == "message" {
+            self.0 = format!("{value:?}");
+        }
+    }
+}
+
+/// The endpoint and the reason, without the places in the library's source.
+fn parse(text: &str) -> Option<(&str, String)> {
+    let (endpoint, mut rest) = text.strip_prefix("Unable to connect to ")?.split_once("! ")?;
+    let mut reason = String::new();
+    while let Some((before, after)) = rest.split_once(" at /") {
+        reason.push_str(before);
+        let after = after.split_once(".rs:").map_or("", |(_, line)| line);
+        rest = after.trim_start_matches(|character: char| character.is_ascii_digit());
+        rest = rest.strip_prefix('.').unwrap_or(rest);
+    }
+    reason.push_str(rest);
+    Some((endpoint, reason))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_reason_is_kept_without_places_in_source_code() {
+        let text = "Unable to connect to tls/127.0.0.1:7447! Can not create a new TLS link: [refused: \
+                    (os error 111) at /root/a/tcp.rs:61.] at /root/b/unicast.rs:338.";
+        let reason = "Can not create a new TLS link: [refused: (os error 111)]".to_owned();
+        assert_eq!(parse(text), Some(("tls/127.0.0.1:7447", reason)));
+        assert_eq!(parse("Scouting delay elapsed"), None);
+    }
+}

@@ -1,0 +1,127 @@
+//! Registries: which process runs a component, and what is known of its neighbours, apart from how messages move.
+//!
+//! Between programs that is the runtime folder ([`runtime_dir`](crate::runtime_dir)). A
+//! [`transport`](crate::OpenOptions::transport) of your own comes without a registry, unless you bring one with
+//! [`OpenOptions::registry`](crate::OpenOptions::registry): then a component can be opened once only, errors say who runs it
+//! and why a peer is missing, and closing waits for peers that are running but not connected yet.
+
+use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::transport::PeerCheck;
+use std::error::Error;
+use std::pin::Pin;
+
+/// Where the components of a system take their names and find each other.
+///
+/// ```
+/// use scl::OpenOptions;
+/// use scl::registry::{Neighbour, Registered, Registry, RegistryError};
+/// use scl::spec::ComponentSpec;
+/// use scl::transport::memory::Memory;
+/// use std::collections::HashSet;
+/// use std::sync::{Arc, Mutex};
+///
+/// /// The components that run within this process.
+/// #[derive(Clone, Default)]
+/// struct InProcess(Arc<Mutex<HashSet<&'static str>>>);
+///
+/// struct Entry(InProcess, &'static str);
+///
+/// impl Registry for InProcess {
+///     fn register(&self, component: &'static ComponentSpec) -> Result<Box<dyn Registered>, RegistryError> {
+///         if !self.0.lock().unwrap().insert(component.name) {
+///             return Err(RegistryError::Taken { component: component.name, by: "this process".to_owned() });
+///         }
+///         Ok(Box::new(Entry(self.clone(), component.name)))
+///     }
+/// }
+///
+/// impl Registered for Entry {
+///     fn neighbour(&self, component: &str) -> Option<Neighbour> {
+///         self.0.0.lock().unwrap().contains(component).then_some(Neighbour::ThisProcess)
+///     }
+/// }
+///
+/// impl Drop for Entry {
+///     fn drop(&mut self) {
+///         self.0.0.lock().unwrap().remove(self.1);
+///     }
+/// }
+///
+/// let options = OpenOptions::new().transport(Memory::new()).registry(InProcess::default());
+/// ```
+pub trait Registry: Send + Sync + 'static {
+    /// Takes the component's name and announces it; its plan is in `component`. Called before its gates are opened, inside a
+    /// tokio runtime of any kind.
+    ///
+    /// # Errors
+    /// [`RegistryError`]: the name is taken, or cannot be taken.
+    fn register(&self, component: &'static ComponentSpec) -> Result<Box<dyn Registered>, RegistryError>;
+}
+
+/// A component that is registered. Dropped after everything that the component has opened; then its name is free.
+pub trait Registered: Send + Sync {
+    /// Which process runs a component of the system; `None` if none does.
+    fn neighbour(&self, component: &str) -> Option<Neighbour>;
+
+    /// What a connecting end of `gate` calls before it connects to a peer. The default accepts every peer.
+    fn peer_check(&self, gate: &'static GateSpec, link: &'static LinkSpec) -> Option<PeerCheck> {
+        let _accepts_every_peer = (gate, link);
+        None
+    }
+
+    /// Why a peer is not connected, to follow its name in a text: `is not running`.
+    fn explain_missing(&self, gate: &GateSpec, link: &LinkSpec) -> String {
+        let _of_any_gate = gate;
+        let state = if self.neighbour(link.peer_component).is_some() { "is not connected" } else { "is not running" };
+        state.to_owned()
+    }
+
+    /// Keeps the registration while the component is open; run as a task of the component. The default does nothing.
+    fn keep(&self) -> Pin<Box<dyn Future<Output = ()> + Send>> {
+        Box::pin(std::future::ready(()))
+    }
+}
+
+/// Who runs a component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Neighbour {
+    /// The calling process. Blocking calls do not wait for it, because its thread may be the one that waits.
+    ThisProcess,
+    /// Another one.
+    OtherProcess,
+}
+
+/// A component could not be registered.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RegistryError {
+    /// It is running already.
+    #[error("component `{component}` is already running as {by}; stop it first")]
+    Taken {
+        /// The component.
+        component: &'static str,
+        /// Who runs it: `process 4711`.
+        by: String,
+    },
+    /// The registry failed.
+    #[error("component `{component}` cannot be registered")]
+    Failed {
+        /// The component.
+        component: &'static str,
+        /// Why.
+        source: Box<dyn Error + Send + Sync>,
+    },
+}
+
+/// For a component on a transport of the user's without a registry: nothing is known of its neighbours.
+pub(crate) struct Unregistered;
+
+impl Registered for Unregistered {
+    fn neighbour(&self, _component: &str) -> Option<Neighbour> {
+        None
+    }
+
+    fn explain_missing(&self, _gate: &GateSpec, _link: &LinkSpec) -> String {
+        "is not connected".to_owned()
+    }
+}
