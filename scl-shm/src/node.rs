@@ -58,6 +58,8 @@ impl SharedMemory {
         let _locked = folder.lock()?;
         folder.check_owners()?;
         limits::require(0)?;
+        // Damaged files that killed programs left would keep the engine from starting.
+        folder.remove_if_unused();
         let config = folder.config()?;
         let node = NodeBuilder::new()
             .config(&config)
