@@ -86,10 +86,7 @@ impl Registration {
     /// true if something was missing.
     #[cfg(feature = "zeromq")]
     pub(crate) fn restore_if_removed(&self) -> Result<bool, RuntimeDirError> {
-        match &self.files {
-            Some(files) if !files.are_in_place() => files.restore(),
-            _ => Ok(false),
-        }
+        if self.files.are_in_place() { Ok(false) } else { self.files.restore() }
     }
 
     /// The figures of a component that has done nothing yet, and what writes later ones, unless it writes none.

@@ -19,9 +19,15 @@ const MOST: usize = 1000;
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ConnectionLog;
 
+impl ConnectionLog {
+    /// The part of the network library whose log it wants, at the level of debugging.
+    pub const TARGET: &str = "zenoh::net::runtime::orchestrator";
+}
+
 impl<S: Subscriber> Layer<S> for ConnectionLog {
     fn on_event(&self, event: &Event<'_>, _: Context<'_, S>) {
-        if *event.metadata().level() > Level::WARN || !event.metadata().target().starts_with("zenoh") {
+        // The first attempt fails with a warning, later ones with a text for debugging.
+        if *event.metadata().level() > Level::DEBUG || !event.metadata().target().starts_with("zenoh") {
             return;
         }
         let mut text = Text(String::new());
@@ -56,7 +62,10 @@ impl Visit for Text {
 
 /// The endpoint and the reason, without the places in the library's source.
 fn parse(text: &str) -> Option<(&str, String)> {
-    let (endpoint, mut rest) = text.strip_prefix("Unable to connect to ")?.split_once("! ")?;
+    let text = text.strip_prefix("Unable to connect to ")?;
+    let text = text.strip_prefix("configured peer ").unwrap_or(text);
+    let text = text.rsplit_once(" Retry in ").map_or(text, |(text, _)| text);
+    let (endpoint, mut rest) = text.split_once("! ")?;
     let mut reason = String::new();
     while let Some((before, after)) = rest.split_once(" at /") {
         reason.push_str(before);
@@ -65,7 +74,7 @@ fn parse(text: &str) -> Option<(&str, String)> {
         rest = rest.strip_prefix('.').unwrap_or(rest);
     }
     reason.push_str(rest);
-    Some((endpoint, reason))
+    Some((endpoint, reason.trim_end_matches('.').to_owned()))
 }
 
 #[cfg(test)]
@@ -77,7 +86,10 @@ mod tests {
         let text = "Unable to connect to tls/127.0.0.1:7447! Can not create a new TLS link: [refused: \
                     (os error 111) at /root/a/tcp.rs:61.] at /root/b/unicast.rs:338.";
         let reason = "Can not create a new TLS link: [refused: (os error 111)]".to_owned();
-        assert_eq!(parse(text), Some(("tls/127.0.0.1:7447", reason)));
+        assert_eq!(parse(text), Some(("tls/127.0.0.1:7447", reason.clone())));
+        let later = "Unable to connect to configured peer tls/127.0.0.1:7447! Can not create a new TLS link: [refused: \
+                     (os error 111) at /root/a/tcp.rs:61.] at /root/b/unicast.rs:338.. Retry in 250ms.";
+        assert_eq!(parse(later), Some(("tls/127.0.0.1:7447", reason)));
         assert_eq!(parse("Scouting delay elapsed"), None);
     }
 }
