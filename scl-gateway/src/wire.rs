@@ -28,6 +28,7 @@ mod sender;
 mod session;
 mod stream;
 mod token;
+mod user_timeout;
 
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::sync::Arc;

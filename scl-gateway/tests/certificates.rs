@@ -35,31 +35,6 @@ fn a_gateway_whose_certificate_has_expired_does_not_start() {
     fleet.still_works();
 }
 
-/// Its clock has stopped, so it believes in its certificate. The other host does not.
-#[test]
-fn a_certificate_that_has_expired_is_refused_by_the_other_host() {
-    for host in ["board", "ground"] {
-        let mut fleet = Fleet::on(Network::new(&["board", "ground"]));
-        fleet.replace_keys(LONG_AGO);
-        let all_environment = fleet.network.host_mut(host).environment.clone();
-        fleet.network.host_mut(host).environment = believing_in("@2001-02-01 00:00:00").into();
-        let other = if host == "board" { "ground" } else { "board" };
-        fleet.start_gateway(host);
-        // Both certificates are of one authority; the other host has a new one.
-        fleet.renew_key_of(other);
-        fleet.start_gateway(other);
-        fleet.play("source");
-        fleet.play("sink");
-        fleet.expect_no_connection(&[host, other], "expired");
-
-        fleet.kill_gateway(host);
-        fleet.renew_key_of(host);
-        fleet.network.host_mut(host).environment = all_environment;
-        fleet.start_gateway(host);
-        fleet.still_works();
-    }
-}
-
 /// Another authority has signed it, for the same names and addresses.
 #[test]
 fn a_certificate_of_a_foreign_authority_is_refused() {
@@ -76,7 +51,7 @@ fn a_certificate_of_a_foreign_authority_is_refused() {
         }
         fleet.play("source");
         fleet.play("sink");
-        fleet.expect_no_connection(&["board", "ground"], "UnknownIssuer");
+        fleet.expect_no_connection("invalid peer certificate");
 
         fleet.kill_gateway(host);
         fs::rename(&own, &theirs).unwrap();
@@ -111,18 +86,11 @@ impl Fleet {
         self.files.make_keys(&believing_in(time));
     }
 
-    /// Makes the certificate of one host anew, signed by the same authority.
-    fn renew_key_of(&mut self, host: &str) {
-        fs::remove_dir_all(self.files.path(&format!("keys/{host}"))).unwrap();
-        self.files.make_keys(&[]);
-    }
-
-    /// Waits until a gateway has logged why another was refused. Nothing has crossed.
+    /// Waits until a gateway has logged why the other was refused. Nothing has crossed.
     #[track_caller]
-    fn expect_no_connection(&mut self, hosts: &[&str], reason: &str) {
-        scl_tests::wait_until(&format!("a gateway logs `{reason}`"), || {
-            hosts.iter().any(|host| self.gateway(host).log().contains(reason))
-        });
+    fn expect_no_connection(&mut self, reason: &str) {
+        // Of two hosts, that with the smaller name connects and sees why it cannot.
+        self.gateway("board").wait_for_log(reason);
         for gate in ["readings", "control", "lossless", "jobs"] {
             let to = gate;
             let account = self.player("source").counts(gate, &format!("account sink.{to}"));

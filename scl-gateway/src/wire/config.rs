@@ -13,7 +13,7 @@ use super::options::{Peer, WireOptions};
 
 /// A link without any sign of life for this long is closed. A loaded machine must not get there, and a dead link should be
 /// noticed soon.
-const LEASE_MS: u64 = 2000;
+pub(super) const LEASE_MS: u32 = 2000;
 /// Signs of life per lease.
 const KEEP_ALIVE: u64 = 5;
 /// Longest pause between two attempts to connect: everything resumes within 1 s after the link is back.

@@ -25,6 +25,7 @@ use super::mailbox::Mailbox;
 use super::neighbour::Neighbour;
 use super::presence::Presence;
 use super::stream::{ReceivingMail, SendingMail};
+use super::user_timeout;
 
 /// How often what has been wrong for a while is looked for.
 const TICK: Duration = Duration::from_millis(500);
@@ -216,6 +217,9 @@ impl Thread {
                     host.lane.set_open(is_present);
                     host.missing_since = (!is_present).then(Instant::now);
                     host.reason = None;
+                }
+                if is_present {
+                    user_timeout::set();
                 }
                 Ok(())
             }

@@ -1,0 +1,58 @@
+//! Ends TCP connections on which nothing gets through.
+//!
+//! After its lease the network library closes a link, and for that writes what is left. With a full send buffer, this waits
+//! for the kernel, which repeats after ever longer pauses: after half a minute without network, a new link was joined to the
+//! old session, and ended with it 25 s later. With `TCP_USER_TIMEOUT` the kernel gives up when the lease ends.
+//!
+//! The library has no option for it and keeps its sockets for itself, so they are found among the descriptors of the process.
+
+use rustix::net::{AddressFamily, SocketType, sockopt};
+use rustix::process::{self, PidfdFlags, PidfdGetfdFlags};
+use std::fs;
+use std::io;
+use std::os::fd::OwnedFd;
+
+use super::config::LEASE_MS;
+
+/// Sets the time limit of all TCP sockets of this process. Without it everything works, but may resume late after a cut.
+pub(super) fn set() {
+    if let Err(error) = try_set() {
+        tracing::debug!("cannot limit how long TCP repeats what gets no answer: {error}");
+    }
+}
+
+fn try_set() -> io::Result<()> {
+    let process = process::pidfd_open(process::getpid(), PidfdFlags::empty())?;
+    for entry in fs::read_dir("/proc/self/fd")? {
+        let Some(number) = entry?.file_name().to_str().and_then(|name| name.parse().ok()) else { continue };
+        // It may have been closed meanwhile; then it needs no limit.
+        let Ok(socket) = process::pidfd_getfd(&process, number, PidfdGetfdFlags::empty()) else { continue };
+        if is_tcp(&socket) {
+            sockopt::set_tcp_user_timeout(&socket, LEASE_MS)?;
+        }
+    }
+    Ok(())
+}
+
+fn is_tcp(descriptor: &OwnedFd) -> bool {
+    let is_stream = sockopt::socket_type(descriptor).is_ok_and(|kind| kind == SocketType::STREAM);
+    let is_internet = |family| family == AddressFamily::INET || family == AddressFamily::INET6;
+    is_stream && sockopt::socket_domain(descriptor).is_ok_and(is_internet)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::net::{TcpListener, TcpStream};
+
+    #[test]
+    fn both_ends_of_a_connection_get_the_limit() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let dialled = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        let (accepted, _) = listener.accept().unwrap();
+        try_set().unwrap();
+        for socket in [&dialled, &accepted] {
+            assert_eq!(sockopt::tcp_user_timeout(socket).unwrap(), LEASE_MS);
+        }
+    }
+}
