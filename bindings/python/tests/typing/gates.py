@@ -9,7 +9,7 @@ sensor = Sensor(runtime_dir="/tmp/rover", system="rover", transport="ipc", signa
 controller = Controller()
 actuator = Actuator()
 user_interface = UserInterface()
-Sensor(transport=1)  # error: int
+Sensor(transport=1)  # error: str
 Sensor("sensor")  # error: argument
 
 # Sending.
