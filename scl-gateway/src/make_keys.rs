@@ -107,7 +107,9 @@ fn explained(error: &KeysError) -> Problem {
         KeysError::NoAuthorityKey { .. } => problem
             .help("run this where the authority was made")
             .help("or make everything new: `scl gateway keys --force`"),
-        KeysError::Authority { .. } => problem.help("make everything new: `scl gateway keys --force`"),
+        KeysError::Authority { .. } | KeysError::AuthorityExpired { .. } => {
+            problem.help("make everything new: `scl gateway keys --force`")
+        }
         _ => problem,
     }
 }

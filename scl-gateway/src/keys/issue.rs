@@ -16,7 +16,7 @@ use std::time::{Duration, SystemTime};
 const EARLIER: Duration = Duration::from_secs(24 * 3600);
 
 /// The authority serves as long as a system does; hosts get new certificates from it.
-const AUTHORITY_DAYS: u32 = 3650;
+const AUTHORITY_DAYS: u32 = 30 * 365;
 
 /// What to make.
 #[derive(Debug)]
@@ -66,6 +66,14 @@ pub enum KeysError {
         /// Where it should be.
         path: PathBuf,
     },
+    /// A certificate would not be valid for a moment.
+    #[error("the authority in `{}` expired on {}", folder.display(), scl_terminal::timestamp(*at))]
+    AuthorityExpired {
+        /// Its folder.
+        folder: PathBuf,
+        /// When.
+        at: SystemTime,
+    },
     /// The files of the authority are damaged.
     #[error("cannot use the authority in `{}`: {reason}", folder.display())]
     Authority {
@@ -107,6 +115,9 @@ pub fn issue(certificates: &Path, wanted: &Wanted<'_>) -> Result<Vec<Issued>, Ke
         let folder = certificates.join(&host.name);
         let is_new = wanted.replace_hosts || !folder.exists();
         if is_new {
+            if authority.expires <= wanted.now {
+                return Err(KeysError::AuthorityExpired { folder: issued.remove(0).folder, at: authority.expires });
+            }
             let (certificate, key) = authority.certify(host, wanted)?;
             let files = [(AUTHORITY_CERTIFICATE, authority.pem.as_str()), (CERTIFICATE, &certificate), (KEY, &key)];
             folder::replace(&folder, &files).map_err(write(&folder))?;

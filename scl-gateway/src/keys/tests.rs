@@ -117,7 +117,7 @@ fn a_replaced_host_is_known_to_the_others_until_the_authority_is_replaced() {
 #[test]
 fn a_host_never_outlives_its_authority() {
     let keys = Keys::made(&HOSTS[..1]);
-    let later = now() + 3640 * DAY;
+    let later = now() + 10_940 * DAY;
     let wanted = Wanted {
         system: "rover",
         hosts: keys.hosts.iter().collect(),
@@ -127,7 +127,10 @@ fn a_host_never_outlives_its_authority() {
         now: later,
     };
     let issued = issue(&keys.path(""), &wanted).unwrap();
-    assert_eq!(issued[1].expires, Some(now() + 3650 * DAY));
+    assert_eq!(issued[1].expires, Some(now() + 10_950 * DAY));
+    let error = issue(&keys.path(""), &Wanted { now: now() + 10_951 * DAY, ..wanted }).unwrap_err();
+    assert!(matches!(error, KeysError::AuthorityExpired { .. }), "{error}");
+    assert!(keys.check_at(&keys.hosts[0], later).is_ok(), "the certificate that was there stays");
 }
 
 #[test]
