@@ -27,7 +27,7 @@ pub(crate) fn start() -> Result<(), Problem> {
     let use_colour = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let layer = tracing_subscriber::fmt::layer().with_writer(io::stderr).with_ansi(use_colour);
     let layer = layer.with_target(false).without_time().with_filter(filter);
-    let reasons = ConnectionLog.with_filter(Targets::new().with_target(ConnectionLog::TARGET, LevelFilter::DEBUG));
+    let reasons = ConnectionLog.with_filter(ConnectionLog::filter());
     let _already_set = tracing_subscriber::registry().with(layer).with(reasons).try_init();
     Ok(())
 }

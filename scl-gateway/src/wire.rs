@@ -2,7 +2,7 @@
 //! the runtime folder.
 //!
 //! Every handle ([`WireSender`], [`WireReceiver`], [`WireRequester`], [`WireReplier`], [`Announced`]) is `Send` and belongs
-//! to one task. Nothing here blocks: commands go through a channel to plain threads, which make all calls of the network
+//! to one task. Nothing here blocks: commands go through a channel to a plain thread, which makes all calls of the network
 //! library, and events come back through one queue per handle, which wakes the task that polled last. The `poll_*`
 //! functions set timers and so need a tokio runtime with time enabled.
 

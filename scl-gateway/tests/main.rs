@@ -21,6 +21,7 @@ mod long;
 mod namespace;
 mod network;
 mod player;
+mod quickstart;
 mod receipts;
 mod steady;
 mod strangers;

@@ -21,7 +21,7 @@ use super::system_names::SystemNames;
 use profile::Profile;
 use reader::Reader;
 use scl_terminal::Problem;
-use serde_yaml::Value;
+use serde_yaml::{Mapping, Value};
 
 /// A launch file that shows most keys, for help texts.
 pub const EXAMPLE: &str = "\
@@ -68,7 +68,7 @@ pub(crate) struct LaunchDocument<'a> {
 pub(crate) struct LaunchFile {
     /// The build command of the whole system.
     pub(crate) build: Option<Vec<String>>,
-    /// At least one, in file order.
+    /// In file order; at least one, unless there are hosts.
     pub(crate) components: Vec<LaunchComponent>,
     /// For all programs and builds.
     pub(crate) environment: Vec<(String, String)>,
@@ -123,7 +123,7 @@ impl Reader<'_> {
         self.read_path(top.get("topology"), &["topology"]);
         LaunchFile {
             build: self.read_build(top.get("build"), &["build"]),
-            components: self.read_components(top.get("components")),
+            components: self.read_components(top),
             profiles: self.read_profiles(top.get("profiles"), top.get("components")),
             environment: self.read_environment(top.get("environment"), &["environment"]),
             transports: self.read_transports(top.get("transport"), top.get("transports")),
@@ -145,7 +145,12 @@ impl Reader<'_> {
         self.read_settings(keys, &["defaults"])
     }
 
-    fn read_components(&mut self, value: Option<&Value>) -> Vec<LaunchComponent> {
+    fn read_components(&mut self, top: &Mapping) -> Vec<LaunchComponent> {
+        let value = top.get("components");
+        // The gateway of a host needs no more than `hosts`; the components may be started by something else.
+        if value.is_none() && top.contains_key("hosts") {
+            return Vec::new();
+        }
         let Some(entries) = value.and_then(Value::as_mapping).filter(|entries| !entries.is_empty()) else {
             let problem = match value {
                 None => Problem::new("`components` is missing").at(self.text.place(&[])),

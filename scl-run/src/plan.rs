@@ -144,6 +144,10 @@ fn plan_from_launch_file(
         components.retain(|component| host.components.contains(&component.name));
         expected.clone_from(&host.components);
     }
+    if components.is_empty() && host.is_none() {
+        let problem = Problem::new("the launch file has no `components`").at(&shown);
+        return Err(vec![problem.help("write `components: {sensor: {command: ./sensor}}`")]);
+    }
     let names = components.iter().map(|component| component.name.clone());
     let names: Vec<String> = names.chain(host.map(|_| host::GATEWAY.to_owned())).collect();
     let source = host.map_or_else(|| format!("`{shown}`"), |host| format!("host `{}`", host.name));

@@ -7,10 +7,10 @@ use iceoryx2::node::{Node, NodeState};
 use iceoryx2::prelude::{CallbackProgression, FileName, Path as EnginePath, SemanticString};
 use iceoryx2::service::ipc_threadsafe::Service as Engine;
 use rustix::fs::{FlockOperation, flock};
-use std::fs::{self, DirBuilder, File, OpenOptions};
+use std::fs::{self, DirBuilder, File, OpenOptions, Permissions};
 use std::io;
 use std::os::unix::ffi::OsStrExt;
-use std::os::unix::fs::{DirBuilderExt, MetadataExt, OpenOptionsExt};
+use std::os::unix::fs::{DirBuilderExt, MetadataExt, OpenOptionsExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 
 /// The name of the folder inside the system's. Endpoints have full stops in their names, so none is in the way.
@@ -46,6 +46,11 @@ impl Folder {
     /// Returns true if it is the one in the folder of this system.
     pub(crate) fn is_of(&self, system: &Path) -> bool {
         self.path.parent() == Some(system)
+    }
+
+    /// Returns true if somebody has removed it.
+    pub(crate) fn is_gone(&self) -> bool {
+        matches!(fs::symlink_metadata(&self.path), Err(error) if error.kind() == io::ErrorKind::NotFound)
     }
 
     #[cfg(test)]
@@ -87,6 +92,18 @@ impl Folder {
             }
         }
         Ok(())
+    }
+
+    /// Takes the rights of other users away. The engine leaves one file open to all, its counter of nodes: whoever can write
+    /// to it can truncate it, and end the next program that reads it.
+    pub(crate) fn close_to_others(&self) {
+        for path in self.files() {
+            // One that has gone meanwhile harms nobody.
+            let Ok(found) = fs::symlink_metadata(&path) else { continue };
+            if found.mode() & 0o077 != 0 {
+                let _has_gone = fs::set_permissions(&path, Permissions::from_mode(0o600));
+            }
+        }
     }
 
     /// Removes all files if no living program has a node here any more, also those of killed programs. Called under the

@@ -58,12 +58,15 @@ impl SharedMemory {
         let _locked = folder.lock()?;
         folder.check_owners()?;
         limits::require(0)?;
+        // Damaged files that killed programs left would keep the engine from starting.
+        folder.remove_if_unused();
         let config = folder.config()?;
         let node = NodeBuilder::new()
             .config(&config)
             .signal_handling_mode(SignalHandlingMode::Disabled)
             .create::<Engine>()
             .map_err(|error| ShmError::engine("create a node", error))?;
+        folder.close_to_others();
         node.blocking_cleanup_dead_nodes(CLEANING);
         Ok(Self { node: Some(Mutex::new(node)), folder })
     }
@@ -110,7 +113,8 @@ impl Drop for SharedMemory {
         // A program that opens the system meanwhile waits, so what is removed is nobody's.
         let locked = self.folder.lock();
         self.node = None;
-        if locked.is_ok() && !is_open_again {
+        // Without the folder, nobody can find what is left.
+        if (locked.is_ok() || self.folder.is_gone()) && !is_open_again {
             self.folder.remove_if_unused();
         }
     }

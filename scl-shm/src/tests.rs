@@ -159,6 +159,16 @@ fn more_than_there_is_is_not_lent() {
 }
 
 #[test]
+fn no_file_is_open_to_other_users() {
+    use std::os::unix::fs::PermissionsExt;
+    let Pair { folder, sender: _sender, receiver: _receiver } = pair(1);
+    for name in files(&prefix_of(folder.path())) {
+        let mode = std::fs::metadata(format!("/dev/shm/{name}")).unwrap().permissions().mode();
+        assert_eq!(mode & 0o077, 0, "{name}: {mode:o}");
+    }
+}
+
+#[test]
 fn nothing_stays() {
     let Pair { folder, mut sender, mut receiver } = pair(3);
     let prefix = prefix_of(folder.path());
@@ -171,6 +181,16 @@ fn nothing_stays() {
     drop(sender);
     assert!(!files(&prefix).is_empty());
     drop(receiver);
+    assert_eq!(files(&prefix), [""; 0]);
+}
+
+#[test]
+fn nothing_stays_if_the_folder_is_removed_first() {
+    let Pair { folder, sender, receiver } = pair(3);
+    let prefix = prefix_of(folder.path());
+    drop(folder);
+    assert!(!files(&prefix).is_empty());
+    drop((sender, receiver));
     assert_eq!(files(&prefix), [""; 0]);
 }
 

@@ -165,9 +165,12 @@ impl Authority {
 
 fn new_authority(wanted: &Wanted<'_>) -> Result<(String, String), KeysError> {
     let failed = |source| KeysError::Certificate { host: "authority".to_owned(), source };
-    let mut params = authority_params(&format!("SCL system {}", wanted.system));
-    set_validity(&mut params, wanted.now, wanted.now + days(wanted.days.max(AUTHORITY_DAYS)));
     let key = KeyPair::generate().map_err(failed)?;
+    // Two authorities have different names, so that a host that trusts the other one can say so.
+    let identifier = CertificateParams::default().key_identifier(&key);
+    let identifier: String = identifier.iter().take(4).map(|byte| format!("{byte:02x}")).collect();
+    let mut params = authority_params(&format!("SCL system {} {identifier}", wanted.system));
+    set_validity(&mut params, wanted.now, wanted.now + days(wanted.days.max(AUTHORITY_DAYS)));
     let certificate = params.self_signed(&key).map_err(failed)?;
     Ok((certificate.pem(), key.serialize_pem()))
 }

@@ -18,6 +18,10 @@ use tokio::sync::watch;
 /// For how long the component here may take what has arrived, after the far one has ended.
 const DRAIN_LIMIT: Duration = Duration::from_secs(1);
 
+/// For how long a message may stay unacknowledged although nothing follows it. Short enough for figures, and for little to be
+/// given up if this gateway is killed; long enough to cost nothing.
+const IDLE_LIMIT: Duration = Duration::from_millis(200);
+
 /// Carries the messages of a route from the wire to the receiving component of this host.
 pub(crate) struct Receiving {
     pub(crate) route: Route,
@@ -58,6 +62,8 @@ struct Local {
     limit: Timer,
     /// Number and length of the messages handed since the component was asked to acknowledge.
     unasked: (u64, u64),
+    /// Since the first of them.
+    idle: Timer,
 }
 
 impl Receiving {
@@ -106,6 +112,8 @@ impl Receiving {
         self.carry(cx);
         self.ask(cx);
         self.confirm();
+        // The last acknowledgement may have been all that it was waited for.
+        self.close_if_done(cx);
         self.counts.set_held(self.state.pending());
         if self.state.stopping && self.state.pending() == 0 { Poll::Ready(()) } else { Poll::Pending }
     }
@@ -134,6 +142,8 @@ impl Receiving {
                 self.end_epoch();
             }
             self.state.local = None;
+            // There may be another mirror already.
+            cx.waker().wake_by_ref();
         }
     }
 
@@ -161,7 +171,10 @@ impl Receiving {
                 state.attempts.open(cx, route, || Ok(transport.push(&endpoint)?)).map(|sender| (sender, None))
             }
         };
-        let local = |(sender, mirror)| Local { link: None, sender, mirror, limit: Timer::default(), unasked: (0, 0) };
+        let local = |(sender, mirror)| {
+            let (limit, idle) = (Timer::default(), Timer::default());
+            Local { link: None, sender, mirror, limit, unasked: (0, 0), idle }
+        };
         state.local = opened.map(local);
     }
 
@@ -234,12 +247,16 @@ impl Receiving {
     fn ask(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         let window = window(&self.route);
-        let Some(Local { link: Some(link), unasked, .. }) = &mut state.local else { return };
-        let is_due = 2 * unasked.0 >= window.messages || 2 * unasked.1 >= window.bytes;
+        let Some(Local { link: Some(link), unasked, idle, .. }) = &mut state.local else { return };
+        if unasked.0 > 0 {
+            idle.start(IDLE_LIMIT);
+        }
+        let is_due = 2 * unasked.0 >= window.messages || 2 * unasked.1 >= window.bytes || idle.is_over(cx);
         let is_last = state.queue.is_empty() && (state.flush || !state.matched || state.stopping);
         if unasked.0 > 0 && (is_due || is_last) {
             link.request_acknowledgement(cx);
             *unasked = (0, 0);
+            idle.stop();
         }
         state.flush &= !state.queue.is_empty();
     }

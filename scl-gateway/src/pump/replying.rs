@@ -7,11 +7,15 @@ use crate::route::Route;
 use crate::wire::{ReplierEvent, WireReplier};
 use scl::transport::zeromq::ZeroMq;
 use scl::transport::{Answer, Endpoint, Requester, Transport};
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use tokio::sync::watch;
+
+/// Most requests that wait for their replies. When there are more, the oldest are given up: their requesters have long
+/// since stopped waiting.
+const MOST_OPEN: usize = 4096;
 
 /// Carries the requests of a route from the wire to the replying component of this host, and the replies back.
 pub(crate) struct Replying {
@@ -31,7 +35,7 @@ pub(crate) struct State {
     local: Option<Box<dyn Requester>>,
     attempts: Attempts,
     /// Requests without a reply.
-    unanswered: HashSet<u64>,
+    unanswered: BTreeSet<u64>,
 }
 
 impl Replying {
@@ -107,6 +111,12 @@ impl Replying {
         let sent = self.state.local.as_mut().is_some_and(|local| local.request(cx, id, body).is_ok());
         if sent {
             self.state.unanswered.insert(id);
+            if self.state.unanswered.len() > MOST_OPEN
+                && let Some(oldest) = self.state.unanswered.pop_first()
+            {
+                self.counts.add_given_up(1);
+                self.wire.give_up(oldest);
+            }
         } else {
             self.wire.give_up(id);
         }

@@ -9,14 +9,15 @@ use bytes::Bytes;
 use scl::bridge::Mirror;
 use scl::transport::zeromq::ZeroMq;
 use scl::transport::{IncomingRequest, Replier, ReplyPath, Transport};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use tokio::sync::watch;
 
-/// Most requests that wait for their replies. More wait in the requesters' sockets.
-const MOST_OPEN: usize = 1024;
+/// Most requests that wait for their replies. When there are more, the oldest are forgotten: their requesters have long
+/// since stopped waiting.
+const MOST_OPEN: usize = 4096;
 
 /// Carries the requests of a route from components of this host to the wire, and the replies back.
 pub(crate) struct Requesting {
@@ -35,7 +36,7 @@ pub(crate) struct State {
     local: Option<Local>,
     attempts: Attempts,
     /// The ways back of the requests without a reply, by the number under which they travel.
-    open: HashMap<u64, (Bytes, Arc<dyn ReplyPath>)>,
+    open: BTreeMap<u64, (Bytes, Arc<dyn ReplyPath>)>,
     requests: u64,
 }
 
@@ -116,16 +117,14 @@ impl Requesting {
         let state = &mut self.state;
         let Some(local) = &mut state.local else { return };
         for _ in 0..BATCH {
-            if state.open.len() >= MOST_OPEN {
-                // Replies are written, and those who leave are noticed; each reply wakes the task.
-                local.replier.drive(cx);
-                return;
-            }
             let Poll::Ready(request) = local.replier.poll_request(cx) else { return };
             let IncomingRequest { body, envelope, path } = request;
             state.requests += 1;
             state.open.insert(state.requests, (envelope, path));
             self.wire.request(state.requests, body);
+            if state.open.len() > MOST_OPEN && state.open.pop_first().is_some() {
+                self.counts.add_given_up(1);
+            }
         }
         cx.waker().wake_by_ref();
     }

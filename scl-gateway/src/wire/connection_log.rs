@@ -6,8 +6,9 @@ use std::fmt;
 use std::sync::{Mutex, MutexGuard};
 
 use tracing::field::{Field, Visit};
-use tracing::{Event, Level, Subscriber};
+use tracing::{Event, Subscriber};
 use tracing_subscriber::Layer;
+use tracing_subscriber::filter::{LevelFilter, Targets};
 use tracing_subscriber::layer::Context;
 
 /// The newest reason by endpoint. Global, as the log is.
@@ -15,26 +16,30 @@ static REASONS: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
 /// Endpoints are configured, so there are few; but the texts are another library's.
 const MOST: usize = 1000;
 
-/// Catches the warnings of the target `zenoh` about failed connections; to be installed with the log of the program.
+/// Where the network library logs attempts to connect, at level `debug`.
+const TARGET: &str = "zenoh::net::runtime::orchestrator";
+
+/// Catches what the network library logs about failed connections; to be installed with the log of the program.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ConnectionLog;
 
 impl ConnectionLog {
-    /// The part of the network library whose log it wants, at the level of debugging.
-    pub const TARGET: &str = "zenoh::net::runtime::orchestrator";
+    /// The events that it needs, which the log itself may leave out.
+    pub fn filter() -> Targets {
+        Targets::new().with_target(TARGET, LevelFilter::DEBUG)
+    }
 }
 
 impl<S: Subscriber> Layer<S> for ConnectionLog {
     fn on_event(&self, event: &Event<'_>, _: Context<'_, S>) {
-        // The first attempt fails with a warning, later ones with a text for debugging.
-        if *event.metadata().level() > Level::DEBUG || !event.metadata().target().starts_with("zenoh") {
+        if event.metadata().target() != TARGET {
             return;
         }
         let mut text = Text(String::new());
         event.record(&mut text);
         if let Some((endpoint, reason)) = parse(&text.0) {
             let mut reasons = reasons();
-            if reasons.len() < MOST {
+            if reasons.len() < MOST || reasons.contains_key(endpoint) {
                 reasons.insert(endpoint.to_owned(), reason);
             }
         }
@@ -60,21 +65,19 @@ impl Visit for Text {
     }
 }
 
-/// The endpoint and the reason, without the places in the library's source.
+/// The endpoint and the reason, without the places in the library's source and without the pause that follows.
 fn parse(text: &str) -> Option<(&str, String)> {
-    let text = text.strip_prefix("Unable to connect to ")?;
-    let text = text.strip_prefix("configured peer ").unwrap_or(text);
-    let text = text.rsplit_once(" Retry in ").map_or(text, |(text, _)| text);
-    let (endpoint, mut rest) = text.split_once("! ")?;
+    let text = text.rsplit_once(". Retry in ").map_or(text, |(text, _)| text);
+    let (endpoint, mut rest) = text.strip_prefix("Unable to connect to configured peer ")?.split_once("! ")?;
     let mut reason = String::new();
     while let Some((before, after)) = rest.split_once(" at /") {
         reason.push_str(before);
         let after = after.split_once(".rs:").map_or("", |(_, line)| line);
         rest = after.trim_start_matches(|character: char| character.is_ascii_digit());
-        rest = rest.strip_prefix('.').unwrap_or(rest);
+        rest = rest.trim_start_matches('.');
     }
     reason.push_str(rest);
-    Some((endpoint, reason.trim_end_matches('.').to_owned()))
+    Some((endpoint, reason))
 }
 
 #[cfg(test)]
@@ -83,13 +86,10 @@ mod tests {
 
     #[test]
     fn the_reason_is_kept_without_places_in_source_code() {
-        let text = "Unable to connect to tls/127.0.0.1:7447! Can not create a new TLS link: [refused: \
-                    (os error 111) at /root/a/tcp.rs:61.] at /root/b/unicast.rs:338.";
+        let text = "Unable to connect to configured peer tls/127.0.0.1:7447! Can not create a new TLS link: [refused: \
+                    (os error 111) at /root/a/tcp.rs:61.] at /root/b/unicast.rs:338.. Retry in 250ms.";
         let reason = "Can not create a new TLS link: [refused: (os error 111)]".to_owned();
-        assert_eq!(parse(text), Some(("tls/127.0.0.1:7447", reason.clone())));
-        let later = "Unable to connect to configured peer tls/127.0.0.1:7447! Can not create a new TLS link: [refused: \
-                     (os error 111) at /root/a/tcp.rs:61.] at /root/b/unicast.rs:338.. Retry in 250ms.";
-        assert_eq!(parse(later), Some(("tls/127.0.0.1:7447", reason)));
+        assert_eq!(parse(text), Some(("tls/127.0.0.1:7447", reason)));
         assert_eq!(parse("Scouting delay elapsed"), None);
     }
 }

@@ -1,6 +1,6 @@
 //! SIGKILL at any moment: nothing stays in shared memory, nothing hangs, the accounts add up, and a good client works.
 //!
-//! `SCL_TEST_KILLS` is the number of kills, which these tests share; without it there are fewer.
+//! `SCL_TEST_KILLS` is the number of kills, which these tests share; 500 by default.
 
 use super::stage::{Account, IMAGE, QUEUE, Stage, share};
 use scl_tests::Process;
@@ -9,7 +9,7 @@ use std::thread::park_timeout;
 use std::time::Duration;
 
 /// Of each of the four tests with kills at random moments, in the suite.
-const KILLS: usize = 15;
+const KILLS: usize = 125;
 /// Long enough for some messages in each queue, short enough for many rounds.
 const LENGTH: usize = 256 << 10;
 

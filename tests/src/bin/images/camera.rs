@@ -4,20 +4,14 @@ use crate::Camera;
 use crate::picture::fill;
 use scl::PeerStats;
 use scl::bytes::Bytes;
-use scl_tests::{Commands, is_shared, say, say_error, say_result};
+use scl_tests::{Commands, is_shared, say, say_result};
 use std::time::Duration;
 
 /// Too long for a socket, if there is shared memory.
 const LONG: usize = 1 << 20;
 
 pub(crate) async fn play() -> scl::Result<()> {
-    let mut camera = match Camera::open().await {
-        Ok(camera) => camera,
-        Err(error) => {
-            say_error(error);
-            return Ok(());
-        }
-    };
+    let mut camera = Camera::open().await?;
     say("open");
     let mut commands = Commands::listen();
     let mut flows = false;

@@ -26,6 +26,8 @@ async fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
+            // Also for tests that read no more answers.
+            eprintln!("{error:?}");
             say_error(error);
             ExitCode::FAILURE
         }

@@ -4,17 +4,11 @@ use crate::Viewer;
 use crate::order::Order;
 use crate::picture::number_of;
 use scl::bytes::Bytes;
-use scl_tests::{Commands, is_shared, ranges, say, say_error, say_result};
+use scl_tests::{Commands, is_shared, ranges, say, say_result};
 use std::time::Duration;
 
 pub(crate) async fn play() -> scl::Result<()> {
-    let mut viewer = match Viewer::open().await {
-        Ok(viewer) => viewer,
-        Err(error) => {
-            say_error(error);
-            return Ok(());
-        }
-    };
+    let mut viewer = Viewer::open().await?;
     say("open");
     let mut commands = Commands::listen();
     let mut kept: Vec<Bytes> = Vec::new();
@@ -52,7 +46,7 @@ pub(crate) async fn play() -> scl::Result<()> {
                 let shared = kept.iter().filter(|frame| is_shared(frame)).count();
                 say(format!("{shared} of {} shared", kept.len()));
             }
-            "kept" => say(ranges(&kept.iter().map(|frame| number_of(frame)).collect::<Vec<_>>())),
+            "kept" => say(ranges(&kept.iter().map(number_of).collect::<Vec<_>>())),
             "release" => {
                 kept.clear();
                 say("released");

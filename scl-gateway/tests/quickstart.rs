@@ -1,0 +1,113 @@
+//! `scl run --host` on both hosts of `examples/hosts`, as its README has it, on ports and with certificates of their own.
+
+use rustix::process::{Pid, Signal, kill_process};
+use std::io::{BufRead, BufReader};
+use std::net::TcpListener;
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdout, Command, Stdio};
+
+/// The programs of the quick start and `scl`, which the workspace has built beside the gateway.
+fn program(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_BIN_EXE_scl-gateway")).with_file_name(name);
+    assert!(path.is_file(), "`{}` is missing; run `cargo build -p scl-cli -p quickstart` first", path.display());
+    path
+}
+
+/// A copy of the example.
+struct Example {
+    folder: tempfile::TempDir,
+}
+
+impl Example {
+    fn copied() -> Self {
+        let repository = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+        let text = std::fs::read_to_string(repository.join("examples/hosts/launch.yaml")).unwrap();
+        let quickstart = repository.join("examples/quickstart");
+        let ports = [0; 2].map(|_| TcpListener::bind("127.0.0.1:0").unwrap());
+        let ports = ports.map(|listener| listener.local_addr().unwrap().port().to_string());
+        let mut text = text.replace("../quickstart", quickstart.to_str().unwrap());
+        text = text.replace("7447", &ports[0]).replace("7448", &ports[1]).replace("../../target/examples/hosts/", "");
+        text = text.replace("build: &quickstart cargo build -p quickstart, ", "").replace("build: *quickstart, ", "");
+        for name in ["sensor", "controller", "actuator", "user_interface"] {
+            let command = format!("cargo, run, --quiet, -p, quickstart, --bin, {name}");
+            assert!(text.contains(&command), "{text}");
+            text = text.replace(&command, program(name).to_str().unwrap());
+        }
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("launch.yaml"), text).unwrap();
+        Self { folder }
+    }
+
+    fn scl(&self, host: &str, arguments: &[&str]) -> Command {
+        let mut command = Command::new(program("scl"));
+        command.args(arguments).current_dir(self.folder.path()).stdin(Stdio::null());
+        command.env("SCL_RUNTIME_DIR", self.folder.path().join(host));
+        command.env("XDG_STATE_HOME", self.folder.path().join("state"));
+        command
+    }
+
+    fn run(&self, host: &str) -> Run {
+        let mut command = self.scl(host, &["run", "--host", host]);
+        let mut process = command.stdout(Stdio::piped()).spawn().unwrap();
+        let lines = BufReader::new(process.stdout.take().unwrap());
+        Run { process, lines }
+    }
+}
+
+/// A running `scl run`. It is killed when dropped, with everything that it has started.
+struct Run {
+    process: Child,
+    lines: BufReader<ChildStdout>,
+}
+
+impl Run {
+    fn wait_for(&mut self, text: &str) {
+        let mut line = String::new();
+        while !line.contains(text) {
+            line.clear();
+            assert!(self.lines.read_line(&mut line).unwrap() > 0, "it ended without `{text}`");
+        }
+    }
+
+    /// Stops it in order.
+    fn stop(mut self) {
+        let id = Pid::from_raw(self.process.id().cast_signed()).unwrap();
+        kill_process(id, Signal::TERM).unwrap();
+        assert_eq!(self.process.wait().unwrap().code(), Some(0));
+    }
+}
+
+impl Drop for Run {
+    fn drop(&mut self) {
+        // It may have ended already.
+        let _ended = self.process.kill();
+        let _status = self.process.wait();
+    }
+}
+
+#[test]
+fn the_quick_start_runs_on_two_hosts() {
+    let example = Example::copied();
+    let keys = example.scl("board", &["gateway", "keys"]).output().unwrap();
+    assert!(keys.status.success(), "{}", String::from_utf8_lossy(&keys.stderr));
+    let (mut board, mut ground) = (example.run("board"), example.run("ground"));
+    // A request, its reply, and a message back.
+    ground.wait_for("user_interface | asked for 0.5 m/s: accepted");
+    ground.wait_for("user_interface | event: target is now 0.5 m/s");
+    ground.stop();
+    board.wait_for("sensor     | speed ");
+    let mut ground = example.run("ground");
+    ground.wait_for("user_interface | asked for ");
+    ground.wait_for("user_interface | event: ");
+    ground.stop();
+    board.stop();
+}
+
+/// The example as it is in the repository can be used.
+#[test]
+fn the_launch_file_of_the_example_is_valid() {
+    let repository = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let system = scl_gateway::deployment::System::load(&repository.join("examples/hosts"), None).unwrap();
+    let hosts: Vec<&str> = system.deployment.hosts.iter().map(|host| host.name.as_str()).collect();
+    assert_eq!(hosts, ["board", "ground"]);
+}
