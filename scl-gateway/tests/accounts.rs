@@ -47,6 +47,7 @@ impl Fleet {
         let [published, taken, dropped, lost, waiting] =
             ["published", "taken", "dropped", "lost", "waiting"].map(|name| sent.get(name));
         let account = Account { published, taken, dropped, lost, waiting, received: arrived(&got) };
+        let Account { published, taken, dropped, lost, waiting, .. } = account;
         assert_eq!(published, taken + dropped + lost + waiting, "{connection:?}: {account:?}");
         let wrong = ["out_of_order", "damaged"].map(|name| got.get(name));
         assert_eq!(wrong, [0, 0], "{connection:?}: {account:?}, {got:?}");

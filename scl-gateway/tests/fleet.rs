@@ -77,6 +77,11 @@ impl Fleet {
         self.gateways.remove(host).unwrap().kill();
     }
 
+    /// Stops the gateway of a host in order.
+    pub(crate) fn stop_gateway(&mut self, host: &str) -> std::process::ExitStatus {
+        self.gateways.remove(host).unwrap().stop()
+    }
+
     /// Waits until a gateway has ended by itself; its exit status and its log.
     pub(crate) fn wait_for_gateway(&mut self, host: &str) -> (std::process::ExitStatus, String) {
         let gateway = self.gateways.remove(host).unwrap();

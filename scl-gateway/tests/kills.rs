@@ -44,6 +44,24 @@ fn check(host: &str) {
     fleet.still_works();
 }
 
+#[test]
+fn a_gateway_that_is_stopped_in_order() {
+    let mut fleet = Fleet::start();
+    fleet.send_all();
+    for host in ["board", "ground"] {
+        fleet.player("sink").answer_to_next("lossless");
+        let status = fleet.stop_gateway(host);
+        assert!(status.success(), "{status}");
+        fleet.start_gateway(host);
+        fleet.player("sink").answer_to_next("lossless");
+    }
+    fleet.stop_all();
+    for connection in CONNECTIONS {
+        fleet.account_after(connection);
+    }
+    fleet.still_works();
+}
+
 impl Fleet {
     /// The account where programs were killed that had messages in their hands: whether those have arrived, nobody knows, but
     /// how many they are, somebody has counted. What was published and is not in the counts has arrived.

@@ -1,5 +1,6 @@
 //! The gateway as processes on real networks: several hosts, each with its own gateway, network and components, between
 //! them a cable that loses, delays and cuts.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod accounts;
 mod bad_network;

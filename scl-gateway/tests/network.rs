@@ -33,10 +33,6 @@ impl Network {
     pub(crate) fn host(&self, name: &str) -> &Host {
         self.hosts.iter().find(|host| host.name == name).unwrap()
     }
-
-    pub(crate) fn host_mut(&mut self, name: &str) -> &mut Host {
-        self.hosts.iter_mut().find(|host| host.name == name).unwrap()
-    }
 }
 
 pub(crate) fn address(host: usize) -> String {

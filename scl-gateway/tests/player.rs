@@ -112,20 +112,9 @@ impl Player {
         counts
     }
 
-    pub(crate) fn id(&self) -> u32 {
-        self.process.id()
-    }
-
     /// Kills the component, which leaves its files behind.
     pub(crate) fn kill(self) {
         self.process.kill();
-    }
-
-    /// Closes the component in order.
-    #[track_caller]
-    pub(crate) fn stop(self) {
-        let exit = self.process.wait_for_exit();
-        assert_eq!(exit.code(), 0, "{}", exit.text());
     }
 }
 
