@@ -225,10 +225,7 @@ fn a_host_declares_only_its_own_tokens() {
 fn a_host_hears_only_what_is_for_it() {
     let secret = system("ground/out/tower/in/c0");
     let own = system("ground/out/board/in/c0");
-    for (flow, expected) in [
-        (Some("ingress"), vec![own.clone()]),
-        (None, vec![secret.clone(), own.clone()]),
-    ] {
+    for (flow, expected) in [(Some("ingress"), vec![own.clone()]), (None, vec![secret.clone(), own.clone()])] {
         let folder = tempfile::tempdir().expect("a folder");
         let (ground, board) = sessions(folder.path(), |access| match flow {
             Some(flow) => open_flow(access, flow),
