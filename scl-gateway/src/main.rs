@@ -6,6 +6,7 @@ mod files;
 mod log;
 mod make_keys;
 mod notify;
+mod one_thread;
 mod run;
 
 use clap::{Parser, Subcommand};

@@ -3,6 +3,7 @@
 use crate::files::{FileArguments, check_certificates, find_host, show};
 use crate::log;
 use crate::notify::notify;
+use crate::one_thread;
 use clap::Args;
 use scl::runtime_dir::{RuntimeDir, SystemDir};
 use scl::{Medium, MediumChoice};
@@ -41,6 +42,7 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
 
 /// Problems are shown and `None` is returned.
 fn try_run(arguments: &RunArguments) -> Option<()> {
+    shown(one_thread::ensure())?;
     shown(log::start())?;
     let system = arguments.files.load()?;
     let host = find_host(&system, &arguments.host)?;

@@ -94,9 +94,10 @@ impl Fleet {
         }
         for (connection, before) in CONNECTIONS.into_iter().zip(before) {
             let Connection { from, to } = connection;
-            self.player("source").wait_for(from, "left", |counts| counts.get("left") == 0);
-            let last = before.published + 40;
-            let account = self.player("sink").wait_for(to, "report", |counts| counts.get("newest") == last);
+            let mark = self.player("source").wait_for(from, "left", |counts| counts.get("left") == 0).get("mark");
+            let last = (before.published + 40, mark);
+            let is_last = |counts: &Counts| (counts.get("newest"), counts.get("mark")) == last;
+            let account = self.player("sink").wait_for(to, "report", is_last);
             let arrived = arrived(&account) - before.received;
             // Where there is room for one, the sending gate drops, too.
             let expected = if to == "control" { 1..=40 } else { 40..=40 };

@@ -67,21 +67,24 @@ impl Fleet {
     /// how many they are, somebody has counted. What was published and is not in the counts has arrived.
     #[track_caller]
     pub(crate) fn account_after(&mut self, connection: Connection) -> Account {
-        let to = format!("to sink.{} were on their way", connection.to);
-        let mut given_up = 0;
-        for host in ["board", "ground"] {
-            let log = self.gateway(host).log();
-            let counts = log.lines().filter(|line| line.contains(&to)).flat_map(|line| line.split(' '));
-            given_up += counts.filter_map(|word| word.parse::<u64>().ok()).sum::<u64>();
-        }
-        let mut account = self.account(connection);
-        scl_tests::wait_until(&format!("what is left of {connection:?} has arrived; {given_up} given up"), || {
+        let (mut account, mut given_up) = (self.account(connection), 0);
+        scl_tests::wait_until(&format!("what is left of {connection:?} has arrived"), || {
             account = self.account(connection);
+            // A gateway knows it when the next one has taken the place of the one that is gone.
+            given_up = self.given_up(connection);
             account.received + account.lost + given_up >= account.published - account.dropped
         });
         println!("{connection:?}: {account:?}, {given_up} given up by gateways");
         assert!(account.received <= account.published - account.dropped, "{connection:?}: {account:?}");
         account
+    }
+
+    /// How many messages the gateways have given up, by their logs.
+    fn given_up(&mut self, connection: Connection) -> u64 {
+        let to = format!("to sink.{} were on their way", connection.to);
+        let logs = ["board", "ground"].map(|host| self.gateway(host).log());
+        let lines = logs.iter().flat_map(|log| log.lines()).filter(|line| line.contains(&to));
+        lines.flat_map(|line| line.split(' ')).filter_map(|word| word.parse::<u64>().ok()).sum()
     }
 }
 

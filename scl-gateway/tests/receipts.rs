@@ -28,6 +28,8 @@ pub(crate) struct Receipts {
     pub(crate) damaged: u64,
     /// The number of the latest message.
     pub(crate) newest: u64,
+    /// Its sender.
+    pub(crate) mark: u64,
 }
 
 impl Receipts {
@@ -48,7 +50,7 @@ impl Receipts {
         } else {
             self.gaps += number - last - 1;
         }
-        self.newest = number;
+        (self.newest, self.mark) = (number, mark);
     }
 }
 
@@ -58,8 +60,8 @@ fn word(message: &[u8], from: usize) -> Option<u64> {
 
 impl fmt::Display for Receipts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { count, out_of_order, gaps, damaged, newest, .. } = self;
-        write!(f, "count={count} out_of_order={out_of_order} gaps={gaps} damaged={damaged} newest={newest}")
+        let Self { count, out_of_order, gaps, damaged, newest, mark, .. } = self;
+        write!(f, "count={count} out_of_order={out_of_order} gaps={gaps} damaged={damaged} newest={newest} mark={mark}")
     }
 }
 
@@ -72,5 +74,5 @@ fn receipts_find_what_is_wrong() {
     let mut damaged = message(1, 6, 100);
     damaged[40] = 0;
     receipts.take(&damaged);
-    assert_eq!(receipts.to_string(), "count=8 out_of_order=2 gaps=2 damaged=1 newest=6");
+    assert_eq!(receipts.to_string(), "count=8 out_of_order=2 gaps=2 damaged=1 newest=6 mark=1");
 }

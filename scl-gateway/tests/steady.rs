@@ -30,6 +30,10 @@ fn a_good_network_delivers_everything_in_time() {
         let account = fleet.account(connection);
         assert_eq!(account.dropped, 0, "{connection:?}: {account:?}");
     }
+    for host in ["board", "ground"] {
+        let log = fleet.gateway(host).log();
+        assert!(!log.contains("not connected any more"), "the gateways lost each other on a good network:\n{log}");
+    }
     // To a queue of one goes one message at a time, the newest then; the others give way to newer ones.
     let control = fleet.account(CONTROL);
     assert!(control.received - before[2].received > 20, "{control:?}");

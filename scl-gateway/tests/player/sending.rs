@@ -50,6 +50,7 @@ struct Sender<'a, G> {
 /// Sends what it is told until there are no more commands:
 /// - `send COUNT RATE SIZE`: so many messages (0: without end), so many in a second (0: as fast as the gate takes them);
 /// - `stop`;
+/// - `left`: how many are still to be sent, and the mark that all messages of this run have;
 /// - `account PEER`: what has become of the messages to a peer;
 /// - `pace`: how well the rate was kept since the last answer.
 pub(super) fn play(name: &str, gate: impl Sends, commands: &Receiver<String>) {
@@ -82,7 +83,7 @@ impl<G: Sends> Sender<'_, G> {
                 self.left = 0;
                 format!("sent={}", self.number)
             }
-            "left" => format!("left={}", self.left),
+            "left" => format!("left={} mark={}", self.left, self.mark),
             "account" => account(&self.gate.peers(), words[1]),
             "pace" => {
                 let call = std::mem::take(&mut self.longest_call).as_micros();
