@@ -1,7 +1,7 @@
 //! The side of the gateway that faces the components of its own host.
 //!
 //! The gateway announces the components that run here to the other hosts, shows those that run there in the runtime
-//! folder of this host, and has one task per route that carries messages or requests, see [`pump`](crate::pump). It needs a
+//! folder of this host, and has one task per route that carries messages or requests, see `pump`. It needs a
 //! tokio runtime, of which a current-thread one is enough; no task ever blocks.
 
 mod announcing;
