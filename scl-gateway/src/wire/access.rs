@@ -1,7 +1,8 @@
 //! Who may do what, made from the routes: everything else is denied.
 //!
 //! A host is known by the common name of its certificate. The same table serves both directions: what a host may do here
-//! is checked when it arrives, and what it may not do does not leave this host either.
+//! is checked when it arrives, and what another may not receive does not leave this host. Both are needed: a host that has
+//! just connected is sent everything until its declarations are known.
 
 use std::collections::BTreeMap;
 

@@ -219,15 +219,13 @@ fn a_host_declares_only_its_own_tokens() {
     }
 }
 
+/// What counts is what may leave: the network library sends a host that has just connected everything, until it knows what
+/// that host has declared, so refusing its declarations alone would not do.
 #[test]
 fn a_host_hears_only_what_is_for_it() {
     let secret = system("ground/out/tower/in/c0");
     let own = system("ground/out/board/in/c0");
-    for (flow, expected) in [
-        (Some("ingress"), vec![own.clone()]),
-        (Some("egress"), vec![own.clone()]),
-        (None, vec![secret.clone(), own.clone()]),
-    ] {
+    for (flow, expected) in [(Some("ingress"), vec![own.clone()]), (None, vec![secret.clone(), own.clone()])] {
         let folder = tempfile::tempdir().expect("a folder");
         let (ground, board) = sessions(folder.path(), |access| match flow {
             Some(flow) => open_flow(access, flow),
