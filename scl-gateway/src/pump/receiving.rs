@@ -1,7 +1,7 @@
 //! Messages that arrive at this host.
 
 use super::Counts;
-use super::local_end::{Attempts, Timer, names, window};
+use super::local_end::{Attempts, Timer, changed_if_any, names, window};
 use crate::local::{Held, Run, View};
 use crate::route::Route;
 use crate::wire::{ReceiverEvent, WireReceiver};
@@ -71,14 +71,8 @@ impl Receiving {
     pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
         let (mut mirror, mut component) = (self.mirror.clone(), self.component.clone());
         loop {
-            let mirror_changes = async {
-                match &mut mirror {
-                    Some(mirror) => mirror.changed().await,
-                    None => std::future::pending().await,
-                }
-            };
             let alive = tokio::select! {
-                changed = mirror_changes => changed.is_ok(),
+                changed = changed_if_any(&mut mirror) => changed,
                 changed = component.changed() => {
                     self.forget_component();
                     changed.is_ok()

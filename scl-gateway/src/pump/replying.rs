@@ -1,7 +1,7 @@
 //! Requests that arrive at this host.
 
 use super::Counts;
-use super::local_end::{Attempts, BATCH};
+use super::local_end::{Attempts, BATCH, MOST_OPEN};
 use crate::local::{Run, View};
 use crate::route::Route;
 use crate::wire::{ReplierEvent, WireReplier};
@@ -12,10 +12,6 @@ use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use tokio::sync::watch;
-
-/// Most requests that wait for their replies. When there are more, the oldest are given up: their requesters have long
-/// since stopped waiting.
-const MOST_OPEN: usize = 4096;
 
 /// Carries the requests of a route from the wire to the replying component of this host, and the replies back.
 pub(crate) struct Replying {

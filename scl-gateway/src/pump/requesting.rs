@@ -1,7 +1,7 @@
 //! Requests that leave this host.
 
 use super::Counts;
-use super::local_end::{Attempts, BATCH, names};
+use super::local_end::{Attempts, BATCH, MOST_OPEN, names};
 use crate::local::{Held, View};
 use crate::route::Route;
 use crate::wire::{RequesterEvent, WireRequester};
@@ -14,10 +14,6 @@ use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use tokio::sync::watch;
-
-/// Most requests that wait for their replies. When there are more, the oldest are forgotten: their requesters have long
-/// since stopped waiting.
-const MOST_OPEN: usize = 4096;
 
 /// Carries the requests of a route from components of this host to the wire, and the replies back.
 pub(crate) struct Requesting {

@@ -1,7 +1,7 @@
 //! Messages that leave this host.
 
 use super::Counts;
-use super::local_end::{Attempts, BATCH, Timer, end_name, names, window};
+use super::local_end::{Attempts, BATCH, Timer, changed_if_any, end_name, names, window};
 use crate::local::{Held, Run, View};
 use crate::route::Route;
 use crate::wire::{SenderEvent, WireSender};
@@ -70,15 +70,9 @@ impl Sending {
         let mut mirror = self.mirror.clone();
         let mut publisher = self.publisher.clone();
         loop {
-            let publisher_changes = async {
-                match &mut publisher {
-                    Some(publisher) => publisher.changed().await,
-                    None => std::future::pending().await,
-                }
-            };
             let alive = tokio::select! {
                 changed = mirror.changed() => changed.is_ok(),
-                changed = publisher_changes => changed.is_ok(),
+                changed = changed_if_any(&mut publisher) => changed,
                 stopping = stop.changed() => {
                     self.state.stopping = true;
                     stopping.is_ok()
