@@ -157,13 +157,13 @@ impl Copied {
     /// The sensor alone: it never gets ready, and says why.
     fn names_the_missing_peer(&self) {
         let sensor = build_folder().join("debug/sensor");
-        let entry = format!("components: {{sensor: {{command: [{sensor:?}], ready_within: 3s}}}}\n");
+        let entry = format!("components: {{sensor: {{command: [{sensor:?}], ready_within: 10s}}}}\n");
         self.system.write("launch.yaml", &entry);
         let mut command = self.system.scl(&["run"]);
         self.without_protoc(&mut command);
         let output = command.output().unwrap();
         let err = String::from_utf8_lossy(&output.stderr);
-        assert!(err.contains("sensor  not ready within 3s: waiting for `controller.sensor`\n"), "{err}");
+        assert!(err.contains("sensor  not ready within 10s: waiting for `controller.sensor`\n"), "{err}");
         assert_eq!(output.status.code(), Some(1), "{err}");
         std::fs::remove_file(self.system.path("launch.yaml")).unwrap();
     }

@@ -63,8 +63,7 @@ fn starts(system: &System) -> usize {
 
 /// The control sockets of the system.
 fn sockets(system: &System) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(system.path("runtime/rover")).into_iter().flatten().flatten();
-    entries.map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|it| it == "control")).collect()
+    system.run_sockets("rover", "control")
 }
 
 #[test]
@@ -143,14 +142,14 @@ while True: signal.pause()
 ";
     let launch = "\
 components:
-  sensor: {command: [python3, ready.py], ready_within: 5s, essential: false}
+  sensor: {command: [python3, ready.py], ready_within: 10s, essential: false}
   controller: {command: exec tail -f /dev/null >/dev/null}
 ";
     let system = System::of_files(&[("launch.yaml", launch), ("topology.yaml", TOPOLOGY), ("ready.py", program)]);
     let run = start(&system, &[], &[]);
     while sockets(&system).is_empty() || !system.path("starts").exists() {}
     check(&system, &["restart", "sensor"], 0, "sensor  ready as process N\n", "");
-    let failed = "sensor  failed: not ready within 5s, and has sent no `STATUS=`\n";
+    let failed = "sensor  failed: not ready within 10s, and has sent no `STATUS=`\n";
     check(&system, &["restart", "sensor"], 1, failed, "");
     run.signal("-TERM");
     assert_eq!(run.finish().0.code(), Some(0));
@@ -190,9 +189,7 @@ fn several_runs_of_a_system_are_asked_and_several_systems_are_told_apart() {
     let other = system.start_with(&["--only", "sensor"], |command| {
         command.env("SCL_SYSTEM", "twin");
     });
-    while !std::fs::read_dir(system.path("runtime/twin")).is_ok_and(|entries| {
-        entries.flatten().any(|entry| entry.path().extension().is_some_and(|ending| ending == "control"))
-    }) {}
+    while system.run_sockets("twin", "control").is_empty() {}
     // The topology of the working folder decides.
     assert_eq!(scl(&system, &["stop"]).0, Some(0));
     assert_eq!((sensor.finish().0.code(), controller.finish().0.code()), (Some(0), Some(0)));

@@ -61,6 +61,14 @@ impl System {
         path
     }
 
+    /// The sockets of every `scl run` of a system that end with `ending`, `control` or `notify`. Only those that can be
+    /// connected to: before that, their names begin with a dot.
+    pub(crate) fn run_sockets(&self, name: &str, ending: &str) -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(self.path("runtime").join(name)).into_iter().flatten().flatten();
+        let is_meant = |name: &str| name.starts_with("run.") && name.ends_with(&format!(".{ending}"));
+        entries.filter(|entry| is_meant(&entry.file_name().to_string_lossy())).map(|entry| entry.path()).collect()
+    }
+
     /// `scl` with the folder as its working folder and an environment without wishes for colours.
     pub(crate) fn scl(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_scl"));
