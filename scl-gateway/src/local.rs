@@ -11,7 +11,6 @@ mod routes;
 mod slot;
 
 pub(crate) use announcing::Run;
-pub(crate) use mirroring::full_text;
 pub(crate) use slot::{Held, View};
 
 use crate::pump::Counts;

@@ -3,8 +3,8 @@
 use super::slot::Slot;
 use bytes::Bytes;
 use scl::bridge::{Mirror, Profile};
+use scl::host::text_with_causes;
 use scl::runtime_dir::SystemDir;
-use std::error::Error;
 use std::time::Duration;
 use tokio::sync::mpsc::UnboundedReceiver;
 
@@ -70,7 +70,7 @@ pub(crate) async fn mirror(
 
 fn restore(component: &str, slot: &Slot<Mirror>) {
     if let Some(Err(error)) = slot.view().borrow().as_deref().map(Mirror::restore) {
-        tracing::error!("cannot show component `{component}` here any longer: {}", full_text(&error));
+        tracing::error!("cannot show component `{component}` here any longer: {}", text_with_causes(&error));
     }
 }
 
@@ -86,22 +86,11 @@ fn show(
     match Mirror::open(dir, component, host, profile) {
         Ok(mirror) => slot.put(mirror),
         Err(error) => {
-            let text = full_text(&error);
+            let text = text_with_causes(&error);
             if failure.as_ref() != Some(&text) {
                 tracing::error!("cannot show component `{component}` of host `{host}` here: {text}");
                 *failure = Some(text);
             }
         }
     }
-}
-
-/// An error with its causes.
-pub(crate) fn full_text(error: &dyn Error) -> String {
-    let mut text = error.to_string();
-    let mut source = error.source();
-    while let Some(cause) = source {
-        text = format!("{text}: {cause}");
-        source = cause.source();
-    }
-    text
 }

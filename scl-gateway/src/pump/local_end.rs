@@ -1,8 +1,9 @@
 //! What all pumps share: who they stand in for, opening ends again after a failure, and logging why not.
 
-use crate::local::{View, full_text};
+use crate::local::View;
 use crate::route::Route;
 use scl::bridge::MirrorError;
+use scl::host::text_with_causes;
 use scl::transport::{TransportError, Window};
 use std::error::Error;
 use std::pin::Pin;
@@ -104,7 +105,7 @@ impl Attempts {
     }
 
     fn log(&mut self, route: &Route, error: &(dyn Error + 'static)) {
-        let text = full_text(error);
+        let text = text_with_causes(error);
         if self.logged.as_ref() != Some(&text) {
             tracing::error!(route = %route.key, "cannot open `{}` here: {text}", route.endpoint);
             self.logged = Some(text);

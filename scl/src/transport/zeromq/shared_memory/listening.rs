@@ -1,10 +1,10 @@
 //! What a listening end checks when it is opened, and offers to each of its peers.
 
 use super::super::zmtp::{ServiceId, ShmReady};
+use crate::host::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Endpoint, TransportError};
 use scl_shm::{Limits, ServiceName, SharedMemory};
-use std::error::Error;
 use std::sync::Arc;
 
 /// What two ends must have in common to share memory: the engine and its files' layout, and the user.
@@ -26,7 +26,7 @@ impl Offer {
     pub(in super::super) fn open(dir: &SystemDir, endpoint: &Endpoint) -> Result<Self, TransportError> {
         let refused = |reason| TransportError::Refused { endpoint: endpoint.name.clone().into_owned(), reason };
         let memory = SharedMemory::open(dir.folder());
-        let memory = memory.map_err(|error| refused(format!("no shared memory: {}", with_sources(&error))))?;
+        let memory = memory.map_err(|error| refused(format!("no shared memory: {}", text_with_causes(&error))))?;
         let limits = Limits { queue: endpoint.queue, longest: endpoint.longest };
         limits.check().map_err(|error| {
             refused(format!(
@@ -52,16 +52,4 @@ impl ServiceId {
     pub(super) fn name(&self) -> Option<ServiceName> {
         ServiceName::parse(&self.to_string())
     }
-}
-
-/// An error with its causes, in one line.
-pub(super) fn with_sources(error: &dyn Error) -> String {
-    let mut text = error.to_string();
-    let mut source = error.source();
-    while let Some(error) = source {
-        text.push_str(": ");
-        text.push_str(&error.to_string());
-        source = error.source();
-    }
-    text
 }

@@ -1,7 +1,7 @@
 //! The receiving side of a connection.
 
 use super::super::zmtp::{PeerReady, ProtocolError};
-use super::listening::with_sources;
+use crate::host::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::Endpoint;
 use bytes::Bytes;
@@ -25,7 +25,7 @@ impl Arriving {
         let receiver = service.and_then(|service| {
             open(dir, &service, limits)
                 .inspect_err(|error| {
-                    let reason = with_sources(error);
+                    let reason = text_with_causes(error);
                     tracing::warn!(endpoint = %endpoint.name, "cannot share memory with a sending peer: {reason}");
                 })
                 .ok()

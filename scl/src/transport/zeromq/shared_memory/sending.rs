@@ -1,8 +1,8 @@
 //! The sending side of a connection.
 
 use super::super::zmtp::{self, PeerReady};
-use super::listening::with_sources;
 use super::{INLINE, Sent};
+use crate::host::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Frame, Loan, LoanedMemory};
 use bytes::Bytes;
@@ -65,7 +65,7 @@ impl Sharing {
             }
             Err(error) => tracing::warn!(
                 "cannot share memory with a receiving peer, sending through the socket: {}",
-                with_sources(&error)
+                text_with_causes(&error)
             ),
         }
     }
