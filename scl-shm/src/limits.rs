@@ -27,6 +27,11 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// The limits of a receiving end that keeps so many samples; its longest message is not known.
+    pub(crate) fn of_kept(kept: usize) -> Self {
+        Self { queue: kept.saturating_sub(VIEWS), longest: 0 }
+    }
+
     /// The most samples that may be sent and not acknowledged: the queue, from 1 to 64.
     pub fn in_flight(&self) -> usize {
         self.queue.clamp(1, IN_FLIGHT)

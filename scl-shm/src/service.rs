@@ -79,7 +79,7 @@ pub(crate) fn open(node: &Node<Engine>, name: &ServiceName) -> Result<(Port, Lim
     };
     // What one queue decides, another must not: these numbers decide how much memory the sending end reserves.
     let kept = found.subscriber_max_borrowed_samples().saturating_sub(1);
-    let limits = Limits { queue: kept.saturating_sub(8), longest: 0 };
+    let limits = Limits::of_kept(kept);
     let wrong = |what| Err(ShmError::Settings { what });
     if found.has_safe_overflow() || found.history_size() != 0 {
         return wrong("an overflow or a history");

@@ -8,6 +8,7 @@ use crate::runtime_dir::{ConnectionFigures, GateFigures};
 use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
 use crate::state::{Changes, SendingEnd};
 use crate::transport::{Frame, Link, Loan, Peer, PeerKind, Sender};
+use std::collections::VecDeque;
 use std::task::{Context, Poll, Waker};
 
 /// One connection at its sending end.
@@ -260,8 +261,11 @@ impl Connection {
         if kind == PeerKind::Foreign && self.kind == GateKind::Pub {
             let policy = self.queue.policy();
             // The component, when it comes, must find what waited for it; so a program in its place gets a copy.
-            let copied = self.queue.items_mut().iter_mut().filter(|_| self.peer.is_none());
-            let waiting = copied.map(|frame| Frame::from(frame.make_bytes().clone())).collect();
+            let copy = |frame: &mut Frame| Frame::from(frame.make_bytes().clone());
+            let waiting = match self.peer {
+                None => self.queue.items_mut().iter_mut().map(copy).collect(),
+                Some(_) => VecDeque::new(),
+            };
             self.foreign.push(ForeignPeer::new(link, policy, waiting));
             return;
         }

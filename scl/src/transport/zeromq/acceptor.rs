@@ -103,9 +103,9 @@ impl Acceptor {
     ///
     /// # Errors
     /// There is too little of it, or it cannot be used.
-    pub(super) fn offering_memory(mut self, longest: &Endpoint) -> Result<Self, TransportError> {
+    pub(super) fn offering_memory(mut self) -> Result<Self, TransportError> {
         if self.medium == Medium::Shm {
-            self.offer = Some(Offer::open(&self.dir, longest)?);
+            self.offer = Some(Offer::open(&self.dir, &self.endpoint)?);
         }
         Ok(self)
     }

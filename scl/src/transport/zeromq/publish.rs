@@ -30,7 +30,7 @@ impl Publisher {
         let scl = zmtp::SclReady { lossless: endpoint.lossless, ..zmtp::SclReady::default() };
         // What subscribers send is short, whatever the limit for messages is.
         let endpoint = Endpoint { max_size: zmtp::COMMAND_LIMIT, ..endpoint.clone() };
-        let acceptor = Acceptor::open(dir, medium, &endpoint, SocketType::XPub, scl)?.offering_memory(&endpoint)?;
+        let acceptor = Acceptor::open(dir, medium, &endpoint, SocketType::XPub, scl)?.offering_memory()?;
         Ok(Self { acceptor, unsubscribed: Vec::new(), links: Arc::default() })
     }
 

@@ -39,7 +39,7 @@ struct Pusher {
 impl Puller {
     pub(super) fn open(dir: &Arc<SystemDir>, medium: Medium, endpoint: &Endpoint) -> Result<Self, TransportError> {
         let acceptor =
-            Acceptor::open(dir, medium, endpoint, SocketType::Pull, receiving(endpoint))?.offering_memory(endpoint)?;
+            Acceptor::open(dir, medium, endpoint, SocketType::Pull, receiving(endpoint))?.offering_memory()?;
         let (pushers, untold, endpoint) = (Vec::new(), VecDeque::new(), endpoint.clone());
         Ok(Self {
             acceptor,
