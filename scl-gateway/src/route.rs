@@ -120,7 +120,7 @@ fn route(
         contract: contract.clone(),
         queue: *queue,
         when_full: *when_full,
-        lossless: gate.options.backpressure && *when_full == WhenFull::Wait,
+        lossless: gate.options.waits_for(*when_full),
         max_size: connection.max_size.max(replies),
         newest_only,
         key: format!("scl/{}/{sender}/{peer_component}/{peer_gate}/{contract}", system.system),

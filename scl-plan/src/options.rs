@@ -29,6 +29,11 @@ impl GateOptions {
         timeout: Duration::from_secs(1),
     };
 
+    /// Whether this sending gate waits, rather than drop a message, for a peer whose full queue does this.
+    pub fn waits_for(&self, when_full: WhenFull) -> bool {
+        self.backpressure && when_full == WhenFull::Wait
+    }
+
     /// A gate of a component's counterpart in unit tests: it drops and refuses nothing. A call that takes longer fails the
     /// test, so its timeout is long.
     pub(crate) const COUNTERPART: Self = Self {

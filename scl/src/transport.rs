@@ -129,6 +129,12 @@ impl Endpoint {
             check: None,
         }
     }
+
+    /// An endpoint that accepts messages of up to `max_size` bytes, with default limits otherwise.
+    pub fn accepting(name: impl Into<Cow<'static, str>>, max_size: u64) -> Self {
+        // A limit beyond what this machine can address is none.
+        Self { max_size: usize::try_from(max_size).unwrap_or(usize::MAX), ..Self::new(name) }
+    }
 }
 
 /// How much may be sent without an acknowledgement. A message longer than `bytes` may be sent if nothing else is

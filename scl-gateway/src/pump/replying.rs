@@ -76,8 +76,7 @@ impl Replying {
             self.close();
         } else if is_wanted && state.local.is_none() {
             let (route, transport) = (&self.route, &self.transport);
-            let mut endpoint = Endpoint::new(route.endpoint.clone());
-            endpoint.max_size = usize::try_from(route.max_size).unwrap_or(usize::MAX);
+            let endpoint = Endpoint::accepting(route.endpoint.clone(), route.max_size);
             state.local = state.attempts.open(cx, route, || Ok(transport.request(&endpoint)?));
         }
     }

@@ -5,7 +5,7 @@ use crate::error::OpenError;
 use crate::registration::Registration;
 use crate::registry::Registered;
 use crate::runtime_dir::{Announcement, Holder, RuntimeDirError, SystemDir};
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec, WhenFull};
+use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
 use crate::transport::{Endpoint, Window};
 use crate::untyped::intern;
 
@@ -120,7 +120,7 @@ impl Mirror {
     /// [`MirrorError::NoConnection`].
     pub fn publishing(&self, gate: &str, peer: (&str, &str)) -> Result<Endpoint, MirrorError> {
         let (gate, link) = self.link(gate, peer)?;
-        let lossless = gate.options.backpressure && link.when_full == WhenFull::Wait;
+        let lossless = gate.options.waits_for(link.when_full);
         Ok(Endpoint { lossless, ..self.endpoint(gate, link.endpoint) })
     }
 
@@ -144,8 +144,7 @@ impl Mirror {
     }
 
     fn endpoint(&self, gate: &'static GateSpec, name: &'static str) -> Endpoint {
-        let max_size = usize::try_from(gate.options.max_size).unwrap_or(usize::MAX);
-        Endpoint { max_size, ..Endpoint::new(name) }
+        Endpoint::accepting(name, gate.options.max_size)
     }
 
     fn gate(&self, name: &str) -> Result<&'static GateSpec, MirrorError> {

@@ -10,7 +10,7 @@ use crate::options::OpenOptions;
 use crate::registration::{Registration, StatsWriter};
 use crate::registry::{Registered, Unregistered};
 use crate::runtime_dir::{ComponentStats, RuntimeDir};
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec, WhenFull};
+use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
 use crate::state::{ComponentState, OwnedRuntime, Owner, stats_period};
 use crate::time::Watchdog;
 use crate::transport::{Endpoint, Sender, Transport, TransportError};
@@ -128,7 +128,7 @@ impl Opener {
         open: impl Fn(&dyn Transport, &Endpoint) -> Result<Box<dyn Sender>, TransportError>,
     ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
         let connect = |link: &'static LinkSpec| {
-            let lossless = spec.options.backpressure && link.when_full == WhenFull::Wait;
+            let lossless = spec.options.waits_for(link.when_full);
             let endpoint = self.connecting(spec, link);
             let longest = longest::<T, C>(link.max_size);
             let sender = open(self.transports.of_link(spec, link), &Endpoint { lossless, longest, ..endpoint });
@@ -206,7 +206,6 @@ fn longest<T, C: Codec<T>>(max_size: u64) -> usize {
 }
 
 fn endpoint(name: &'static str, spec: &GateSpec) -> Endpoint {
-    let max_size = usize::try_from(spec.options.max_size).unwrap_or(usize::MAX);
     let queue = spec.options.queue as usize;
-    Endpoint { max_size, queue, newest_only: spec.newest_only(), ..Endpoint::new(name) }
+    Endpoint { queue, newest_only: spec.newest_only(), ..Endpoint::accepting(name, spec.options.max_size) }
 }

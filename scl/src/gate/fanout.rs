@@ -7,7 +7,7 @@ use super::watch::Watch;
 use crate::codec::EncodeError;
 use crate::error::{BlockingError, GateName, Missing, PeerName, SendError, SendTimeoutError, TrySendError};
 use crate::figures::FigureSource;
-use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
+use crate::spec::{GateKind, GateSpec, LinkSpec};
 use crate::state::{Owner, SendingEnd};
 use crate::sync::lock;
 use crate::transport::{HeapMemory, Loan};
@@ -61,7 +61,7 @@ impl Fanout {
         connections: Vec<Arc<Mutex<Connection>>>,
         tap: GateTap,
     ) -> Self {
-        let may_wait = spec.options.backpressure && spec.links.iter().any(|link| link.when_full == WhenFull::Wait);
+        let may_wait = spec.links.iter().any(|link| spec.options.waits_for(link.when_full));
         let shares = spec.kind == GateKind::Push && connections.len() > 1;
         let name = GateName::new(state.spec().name, spec.name);
         let strictest = spec.links.iter().min_by_key(|link| link.max_size);
