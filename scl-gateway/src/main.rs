@@ -5,7 +5,6 @@ mod check;
 mod files;
 mod log;
 mod make_keys;
-mod notify;
 mod one_thread;
 mod run;
 

@@ -2,9 +2,9 @@
 
 use crate::files::{FileArguments, check_certificates, find_host, show};
 use crate::log;
-use crate::notify::notify;
 use crate::one_thread;
 use clap::Args;
+use scl::host::{tell_service_manager, text_with_causes};
 use scl::runtime_dir::{RuntimeDir, SystemDir};
 use scl::{Medium, MediumChoice};
 use scl_gateway::deployment::{Host, System};
@@ -68,12 +68,12 @@ async fn serve(wire: WireOptions, options: GatewayOptions) -> Result<(), Problem
     };
     let wire = Wire::open(wire).await.map_err(|error| problem_of(&error))?;
     let gateway = Gateway::start(options, wire);
-    notify(&format!("{status}\nREADY=1"));
+    tell_service_manager(&format!("{status}\nREADY=1\n"));
     tokio::select! {
         _ = terminate.recv() => {}
         _ = interrupt.recv() => {}
     }
-    notify("STOPPING=1");
+    tell_service_manager("STOPPING=1\n");
     gateway.close().await;
     Ok(())
 }
@@ -106,27 +106,25 @@ fn system_dir(arguments: &RunArguments, system: &System) -> Result<SystemDir, Pr
     let name = std::env::var("SCL_SYSTEM").ok().filter(|name| !name.is_empty());
     let name = name.unwrap_or_else(|| system.plan.system.clone());
     let dir = RuntimeDir::locate(&variable).and_then(|dir| dir.system(&name));
-    dir.map_err(|error| Problem::new(scl::host::text_with_causes(&error)))
+    dir.map_err(|error| Problem::new(text_with_causes(&error)))
 }
 
 /// What the ends listen on that stand in for components of other hosts. What is chosen for single gates, and shared memory,
 /// does not concern connections to other hosts.
 fn medium() -> Result<Medium, Problem> {
     let value = std::env::var_os("SCL_TRANSPORT").unwrap_or_default();
-    let text = value.to_string_lossy();
-    if let Err(error) = text.parse::<MediumChoice>()
-        && !text.is_empty()
-    {
-        return Err(Problem::new(format!("`SCL_TRANSPORT` is not understood: {error}")));
-    }
-    match text.split(',').map(str::trim).rfind(|entry| !entry.contains('=')) {
-        Some("tcp") => Ok(Medium::Tcp),
-        _ => Ok(Medium::Ipc),
+    let choice = match &*value.to_string_lossy() {
+        "" => MediumChoice::default(),
+        text => text.parse().map_err(|error| Problem::new(format!("`SCL_TRANSPORT` is not understood: {error}")))?,
+    };
+    match choice.default_medium() {
+        Medium::Tcp => Ok(Medium::Tcp),
+        Medium::Ipc | Medium::Shm => Ok(Medium::Ipc),
     }
 }
 
 fn problem_of(error: &dyn std::error::Error) -> Problem {
-    let text = scl::host::text_with_causes(error);
+    let text = text_with_causes(error);
     let mut lines = text.lines();
     let mut problem = Problem::new(lines.next().unwrap_or_default());
     for line in lines {

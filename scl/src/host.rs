@@ -51,6 +51,13 @@ pub fn notify_service_manager() {
     service::start(&environment::of_process);
 }
 
+/// Tells the service manager, if one has started the process, something that `sd_notify(3)` describes: `READY=1` and a
+/// line break. For programs without components; for others, [`notify_service_manager`] does it. Returns at once: a manager
+/// that does not read misses the notification, which is logged.
+pub fn tell_service_manager(text: &str) {
+    service::tell(&environment::of_process, text);
+}
+
 /// From now on SIGTERM and SIGINT request a stop instead of ending the process. It is ended if it still runs after the
 /// [`grace_period`], or when a second signal arrives. Further calls do nothing.
 ///

@@ -57,6 +57,11 @@ impl MediumChoice {
     /// The values of `SCL_TRANSPORT`, for messages.
     pub(crate) const EXPECTED: &str = "`ipc`, `tcp` or `shm`, or with exceptions like `ipc,camera.frames=shm`";
 
+    /// The medium of all connections without an exception.
+    pub fn default_medium(&self) -> Medium {
+        self.default
+    }
+
     /// The medium of one connection.
     pub(crate) fn of_link(&self, spec: &ComponentSpec, gate: &GateSpec, link: &LinkSpec) -> Medium {
         self.last(|component, name| {

@@ -72,7 +72,7 @@ impl OpenOptions {
     /// What [`medium`](Self::medium) and [`medium_of`](Self::medium_of) say, from a text like the value of
     /// `SCL_TRANSPORT`, which then has no effect.
     pub fn media(mut self, choice: MediumChoice) -> Self {
-        self.medium = Some(choice.default);
+        self.medium = Some(choice.default_medium());
         self.medium_of.extend(choice.of_gates);
         self
     }

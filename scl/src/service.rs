@@ -16,6 +16,7 @@ pub(crate) use member::{Member, Waiting};
 use crate::environment::Variables;
 use crate::sync::lock;
 use socket::Socket;
+use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, Weak};
 use std::time::{Duration, Instant};
@@ -37,6 +38,13 @@ pub(crate) fn join(follows_calls: impl FnOnce() -> bool) -> Option<Arc<Member>> 
 pub(crate) fn stopping() {
     if let Some(Some(service)) = SERVICE.get() {
         service.report_stopping();
+    }
+}
+
+/// Sends the service manager one notification, if there is a manager.
+pub(crate) fn tell(variables: Variables<'_>, text: &str) {
+    if let Some(socket) = manager(variables) {
+        socket.send(text);
     }
 }
 
@@ -65,14 +73,7 @@ struct Reported {
 impl Service {
     /// Returns `None` if there is no service manager, or it cannot be reached.
     fn of(variables: Variables<'_>) -> Option<Self> {
-        let address = variables("NOTIFY_SOCKET").filter(|address| !address.is_empty())?;
-        match Socket::connect(&address) {
-            Ok(socket) => Some(Self::new(socket, watchdog(variables))),
-            Err(error) => {
-                tracing::warn!(?address, %error, "cannot reach the service manager that `NOTIFY_SOCKET` names");
-                None
-            }
-        }
+        Some(Self::new(manager(variables)?, watchdog(variables)))
     }
 
     fn new(socket: Socket, watchdog: Option<Duration>) -> Self {
@@ -126,6 +127,16 @@ impl Service {
             self.socket.send("WATCHDOG=1\n");
         }
     }
+}
+
+/// The socket of the service manager, if there is one that can be reached.
+fn manager(variables: Variables<'_>) -> Option<Socket> {
+    let address = variables("NOTIFY_SOCKET").filter(|address| !address.is_empty())?;
+    let connected = Socket::connect(&address);
+    let warn = |error: &io::Error| {
+        tracing::warn!(?address, %error, "cannot reach the service manager that `NOTIFY_SOCKET` names");
+    };
+    connected.inspect_err(warn).ok()
 }
 
 impl Reported {

@@ -37,7 +37,7 @@ impl Transports {
     ) -> Result<Self, OpenError> {
         choice.check(spec)?;
         let mut transports: Vec<(Medium, Arc<dyn Transport>)> = Vec::new();
-        for medium in [choice.default].into_iter().chain(listening(spec, &choice)) {
+        for medium in [choice.default_medium()].into_iter().chain(listening(spec, &choice)) {
             if !transports.iter().any(|(known, _)| *known == medium) {
                 transports.push((medium, transport(spec, dir, medium)?));
             }
