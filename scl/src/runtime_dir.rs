@@ -53,6 +53,7 @@ mod folder;
 mod folder_watch;
 mod foreign_text;
 mod held_locks;
+mod inotify;
 mod lock;
 mod look;
 #[cfg(feature = "protobuf")]
@@ -73,6 +74,7 @@ pub use error::{Holder, RuntimeDirError};
 pub(crate) use find::{Address, find};
 pub use folder::{RuntimeDir, SystemDir};
 pub(crate) use folder_watch::{FolderWatch, QUIET};
+pub(crate) use inotify::Inotify;
 pub(crate) use lock::ComponentLock;
 pub use look::ComponentState;
 pub(crate) use owned_path::OwnedPath;

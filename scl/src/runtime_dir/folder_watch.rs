@@ -1,17 +1,12 @@
 //! Noticing that a component's files in the folder of its system, or the folder itself, were removed.
 
-use super::SystemDir;
 use super::error::RuntimeDirError;
-use rustix::fs::inotify::{self, CreateFlags, Event, ReadFlags, Reader, WatchFlags};
-use rustix::io::Errno;
+use super::{Inotify, SystemDir};
+use rustix::fs::inotify::{Event, ReadFlags, WatchFlags};
 use std::ffi::{CStr, OsString};
 use std::io;
-use std::mem::MaybeUninit;
-use std::os::fd::OwnedFd;
 use std::os::unix::ffi::OsStrExt;
-use std::path::Path;
 use std::time::Duration;
-use tokio::io::unix::AsyncFd;
 use tokio::time::{Instant, timeout};
 
 /// Removing a folder takes several steps and fails if files appear in it meanwhile. So nothing is created again until
@@ -26,7 +21,7 @@ const LONGEST_UNREST: Duration = Duration::from_secs(2);
 /// The task is woken only when something in the folder is removed.
 #[derive(Debug)]
 pub(crate) struct FolderWatch {
-    inotify: AsyncFd<OwnedFd>,
+    inotify: Inotify,
     runtime_folder: i32,
     /// The name of the folder.
     system: OsString,
@@ -41,21 +36,18 @@ impl FolderWatch {
     /// # Errors
     /// A folder or the component's lock file does not exist, or the limits for inotify are reached.
     pub(crate) fn start(dir: &SystemDir, component: &str, schema: Option<&str>) -> Result<Self, RuntimeDirError> {
-        let failed = |error: io::Error| RuntimeDirError::io("watch", dir.folder(), error);
         let lock_file = dir.file_of(component, ".lock")?;
         let start = || {
-            let inotify = inotify::init(CreateFlags::CLOEXEC | CreateFlags::NONBLOCK)?;
-            let watch = |path: &Path, events| inotify::add_watch(&inotify, path, events | WatchFlags::DONT_FOLLOW);
+            let inotify = Inotify::new()?;
             let removed = WatchFlags::DELETE | WatchFlags::DELETE_SELF | WatchFlags::MOVE_SELF;
-            let runtime_folder = watch(dir.runtime_folder(), removed)?;
-            watch(dir.folder(), removed)?;
+            let runtime_folder = inotify.watch(dir.runtime_folder(), removed)?;
+            inotify.watch(dir.folder(), removed)?;
             // Replacing a file by another one changes the number of its links, which is one of its attributes.
-            watch(&lock_file, WatchFlags::ATTRIB | WatchFlags::MOVE_SELF)?;
+            inotify.watch(&lock_file, WatchFlags::ATTRIB | WatchFlags::MOVE_SELF)?;
             Ok((inotify, runtime_folder))
         };
-        let (inotify, runtime_folder) = start().map_err(|errno: Errno| failed(errno.into()))?;
-        #[expect(deprecated, reason = "unsound only for types that change their descriptor; an `OwnedFd` keeps it")]
-        let inotify = AsyncFd::new(inotify).map_err(failed)?;
+        let failed = |error: io::Error| RuntimeDirError::io("watch", dir.folder(), error);
+        let (inotify, runtime_folder) = start().map_err(failed)?;
         Ok(Self {
             inotify,
             runtime_folder,
@@ -76,21 +68,8 @@ impl FolderWatch {
 
     /// Waits for events. Returns true if at least one of them is about this component.
     async fn next_events(&self) -> io::Result<bool> {
-        loop {
-            let mut ready = self.inotify.readable().await?;
-            if let Ok(concerned) = ready.try_io(|inotify| self.read_events(inotify.get_ref())) {
-                return concerned;
-            }
-        }
-    }
-
-    fn read_events(&self, inotify: &OwnedFd) -> io::Result<bool> {
-        let mut buffer = [MaybeUninit::uninit(); 4096];
-        let mut events = Reader::new(inotify, &mut buffer);
-        let mut concerned = self.is_about_component(&events.next()?);
-        while !events.is_buffer_empty() {
-            concerned |= self.is_about_component(&events.next()?);
-        }
+        let mut concerned = false;
+        self.inotify.read(|event| concerned |= self.is_about_component(event)).await?;
         Ok(concerned)
     }
 
@@ -139,7 +118,7 @@ mod tests {
                 fs::rename(dir.folder().join("new"), &path).unwrap();
             }
             if name != "sensor.lock" {
-                assert!(watch.read_events(watch.inotify.get_ref()).is_err(), "{name}");
+                assert!(watch.inotify.read_now(|_| ()).is_err(), "{name}");
             }
             fs::remove_file(&path).unwrap();
             assert_eq!(watch.next_events().await.unwrap(), concerned, "{name}");
