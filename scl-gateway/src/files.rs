@@ -3,7 +3,7 @@
 use clap::Args;
 use scl_gateway::deployment::{Host, System};
 use scl_gateway::keys::{self, HostFiles, KeyProblem};
-use scl_terminal::{Problem, closest_name, print_err, quoted_list, timestamp};
+use scl_terminal::{Problem, print_err, timestamp};
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
@@ -38,13 +38,7 @@ impl FileArguments {
 pub(crate) fn find_host<'s>(system: &'s System, name: &str) -> Option<&'s Host> {
     let host = system.deployment.host(name);
     if host.is_none() {
-        let names = || system.deployment.hosts.iter().map(|host| host.name.as_str());
-        let problem = Problem::new(format!("unknown host `{name}`"));
-        let problem = match closest_name(name, names()) {
-            Some(close) => problem.help(format!("did you mean `{close}`?")),
-            None => problem,
-        };
-        show(&problem.note(format!("the launch file has the hosts {}", quoted_list(names()))));
+        show(&system.deployment.unknown_host(name));
     }
     host
 }

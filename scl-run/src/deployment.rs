@@ -1,5 +1,6 @@
 //! Which host runs which components, and how the hosts reach each other: `hosts` and `gateway` of a launch file.
 
+use scl_terminal::{Problem, closest_name, quoted_list};
 use std::net::IpAddr;
 use std::path::PathBuf;
 
@@ -34,6 +35,17 @@ impl Deployment {
     /// The host with this name.
     pub fn host(&self, name: &str) -> Option<&Host> {
         self.hosts.iter().find(|host| host.name == name)
+    }
+
+    /// Says that there is no host of this name, and which there are.
+    pub fn unknown_host(&self, name: &str) -> Problem {
+        let names = || self.hosts.iter().map(|host| host.name.as_str());
+        let problem = Problem::new(format!("unknown host `{name}`"));
+        let problem = match closest_name(name, names()) {
+            Some(close) => problem.help(format!("did you mean `{close}`?")),
+            None => problem,
+        };
+        problem.note(format!("the launch file has the hosts {}", quoted_list(names())))
     }
 
     /// The host that runs a component.

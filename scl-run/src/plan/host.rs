@@ -8,7 +8,7 @@ use super::super::placement::Placement;
 use super::super::policy::{Policy, Restart, RestartLimit};
 use super::super::program::{Component, Program};
 use super::{ComponentNames, LAUNCH_FILE, environment_of_programs, find_folder, find_topology, read_names, read_text};
-use scl_terminal::{Problem, closest_name, print_err, quoted_list};
+use scl_terminal::{Problem, print_err};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -62,7 +62,7 @@ pub(super) fn choose<'l>(launch: &'l LaunchFile, options: &Options, shown: &str)
         (Some(_), None) => Err(no_hosts(shown)),
         (Some(name), Some(deployment)) => match deployment.host(name) {
             Some(host) => Ok(Some(host)),
-            None => Err(unknown_host(name, deployment, shown)),
+            None => Err(deployment.unknown_host(name).at(shown)),
         },
     }
 }
@@ -130,14 +130,4 @@ fn no_topology(shown: &str) -> Problem {
     Problem::new("a system on several hosts needs its topology file")
         .at(shown)
         .help("write `topology: ../topology.yaml`, or put `topology.yaml` beside the launch file")
-}
-
-fn unknown_host(name: &str, deployment: &Deployment, shown: &str) -> Problem {
-    let names = || deployment.hosts.iter().map(|host| host.name.as_str());
-    let problem = Problem::new(format!("unknown host `{name}`")).at(shown);
-    let problem = match closest_name(name, names()) {
-        Some(close) => problem.help(format!("did you mean `{close}`?")),
-        None => problem,
-    };
-    problem.note(format!("the launch file has the hosts {}", quoted_list(names())))
 }

@@ -223,7 +223,7 @@ impl SendLink {
         if !self.wants(message.as_slice()) {
             return Ok(());
         }
-        if self.sharing.is_for(message.len()) && self.send_sample(cx, message) {
+        if self.send_sample(cx, message) {
             return Ok(());
         }
         let message = message.make_bytes();
@@ -236,7 +236,7 @@ impl SendLink {
         Ok(())
     }
 
-    /// Sends a long message in shared memory. Returns false if it is to be sent through the socket.
+    /// Sends a message in shared memory if it is long. Returns false if it is to be sent through the socket.
     fn send_sample(&mut self, cx: &mut Context<'_>, message: &mut Frame) -> bool {
         let Some(credit) = &mut self.credit else { return false };
         let written = match self.sharing.send(message, credit.sent() + 1) {
