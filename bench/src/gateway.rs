@@ -61,7 +61,7 @@ fn find_program() -> scl::Result<PathBuf> {
     let found = std::iter::once(beside).chain(env::split_paths(&path).map(|folder| folder.join(PROGRAM)));
     found.into_iter().find(|file| file.is_file()).ok_or_else(|| {
         scl::Error::message(format!(
-            "there is no program `{PROGRAM}` beside `scl` or in `PATH`; build it with `cargo build --release -p {PROGRAM}`"
+            "`{PROGRAM}` is neither beside `scl` nor in `PATH`; build it with `cargo build --release -p {PROGRAM}`"
         ))
     })
 }

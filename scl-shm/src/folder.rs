@@ -94,8 +94,8 @@ impl Folder {
         Ok(())
     }
 
-    /// Takes the rights of other users away. The engine leaves one file open to all, its counter of nodes: whoever can write
-    /// to it can truncate it, and end the next program that reads it.
+    /// Takes the rights of other users away. The engine leaves one file open to all, its counter of nodes: a user who
+    /// can write to it can truncate it, and so end the next program that reads it.
     pub(crate) fn close_to_others(&self) {
         for path in self.files() {
             // One that has gone meanwhile harms nobody.

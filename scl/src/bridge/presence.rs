@@ -63,7 +63,7 @@ impl Presence {
                 continue;
             };
             let happened = match self.removed {
-                // Whoever removes a folder must not meet new files in it.
+                // A program that removes the folder must not meet new files in it.
                 Some(at) => match tokio::time::timeout_at(at + QUIET, events.next()).await {
                     Ok(happened) => happened,
                     Err(_quiet) => {

@@ -19,7 +19,7 @@ fn sender(stage: &Stage, publishes: bool) -> Outgoing {
     if publishes { stage.publisher() } else { stage.pusher() }
 }
 
-/// Polls until the sender has so many messages unacknowledged and waiting. The receiver has nothing to return.
+/// Polls until the sender has these numbers of messages unacknowledged and waiting. The receiver has nothing to return.
 async fn until(sender: &mut Outgoing, receiver: &mut dyn Receiver, unacknowledged: u64, waiting: usize) {
     poll_fn(|cx| {
         sender.drive(cx);
