@@ -78,7 +78,7 @@ macro_rules! transport_conformance {
             serves_every_pusher
             waits_for_a_late_peer yields_each_peer_once serves_the_next_receiver serves_the_next_sender
             reconnects_after_a_dropped_link frees_its_endpoint finds_the_peer_that_stays releases_an_idle_connection
-            counts_peers connects_only_if_the_check_passes
+            counts_peers connects_only_if_the_check_passes connects_without_room
             keeps_subscribers_independent
             delivers_when_detached accepts_peers_when_detached delivers_after_its_runtime_has_ended
             moves_between_threads

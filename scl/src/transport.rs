@@ -272,6 +272,13 @@ pub trait Receiver: Send {
     /// and skipped.
     fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Bytes>;
 
+    /// Does nothing but connect: to a peer, or with those that come. Called instead of [`poll_recv`](Self::poll_recv) while
+    /// there is no room for another message, so that a peer that starts now does not wait for it to be connected. A
+    /// transport that connects without being called does nothing, which is the default.
+    fn connect(&mut self, cx: &mut Context<'_>) {
+        let _connects_by_itself = cx;
+    }
+
     /// Number of connected peers: for a listening end, those that have completed the handshake.
     fn peers(&self) -> usize;
 

@@ -49,7 +49,7 @@ fn on_each_medium(test: impl Fn(OpenOptions)) {
 }
 
 /// The same for async code.
-fn on_each_medium_async<F: Future<Output = ()>>(test: impl Fn(OpenOptions) -> F) {
+pub(crate) fn on_each_medium_async<F: Future<Output = ()>>(test: impl Fn(OpenOptions) -> F) {
     on_each_medium(|options| {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
         runtime.block_on(test(options));

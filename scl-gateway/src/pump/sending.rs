@@ -175,7 +175,11 @@ impl Sending {
     fn carry(&mut self, cx: &mut Context<'_>) {
         let Some(local) = &mut self.state.local else { return };
         let mut taken = 0;
-        while local.finishing || self.wire.may_send(0) {
+        loop {
+            if !local.finishing && !self.wire.may_send(0) {
+                local.receiver.connect(cx);
+                break;
+            }
             if taken == BATCH {
                 cx.waker().wake_by_ref();
                 break;

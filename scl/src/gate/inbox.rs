@@ -274,7 +274,7 @@ impl Inbox {
     fn take_in(&mut self) {
         for _ in 0..TAKE_IN {
             if self.queue.is_full() && (self.queue.waits() || self.is_lossless()) {
-                return;
+                return self.connect_links();
             }
             let Poll::Ready(arrived) = self.poll_links() else { return };
             self.was_empty = false;
@@ -282,6 +282,16 @@ impl Inbox {
         }
         // There is more: the task continues after others had their turn.
         self.waker.wake_by_ref();
+    }
+
+    /// Without this, a component that takes nothing before all of its peers are there would wait forever, once the first
+    /// of them has filled the queue.
+    fn connect_links(&mut self) {
+        let cx = &mut Context::from_waker(&self.waker);
+        for (link, connected) in self.links.iter_mut().zip(&mut self.connected) {
+            link.connect(cx);
+            report_peers(&**link, connected, &self.changes);
+        }
     }
 
     /// Whether a sender relies on this gate not to drop messages, although its queue would.
@@ -295,11 +305,7 @@ impl Inbox {
         for offset in 0..count {
             let link = (self.next + offset) % count;
             let polled = self.links[link].poll_recv(cx);
-            // Every poll reports: a waiting call is woken instead of the task, and completes the connection.
-            let peers = self.links[link].peers();
-            if std::mem::replace(&mut self.connected[link], peers) != peers {
-                self.changes.report();
-            }
+            report_peers(&*self.links[link], &mut self.connected[link], &self.changes);
             if let Poll::Ready(frame) = polled {
                 self.next = (link + 1) % count;
                 self.received += 1;
@@ -387,6 +393,14 @@ impl Inbox {
     /// Number of connected peers.
     pub(super) fn peers(&self) -> usize {
         self.links.iter().map(|link| link.peers()).sum()
+    }
+}
+
+/// Called after every poll of a link: a waiting call is woken instead of the task, and completes the connection.
+fn report_peers(link: &dyn Receiver, connected: &mut usize, changes: &Changes) {
+    let peers = link.peers();
+    if std::mem::replace(connected, peers) != peers {
+        changes.report();
     }
 }
 

@@ -235,6 +235,13 @@ impl TestReceiver {
         self.watched.poll(test, |end, cx| end.poll_recv(cx))
     }
 
+    /// Lets the end connect, without asking it for a message.
+    pub(super) fn connect(&mut self, test: &Context<'_>) {
+        if self.watched.take_turn(test) {
+            self.watched.end.connect(&mut Context::from_waker(&self.watched.waker));
+        }
+    }
+
     /// Returns the newest message, or `None` if there is none since the last call, once the sender has nothing newer.
     pub(super) fn poll_newest(&mut self, test: &Context<'_>) -> Poll<Option<Bytes>> {
         let newest = &mut self.newest;

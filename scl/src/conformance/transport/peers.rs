@@ -31,6 +31,35 @@ pub async fn waits_for_a_late_peer(transport: &dyn Transport) {
     }
 }
 
+/// An end connects although it has no room for messages; either end may be first.
+pub async fn connects_without_room(transport: &dyn Transport) {
+    for pattern in PATTERNS {
+        for sender_is_first in [true, false] {
+            let sender = || pattern.sender(transport);
+            let mut first = sender_is_first.then(sender);
+            let mut receiver = pattern.receiver(transport);
+            turns(20, |cx| receiver.connect(cx)).await;
+            let mut sender = first.take().unwrap_or_else(sender);
+            poll_fn(|cx| {
+                receiver.connect(cx);
+                if sender.poll(cx) && receiver.peers() == 1 { Poll::Ready(()) } else { Poll::Pending }
+            })
+            .await;
+            // When there is room, what was sent meanwhile is there.
+            sender.queue(numbered(3));
+            turns(20, |cx| {
+                sender.poll(cx);
+                receiver.connect(cx);
+            })
+            .await;
+            receiver.renew_waker();
+            for expected in numbered(3) {
+                assert_eq!(receiver.next(&mut [&mut sender]).await, expected, "{pattern:?}");
+            }
+        }
+    }
+}
+
 /// A sending end returns each peer once.
 pub async fn yields_each_peer_once(transport: &dyn Transport) {
     for pattern in PATTERNS {

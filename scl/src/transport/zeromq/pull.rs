@@ -119,6 +119,10 @@ impl Receiver for Puller {
         Poll::Pending
     }
 
+    fn connect(&mut self, cx: &mut Context<'_>) {
+        self.accept(cx);
+    }
+
     fn peers(&self) -> usize {
         self.pushers.len()
     }

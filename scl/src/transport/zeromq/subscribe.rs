@@ -70,6 +70,10 @@ impl Receiver for Subscriber {
         }
     }
 
+    fn connect(&mut self, cx: &mut Context<'_>) {
+        let _not_yet = self.poll_publisher(cx).is_pending();
+    }
+
     fn peers(&self) -> usize {
         usize::from(self.publisher.is_some())
     }
