@@ -4,6 +4,8 @@ use crate::files::{Files, launch};
 use crate::gateway::Gateway;
 use crate::network::Network;
 use crate::player::Player;
+use scl::runtime_dir::{ComponentState, RuntimeDir};
+use scl_tests::wait_until;
 use std::collections::HashMap;
 use std::path::PathBuf;
 
@@ -104,6 +106,19 @@ impl Fleet {
         let player = host.play(component, &self.files.plan());
         self.players.insert(component.to_owned(), player);
         self.player(component)
+    }
+
+    /// Waits until the gateway of a host shows a component of another one there.
+    pub(crate) fn wait_until_shown(&self, component: &str, host: &str) {
+        let file = self.network.host(host).runtime_dir().join(format!("fleet/{component}.json"));
+        wait_until(&format!("`{component}` is shown on `{host}`"), || file.exists());
+    }
+
+    /// What tools say of a component on a host.
+    pub(crate) fn state_of(&self, component: &str, host: &str) -> ComponentState {
+        let folder = self.network.host(host).runtime_dir();
+        let dir = RuntimeDir::locate(&|name| (name == "SCL_RUNTIME_DIR").then(|| folder.clone().into())).unwrap();
+        dir.system("fleet").unwrap().state(component)
     }
 
     #[track_caller]

@@ -25,4 +25,5 @@ mod quickstart;
 mod receipts;
 mod steady;
 mod strangers;
+mod three_hosts;
 mod wire;

@@ -5,12 +5,15 @@
 //! old session, and ended with it 25 s later. With `TCP_USER_TIMEOUT` the kernel gives up when the lease ends.
 //!
 //! The library has no option for it and keeps its sockets for itself, so they are found among the descriptors of the process.
+//! Only sockets are looked at more closely: that takes a second descriptor, and closing one of a file would release the locks
+//! that this process has on the file, among them those of the components that the gateway shows.
 
 use rustix::net::{AddressFamily, SocketType, sockopt};
 use rustix::process::{self, PidfdFlags, PidfdGetfdFlags};
 use std::fs;
 use std::io;
 use std::os::fd::OwnedFd;
+use std::os::unix::ffi::OsStrExt;
 
 use super::config::LEASE_MS;
 
@@ -24,10 +27,18 @@ pub(super) fn set() {
 fn try_set() -> io::Result<()> {
     let process = process::pidfd_open(process::getpid(), PidfdFlags::empty())?;
     for entry in fs::read_dir("/proc/self/fd")? {
-        let Some(number) = entry?.file_name().to_str().and_then(|name| name.parse().ok()) else { continue };
+        let entry = entry?;
+        let Some(number) = entry.file_name().to_str().and_then(|name| name.parse().ok()) else { continue };
         // It may have been closed meanwhile; then it needs no limit.
+        let Ok(target) = fs::read_link(entry.path()) else { continue };
+        if !target.as_os_str().as_bytes().starts_with(b"socket:") {
+            continue;
+        }
         let Ok(socket) = process::pidfd_getfd(&process, number, PidfdGetfdFlags::empty()) else { continue };
-        if is_tcp(&socket) {
+        if sockopt::socket_type(&socket).is_err() {
+            // Another thread has closed the socket and opened a file in its place.
+            std::mem::forget(socket);
+        } else if is_tcp(&socket) {
             sockopt::set_tcp_user_timeout(&socket, LEASE_MS)?;
         }
     }
@@ -43,7 +54,9 @@ fn is_tcp(descriptor: &OwnedFd) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rustix::fs::FlockOperation;
     use std::net::{TcpListener, TcpStream};
+    use std::os::unix::fs::MetadataExt;
 
     #[test]
     fn both_ends_of_a_connection_get_the_limit() {
@@ -54,5 +67,15 @@ mod tests {
         for socket in [&dialled, &accepted] {
             assert_eq!(sockopt::tcp_user_timeout(socket).unwrap(), LEASE_MS);
         }
+    }
+
+    #[test]
+    fn locks_of_this_process_stay() {
+        let file = tempfile::tempfile().unwrap();
+        rustix::fs::fcntl_lock(&file, FlockOperation::LockExclusive).unwrap();
+        try_set().unwrap();
+        let inode = file.metadata().unwrap().ino();
+        let locks = fs::read_to_string("/proc/locks").unwrap();
+        assert!(locks.contains(&format!(":{inode} ")), "{locks}");
     }
 }
