@@ -2,7 +2,6 @@
 
 use rustix::process::{Pid, Signal, kill_process};
 use std::io::{BufRead, BufReader};
-use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 
@@ -23,8 +22,7 @@ impl Example {
         let repository = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
         let text = std::fs::read_to_string(repository.join("examples/hosts/launch.yaml")).unwrap();
         let quickstart = repository.join("examples/quickstart");
-        let ports = [0; 2].map(|_| TcpListener::bind("127.0.0.1:0").unwrap());
-        let ports = ports.map(|listener| listener.local_addr().unwrap().port().to_string());
+        let ports = [(); 2].map(|()| scl_tests::free_address().port().to_string());
         let mut text = text.replace("../quickstart", quickstart.to_str().unwrap());
         text = text.replace("7447", &ports[0]).replace("7448", &ports[1]).replace("../../target/examples/hosts/", "");
         text = text.replace("build: &quickstart cargo build -p quickstart, ", "").replace("build: *quickstart, ", "");

@@ -11,7 +11,6 @@ use scl_gateway::route::routes;
 use scl_gateway::wire::{Peer, Wire, WireOptions};
 use std::collections::BTreeMap;
 use std::future::poll_fn;
-use std::net::TcpListener;
 use std::path::Path;
 use std::task::Poll;
 use std::time::Duration;
@@ -64,7 +63,7 @@ impl Hosts {
         let host = |name: &str, components: [&str; 2]| HostPlan {
             name: name.to_owned(),
             address: "127.0.0.1".to_owned(),
-            port: free_port(),
+            port: scl_tests::free_address().port(),
             components: components.map(str::to_owned).to_vec(),
         };
         let hosts = vec![host("board", ["sensor", "camera"]), host("ground", ["controller", "assistant"])];
@@ -146,10 +145,6 @@ fn system() -> SystemPlan {
     let loaded = scl_loader::load(&scl_loader::Request::new(path));
     let problems = || loaded.diagnostics.iter().map(|problem| problem.message.clone()).collect::<Vec<_>>();
     loaded.system_plan().unwrap_or_else(|| panic!("{:?}", problems()))
-}
-
-fn free_port() -> u16 {
-    TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
 }
 
 /// Waits until something is true. It is looked at in every turn of the runtime.

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::future::poll_fn;
-use std::net::TcpListener;
 
 use bytes::Bytes;
 use scl_gateway::route::{Pattern, Route, RouteEnd};
@@ -45,10 +44,8 @@ pub(super) fn requests(from: &str, to: &str, gate: &str) -> Route {
     }
 }
 
-/// A port that was free a moment ago.
 pub(super) fn free_address() -> String {
-    let listener = TcpListener::bind("127.0.0.1:0").expect("no free port");
-    listener.local_addr().expect("a bound socket has an address").to_string()
+    scl_tests::free_address().to_string()
 }
 
 /// Options of a host without TLS. Names of components end the way [`route`] makes them.

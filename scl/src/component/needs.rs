@@ -37,9 +37,7 @@ fn needs(gate: &GateSpec) -> Vec<(Guarantee, &'static str)> {
         }
         GateKind::Sub | GateKind::Pull if gate.newest_only() => vec![(Guarantee::Freshness, "queue: 1")],
         // A gate that waits rather than drop must also know, when its program ends, that everything was taken.
-        GateKind::Pub | GateKind::Push
-            if gate.links.iter().any(|link| options.waits_for(link.when_full)) =>
-        {
+        GateKind::Pub | GateKind::Push if gate.links.iter().any(|link| options.waits_for(link.when_full)) => {
             vec![(Guarantee::Waiting, "backpressure: true"), (Guarantee::Acknowledgement, "backpressure: true")]
         }
         _ => Vec::new(),

@@ -43,9 +43,10 @@ pub use loans::{
 };
 pub use pace::{acknowledges_what_was_taken, keeps_subscribers_independent, stays_quiet_when_idle, stops_and_resumes};
 pub use peers::{
-    connects_only_if_the_check_passes, connects_without_room, counts_peers, counts_requesters, finds_the_peer_that_stays, frees_its_endpoint,
-    reconnects_after_a_dropped_link, releases_an_idle_connection, requests_only_if_the_check_passes,
-    serves_the_next_receiver, serves_the_next_sender, waits_for_a_late_peer, yields_each_peer_once,
+    connects_only_if_the_check_passes, connects_without_room, counts_peers, counts_requesters,
+    finds_the_peer_that_stays, frees_its_endpoint, reconnects_after_a_dropped_link, releases_an_idle_connection,
+    requests_only_if_the_check_passes, serves_the_next_receiver, serves_the_next_sender, waits_for_a_late_peer,
+    yields_each_peer_once,
 };
 pub use requests::{
     answers_in_any_order, carries_requests_of_every_size, delivers_written_replies, finds_the_replier_that_stays,

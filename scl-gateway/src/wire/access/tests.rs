@@ -2,7 +2,6 @@
 //! gateway would not even try. Each test runs a second time without the access list, where everything must arrive.
 
 use std::collections::BTreeMap;
-use std::net::TcpListener;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
@@ -72,7 +71,7 @@ fn json(host: &str, address: &str, tls: TlsFiles) -> Value {
 /// `ground` with a changed access list, and `board`, which keeps to nothing.
 fn sessions(folder: &Path, access: impl FnOnce(&mut Value)) -> (Session, Session) {
     let authority = Authority::new();
-    let address = TcpListener::bind("127.0.0.1:0").and_then(|listener| listener.local_addr()).expect("a port");
+    let address = scl_tests::free_address();
     let open = |json: Value| {
         let config = Config::from_json5(&json.to_string()).expect("a configuration");
         zenoh::open(config).wait().expect("a session")
