@@ -53,6 +53,13 @@ pub struct GateSpec {
     pub links: &'static [LinkSpec],
 }
 
+impl GateSpec {
+    /// Whether a receiving gate wants nothing but the newest message.
+    pub(crate) fn newest_only(&self) -> bool {
+        self.options.queue == 1 && self.options.when_full == WhenFull::DropOldest
+    }
+}
+
 /// One connection, seen from one of its gates.
 #[derive(Debug)]
 pub struct LinkSpec {

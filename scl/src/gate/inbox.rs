@@ -8,7 +8,7 @@ use super::tap::{GateTap, Observed};
 use crate::error::Missing;
 use crate::figures::{FigureSource, FiguresInWait};
 use crate::runtime_dir::GateFigures;
-use crate::spec::{GateSpec, WhenFull};
+use crate::spec::GateSpec;
 use crate::state::{Changes, ComponentState, WakeCall};
 use crate::sync::{AbortOnDrop, lock, try_lock};
 use crate::transport::Receiver;
@@ -401,12 +401,5 @@ fn report_peers(link: &dyn Receiver, connected: &mut usize, changes: &Changes) {
     let peers = link.peers();
     if std::mem::replace(connected, peers) != peers {
         changes.report();
-    }
-}
-
-impl GateSpec {
-    /// Whether a receiving gate wants nothing but the newest message.
-    pub(crate) fn newest_only(&self) -> bool {
-        self.options.queue == 1 && self.options.when_full == WhenFull::DropOldest
     }
 }
