@@ -2,6 +2,7 @@
 
 use crate::rover::{COMPONENTS, Rover};
 use expect_test::{Expect, expect};
+use serde_json::json;
 
 /// A text with each number as `0`, and with single spaces where columns depend on numbers.
 fn normalized(text: &str) -> String {
@@ -112,6 +113,21 @@ fn components_are_shown_with_their_gates() {
         log push rover.Event protobuf 0 0 0/1
     "#]]
     .assert_eq(&normalized(table));
+}
+
+#[test]
+fn the_transports_of_a_gate_are_shown_where_they_were_chosen() {
+    let rover = Rover::start_with(&COMPONENTS, |command| {
+        command.env("SCL_TRANSPORT", "ipc,sensor.measurements=tcp");
+    });
+    let shown = |gate: &str| {
+        let json = rover.json(&["info", gate, "--format", "json"]);
+        (rover.text(&["info", gate]).contains("  transport  tcp\n"), json["transports"].clone())
+    };
+    let tcp = json!([{"name": "tcp", "peers": ["controller.sensor"]}]);
+    assert_eq!(shown("sensor.measurements"), (true, tcp));
+    assert_eq!(shown("sensor.image"), (false, json!([{"name": "ipc", "peers": ["logger.images"]}])));
+    assert_eq!(shown("controller.sensor"), (false, json!([])), "it only connects");
 }
 
 #[test]

@@ -52,6 +52,21 @@ impl Component {
         self.plan().map_or(&[], |plan| &plan.gates)
     }
 
+    /// What the ends of a gate listen on, `ipc`, `tcp` or `shm`, each with the peers it is for. Empty for a gate that only
+    /// connects.
+    pub fn transports(&self, gate: &str) -> Vec<(&str, Vec<&str>)> {
+        let endpoints = self.announcement.iter().flat_map(|announcement| &announcement.endpoints);
+        let mut transports: Vec<(&str, Vec<&str>)> = Vec::new();
+        for end in endpoints.filter(|end| end.gate == gate && !end.tap && !end.medium.is_empty()) {
+            let peers = end.peers.iter().map(String::as_str);
+            match transports.iter_mut().find(|(transport, _)| *transport == end.medium) {
+                Some((_, known)) => known.extend(peers),
+                None => transports.push((&end.medium, peers.collect())),
+            }
+        }
+        transports
+    }
+
     /// For how long a running component has not written its figures, if that is so long that it hangs: its runtime does
     /// not run, or the process is stopped.
     pub fn silent_for(&self, now: SystemTime) -> Option<Duration> {

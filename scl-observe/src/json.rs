@@ -63,6 +63,7 @@ impl Component {
         let Some(plan) = self.gates().get(gate) else { return Value::Null };
         let figures = self.figures(gate);
         let peers = peers(plan, figures);
+        let transports = self.transports(&plan.name).into_iter();
         json!({
             "name": format!("{}.{}", self.name, plan.name),
             "kind": plan.kind.word(),
@@ -71,6 +72,7 @@ impl Component {
             "contract": plan.contract,
             "declared_at": plan.declared_at,
             "tap": plan.tap,
+            "transports": transports.map(|(name, peers)| json!({"name": name, "peers": peers})).collect::<Vec<_>>(),
             "options": options_to_json(plan),
             "peers": peers.iter().map(peer_to_json).collect::<Vec<_>>(),
             "figures": figures.map(|figures| figures_to_json(plan, figures)),

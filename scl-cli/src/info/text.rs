@@ -2,8 +2,8 @@
 
 use super::Reading;
 use crate::list::state_text;
-use scl::runtime_dir::{Announcement, GateFigures};
-use scl_observe::{Peer, connected_peers, message_count, peers};
+use scl::runtime_dir::GateFigures;
+use scl_observe::{Component, Peer, connected_peers, message_count, peers};
 use scl_plan::{GateKind, GatePlan};
 use scl_terminal::{Align, Table, age_text, bytes_text, three_digits};
 use std::time::SystemTime;
@@ -79,9 +79,8 @@ impl Reading {
         if let Some(tap) = &plan.tap {
             facts.row(["tap", tap]);
         }
-        if let Some(transport) = component.announcement.as_ref().and_then(|announced| transport(announced, &plan.name))
-        {
-            facts.row(["transport", &transport]);
+        if let Some(transports) = transports(component, &plan.name) {
+            facts.row(["transport", &transports]);
         }
         let figures = component.figures(index);
         match figures {
@@ -127,22 +126,13 @@ impl Reading {
     }
 }
 
-/// What the ends of a gate listen on, unless that is only the default: `shm`, or `ipc, shm to viewer.frames`.
-fn transport(announced: &Announcement, gate: &str) -> Option<String> {
-    let endpoints = announced.endpoints.iter().filter(|end| end.gate == gate && !end.tap && !end.medium.is_empty());
-    let mut by_medium: Vec<(&str, Vec<&str>)> = Vec::new();
-    for end in endpoints {
-        let peers = end.peers.iter().map(String::as_str);
-        match by_medium.iter_mut().find(|(medium, _)| *medium == end.medium) {
-            Some((_, known)) => known.extend(peers),
-            None => by_medium.push((&end.medium, peers.collect())),
-        }
-    }
-    match &by_medium[..] {
+/// What the ends of a gate listen on, unless that is only the default: `shm`, or `ipc to logger.frames; shm to viewer.frames`.
+fn transports(component: &Component, gate: &str) -> Option<String> {
+    match &component.transports(gate)[..] {
         [] | [("ipc", _)] => None,
-        [(medium, _)] => Some((*medium).to_owned()),
+        [(transport, _)] => Some((*transport).to_owned()),
         several => {
-            let texts = several.iter().map(|(medium, peers)| format!("{medium} to {}", peers.join(", ")));
+            let texts = several.iter().map(|(transport, peers)| format!("{transport} to {}", peers.join(", ")));
             Some(texts.collect::<Vec<_>>().join("; "))
         }
     }
