@@ -272,9 +272,9 @@ pub trait Receiver: Send {
     /// and skipped.
     fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Bytes>;
 
-    /// Does nothing but connect: to a peer, or with those that come. Called instead of [`poll_recv`](Self::poll_recv) while
-    /// there is no room for another message, so that a peer that starts now does not wait for it to be connected. A
-    /// transport that connects without being called does nothing, which is the default.
+    /// Connects to a peer, or accepts those that come, without taking in messages. Called instead of
+    /// [`poll_recv`](Self::poll_recv) while there is no room for another message, so that a peer that starts now is not kept
+    /// waiting. The default does nothing, for transports that connect without being called.
     fn connect(&mut self, cx: &mut Context<'_>) {
         let _connects_by_itself = cx;
     }
