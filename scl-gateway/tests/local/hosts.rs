@@ -3,7 +3,7 @@
 use crate::wire::proxy::{Proxy, Weather};
 use scl::OpenOptions;
 use scl::plan::{Plan, SystemPlan};
-use scl::runtime_dir::RuntimeDir;
+use scl::runtime_dir::{ComponentState, RuntimeDir, SystemDir};
 use scl::untyped::Component;
 use scl_gateway::deployment::{Deployment, Host as HostPlan};
 use scl_gateway::local::{Gateway, GatewayOptions};
@@ -100,9 +100,8 @@ impl Hosts {
         });
         let wire = wire.await.unwrap();
         let host = self.host_mut(name);
-        let variable = |variable: &str| (variable == "SCL_RUNTIME_DIR").then(|| host.folder.path().into());
-        let dir = RuntimeDir::locate(&variable).unwrap().system("local").unwrap();
-        let options = GatewayOptions { dir, medium: scl::Medium::Ipc, host: name.to_owned(), components, routes };
+        let options =
+            GatewayOptions { dir: host.dir(), medium: scl::Medium::Ipc, host: name.to_owned(), components, routes };
         host.gateway = Some(Gateway::start(options, wire));
     }
 
@@ -129,6 +128,16 @@ impl Hosts {
 impl Host {
     pub(super) async fn open(&self, component: &str) -> Component {
         self.open_plan(&plan(component)).await
+    }
+
+    /// What tools say of a component on this host.
+    pub(super) fn state_of(&self, component: &str) -> ComponentState {
+        self.dir().state(component)
+    }
+
+    fn dir(&self) -> SystemDir {
+        let variable = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| self.folder.path().into());
+        RuntimeDir::locate(&variable).unwrap().system("local").unwrap()
     }
 
     pub(super) async fn open_plan(&self, plan: &Plan) -> Component {

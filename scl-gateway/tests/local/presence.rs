@@ -2,6 +2,7 @@
 
 use super::hosts::{Hosts, LONG, plan, until};
 use scl::plan::Payload;
+use scl::runtime_dir::ComponentState;
 use std::time::Duration;
 
 #[tokio::test]
@@ -15,8 +16,10 @@ async fn peers_of_another_host_come_and_go() {
         let mut controller = hosts.ground.open("controller").await;
         let received = controller.subscriber("samples").unwrap();
         until("both see each other", || samples.is_connected() && received.is_connected()).await;
+        assert!(matches!(hosts.board.state_of("controller"), ComponentState::Running(_)), "tools see it, too");
         drop((controller, received));
         until("the controller is gone", || !samples.is_connected()).await;
+        until("tools do not see it any more", || hosts.board.state_of("controller") == ComponentState::Stopped).await;
     }
 }
 
