@@ -27,7 +27,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The limits of a receiving end that keeps so many samples; its longest message is not known.
+    /// The limits of a receiving end that keeps `kept` samples. Its longest message is not known.
     pub(crate) fn of_kept(kept: usize) -> Self {
         Self { queue: kept.saturating_sub(VIEWS), longest: 0 }
     }

@@ -35,20 +35,18 @@ fn try_set() -> io::Result<()> {
             continue;
         }
         let Ok(socket) = process::pidfd_getfd(&process, number, PidfdGetfdFlags::empty()) else { continue };
-        if sockopt::socket_type(&socket).is_err() {
+        match sockopt::socket_type(&socket) {
+            Ok(SocketType::STREAM) if is_internet(&socket) => sockopt::set_tcp_user_timeout(&socket, LEASE_MS)?,
+            Ok(_) => {}
             // Another thread has closed the socket and opened a file in its place.
-            std::mem::forget(socket);
-        } else if is_tcp(&socket) {
-            sockopt::set_tcp_user_timeout(&socket, LEASE_MS)?;
+            Err(_) => std::mem::forget(socket),
         }
     }
     Ok(())
 }
 
-fn is_tcp(descriptor: &OwnedFd) -> bool {
-    let is_stream = sockopt::socket_type(descriptor).is_ok_and(|kind| kind == SocketType::STREAM);
-    let is_internet = |family| family == AddressFamily::INET || family == AddressFamily::INET6;
-    is_stream && sockopt::socket_domain(descriptor).is_ok_and(is_internet)
+fn is_internet(socket: &OwnedFd) -> bool {
+    sockopt::socket_domain(socket).is_ok_and(|family| family == AddressFamily::INET || family == AddressFamily::INET6)
 }
 
 #[cfg(test)]
