@@ -28,21 +28,16 @@ impl Subscriber {
         Self { dialler, publisher: None, malformed: 0, stale: 0, untold: 0, finishing: false }
     }
 
+    /// Connects to the publisher, while there is none.
     fn poll_publisher(&mut self, cx: &mut Context<'_>) -> Poll<&mut Inbound> {
-        let publisher = match self.publisher.take() {
-            Some(publisher) => publisher,
-            None => {
-                let (mut connection, ready) = ready!(self.dialler.poll_connected(cx));
-                // Not earlier: libzmq closes a connection on which this arrives together with READY.
-                let _reported_by_reading = connection.write(SUBSCRIBE_ALL);
-                let mut inbound = Inbound::new(connection, &ready, self.dialler.endpoint(), self.dialler.dir());
-                if self.finishing {
-                    inbound.finish();
-                }
-                inbound
-            }
-        };
-        Poll::Ready(self.publisher.insert(publisher))
+        let (mut connection, ready) = ready!(self.dialler.poll_connected(cx));
+        // Not earlier: libzmq closes a connection on which this arrives together with READY.
+        let _reported_by_reading = connection.write(SUBSCRIBE_ALL);
+        let mut inbound = Inbound::new(connection, &ready, self.dialler.endpoint(), self.dialler.dir());
+        if self.finishing {
+            inbound.finish();
+        }
+        Poll::Ready(self.publisher.insert(inbound))
     }
 }
 
@@ -71,7 +66,9 @@ impl Receiver for Subscriber {
     }
 
     fn connect(&mut self, cx: &mut Context<'_>) {
-        let _not_yet = self.poll_publisher(cx).is_pending();
+        if self.publisher.is_none() {
+            let _not_yet = self.poll_publisher(cx).is_pending();
+        }
     }
 
     fn peers(&self) -> usize {
