@@ -1,11 +1,13 @@
 //! Errors, one type per operation. Every text names the component, the gate and the peer, and says what to do.
 
 mod any;
+mod causes;
 mod names;
 mod not_flushed;
 mod not_ready;
 
 pub use any::{Error, Result};
+pub use causes::text_with_causes;
 pub(crate) use names::Missing;
 pub use names::{GateName, PeerName, Peers};
 pub use not_flushed::{NotFlushed, Unflushed};

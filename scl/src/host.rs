@@ -21,19 +21,8 @@ use crate::{log, service, stop};
 use std::sync::Mutex;
 use std::time::Duration;
 
+pub use crate::error::text_with_causes;
 pub use crate::stop::StopSignal;
-
-/// An error and its causes in one line, for languages whose errors have no causes of their own.
-pub fn text_with_causes(error: &dyn std::error::Error) -> String {
-    let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(error) = cause {
-        text.push_str(": ");
-        text.push_str(&error.to_string());
-        cause = error.source();
-    }
-    text
-}
 
 /// Writes the log to standard error, as detailed as `SCL_LOG` says, unless the process has a log already.
 ///

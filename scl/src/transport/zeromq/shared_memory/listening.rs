@@ -1,7 +1,7 @@
 //! What a listening end checks when it is opened, and offers to each of its peers.
 
 use super::super::zmtp::{ServiceId, ShmReady};
-use crate::host::text_with_causes;
+use crate::error::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Endpoint, TransportError};
 use scl_shm::{Limits, ServiceName, SharedMemory};
