@@ -12,9 +12,6 @@ pub(crate) struct HeapMemory {
 }
 
 impl HeapMemory {
-    /// What fits every line of a cache, and most messages.
-    pub(crate) const ALIGNMENT: usize = 64;
-
     /// Memory of `length` bytes, aligned to `alignment`.
     pub(crate) fn zeroed(length: usize, alignment: usize) -> Self {
         let memory = vec![0; length + alignment - 1];

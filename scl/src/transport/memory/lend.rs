@@ -4,6 +4,9 @@ use crate::transport::{Frame, HeapMemory, Loan, LoanedMemory};
 use bytes::Bytes;
 use std::sync::Arc;
 
+/// What fits every line of a cache, and most messages.
+const ALIGNMENT: usize = 64;
+
 /// Lends memory of one link, and tells it from that of others.
 #[derive(Default)]
 pub(super) struct Lender(Arc<()>);
@@ -15,7 +18,7 @@ struct Lent {
 
 impl Lender {
     pub(super) fn lend(&self, length: usize) -> Loan {
-        let memory = HeapMemory::zeroed(length, HeapMemory::ALIGNMENT);
+        let memory = HeapMemory::zeroed(length, ALIGNMENT);
         Loan::new(Lent { memory, lender: Arc::clone(&self.0) })
     }
 
