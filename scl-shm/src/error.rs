@@ -17,6 +17,12 @@ pub enum ShmError {
         /// Why not.
         source: io::Error,
     },
+    /// The system does not allow another thread.
+    #[error("cannot start a thread that removes what killed programs have left")]
+    Thread {
+        /// Why not.
+        source: io::Error,
+    },
     /// iceoryx2 cannot express the folder's path.
     #[error("{} is too long for shared memory, which allows 160 bytes; choose a shorter `SCL_RUNTIME_DIR`", path.display())]
     Path {

@@ -127,7 +127,8 @@ impl Folder {
         }
     }
 
-    fn files(&self) -> impl Iterator<Item = PathBuf> {
+    /// The files outside the folder, in [`FOLDER`].
+    pub(crate) fn files(&self) -> impl Iterator<Item = PathBuf> {
         let entries = fs::read_dir(FOLDER).into_iter().flatten().flatten();
         let is_ours = |name: &std::ffi::OsStr| name.as_bytes().starts_with(self.prefix.as_bytes());
         entries.filter(move |entry| is_ours(&entry.file_name())).map(|entry| entry.path())

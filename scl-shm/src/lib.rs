@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `node` | the node of this process in the folder of a system |
 //! | `folder` | where the node's files are, their names, the lock, and removing what nobody uses |
+//! | `unfinished` | removing files that a killed program had created and not filled |
 //! | `service` | the service of one connection: its name and its settings |
 //! | `sender`, `loaned` | lending memory and sending it |
 //! | `receiver` | receiving memory |
@@ -29,6 +30,7 @@ mod sender;
 mod service;
 #[cfg(test)]
 mod tests;
+mod unfinished;
 
 pub use error::{LoanError, ReceiveError, SendError, ShmError};
 pub use limits::{Limits, TooLittle, available};

@@ -6,6 +6,7 @@ use crate::limits::{self, Limits};
 use crate::receiver::SampleReceiver;
 use crate::sender::SampleSender;
 use crate::service::{self, ServiceName};
+use crate::unfinished;
 use iceoryx2::node::{Node, NodeBuilder};
 use iceoryx2::prelude::SignalHandlingMode;
 use iceoryx2::service::ipc_threadsafe::Service as Engine;
@@ -61,13 +62,16 @@ impl SharedMemory {
         // Damaged files that killed programs left would keep the engine from starting.
         folder.remove_if_unused();
         let config = folder.config()?;
-        let node = NodeBuilder::new()
-            .config(&config)
-            .signal_handling_mode(SignalHandlingMode::Disabled)
-            .create::<Engine>()
-            .map_err(|error| ShmError::engine("create a node", error))?;
-        folder.close_to_others();
-        node.blocking_cleanup_dead_nodes(CLEANING);
+        let node = unfinished::removing(&folder, || {
+            let node = NodeBuilder::new()
+                .config(&config)
+                .signal_handling_mode(SignalHandlingMode::Disabled)
+                .create::<Engine>()
+                .map_err(|error| ShmError::engine("create a node", error))?;
+            folder.close_to_others();
+            node.blocking_cleanup_dead_nodes(CLEANING);
+            Ok(node)
+        })?;
         Ok(Self { node: Some(Mutex::new(node)), folder })
     }
 
