@@ -10,8 +10,6 @@ const IN_FLIGHT: usize = 64;
 const VIEWS: usize = 8;
 /// The longest queue whose samples all stay in shared memory. The engine's files grow with it.
 const QUEUE: usize = 512;
-/// The most loans beside the one that a message is copied into.
-const LOANS: usize = 8;
 /// Memory that is always left free: for the files of connections, and for what other programs take between a look at
 /// the free memory and a write.
 const SPARE: u64 = 2 << 20;
@@ -42,9 +40,10 @@ impl Limits {
         self.queue.clamp(1, QUEUE) + VIEWS
     }
 
-    /// The most that are lent at the same time; one of them only for a moment, to copy a message into it.
+    /// The most that are lent at the same time: as many as may wait behind those that are in flight, one that is filled, and
+    /// one more, only for a moment, to copy a message into it.
     pub fn loans(&self) -> usize {
-        self.queue.clamp(1, LOANS) + 2
+        self.in_flight() + 2
     }
 
     /// Number of samples for which there is room.
@@ -105,8 +104,8 @@ mod tests {
         };
         assert_eq!(of(0), (1, 9, 3, 14));
         assert_eq!(of(1), (1, 9, 3, 14));
-        assert_eq!(of(100), (64, 108, 10, 183));
-        assert_eq!(of(usize::MAX), (64, 520, 10, 595));
+        assert_eq!(of(100), (64, 108, 66, 239));
+        assert_eq!(of(usize::MAX), (64, 520, 66, 651));
     }
 
     #[test]
