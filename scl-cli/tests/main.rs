@@ -93,3 +93,4 @@ mod systemd;
 mod ticker;
 #[cfg(feature = "observe")]
 mod top;
+mod workspace;
