@@ -1,9 +1,9 @@
 //! `scl run --host` on both hosts of `examples/hosts`, as its README has it, on ports and with certificates of their own.
 
-use rustix::process::{Pid, Signal, kill_process};
-use std::io::{BufRead, BufReader};
+use rustix::process::Signal;
+use scl_tests::Process;
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdout, Command, Stdio};
+use std::process::{Command, Stdio};
 
 /// The programs of the quick start and `scl`, which the workspace has built beside the gateway.
 fn program(name: &str) -> PathBuf {
@@ -44,43 +44,16 @@ impl Example {
         command
     }
 
-    fn run(&self, host: &str) -> Run {
-        let mut command = self.scl(host, &["run", "--host", host]);
-        let mut process = command.stdout(Stdio::piped()).spawn().unwrap();
-        let lines = BufReader::new(process.stdout.take().unwrap());
-        Run { process, lines }
+    fn run(&self, host: &str) -> Process {
+        Process::spawn(self.scl(host, &["run", "--host", host]))
     }
 }
 
-/// A running `scl run`. It is killed when dropped, with everything that it has started.
-struct Run {
-    process: Child,
-    lines: BufReader<ChildStdout>,
-}
-
-impl Run {
-    fn wait_for(&mut self, text: &str) {
-        let mut line = String::new();
-        while !line.contains(text) {
-            line.clear();
-            assert!(self.lines.read_line(&mut line).unwrap() > 0, "it ended without `{text}`");
-        }
-    }
-
-    /// Stops it in order.
-    fn stop(mut self) {
-        let id = Pid::from_raw(self.process.id().cast_signed()).unwrap();
-        kill_process(id, Signal::TERM).unwrap();
-        assert_eq!(self.process.wait().unwrap().code(), Some(0));
-    }
-}
-
-impl Drop for Run {
-    fn drop(&mut self) {
-        // It may have ended already.
-        let _ended = self.process.kill();
-        let _status = self.process.wait();
-    }
+/// Stops `scl run` in order.
+fn stop(run: Process) {
+    run.signal(Signal::TERM);
+    let exit = run.wait_for_exit();
+    assert_eq!(exit.code(), 0, "{exit:?}");
 }
 
 #[test]
@@ -90,15 +63,15 @@ fn the_quick_start_runs_on_two_hosts() {
     assert!(keys.status.success(), "{}", String::from_utf8_lossy(&keys.stderr));
     let (mut board, mut ground) = (example.run("board"), example.run("ground"));
     // A request, its reply, and a message back.
-    ground.wait_for("user_interface | asked for 0.5 m/s: accepted");
-    ground.wait_for("user_interface | event: target is now 0.5 m/s");
-    ground.stop();
-    board.wait_for("sensor     | speed ");
+    ground.expect_containing("user_interface | asked for 0.5 m/s: accepted");
+    ground.expect_containing("user_interface | event: target is now 0.5 m/s");
+    stop(ground);
+    board.expect_containing("sensor     | speed ");
     let mut ground = example.run("ground");
-    ground.wait_for("user_interface | asked for ");
-    ground.wait_for("user_interface | event: ");
-    ground.stop();
-    board.stop();
+    ground.expect_containing("user_interface | asked for ");
+    ground.expect_containing("user_interface | event: ");
+    stop(ground);
+    stop(board);
 }
 
 /// The example as it is in the repository can be used.

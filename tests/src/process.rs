@@ -8,7 +8,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How long a test waits for an expected event. Only a test that would hang otherwise ever reaches this limit.
 pub const HANG_LIMIT: Duration = Duration::from_secs(60);
@@ -104,10 +104,11 @@ impl Process {
     /// Reads standard output up to a line that contains a text, and returns that line.
     #[track_caller]
     pub fn expect_containing(&mut self, text: &str) -> String {
-        loop {
-            let line = self.next_line();
-            if line.contains(text) {
-                return line;
+        match self.output.find(text) {
+            Ok(line) => line,
+            Err(seen) => {
+                let (state, log) = (self.child.try_wait(), self.log.so_far());
+                panic!("`{}` ({state:?}) does not print `{text}`, but: {seen:#?}; its log: {log:#?}", self.name)
             }
         }
     }
@@ -115,13 +116,9 @@ impl Process {
     /// Reads standard error up to a line that contains a text, and returns that line.
     #[track_caller]
     pub fn expect_log(&mut self, text: &str) -> String {
-        let mut seen = Vec::new();
-        loop {
-            match self.log.next() {
-                Ok(line) if line.contains(text) => return line,
-                Ok(line) => seen.push(line),
-                Err(error) => panic!("`{}` does not log `{text}` ({error}), but: {seen:#?}", self.name),
-            }
+        match self.log.find(text) {
+            Ok(line) => line,
+            Err(seen) => panic!("`{}` does not log `{text}`, but: {seen:#?}", self.name),
         }
     }
 
@@ -222,6 +219,20 @@ impl Lines {
 
     fn next(&self) -> Result<String, RecvTimeoutError> {
         self.0.recv_timeout(HANG_LIMIT)
+    }
+
+    /// The next line that contains a text, or else those that came until the end of the stream or the time limit: a program
+    /// may print other lines for ever.
+    fn find(&self, text: &str) -> Result<String, Vec<String>> {
+        let (start, mut seen) = (Instant::now(), Vec::new());
+        while start.elapsed() < HANG_LIMIT {
+            match self.next() {
+                Ok(line) if line.contains(text) => return Ok(line),
+                Ok(line) => seen.push(line),
+                Err(_) => break,
+            }
+        }
+        Err(seen)
     }
 
     /// The lines up to the end of the stream, and whether the end has come within the time limit.
