@@ -68,13 +68,18 @@ fn the_live_display_needs_a_terminal() {
     assert!(rover.error(&["top", "--format", "json"], 2).contains("= help: add `--once`"));
 }
 
-/// Runs `scl top` in a pseudo terminal of 80 columns and 24 lines, and does what the steps say; then prints whether the
+/// Runs `scl top` in a pseudo terminal of 80 columns and 24 lines, and does what the steps say (a word to see must have no
+/// spaces, which are not drawn); then prints whether the
 /// terminal was restored, and how the program ended.
 const TERMINAL: &str = r#"
 import fcntl, os, pty, select, signal, struct, sys, termios
 
 master, slave = pty.openpty()
-fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+size = [24, 80]
+def resize():
+    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", *size, 0, 0))
+
+resize()
 before = termios.tcgetattr(slave)
 pid = os.fork()
 if pid == 0:
@@ -93,13 +98,17 @@ def status():
         ended = os.waitstatus_to_exitcode(how) if found else None
     return ended
 
-def wait_for(text):
+def wait_for(text, on_screen=False):
     global output
     while text not in output:
         if select.select([master], [], [], 0.1)[0]:
             output += os.read(master, 65536)
         elif status() is not None:
             sys.exit(f"ended with {status()} before {text}: {output}")
+        elif on_screen:
+            # Only what has changed is drawn, which can be parts of a word. With another size, all of it is.
+            size[0] ^= 1
+            resize()
     output = output.split(text, 1)[1]
 
 def restored():
@@ -115,11 +124,10 @@ for step in sys.argv[2:]:
     elif step.startswith("signal:"):
         os.kill(pid, getattr(signal, step[7:]))
     elif step.startswith("see:"):
-        wait_for(step[4:].encode())
+        wait_for(step[4:].encode(), on_screen=True)
     elif step.startswith("size:"):
-        lines, columns = step[5:].split("x")
-        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", int(lines), int(columns), 0, 0))
-        os.kill(pid, signal.SIGWINCH)
+        size = [int(number) for number in step[5:].split("x")]
+        resize()
     elif step == "suspended":
         assert os.WIFSTOPPED(os.waitpid(pid, os.WUNTRACED)[1])
         print("suspended, restored:", restored())
@@ -163,6 +171,6 @@ fn the_terminal_is_restored_while_the_display_is_suspended() {
 #[cfg(feature = "tui")]
 fn keys_and_sizes_change_what_is_shown() {
     // Down twice chooses the second gate, Enter shows its connections.
-    let steps = ["key:\\x1b[B", "key:\\x1b[B", "key:\\r", "see:taken ", "key:s", "size:20x40", "see:q", "key:q"];
+    let steps = ["key:\\x1b[B", "key:\\x1b[B", "key:\\r", "see:taken", "key:s", "size:20x40", "see:q", "key:q"];
     assert_eq!(in_terminal(&steps), "restored: True\nexit code: 0\n");
 }
