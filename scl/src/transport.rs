@@ -30,7 +30,7 @@ pub trait Transport: Send + Sync + 'static {
     /// What this transport promises. A component whose gates need more is refused when it is opened, with the gate, its
     /// option and the guarantee that is missing.
     ///
-    /// [`transport_conformance!`](crate::transport_conformance) tests what is declared here.
+    /// `transport_conformance!`, of the feature `conformance`, tests what is declared here.
     fn guarantees(&self) -> Guarantees;
 
     /// Opens the publishing end of one connection. This end listens.
