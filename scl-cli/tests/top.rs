@@ -68,9 +68,8 @@ fn the_live_display_needs_a_terminal() {
     assert!(rover.error(&["top", "--format", "json"], 2).contains("= help: add `--once`"));
 }
 
-/// Runs `scl top` in a pseudo terminal of 80 columns and 24 lines, and does what the steps say (a word to see must have no
-/// spaces, which are not drawn); then prints whether the
-/// terminal was restored, and how the program ended.
+/// Runs `scl top` in a pseudo terminal of 80 columns and 24 lines, and does what the steps say; then prints whether the
+/// terminal was restored, and how the program ended. A text that a step waits to see is one word: spaces are not drawn.
 const TERMINAL: &str = r#"
 import fcntl, os, pty, select, signal, struct, sys, termios
 

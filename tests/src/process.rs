@@ -118,7 +118,10 @@ impl Process {
     pub fn expect_log(&mut self, text: &str) -> String {
         match self.log.find(text) {
             Ok(line) => line,
-            Err(seen) => panic!("`{}` does not log `{text}`, but: {seen:#?}", self.name),
+            Err(seen) => {
+                let state = self.child.try_wait();
+                panic!("`{}` ({state:?}) does not log `{text}`, but: {seen:#?}", self.name)
+            }
         }
     }
 
@@ -222,7 +225,7 @@ impl Lines {
     }
 
     /// The next line that contains a text, or else those that came until the end of the stream or the time limit: a program
-    /// may print other lines for ever.
+    /// may print an endless stream of other lines.
     fn find(&self, text: &str) -> Result<String, Vec<String>> {
         let (start, mut seen) = (Instant::now(), Vec::new());
         while start.elapsed() < HANG_LIMIT {
