@@ -2,7 +2,7 @@
 //! `cargo test` does it too.
 //!
 //! `cargo fuzz run yaml_to_topology -- -max_total_time=300`; without a nightly toolchain, put `RUSTC_BOOTSTRAP=1` before
-//! it. `scl-topology/tests/files` is a good corpus to start from.
+//! it. `crates/scl-topology/tests/files` is a good corpus to start from.
 
 mod model;
 

@@ -6,7 +6,7 @@ use scl_tests::{Process, System, on_each_medium, python_with_scl};
 use std::path::Path;
 use tempfile::TempDir;
 
-const MODULES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scl-generate/tests/python/expected");
+const MODULES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/scl-generate/tests/python/expected");
 
 /// Starts a component of `six_kinds.yaml` in Python and waits until it is open.
 fn open_python(system: &System, component: &str) -> Process {

@@ -75,7 +75,7 @@ fn programs() -> TempDir {
 /// A folder with the expected modules of `scl-generate`.
 fn modules() -> TempDir {
     let folder = TempDir::new().expect("a folder");
-    copy_python(&repository().join("scl-generate/tests/python/expected"), folder.path());
+    copy_python(&repository().join("crates/scl-generate/tests/python/expected"), folder.path());
     folder
 }
 

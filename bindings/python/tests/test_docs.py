@@ -71,7 +71,7 @@ def test_the_page_has_programs() -> None:
 def test_a_program_of_the_page_runs(system: System, tmp_path: Path, block: str) -> None:
     for file in ["examples/quickstart/topology.yaml", "examples/quickstart/rover.proto"]:
         shutil.copy(ROOT / file, tmp_path)
-    shutil.copy(ROOT / "scl-generate/tests/python/expected/rover_scl.py", tmp_path)
+    shutil.copy(ROOT / "crates/scl-generate/tests/python/expected/rover_scl.py", tmp_path)
     others = _start(system, tmp_path, OTHERS, _component_of(block))
     others.expect("open")
     program = _start(system, tmp_path, block)

@@ -4,9 +4,9 @@ use super::{errors, expand, parsed, structs};
 use std::ops::Range;
 
 const FILES: [&str; 3] = [
-    include_str!("../../../scl-topology/tests/files/listing_1.yaml"),
-    include_str!("../../../scl-topology/tests/files/rover.yaml"),
-    include_str!("../../../scl-topology/tests/files/system.yaml"),
+    include_str!("../../../crates/scl-topology/tests/files/listing_1.yaml"),
+    include_str!("../../../crates/scl-topology/tests/files/rover.yaml"),
+    include_str!("../../../crates/scl-topology/tests/files/system.yaml"),
 ];
 
 /// Every how many mutants one is tested, because each takes some milliseconds. A prime number reaches every kind of

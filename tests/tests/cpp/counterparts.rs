@@ -6,7 +6,7 @@ use scl_tests::System;
 /// The promise: a component and its counterpart work within one process, without files, warnings or leaks.
 #[test]
 fn a_component_is_opened_beside_its_counterpart() {
-    let topology = binding().join("../../scl-generate/tests/topologies/testable.yaml");
+    let topology = binding().join("../../crates/scl-generate/tests/topologies/testable.yaml");
     for build in [Build::Plain, Build::Address] {
         let program = program(&binding().join("tests/programs/counterparts.cpp"), &topology, build);
         let system = System::new();

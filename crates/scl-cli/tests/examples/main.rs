@@ -1,0 +1,35 @@
+//! The systems of the paper: the aircraft flies, the radio tunes, and both survive the death of their parts.
+#![cfg(all(feature = "generate", feature = "record", feature = "run"))]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod arcade;
+mod lines;
+mod ospecorr;
+#[allow(dead_code, reason = "the other tests use the rest")]
+#[path = "../system/mod.rs"]
+mod system;
+mod units;
+
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// One test at a time: they run in real time, and build into the same folders.
+fn lock_machine() -> MutexGuard<'static, ()> {
+    static MACHINE: Mutex<()> = Mutex::new(());
+    // A test that failed does not make others fail.
+    MACHINE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The folder of an example.
+fn example(name: &str) -> PathBuf {
+    workspace().join("examples").join(name)
+}
+
+/// Where an example is built to.
+fn built(name: &str) -> PathBuf {
+    workspace().join("target/examples").join(name)
+}
+
+fn workspace() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().to_owned()
+}

@@ -1,0 +1,289 @@
+//! What becomes of good launch files, and that no text at all is too bad. The words are tested with the real command.
+
+use super::super::policy::{Restart, RestartDelay, RestartLimit};
+use super::super::system_names::SystemNames;
+use super::keys::{self, Key};
+use super::{EXAMPLE, LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
+use scl_terminal::Problem;
+use std::time::Duration;
+
+fn parse_launch_file(text: &str, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Problem>> {
+    LaunchDocument::parse("launch.yaml", text).map_err(|problem| vec![problem])?.read(known)
+}
+
+const GOOD: &str = "\
+# A comment: command
+transport: ipc
+build: make all
+environment: {RUST_LOG: info, \"LEVEL\": 2}
+components:
+  sensor:
+    command: [./sensor, --rate, 100, 0.5, true, '1.10']
+    build: [make, -j, 2]
+  controller:
+    command: ./controller 2>> log
+    environment:
+      GAIN: 0.50
+    working_directory: control
+profiles:
+  python:
+    controller: {command: [python3, controller.py], environment: {GAIN: 2}}
+    display: {command: ./display}
+  debug:
+    controller: {build: make debug, working_directory: debug, environment: {LOG: all}}
+topology: ../topology.yaml
+transports: {sensor.images: shm}
+";
+
+fn components(names: &[&str]) -> SystemNames {
+    SystemNames { components: words(names), gates: words(&["sensor.images"]), ..SystemNames::default() }
+}
+
+fn pairs(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
+    pairs.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect()
+}
+
+fn words(words: &[&str]) -> Vec<String> {
+    words.iter().map(|word| (*word).to_owned()).collect()
+}
+
+fn command(line: &[&str]) -> Source {
+    Source::Command(words(line))
+}
+
+fn in_folder(folder: &str) -> Settings {
+    Settings { working_directory: Some(folder.to_owned()), ..Settings::default() }
+}
+
+fn sensor() -> LaunchComponent {
+    LaunchComponent {
+        name: "sensor".to_owned(),
+        build: Some(words(&["make", "-j", "2"])),
+        source: command(&["./sensor", "--rate", "100", "0.5", "true", "1.10"]),
+        ..LaunchComponent::default()
+    }
+}
+
+fn controller() -> LaunchComponent {
+    LaunchComponent {
+        name: "controller".to_owned(),
+        build: None,
+        source: command(&["/bin/sh", "-c", "./controller 2>> log"]),
+        environment: pairs(&[("GAIN", "0.5")]),
+        settings: in_folder("control"),
+    }
+}
+
+#[test]
+fn a_good_file_keeps_its_order_and_its_values() {
+    let known = components(&["sensor", "controller", "display", "other"]);
+    for text in [GOOD.to_owned(), GOOD.replace('\n', "\r\n"), format!("\u{feff}{GOOD}")] {
+        let file = parse_launch_file(&text, Some(&known)).unwrap();
+        assert_eq!(file.components, [sensor(), controller()]);
+        assert_eq!(file.build, Some(words(&["/bin/sh", "-c", "make all"])));
+        assert_eq!(file.environment, pairs(&[("RUST_LOG", "info"), ("LEVEL", "2")]));
+        assert_eq!(file.transports.variable(Some("tcp")).as_deref(), Some("ipc,sensor.images=shm"));
+    }
+}
+
+#[test]
+fn the_topology_is_named_with_its_place() {
+    let document = LaunchDocument::parse("launch.yaml", GOOD).unwrap();
+    assert_eq!(document.topology(), Some(("../topology.yaml", "launch.yaml:20:1".to_owned())));
+}
+
+#[test]
+fn a_profile_replaces_programs_or_changes_keys_and_later_ones_win() {
+    let file = parse_launch_file(GOOD, None).unwrap();
+    let running = |line: &[&str]| LaunchComponent { source: command(line), ..controller() };
+    let environment = |more: &[(&str, &str)]| [pairs(&[("GAIN", "0.5")]), pairs(more)].concat();
+    let display = || LaunchComponent {
+        name: "display".to_owned(),
+        source: command(&["/bin/sh", "-c", "./display"]),
+        ..LaunchComponent::default()
+    };
+    let python = ["python3", "controller.py"];
+    let debug_build = Some(words(&["/bin/sh", "-c", "make debug"]));
+    let cases: [(&[&str], Vec<LaunchComponent>); 4] = [
+        (&[], vec![sensor(), controller()]),
+        (
+            &["python"],
+            vec![
+                sensor(),
+                LaunchComponent {
+                    settings: Settings::default(),
+                    environment: environment(&[("GAIN", "2")]),
+                    ..running(&python)
+                },
+                display(),
+            ],
+        ),
+        (
+            &["debug"],
+            vec![
+                sensor(),
+                LaunchComponent {
+                    build: debug_build.clone(),
+                    settings: in_folder("debug"),
+                    environment: environment(&[("LOG", "all")]),
+                    ..controller()
+                },
+            ],
+        ),
+        (
+            &["python", "debug"],
+            vec![
+                sensor(),
+                LaunchComponent {
+                    build: debug_build,
+                    settings: in_folder("debug"),
+                    environment: environment(&[("GAIN", "2"), ("LOG", "all")]),
+                    ..running(&python)
+                },
+                display(),
+            ],
+        ),
+    ];
+    for (profiles, expected) in cases {
+        assert_eq!(file.components_with(&words(profiles)), Ok(expected), "{profiles:?}");
+    }
+}
+
+#[test]
+fn transports_become_one_variable() {
+    let both = "transport: ipc\ntransports: {camera.frames: shm, logger.frames: tcp}\n";
+    let single = "transports: {camera.frames: shm}\n";
+    let cases = [
+        ("", None, None),
+        ("", Some("tcp"), None),
+        ("transport: shm\n", None, Some("shm")),
+        ("transport: shm\n", Some("tcp,a.b=ipc"), Some("shm")),
+        (both, Some("tcp"), Some("ipc,camera.frames=shm,logger.frames=tcp")),
+        (single, None, Some("camera.frames=shm")),
+        (single, Some(""), Some("camera.frames=shm")),
+        (single, Some("tcp,camera.frames=ipc"), Some("tcp,camera.frames=ipc,camera.frames=shm")),
+    ];
+    for (text, inherited, expected) in cases {
+        let file = parse_launch_file(&format!("{text}components: {{a: {{command: ls}}}}"), None).unwrap();
+        assert_eq!(file.transports.variable(inherited).as_deref(), expected, "{text} {inherited:?}");
+    }
+}
+
+fn row(Key { name, form, default, meaning, in_defaults, .. }: &Key) -> String {
+    let mark = if *in_defaults { " *" } else { "" };
+    format!("| `{name}`{mark} | {} | {default} | {meaning} |\n", form.description())
+}
+
+const SETTINGS: &str = "\
+defaults: {restart: always, essential: false, stop_within: 3s, cpu: 1, working_directory: below}
+components:
+  sensor:
+    command: [./sensor]
+    restart: on_failure
+    restart_delay: 10ms..1m
+    restart_limit: 3 in 1h
+    essential: true
+    stop_within: 0s
+    ready_within: 5s
+    alive_within: 500ms
+    cpu: [2, 3]
+    priority: fifo:80
+    working_directory: .
+  gps: {replay: flight.mcap, restart_delay: 1s}
+profiles:
+  sim:
+    sensor: {command: ./sim, restart: never}
+  flight:
+    sensor: {replay: flight.mcap}
+";
+
+#[test]
+fn settings_are_read_and_fall_back_to_the_defaults() {
+    let file = parse_launch_file(SETTINGS, None).unwrap();
+    let seconds = Duration::from_secs;
+    let expected = Settings {
+        restart: Some(Restart::OnFailure),
+        restart_delay: Some(RestartDelay { first: Duration::from_millis(10), longest: seconds(60) }),
+        restart_limit: Some(RestartLimit { count: 3, within: seconds(3600) }),
+        essential: Some(true),
+        stop_within: Some(Duration::ZERO),
+        ready_within: Some(seconds(5)),
+        alive_within: Some(Duration::from_millis(500)),
+        cpu: Some(vec![2, 3]),
+        priority: Some(80),
+        working_directory: Some(".".to_owned()),
+    };
+    assert_eq!(file.components[0].settings, expected);
+    assert_eq!(file.components[0].settings.clone().over(&file.defaults), expected);
+    let gps = file.components[1].settings.clone().over(&file.defaults);
+    assert_eq!((gps.restart, gps.essential, gps.cpu.as_deref()), (Some(Restart::Always), Some(false), Some(&[1][..])));
+    assert_eq!(gps.restart_delay, Some(RestartDelay { first: seconds(1), longest: seconds(1) }));
+    assert_eq!(gps.policy(seconds(7)).stop_within, seconds(3));
+    assert_eq!(Settings::default().policy(seconds(7)).stop_within, seconds(7));
+    let with = |profile: &str| file.components_with(&words(&[profile])).unwrap().remove(0);
+    assert_eq!(
+        with("sim").settings,
+        Settings { restart: Some(Restart::Never), working_directory: None, ..expected.clone() }
+    );
+    assert_eq!(with("flight").source, Source::Replay("flight.mcap".to_owned()));
+    assert_eq!(with("flight").settings.restart, Some(Restart::OnFailure));
+}
+
+/// What the table says of defaults is what the code does.
+#[test]
+fn the_defaults_of_the_table_are_those_of_the_policy() {
+    let written = |key: &str| {
+        let row = keys::COMPONENT.iter().find(|row| row.name == key).unwrap();
+        row.default.trim_matches('`').to_owned()
+    };
+    let keys = ["restart", "restart_delay", "restart_limit", "essential"].map(|key| format!("{key}: {}", written(key)));
+    let text = format!("components: {{a: {{command: ls, {}, stop_within: 5s}}}}", keys.join(", "));
+    let file = parse_launch_file(&text, None).unwrap();
+    let written = file.components[0].settings.policy(Duration::MAX);
+    assert_eq!(written, super::super::policy::Policy::default());
+    assert_eq!(super::super::policy::Policy::default().stop_within, Duration::from_secs(5));
+}
+
+/// The page has the tables of the keys as they are here, and all of its launch files can be used.
+#[test]
+fn the_reference_page_is_current() {
+    let page = include_str!("../../../../docs/launch.md");
+    for keys in [keys::TOP, keys::COMPONENT, keys::HOST, keys::GATEWAY] {
+        let rows: String = keys.iter().map(row).collect();
+        let table = format!("| key | value | default | meaning |\n|---|---|---|---|\n{rows}");
+        assert!(page.contains(&table), "docs/launch.md lacks this table:\n{table}");
+    }
+    assert!(page.contains(&format!("```yaml\n{EXAMPLE}```\n")), "docs/launch.md lacks the example:\n{EXAMPLE}");
+    let blocks: Vec<&str> = page.split("```yaml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    for text in &blocks {
+        assert_eq!(parse_launch_file(text, None).err(), None, "{text}");
+    }
+    assert!(blocks.len() > 2);
+}
+
+#[test]
+fn no_damaged_file_is_too_bad() {
+    let known = components(&["sensor", "controller", "display"]);
+    let parse = |text: &str| match parse_launch_file(text, Some(&known)) {
+        Ok(file) => assert!(!file.components.is_empty(), "nothing to start in:\n{text}"),
+        Err(problems) => assert!(!problems.is_empty(), "rejected without a reason:\n{text}"),
+    };
+    for (at, character) in GOOD.char_indices() {
+        let (before, after) = (&GOOD[..at], &GOOD[at + character.len_utf8()..]);
+        parse(before);
+        parse(&format!("{before}{after}"));
+        for odd in [":", "\t", "[", "{", "\"", "*a", "&a", "\u{0}", "\u{e9}", "<<: ", "!t ", "- "] {
+            parse(&format!("{before}{odd}{after}"));
+        }
+    }
+}
+
+#[test]
+fn texts_made_to_break_a_parser_are_rejected() {
+    let doubling = |level: u8| format!("x{level}: &x{level} [*x{0}, *x{0}, *x{0}, *x{0}]\n", level - 1);
+    let bomb = format!("x0: &x0 [a]\n{}", (1..60).map(doubling).collect::<String>());
+    for text in [bomb, "[".repeat(100_000), "a: ".repeat(10_000), "? ".repeat(10_000), "- ".repeat(100_000)] {
+        let start: String = text.chars().take(20).collect();
+        assert!(parse_launch_file(&text, None).is_err(), "{start}");
+    }
+}
