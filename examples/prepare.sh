@@ -89,10 +89,30 @@ build_python_package() {
         "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$1"
         cp "$1" "$out/requirements.txt"
     fi
+    find_target
+    installed=$venv/scl-$profile.installed
+    ! python_package_is_current || return 0
     # As `pip install bindings/python` does, but faster when repeated.
     release=
     [ "$profile" = dev ] || release=--release
+    rm -f "$venv"/scl-*.installed
+    # With the time before the build: what changes meanwhile is built the next time.
+    touch "$venv/scl.installing"
     VIRTUAL_ENV="$venv" "$venv/bin/maturin" develop $release --manifest-path "$repository/bindings/python/Cargo.toml" >/dev/null
+    mv "$venv/scl.installing" "$installed"
+}
+
+# Whether nothing that the installed package is made of has changed: maturin packs and installs it each time, and where cargo was called with
+# another interpreter in between, builds much of it again. Cargo lists the sources.
+python_package_is_current() {
+    sources=$target/libscl_native.d
+    [ -f "$installed" ] && [ -f "$sources" ] || return 1
+    changed=$({
+        sed 's/^[^:]*: //' "$sources" | tr ' ' '\n'
+        find "$repository/bindings/python/python" -name '*.py*' ! -name '*.pyc' ! -path '*/__pycache__*'
+        echo "$repository/bindings/python/pyproject.toml"
+        find "$repository" -maxdepth 3 -name target -prune -o \( -name Cargo.toml -o -name Cargo.lock \) -print
+    } | xargs sh -c 'find "$@" -newer "$0"' "$installed" 2>/dev/null) && [ -z "$changed" ]
 }
 
 mkdir -p "$out"

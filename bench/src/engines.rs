@@ -1,6 +1,6 @@
 //! The components that are measured over each transport.
 
-use scl::Medium;
+use scl::TransportKind;
 use std::path::Path;
 
 scl::topology!("engines.yaml");
@@ -17,9 +17,9 @@ pub(crate) fn options(id: &str, folder: &str, host: &str) -> scl::OpenOptions {
     match id.split('-').next() {
         // All variants but this one share a runtime folder, so each is a system of its own.
         Some("gateway") => options.runtime_dir(Path::new(folder).join("gateway").join(host)),
-        Some("shm") => options.runtime_dir(folder).system(id).medium(Medium::Shm),
-        Some("tcp") => options.runtime_dir(folder).system(id).medium(Medium::Tcp),
-        _ => options.runtime_dir(folder).system(id).medium(Medium::Ipc),
+        Some("shm") => options.runtime_dir(folder).system(id).transport_kind(TransportKind::Shm),
+        Some("tcp") => options.runtime_dir(folder).system(id).transport_kind(TransportKind::Tcp),
+        _ => options.runtime_dir(folder).system(id).transport_kind(TransportKind::Ipc),
     }
 }
 

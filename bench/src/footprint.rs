@@ -19,7 +19,6 @@ pub(crate) fn context_switches(process: u32) -> scl::Result<u64> {
 }
 
 /// The processor time of all threads of a process so far, in milliseconds.
-#[cfg(feature = "gateway")]
 pub(crate) fn processor_ms(process: u32) -> scl::Result<f64> {
     let stat = fs::read_to_string(format!("/proc/{process}/stat"))?;
     let ticks = ticks(&stat).ok_or_else(|| scl::Error::message("the status of a process has no processor time"))?;
@@ -28,7 +27,6 @@ pub(crate) fn processor_ms(process: u32) -> scl::Result<f64> {
 
 /// The clock ticks in user mode and in the kernel: fields 14 and 15 of `stat`. The second one is the program's name in
 /// parentheses, which may contain anything.
-#[cfg(feature = "gateway")]
 fn ticks(stat: &str) -> Option<u64> {
     let (_, fields) = stat.rsplit_once(')')?;
     let mut fields = fields.split_ascii_whitespace().skip(11).map(str::parse::<u64>);
@@ -56,7 +54,6 @@ mod tests {
         assert_eq!(field(status, "VmHWM").unwrap_err().to_string(), "the status of a process has no field `VmHWM`");
     }
 
-    #[cfg(feature = "gateway")]
     #[test]
     fn processor_time_is_found_behind_any_name() {
         let stat = "7 (a ) b) S 1 7 7 0 -1 4194560 1 0 0 0 12 30 0 0 20 0 1 0 3 0";

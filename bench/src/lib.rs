@@ -19,7 +19,7 @@ mod fresh;
 #[cfg(feature = "gateway")]
 mod gateway;
 mod gateway_growth;
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 mod iceoryx;
 #[cfg(feature = "libzmq")]
 mod libzmq;
@@ -34,6 +34,7 @@ mod roles;
 mod roundtrip;
 mod runtime;
 mod scratch;
+mod strangers;
 mod transport;
 mod unix;
 mod worker;
@@ -54,5 +55,6 @@ pub use restart::{RestartOptions, measure_restart};
 pub use roles::run_worker;
 pub use roundtrip::{RoundtripOptions, measure_roundtrip};
 pub use scl::{Error, Result};
+pub use strangers::{StrangersOptions, measure_strangers};
 pub use transport::Transport;
 pub use worker::WORKER_COMMAND;

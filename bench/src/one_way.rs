@@ -2,10 +2,11 @@
 //!
 //! Each message starts with the time at which it, or its batch, is sent. The receiver reports each batch in one line.
 
+mod batch;
 mod batch_report;
 mod components;
 mod engines;
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 mod iceoryx;
 mod message;
 mod receiver;

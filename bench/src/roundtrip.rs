@@ -1,10 +1,11 @@
 //! The time a message takes to another process and back.
 
+mod batch_client;
 mod client;
 mod components;
 mod echo;
 mod engines;
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 mod iceoryx;
 #[cfg(feature = "libzmq")]
 mod libzmq;

@@ -6,7 +6,7 @@ pub enum Transport {
     /// ZeroMQ over Unix sockets.
     #[default]
     Ipc,
-    /// Shared memory, beside plain iceoryx2 and Unix sockets. Takes the feature `iceoryx2`.
+    /// Shared memory, beside plain iceoryx2 and Unix sockets. Takes the feature `shm`.
     Shm,
     /// Two gateways on loopback, beside plain zenoh and direct connections. Takes the feature `gateway`.
     Gateway,
@@ -17,7 +17,7 @@ impl Transport {
     pub(crate) fn check_is_built_in(self) -> scl::Result<()> {
         let (word, feature, is_built_in) = match self {
             Self::Ipc => return Ok(()),
-            Self::Shm => ("shm", "shm", cfg!(feature = "iceoryx2")),
+            Self::Shm => ("shm", "shm", cfg!(feature = "shm")),
             Self::Gateway => ("gateway", "gateway", cfg!(feature = "gateway")),
         };
         if is_built_in {

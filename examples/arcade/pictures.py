@@ -152,8 +152,20 @@ def draw_periods(recording: Recording) -> Figure:
     axes.annotate(
         "late", (1, late), xycoords=("axes fraction", "data"), xytext=(4, -3), textcoords="offset points", color=ORANGE
     )
+    top = 1.5 * max(late, *(period for _, period in beats))
+    for begin, end in pauses(recording.messages["beats"]):
+        # At least as wide as a line, because most of them are short.
+        axes.axvspan(begin, end, facecolor=ORANGE, edgecolor=ORANGE, linewidth=0.8, alpha=0.4)
+        axes.annotate(
+            f"no beats for {1e3 * (end - begin):.0f} ms",
+            (end, 0.4 * top),  # below the names of the killed parts
+            xytext=(3, 0),
+            textcoords="offset points",
+            color=ORANGE,
+            fontsize=7.5,
+        )
     axes.set(xlabel="time since the start (s)", ylabel="period (ms)", title="Control loop: the period before each beat")
-    axes.set_ylim(0, 1.5 * max(late, *(period for _, period in beats)))
+    axes.set_ylim(0, top)
     mark_kills(axes, recording)
     return figure
 
@@ -161,8 +173,19 @@ def draw_periods(recording: Recording) -> Figure:
 def periods(beats: list[Any]) -> Iterator[tuple[float, float]]:
     """Times in s and periods in ms of consecutive beats; the autopilot was not started again between them."""
     for before, beat in pairwise(beats):
-        if beat.time_us - before.time_us < 1.5e6 / RATE:
+        if follows(before, beat):
             yield beat.time_us / 1e6, (beat.began_ns - before.began_ns) / 1e6
+
+
+def pauses(beats: list[Any]) -> Iterator[tuple[float, float]]:
+    """Begins and ends in s of the times without recorded beats: the autopilot was started again."""
+    for before, beat in pairwise(beats):
+        if not follows(before, beat):
+            yield before.time_us / 1e6, beat.time_us / 1e6
+
+
+def follows(before: Any, beat: Any) -> bool:
+    return beat.time_us - before.time_us < 1.5e6 / RATE
 
 
 def mark_kills(axes: Axes, recording: Recording) -> None:

@@ -2,11 +2,13 @@
 
 mod assemble;
 mod codec_traits;
+mod codec_type;
 mod component;
 mod context;
 mod counterpart;
 mod docs;
 mod file_spans;
+mod found_types;
 mod gate_types;
 mod kinds;
 mod known;
@@ -16,9 +18,11 @@ mod rustc_notes;
 mod schemas;
 mod skeleton;
 mod spec;
+mod structs;
 mod tracking;
 mod type_agreement;
 mod types;
+mod unopened;
 
 use crate::arguments::{Arguments, BadArguments};
 use crate::known_components;
@@ -44,7 +48,7 @@ pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -
         Some(topology) => component::expand_components(&context, topology),
         None => skeleton::expand_skeleton(&context),
     };
-    let types = types::expand_lookups(&context);
+    let types = found_types::expand_lookups(&context);
     let messages = schemas::expand_modules(&context);
     let json = schemas::expand_json(&context);
     let unknown = schemas::expand_unknown(&context);

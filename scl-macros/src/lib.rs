@@ -7,6 +7,7 @@
 
 mod arguments;
 mod component_stand_in;
+mod editor;
 mod expand;
 mod extern_crates;
 mod known_components;
@@ -66,7 +67,7 @@ pub fn __topology(input: TokenStream) -> TokenStream {
 /// Without the privilege for real-time priority, the program logs a warning and continues.
 #[proc_macro_attribute]
 pub fn main(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    main_attribute::expand_main(arguments.into(), item.into()).into()
+    main_attribute::expand_main(arguments.into(), item.into(), editor::runs_macros()).into()
 }
 
 /// The source file that contains the path literal; `None` in some tools, for example rust-analyzer.

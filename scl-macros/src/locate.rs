@@ -1,7 +1,7 @@
 //! Where the topology file is: beside the invoking source file, in the package, or in the workspace.
 
 use crate::arguments::Arguments;
-use crate::extern_crates;
+use crate::{editor, extern_crates};
 use scl_loader::{LookedIn, Request};
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::PATH_OF_ONE_MACHINE;
@@ -20,6 +20,8 @@ pub(crate) struct Surroundings {
     pub(crate) working_dir: PathBuf,
     /// The crates that the invoking code can name; `None` in tools that do not provide them.
     pub(crate) extern_crates: Option<BTreeSet<String>>,
+    /// Whether the code is shown in an editor, and not compiled.
+    pub(crate) for_editor: bool,
 }
 
 impl Surroundings {
@@ -28,7 +30,8 @@ impl Surroundings {
         let package = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
         let workspace = package.as_deref().and_then(workspace_root);
         let working_dir = std::env::current_dir().unwrap_or_default();
-        Self { source_file, package, workspace, working_dir, extern_crates: extern_crates::of_compiler() }
+        let (extern_crates, for_editor) = (extern_crates::of_compiler(), editor::runs_macros());
+        Self { source_file, package, workspace, working_dir, extern_crates, for_editor }
     }
 
     /// The paths that `path` may mean, in the order in which they are tried, without repetitions.
@@ -128,6 +131,7 @@ mod tests {
             workspace: Some("/w".into()),
             working_dir: "/w".into(),
             extern_crates: None,
+            for_editor: false,
         }
     }
 

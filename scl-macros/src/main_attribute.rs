@@ -6,17 +6,24 @@ use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{FnArg, Ident, ItemFn, PatType, ReturnType, Safety, Type};
 
-/// Expands the attribute. All mistakes become compile errors, and the function is kept, so that an editor keeps completing
-/// inside it.
-pub(crate) fn expand_main(arguments: TokenStream, item: TokenStream) -> TokenStream {
+/// Expands the attribute. All mistakes become compile errors, and the function is kept.
+///
+/// In an editor it stays as it was written, in the scope where it was written, so that everything the editor does in
+/// other functions works in it.
+pub(crate) fn expand_main(arguments: TokenStream, item: TokenStream, for_editor: bool) -> TokenStream {
     let function: ItemFn = match syn::parse2(item.clone()) {
         Ok(function) => function,
+        // Half-written, and the editor says so itself.
+        Err(_) if for_editor => return item,
         Err(_) => {
             let problem = compile_error(item.span(), "`#[scl::main]` goes on a function");
             return quote! { #problem #item };
         }
     };
     let problems = check(&arguments, &function);
+    if for_editor {
+        return quote! { #(#problems)* #item };
+    }
     match component(&function) {
         Some(component) if problems.is_empty() => expand_function(&function, component),
         _ => expand_broken(&function, &problems),
@@ -61,7 +68,7 @@ fn returned_span(function: &ItemFn) -> Span {
     }
 }
 
-/// Keeps the function for the editor, and adds a `main` so that rustc does not report a missing one as well.
+/// Keeps the function, so that mistakes in it are reported too, and adds a `main` so that rustc does not report a missing one as well.
 fn expand_broken(function: &ItemFn, problems: &[TokenStream]) -> TokenStream {
     if function.sig.ident != "main" {
         return quote! { #(#problems)* #function };
@@ -134,7 +141,7 @@ mod tests {
     use super::*;
 
     fn expanded(arguments: &str, item: &str) -> String {
-        let tokens = expand_main(arguments.parse().unwrap(), item.parse().unwrap());
+        let tokens = expand_main(arguments.parse().unwrap(), item.parse().unwrap(), false);
         syn::parse2::<syn::File>(tokens.clone()).unwrap_or_else(|error| panic!("{item}: {error}: {tokens}"));
         tokens.to_string()
     }
@@ -180,6 +187,14 @@ mod tests {
             let output = expanded(arguments, item);
             assert_eq!(output.matches("compile_error").count(), 1, "{output}");
             assert!(output.contains(message), "{output}");
+        }
+    }
+
+    #[test]
+    fn an_editor_gets_the_function_as_it_was_written() {
+        for item in ["pub fn main(c: Controller) { c.sensor }", "async fn main(mut c: Controller) { c.; let }"] {
+            let item: TokenStream = item.parse().unwrap();
+            assert_eq!(expand_main(TokenStream::new(), item.clone(), true).to_string(), item.to_string());
         }
     }
 

@@ -1,5 +1,6 @@
 //! Expansions of whole invocations.
 
+mod editor;
 mod mutations;
 #[cfg(feature = "protobuf")]
 mod schemas;
@@ -22,14 +23,29 @@ fn folder(files: &[(&str, &str)]) -> TempDir {
 
 /// Expands `topology!("t.yaml")` with more arguments, invoked in a folder with these files.
 fn expand_with(files: &[(&str, &str)], more: &str) -> TokenStream {
+    expand_in(files, more, |_| {})
+}
+
+/// The same as rust-analyzer gets it.
+fn expand_for_editor(files: &[(&str, &str)], more: &str) -> TokenStream {
+    expand_in(files, more, |surroundings| {
+        surroundings.source_file = None;
+        surroundings.extern_crates = None;
+        surroundings.for_editor = true;
+    })
+}
+
+fn expand_in(files: &[(&str, &str)], more: &str, change: fn(&mut Surroundings)) -> TokenStream {
     let folder = folder(files);
-    let surroundings = Surroundings {
+    let mut surroundings = Surroundings {
         source_file: Some("main.rs".into()),
         package: Some(folder.path().into()),
         workspace: None,
         working_dir: folder.path().into(),
         extern_crates: Some(["scl", "camera_msgs"].map(str::to_owned).into()),
+        for_editor: false,
     };
+    change(&mut surroundings);
     expand_topology(format!("scl, \"t.yaml\" {more}").parse().unwrap(), &surroundings)
 }
 

@@ -8,6 +8,8 @@
 mod bounded;
 #[cfg(feature = "cbor")]
 mod cbor;
+#[cfg(all(feature = "json", feature = "protobuf"))]
+mod enum_names;
 mod error;
 #[cfg(feature = "json")]
 mod json;

@@ -1,5 +1,6 @@
 //! Components: what generated code and `#[scl::main]` are made of.
 
+mod expected;
 mod main;
 mod methods;
 mod needs;
@@ -15,6 +16,7 @@ pub use outcome::Returned;
 use crate::environment::Variables;
 use crate::error::{BlockingError, Missing, MissingPeer, NotFlushed, NotReady, OpenError, PeerName};
 use crate::gate::AnyGate;
+use crate::log;
 use crate::options::OpenOptions;
 use crate::spec::{ComponentSpec, GateSpec};
 pub use crate::state::ComponentHandle;
@@ -108,7 +110,7 @@ pub(crate) async fn wait_for_peers(
         if ended || !changed.await {
             let missing = missing().into_iter().map(|(gate, missing)| {
                 let reason = state.explain(gate, &missing);
-                MissingPeer::new(gate.name, PeerName::of(missing.link), reason, missing.refusal.is_some())
+                MissingPeer::new(gate.name, PeerName::of(missing.connection), reason, missing.refusal.is_some())
             });
             let missing: Vec<MissingPeer> = missing.collect();
             return match missing.is_empty() {
@@ -130,7 +132,8 @@ pub async fn close<C: Component>(component: C, timeout: Duration) -> Result<(), 
 #[doc(hidden)]
 pub fn close_blocking<C: Component>(component: C, timeout: Duration) -> crate::Result<()> {
     let handle = component.handle().clone();
-    handle.0.may_block()?;
+    handle.0.may_proceed()?;
+    handle.0.may_close()?;
     drop(component);
     Ok(only_failures(handle.flush_blocking(Flush::Running, timeout))?)
 }
@@ -145,7 +148,7 @@ pub fn block_on<C: Component, F: Future>(component: &C, future: F) -> Result<F::
 pub(crate) fn only_failures(flushed: Result<(), NotFlushed>) -> Result<(), NotFlushed> {
     match flushed {
         Err(error) if !error.is_failure() => {
-            tracing::warn!("{error}");
+            log::warn(&error.to_string());
             Ok(())
         }
         flushed => flushed,

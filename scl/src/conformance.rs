@@ -95,7 +95,7 @@ macro_rules! transport_conformance {
         }
     };
     (@guarantee Acknowledgement $fresh:expr) => {
-        $crate::transport_conformance! { @tests $fresh; acknowledges_what_was_taken counts_what_was_not_taken }
+        $crate::transport_conformance! { @tests $fresh; acknowledges_what_was_taken counts_what_was_not_taken tells_what_was_received }
     };
     (@guarantee Waiting $fresh:expr) => {
         $crate::transport_conformance! { @tests $fresh; stops_and_resumes tells_who_waits }

@@ -1,13 +1,11 @@
 //! Errors, one type per operation. Every text names the component, the gate and the peer, and says what to do.
 
 mod any;
-mod causes;
 mod names;
 mod not_flushed;
 mod not_ready;
 
 pub use any::{Error, Result};
-pub use causes::text_with_causes;
 pub(crate) use names::Missing;
 pub use names::{GateName, PeerName, Peers};
 pub use not_flushed::{NotFlushed, Unflushed};
@@ -56,6 +54,19 @@ pub enum OpenError {
         /// The operating system's error.
         source: std::io::Error,
     },
+    /// The process was started as another component, by `scl run` or a unit file of `scl deploy`: `SCL_COMPONENT`.
+    #[error(
+        "component `{component}` of system `{system}` was not expected: this program was started as {expected}; \
+         correct its command in the launch file, or allow it there with `opens: [{component}]`"
+    )]
+    Unexpected {
+        /// The component that the program opens.
+        component: &'static str,
+        /// The system of its topology.
+        system: &'static str,
+        /// What it was started as, for messages: `` `gps` of system `rover` ``.
+        expected: String,
+    },
     /// `open` was called outside a tokio runtime.
     #[error(
         "component `{component}` was opened outside a tokio runtime; \
@@ -83,7 +94,7 @@ pub enum OpenError {
     },
     /// A transport is chosen for a gate that the component does not have.
     #[error(
-        "component `{component}` has no gate `{gate}`, for which a transport is chosen (`{component}.{gate}={medium}`){}",
+        "component `{component}` has no gate `{gate}`, for which a transport is chosen (`{component}.{gate}={transport}`){}",
         suggestion(nearest)
     )]
     NoSuchGate {
@@ -92,7 +103,7 @@ pub enum OpenError {
         /// The name of the gate.
         gate: String,
         /// The word of the transport.
-        medium: &'static str,
+        transport: &'static str,
         /// The gate that was probably meant.
         nearest: Option<String>,
     },
@@ -109,7 +120,7 @@ pub enum OpenError {
     },
     /// Shared memory was chosen, and the `scl` crate was built without it.
     #[error(
-        "component `{component}` cannot use shared memory: enable the feature `iceoryx2` of the crate `scl`, or choose the transport `ipc`"
+        "component `{component}` cannot use shared memory: enable the feature `shm` of the crate `scl`, or choose the transport `ipc`"
     )]
     NoSharedMemory {
         /// The component.
@@ -188,6 +199,11 @@ pub enum BlockingError {
     /// The async runtime on which the component was opened has ended.
     #[error("the async runtime on which the component was opened has ended; keep it running while the gates are used")]
     RuntimeEnded,
+    /// The calling thread is ending and its thread-local values are gone, so it cannot wait. Closing a component works there.
+    #[error(
+        "the calling thread is ending and cannot wait for gates any more; make the call earlier or on another thread"
+    )]
+    ThreadEnding,
 }
 
 /// A message was not sent.
@@ -305,7 +321,7 @@ pub enum SendTimeoutError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RecvError {
-    /// The codec cannot read a message. The next call returns the next message.
+    /// The codec cannot read a message, and the gate declares `undecodable: fail`. The next call returns the next message.
     #[error("gate `{gate}` received an undecodable message from {peers}")]
     Decode {
         /// The gate.
@@ -400,6 +416,14 @@ pub enum CallError {
     /// The replier disconnected after the request was sent; whether it acted on the request is unknown.
     #[error("gate `{gate}` got no reply: {peers} disconnected after the request was sent; the next call reconnects")]
     PeerLost {
+        /// The gate.
+        gate: GateName,
+        /// The replier.
+        peers: Peers,
+    },
+    /// The replier has refused the request, because it could not decode it for example. It did not act on it.
+    #[error("gate `{gate}` got no reply: {peers} could not decode the request")]
+    Refused {
         /// The gate.
         gate: GateName,
         /// The replier.

@@ -50,9 +50,9 @@ pub fn incompatible_peers(dir: &SystemDir, announcement: &Announcement) -> Resul
         .and_then(|hash| Some(Schema { hash: hash.clone(), descriptors: Arc::from(&dir.schema(hash)?[..]) }));
     let spec = untyped::intern(&Plan { schema, ..plan.clone() })?;
     let connecting = spec.gates.iter().filter(|gate| gate.tap.is_empty());
-    let links = connecting.flat_map(|gate| gate.links.iter().map(move |link| (gate, link)));
-    let checked = links.filter_map(|(gate, link)| {
-        let difference = check_peer(dir, spec, gate, link).err()?;
+    let connections = connecting.flat_map(|gate| gate.connections.iter().map(move |connection| (gate, connection)));
+    let checked = connections.filter_map(|(gate, connection)| {
+        let difference = check_peer(dir, spec, gate, connection).err()?;
         Some((format!("{}.{}", spec.name, gate.name), difference))
     });
     Ok(checked.collect())

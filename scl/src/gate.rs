@@ -1,6 +1,8 @@
 //! Gates: the typed ends of connections, as the fields of a component.
 
+mod call_wakers;
 mod connection;
+mod decoder;
 mod encoding;
 mod exchange;
 mod fanout;
@@ -8,6 +10,7 @@ mod foreign;
 mod inbox;
 mod incoming;
 mod io_waker;
+mod latch;
 mod loaned;
 mod outgoing;
 mod publisher;
@@ -23,6 +26,7 @@ mod sending_gate;
 mod stats;
 mod subscriber;
 mod tap;
+mod undecodable;
 #[cfg(feature = "raw")]
 mod view;
 mod watch;

@@ -17,11 +17,11 @@ use crate::component;
 use crate::environment;
 use crate::error::{OpenError, Result};
 use crate::sync::lock;
-use crate::{log, service, stop};
+use crate::{log, service, state, stop};
 use std::sync::Mutex;
 use std::time::Duration;
 
-pub use crate::error::text_with_causes;
+pub use crate::causes::text_with_causes;
 pub use crate::stop::StopSignal;
 
 /// Writes the log to standard error, as detailed as `SCL_LOG` says, unless the process has a log already.
@@ -70,6 +70,13 @@ pub fn apply_real_time() -> Result<(), OpenError> {
         *applied = true;
     }
     Ok(())
+}
+
+/// Makes what calls to components need of the calling thread's thread-local values. For bindings whose programs make calls in
+/// destructors and at their exit: a thread-local value that the binding makes after this call is destroyed before those, so
+/// its destructor tells when calls have to be made on another thread.
+pub fn prepare_thread() {
+    state::prepare_thread();
 }
 
 /// How long a program may take to end after a stop request: `SCL_STOP_WITHIN`, or 3 s.

@@ -77,7 +77,7 @@
 //! | `protobuf` (default) | the codec, and `schemas:` |
 //! | `json`, `raw` (default), `cbor`, `msgpack`, `postcard` | a codec each |
 //! | `zeromq` (default) | the transport between programs |
-//! | `iceoryx2` | shared memory for long messages between programs on it, see [`Medium::Shm`] |
+//! | `shm` | shared memory for long messages between programs on it, see [`TransportKind::Shm`] |
 //! | `memory` (default) | the transport within a program, for unit tests of components |
 //! | `logging` (default) | [`main`](macro@main) logs to standard error; switch it off if the program has a log of its own |
 //! | `nightly` | the macro's problems shown in the YAML file itself; needs a nightly compiler |
@@ -88,6 +88,7 @@
 #[cfg(feature = "zeromq")]
 #[doc(hidden)]
 pub mod bridge;
+mod causes;
 pub mod codec;
 mod component;
 #[cfg(feature = "conformance")]
@@ -100,9 +101,9 @@ mod figures;
 mod gate;
 pub mod host;
 mod log;
-mod medium;
-mod medium_choice;
 mod named_type;
+#[cfg(feature = "zeromq")]
+mod observation;
 mod options;
 #[doc(hidden)]
 pub mod private;
@@ -119,6 +120,8 @@ mod sync;
 pub mod tap;
 pub mod time;
 pub mod transport;
+mod transport_choice;
+mod transport_kind;
 pub mod untyped;
 
 pub use bytes;
@@ -131,12 +134,12 @@ pub use error::{
 #[cfg(feature = "raw")]
 pub use gate::View;
 pub use gate::{AnyGate, GateStats, Loaned, PeerStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
-pub use medium::Medium;
-pub use medium_choice::{MediumChoice, MediumError};
 pub use options::OpenOptions;
 pub use scl_macros::main;
 pub use scl_plan as plan;
 pub use stop::{is_stop_requested, stop_requested, stop_requested_blocking};
+pub use transport_choice::{TransportChoice, TransportChoiceError};
+pub use transport_kind::TransportKind;
 
 /// Turns a topology file into one struct for each of its components, with a field for each gate.
 ///

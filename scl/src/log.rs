@@ -2,6 +2,7 @@
 
 use crate::environment::{self, Variables};
 use crate::error::OpenError;
+use crate::sync::{is_thread_ending, on_another_thread};
 
 /// The most detailed messages that are logged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -32,6 +33,15 @@ impl Level {
             _ => None,
         })?;
         Ok(level.unwrap_or_default())
+    }
+}
+
+/// Logs a warning about the end of a component. Its thread may be ending, too, and a log that keeps something in a destroyed
+/// thread-local value would panic there.
+pub(crate) fn warn(text: &str) {
+    match is_thread_ending() {
+        true => on_another_thread(|| tracing::warn!("{text}")),
+        false => tracing::warn!("{text}"),
     }
 }
 

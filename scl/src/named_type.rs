@@ -34,11 +34,3 @@ macro_rules! __stand_in_codec {
 macro_rules! __no_stand_in_codec {
     ($codec:ty, $stand_in:ty) => {};
 }
-
-/// Without the features `json` and `protobuf`, messages of schemas have no JSON.
-#[cfg(not(all(feature = "json", feature = "protobuf")))]
-#[doc(hidden)]
-#[macro_export]
-macro_rules! __no_message_json {
-    ($($any:tt)*) => {};
-}

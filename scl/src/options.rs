@@ -2,10 +2,10 @@
 
 use crate::environment::{self, Variables};
 use crate::error::OpenError;
-use crate::medium::Medium;
-use crate::medium_choice::MediumChoice;
 use crate::registry::Registry;
 use crate::transport::Transport;
+use crate::transport_choice::TransportChoice;
+use crate::transport_kind::TransportKind;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,21 +16,21 @@ use std::sync::Arc;
 /// |---|---|---|
 /// | [`runtime_dir`](Self::runtime_dir) | `SCL_RUNTIME_DIR` | `$XDG_RUNTIME_DIR/scl`, or `scl-<uid>` in the folder for temporary files |
 /// | [`system`](Self::system) | `SCL_SYSTEM` | `system` in the topology file |
-/// | [`medium`](Self::medium), [`media`](Self::media) | `SCL_TRANSPORT=ipc`, `tcp` or `shm`, or `ipc,camera.frames=shm` | `ipc` |
-/// | [`medium_of`](Self::medium_of) | added to `SCL_TRANSPORT` | |
+/// | [`transport_kind`](Self::transport_kind), [`transports`](Self::transports) | `SCL_TRANSPORT=ipc`, `tcp` or `shm`, or `ipc,camera.frames=shm` | `ipc` |
+/// | [`transport_of`](Self::transport_of) | added to `SCL_TRANSPORT` | |
 /// | [`transport`](Self::transport), [`registry`](Self::registry) | | ZeroMQ, in the runtime folder |
 ///
 /// ```
-/// let options = scl::OpenOptions::new().system("rover-2").medium_of("camera.frames", scl::Medium::Shm);
+/// let options = scl::OpenOptions::new().system("rover-2").transport_of("camera.frames", scl::TransportKind::Shm);
 /// ```
 #[derive(Clone, Default)]
 #[must_use = "options do nothing until they are passed to `open_with` or `open_blocking_with`"]
 pub struct OpenOptions {
     runtime_dir: Option<PathBuf>,
     system: Option<String>,
-    medium: Option<Medium>,
+    transport_kind: Option<TransportKind>,
     /// Gates as `component.gate`, in order.
-    medium_of: Vec<(String, Medium)>,
+    transport_of: Vec<(String, TransportKind)>,
     transport: Option<Arc<dyn Transport>>,
     registry: Option<Arc<dyn Registry>>,
     is_test: bool,
@@ -55,25 +55,25 @@ impl OpenOptions {
     }
 
     /// What the component's listening gates listen on. `SCL_TRANSPORT` then has no effect.
-    pub fn medium(mut self, medium: Medium) -> Self {
-        self.medium = Some(medium);
+    pub fn transport_kind(mut self, transport_kind: TransportKind) -> Self {
+        self.transport_kind = Some(transport_kind);
         self
     }
 
-    /// The medium of the connections of one gate, named as `component.gate`: a gate of this component or of a peer. Of
+    /// The transport of the connections of one gate, named as `component.gate`: a gate of this component or of a peer. Of
     /// several that apply to a connection, the last one counts. The listening end of the connection decides.
     ///
     /// Opening fails if this component has no gate of this name.
-    pub fn medium_of(mut self, gate: impl Into<String>, medium: Medium) -> Self {
-        self.medium_of.push((gate.into(), medium));
+    pub fn transport_of(mut self, gate: impl Into<String>, transport_kind: TransportKind) -> Self {
+        self.transport_of.push((gate.into(), transport_kind));
         self
     }
 
-    /// What [`medium`](Self::medium) and [`medium_of`](Self::medium_of) say, from a text like the value of
+    /// What [`transport_kind`](Self::transport_kind) and [`transport_of`](Self::transport_of) say, from a text like the value of
     /// `SCL_TRANSPORT`, which then has no effect.
-    pub fn media(mut self, choice: MediumChoice) -> Self {
-        self.medium = Some(choice.default_medium());
-        self.medium_of.extend(choice.of_gates);
+    pub fn transports(mut self, choice: TransportChoice) -> Self {
+        self.transport_kind = Some(choice.default_kind());
+        self.transport_of.extend(choice.of_gates);
         self
     }
 
@@ -131,12 +131,12 @@ impl OpenOptions {
         self.system_name_from(&environment::of_process, topology)
     }
 
-    /// The media: those chosen, after those of `SCL_TRANSPORT`, else Unix sockets.
+    /// The transports: those chosen, after those of `SCL_TRANSPORT`, else Unix sockets.
     ///
     /// # Errors
     /// [`OpenError::Environment`] if `SCL_TRANSPORT` is not understood.
-    pub(crate) fn chosen_media(&self) -> Result<MediumChoice, OpenError> {
-        self.media_from(&environment::of_process)
+    pub(crate) fn chosen_transports(&self) -> Result<TransportChoice, OpenError> {
+        self.choice_from(&environment::of_process)
     }
 
     /// Checks the variables that take the place of unset options.
@@ -144,7 +144,10 @@ impl OpenOptions {
     /// # Errors
     /// [`OpenError::Environment`] if one of them would be refused.
     pub(crate) fn check(variables: Variables<'_>) -> Result<(), OpenError> {
-        Self::new().system_name_from(variables, "").map(drop).and_then(|()| Self::new().media_from(variables).map(drop))
+        Self::new()
+            .system_name_from(variables, "")
+            .map(drop)
+            .and_then(|()| Self::new().choice_from(variables).map(drop))
     }
 
     fn system_name_from(&self, variables: Variables<'_>, topology: &str) -> Result<String, OpenError> {
@@ -155,13 +158,15 @@ impl OpenOptions {
         Ok(name.unwrap_or_else(|| topology.to_owned()))
     }
 
-    fn media_from(&self, variables: Variables<'_>) -> Result<MediumChoice, OpenError> {
+    fn choice_from(&self, variables: Variables<'_>) -> Result<TransportChoice, OpenError> {
         let parse = |text: &str| text.parse().ok();
-        let mut choice = match self.medium {
-            Some(default) => MediumChoice { default, ..MediumChoice::default() },
-            None => environment::read(variables, "SCL_TRANSPORT", MediumChoice::EXPECTED, parse)?.unwrap_or_default(),
+        let mut choice = match self.transport_kind {
+            Some(default) => TransportChoice { default, ..TransportChoice::default() },
+            None => {
+                environment::read(variables, "SCL_TRANSPORT", TransportChoice::EXPECTED, parse)?.unwrap_or_default()
+            }
         };
-        choice.of_gates.extend(self.medium_of.iter().cloned());
+        choice.of_gates.extend(self.transport_of.iter().cloned());
         Ok(choice)
     }
 }
@@ -171,8 +176,8 @@ impl std::fmt::Debug for OpenOptions {
         f.debug_struct("OpenOptions")
             .field("runtime_dir", &self.runtime_dir)
             .field("system", &self.system)
-            .field("medium", &self.medium)
-            .field("medium_of", &self.medium_of)
+            .field("transport_kind", &self.transport_kind)
+            .field("transport_of", &self.transport_of)
             .field("transport", &self.transport.as_ref().map(|_| "chosen"))
             .finish()
     }
@@ -210,8 +215,8 @@ mod tests {
 
     #[test]
     fn the_media_are_chosen_or_read_or_ipc() {
-        let chosen = |medium| OpenOptions::new().medium(medium);
-        let some = || OpenOptions::new().medium_of("a.b", Medium::Shm);
+        let chosen = |transport_kind| OpenOptions::new().transport_kind(transport_kind);
+        let some = || OpenOptions::new().transport_of("a.b", TransportKind::Shm);
         let cases: [Case<'_, &str>; 12] = [
             (OpenOptions::new(), b"", Ok("ipc")),
             (OpenOptions::new(), b"ipc", Ok("ipc")),
@@ -219,18 +224,18 @@ mod tests {
             (OpenOptions::new(), b"shm", Ok("shm")),
             (OpenOptions::new(), b"tcp,x.y=shm", Ok("tcp,x.y=shm")),
             (some(), b"tcp,x.y=shm", Ok("tcp,x.y=shm,a.b=shm")),
-            (some().media("tcp,c.d=ipc".parse().unwrap()), b"shm,x.y=shm", Ok("tcp,a.b=shm,c.d=ipc")),
-            (chosen(Medium::Ipc), b"tcp,x.y=shm", Ok("ipc")),
-            (chosen(Medium::Tcp), b"nonsense", Ok("tcp")),
+            (some().transports("tcp,c.d=ipc".parse().unwrap()), b"shm,x.y=shm", Ok("tcp,a.b=shm,c.d=ipc")),
+            (chosen(TransportKind::Ipc), b"tcp,x.y=shm", Ok("ipc")),
+            (chosen(TransportKind::Tcp), b"nonsense", Ok("tcp")),
             (OpenOptions::new(), b"udp", Err("SCL_TRANSPORT=udp")),
             (OpenOptions::new(), b"tcp\xff", Err("SCL_TRANSPORT=tcp\u{fffd}")),
             (some(), b"ipc,x=shm", Err("SCL_TRANSPORT=ipc,x=shm")),
         ];
         for (options, value, expected) in cases {
-            let found = refused(options.media_from(&table("SCL_TRANSPORT", value)));
+            let found = refused(options.choice_from(&table("SCL_TRANSPORT", value)));
             let expected = match expected {
                 Ok(text) => Ok(text.parse().unwrap()),
-                Err(value) => Err(format!("{value}, not {}", MediumChoice::EXPECTED)),
+                Err(value) => Err(format!("{value}, not {}", TransportChoice::EXPECTED)),
             };
             assert_eq!(found, expected, "{options:?} {value:?}");
         }

@@ -1,7 +1,9 @@
 //! What generated code names. It carries no promise of stability.
 
 pub mod codecs;
+mod message_json;
 
+pub use crate::__component_main_functions as component_main_functions;
 pub use crate::__component_methods as component_methods;
 pub use crate::__component_test_methods as component_test_methods;
 #[cfg(all(feature = "json", feature = "protobuf"))]
@@ -18,7 +20,7 @@ pub use crate::component::{
 pub use crate::error::OpenError;
 pub use crate::gate::{AnyGate, Pub, Pull, Push, Rep, Req, Sub};
 pub use crate::named_type::NamedType;
-pub use crate::spec::{ComponentSpec, GateKind, GateOptions, GateSpec, LinkSpec, Schema, WhenFull};
+pub use crate::spec::{ComponentSpec, ConnectionSpec, GateKind, GateOptions, GateSpec, Schema, Undecodable, WhenFull};
 #[cfg(feature = "memory")]
 pub use crate::transport::memory::Memory;
 pub use bytes::Bytes;

@@ -1,15 +1,15 @@
 //! The registration of a running component in the runtime folder.
 
-use crate::medium_choice::MediumChoice;
 use crate::process_mark::ProcessMark;
-use crate::registry::{Neighbour, Registered};
+use crate::registry::{EndCheck, Neighbour, Registered};
 use crate::runtime_dir::{
-    Announcement, ComponentLock, ComponentStats, FolderWatch, Holder, OwnedPath, QUIET, RuntimeDirError, StatsFile,
-    SystemDir, check_peer, explain_missing, publish_schema,
+    Announcement, ComponentLock, ComponentProcess, ComponentStats, FolderWatch, OwnedPath, QUIET, RuntimeDirError,
+    StatsFile, SystemDir, check_peer, explain_missing, publish_schema,
 };
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::sync::lock;
 use crate::transport::PeerCheck;
+use crate::transport_choice::TransportChoice;
 use std::error::Error;
 use std::pin::Pin;
 use std::sync::{Arc, Mutex, Weak};
@@ -46,15 +46,15 @@ struct Held {
 
 impl Registration {
     /// Takes the component's lock, removes what a killed process left behind, and publishes the messages and the
-    /// announcement. The gates are opened after that, on these media. The component writes its stats with the given
+    /// announcement. The gates are opened after that, on these transports. The component writes its stats with the given
     /// period, if any.
     pub(crate) fn in_folder(
         spec: &'static ComponentSpec,
         dir: SystemDir,
         stats_period: Option<Duration>,
-        media: &MediumChoice,
+        choice: &TransportChoice,
     ) -> Result<Self, RuntimeDirError> {
-        Self::announcing(spec, dir, Announcement::of(spec, media), stats_period)
+        Self::announcing(spec, dir, Announcement::of(spec, choice), stats_period)
     }
 
     /// The same with an announcement other than the usual one, which names the component's spec.
@@ -98,18 +98,24 @@ impl Registration {
 impl Registered for Registration {
     fn neighbour(&self, component: &str) -> Option<Neighbour> {
         ComponentLock::holder(&self.files.dir, component).map(|holder| match holder {
-            Holder::ThisProcess => Neighbour::ThisProcess,
+            ComponentProcess::ThisProcess => Neighbour::ThisProcess,
             _ => Neighbour::OtherProcess,
         })
     }
 
-    fn peer_check(&self, gate: &'static GateSpec, link: &'static LinkSpec) -> Option<PeerCheck> {
+    fn peer_check(&self, gate: &'static GateSpec, connection: &'static ConnectionSpec) -> Option<PeerCheck> {
         let (dir, spec) = (self.files.dir.clone(), self.files.spec);
-        Some(Arc::new(move || check_peer(&dir, spec, gate, link)))
+        Some(Arc::new(move || check_peer(&dir, spec, gate, connection)))
     }
 
-    fn explain_missing(&self, gate: &GateSpec, link: &LinkSpec) -> String {
-        explain_missing(&self.files.dir, self.files.spec, gate, link)
+    fn end_check(&self, peer: &'static str) -> Option<EndCheck> {
+        let dir = self.files.dir.clone();
+        // A crashed or killed process leaves its announcement behind. One that closes removes it before it releases its lock.
+        Some(Arc::new(move || !dir.has_announcement(peer)))
+    }
+
+    fn explain_missing(&self, gate: &GateSpec, connection: &ConnectionSpec) -> String {
+        explain_missing(&self.files.dir, self.files.spec, gate, connection)
     }
 
     /// If the folder or files in it are removed, creates them again and reports that through

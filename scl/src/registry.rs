@@ -5,10 +5,11 @@
 //! [`OpenOptions::registry`](crate::OpenOptions::registry): then a component can be opened once only, errors say who runs it
 //! and why a peer is missing, and closing waits for peers that are running but not connected yet.
 
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport::PeerCheck;
 use std::error::Error;
 use std::pin::Pin;
+use std::sync::Arc;
 
 /// Where the components of a system take their names and find each other.
 ///
@@ -64,15 +65,23 @@ pub trait Registered: Send + Sync {
     fn neighbour(&self, component: &str) -> Option<Neighbour>;
 
     /// What a connecting end of `gate` calls before it connects to a peer. The default accepts every peer.
-    fn peer_check(&self, gate: &'static GateSpec, link: &'static LinkSpec) -> Option<PeerCheck> {
-        let _accepts_every_peer = (gate, link);
+    fn peer_check(&self, gate: &'static GateSpec, connection: &'static ConnectionSpec) -> Option<PeerCheck> {
+        let _accepts_every_peer = (gate, connection);
+        None
+    }
+
+    /// What a sending end calls before it warns that it drops messages for `peer`, which was connected before. The default
+    /// misses every peer.
+    fn end_check(&self, peer: &'static str) -> Option<EndCheck> {
+        let _misses_every_peer = peer;
         None
     }
 
     /// Why a peer is not connected, to follow its name in a text: `is not running`.
-    fn explain_missing(&self, gate: &GateSpec, link: &LinkSpec) -> String {
+    fn explain_missing(&self, gate: &GateSpec, connection: &ConnectionSpec) -> String {
         let _of_any_gate = gate;
-        let state = if self.neighbour(link.peer_component).is_some() { "is not connected" } else { "is not running" };
+        let state =
+            if self.neighbour(connection.peer_component).is_some() { "is not connected" } else { "is not running" };
         state.to_owned()
     }
 
@@ -81,6 +90,9 @@ pub trait Registered: Send + Sync {
         Box::pin(std::future::ready(()))
     }
 }
+
+/// Returns true if a peer's program has closed it in order, such as one whose task is done: then it is not missed.
+pub type EndCheck = Arc<dyn Fn() -> bool + Send + Sync>;
 
 /// Who runs a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,7 +133,7 @@ impl Registered for Unregistered {
         None
     }
 
-    fn explain_missing(&self, _gate: &GateSpec, _link: &LinkSpec) -> String {
+    fn explain_missing(&self, _gate: &GateSpec, _link: &ConnectionSpec) -> String {
         "is not connected".to_owned()
     }
 }

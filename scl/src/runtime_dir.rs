@@ -48,6 +48,7 @@ mod bind;
 #[cfg(feature = "protobuf")]
 mod compared;
 mod error;
+mod event_count;
 mod find;
 mod folder;
 mod folder_watch;
@@ -60,7 +61,6 @@ mod look;
 mod messages;
 mod owned_path;
 mod peer_check;
-mod restored;
 mod schema;
 mod small_file;
 mod stats;
@@ -69,7 +69,9 @@ mod temp_entry;
 pub use announcement::{AnnouncedEndpoint, Announcement};
 #[cfg(feature = "zeromq")]
 pub(crate) use bind::{bind_ipc, bind_tcp};
-pub use error::{Holder, RuntimeDirError};
+pub use error::{ComponentProcess, RuntimeDirError};
+#[cfg(feature = "zeromq")]
+pub(crate) use event_count::Seen;
 #[cfg(feature = "zeromq")]
 pub(crate) use find::{Address, find};
 pub use folder::{RuntimeDir, SystemDir};
@@ -79,8 +81,6 @@ pub(crate) use lock::ComponentLock;
 pub use look::ComponentState;
 pub(crate) use owned_path::OwnedPath;
 pub(crate) use peer_check::{check_peer, explain_missing};
-#[cfg(feature = "zeromq")]
-pub(crate) use restored::Seen;
 pub(crate) use schema::publish_schema;
 pub(crate) use stats::StatsFile;
 pub use stats::{ComponentStats, ConnectionFigures, GateFigures};

@@ -2,7 +2,7 @@
 
 mod plan;
 
-pub use scl_plan::{GateKind, GateOptions, WhenFull};
+pub use scl_plan::{GateKind, GateOptions, Undecodable, WhenFull};
 
 /// A component: its name and its gates.
 #[derive(Debug)]
@@ -50,10 +50,26 @@ pub struct GateSpec {
     /// The options, defaults filled in.
     pub options: GateOptions,
     /// The gate's connections, in file order.
-    pub links: &'static [LinkSpec],
+    pub connections: &'static [ConnectionSpec],
 }
 
 impl GateSpec {
+    /// The type of the messages that the gate receives, `None` if it receives none.
+    #[cfg(feature = "protobuf")]
+    pub(crate) fn received(&self) -> Option<&'static str> {
+        match (self.kind, self.exchanged()) {
+            (GateKind::Sub | GateKind::Pull, _) => Some(self.payload),
+            (GateKind::Rep, Some((request, _))) => Some(request),
+            (GateKind::Req, Some((_, reply))) => Some(reply),
+            _ => None,
+        }
+    }
+
+    /// The types of requests and replies.
+    pub(crate) fn exchanged(&self) -> Option<(&'static str, &'static str)> {
+        self.payload.split_once(" -> ").filter(|_| self.kind.exchanges())
+    }
+
     /// Whether a receiving gate wants nothing but the newest message.
     pub(crate) fn newest_only(&self) -> bool {
         self.options.queue == 1 && self.options.when_full == WhenFull::DropOldest
@@ -62,7 +78,7 @@ impl GateSpec {
 
 /// One connection, seen from one of its gates.
 #[derive(Debug)]
-pub struct LinkSpec {
+pub struct ConnectionSpec {
     /// The component at the other end.
     pub peer_component: &'static str,
     /// The gate at the other end.

@@ -11,21 +11,24 @@ mod runtime;
 mod tests;
 
 pub(crate) use calls::WakeCall;
-pub(crate) use flush::{Flush, LINGER, SendingEnd};
+pub(crate) use flush::{Flush, LINGER, ReceivingEnd, SendingEnd};
 pub(crate) use monitor::stats_period;
 pub(crate) use owner::Owner;
-pub(crate) use runtime::{Driven, OwnedRuntime};
+pub(crate) use runtime::{Driven, OwnedRuntime, prepare_thread};
 
 use monitor::Monitor;
 
-use crate::error::{Missing, NotFlushed, PeerName, Unflushed};
+use crate::error::{BlockingError, Missing, NotFlushed, PeerName, Unflushed};
+use crate::log;
 use crate::process_mark::ProcessMark;
 use crate::registration::StatsWriter;
 use crate::registry::{Neighbour, Registered as RegisteredComponent};
 use crate::runtime_dir::ComponentStats;
 use crate::service::{self, Member};
 use crate::spec::{ComponentSpec, GateSpec};
-use crate::sync::{AbortOnDrop, lock};
+use crate::sync::{AbortOnDrop, is_thread_ending, lock, on_another_thread};
+#[cfg(feature = "protobuf")]
+use scl_shape::FileDescriptorSet;
 use std::future::poll_fn;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, Weak};
@@ -41,6 +44,7 @@ pub(crate) struct ComponentState {
     process: ProcessMark,
     changes: Changes,
     ends: Mutex<Vec<Registered>>,
+    receiving: Mutex<Vec<Weak<Mutex<dyn ReceivingEnd>>>>,
     /// Messages of dropped gates that their peers did not take in time.
     given_up: Mutex<Vec<Unflushed>>,
     flushed: Mutex<bool>,
@@ -53,6 +57,9 @@ pub(crate) struct ComponentState {
     calls_ended: AtomicBool,
     /// Whether it is one of the two components of a unit test.
     is_test: bool,
+    /// The message types of `schemas:`, decoded when the first gate needs them.
+    #[cfg(feature = "protobuf")]
+    message_types: OnceLock<Option<FileDescriptorSet>>,
     /// What wakes the waiting calls of gates without a sending end.
     waiting_calls: Mutex<Vec<Weak<dyn WakeCall>>>,
     monitor: Arc<Monitor>,
@@ -127,6 +134,7 @@ impl ComponentState {
             process: ProcessMark::new(),
             changes: Changes::default(),
             ends: Mutex::default(),
+            receiving: Mutex::default(),
             given_up: Mutex::default(),
             flushed: Mutex::default(),
             runtime,
@@ -134,6 +142,8 @@ impl ComponentState {
             runtime_ended,
             calls_ended: AtomicBool::new(false),
             is_test: false,
+            #[cfg(feature = "protobuf")]
+            message_types: OnceLock::new(),
             waiting_calls: Mutex::default(),
             monitor,
             _stats: stats,
@@ -157,6 +167,13 @@ impl ComponentState {
 
     pub(crate) fn spec(&self) -> &'static ComponentSpec {
         self.spec
+    }
+
+    /// The message types of `schemas:`, if there are any.
+    #[cfg(feature = "protobuf")]
+    pub(crate) fn message_types(&self) -> Option<&FileDescriptorSet> {
+        let decode = || scl_shape::decode(self.spec.schema?.descriptors).ok();
+        self.message_types.get_or_init(decode).as_ref()
     }
 
     pub(crate) fn registration(&self) -> &dyn RegisteredComponent {
@@ -193,8 +210,28 @@ impl ComponentState {
         lock(&self.ends).push(Registered { end, _task: None });
     }
 
+    /// Makes an end acknowledge what its program has received when the component is closed. Gates that are dropped do so
+    /// themselves.
+    pub(crate) fn register_receiving(&self, end: Weak<Mutex<dyn ReceivingEnd>>) {
+        lock(&self.receiving).push(end);
+    }
+
+    /// The program is about to end, perhaps with gates that nobody drops.
+    fn acknowledge_last(&self) {
+        let ends = lock(&self.receiving).iter().filter_map(Weak::upgrade).collect::<Vec<_>>();
+        ends.iter().for_each(|end| lock(end).acknowledge_last());
+    }
+
     /// A gate was dropped. Its end is dropped too, as soon as its peer has taken everything, or after [`LINGER`].
     pub(crate) fn release(self: &Arc<Self>, end: Arc<Mutex<dyn SendingEnd>>) {
+        match is_thread_ending() {
+            // Ends enter the runtime, which such a thread cannot.
+            true => on_another_thread(|| self.release_here(Arc::clone(&end))),
+            false => self.release_here(end),
+        }
+    }
+
+    fn release_here(self: &Arc<Self>, end: Arc<Mutex<dyn SendingEnd>>) {
         if self.runtime_ended.load(Ordering::Acquire) {
             // Handed over when the component is dropped.
             return;
@@ -244,8 +281,13 @@ impl ComponentState {
 
     /// Why a peer is missing, as a sentence.
     pub(crate) fn explain(&self, gate: &GateSpec, missing: &Missing) -> String {
-        let explain =
-            || format!("{} {}", PeerName::of(missing.link), self.registration.explain_missing(gate, missing.link));
+        let explain = || {
+            format!(
+                "{} {}",
+                PeerName::of(missing.connection),
+                self.registration.explain_missing(gate, missing.connection)
+            )
+        };
         missing.refusal.clone().unwrap_or_else(explain)
     }
 
@@ -263,6 +305,7 @@ impl ComponentState {
         let started = Instant::now();
         let ends = self.ends();
         let mut left = flush::flush(&ends, flush, timeout, &|component| self.runs_elsewhere(component)).await;
+        self.acknowledge_last();
         let mut given_up = std::mem::take(&mut *lock(&self.given_up));
         if flush == Flush::Running {
             left.append(&mut given_up);
@@ -273,9 +316,16 @@ impl ComponentState {
 
     /// [`flush`](Self::flush) from a plain thread. Also after a stop request.
     pub(crate) fn flush_blocking(&self, flush: Flush, timeout: Duration) -> Result<(), NotFlushed> {
-        if runtime::refuse_inside_async().is_err() {
-            return Ok(());
+        match runtime::refuse_to_wait() {
+            // Not elsewhere without need: a destructor that `dlclose` runs holds a lock that new threads wait for.
+            Ok(()) => self.flush_here(flush, timeout),
+            // In the destructor of a thread-local value, or in a function of `atexit`.
+            Err(BlockingError::ThreadEnding) => on_another_thread(|| self.flush_here(flush, timeout)),
+            Err(_) => Ok(()),
         }
+    }
+
+    fn flush_here(&self, flush: Flush, timeout: Duration) -> Result<(), NotFlushed> {
         match &self.runtime {
             Some(runtime) => runtime.block_on(self.flush(flush, timeout)).unwrap_or(Ok(())),
             None => {
@@ -284,6 +334,7 @@ impl ComponentState {
                 let started = Instant::now();
                 let is_running = |component: &str| self.runs_elsewhere(component);
                 let left = flush::flush_detached(&self.ends(), flush, true, timeout, &is_running);
+                self.acknowledge_last();
                 self.worth_telling(NotFlushed::of(self.spec.name, left, started.elapsed(), &is_running))
             }
         }
@@ -297,6 +348,19 @@ impl ComponentState {
     /// A unit test need not receive everything.
     fn worth_telling(&self, flushed: Result<(), NotFlushed>) -> Result<(), NotFlushed> {
         flushed.or_else(|left| if self.is_test && !left.is_failure() { Ok(()) } else { Err(left) })
+    }
+
+    /// Hands over what is left of a component that is dropped.
+    fn hand_over(&self, ends: &[Arc<Mutex<dyn SendingEnd>>]) {
+        if *lock(&self.flushed) {
+            return;
+        }
+        let is_running = |component: &str| self.runs_elsewhere(component);
+        let left = flush::flush_detached(ends, self.awaited(Flush::Running), false, LINGER, &is_running);
+        let left = left.into_iter().filter(|_| !self.is_test);
+        for left in lock(&self.given_up).drain(..).chain(left) {
+            log::warn(&format!("component `{}` was dropped with messages left: {left}", self.spec.name));
+        }
     }
 
     fn ends(&self) -> Vec<Arc<Mutex<dyn SendingEnd>>> {
@@ -315,7 +379,7 @@ impl ComponentState {
     }
 }
 
-/// Hands over what is left, within [`LINGER`], on the calling thread and without a runtime.
+/// Hands over what is left, within [`LINGER`], on the calling thread if it is not ending, and without a runtime.
 impl Drop for ComponentState {
     fn drop(&mut self) {
         let ends = std::mem::take(&mut *lock(&self.ends));
@@ -324,13 +388,9 @@ impl Drop for ComponentState {
             return std::mem::forget(ends);
         }
         let ends: Vec<_> = ends.into_iter().map(|one| one.end).collect();
-        if !*lock(&self.flushed) {
-            let is_running = |component: &str| self.runs_elsewhere(component);
-            let left = flush::flush_detached(&ends, self.awaited(Flush::Running), false, LINGER, &is_running);
-            let left = left.into_iter().filter(|_| !self.is_test);
-            for left in lock(&self.given_up).drain(..).chain(left) {
-                tracing::warn!("component `{}` was dropped with messages left: {left}", self.spec.name);
-            }
+        match is_thread_ending() {
+            true => on_another_thread(|| self.hand_over(&ends)),
+            false => self.hand_over(&ends),
         }
         // Their tasks have been aborted, but one may be in the middle of a poll. Sockets must be gone before the lock is.
         ends.iter().for_each(owner::await_other_users);

@@ -131,6 +131,11 @@ pub(crate) fn requested() -> impl Future<Output = ()> + Send + 'static {
     STOP.requested()
 }
 
+/// Waits until [`gates_stopped`].
+pub(crate) fn until_gates_stopped() -> impl Future<Output = ()> + Send + 'static {
+    STOP.until_gates_stopped()
+}
+
 /// Returns true if a stop was requested, without handling it.
 pub(crate) fn was_requested() -> bool {
     STOP.is_requested()

@@ -1,6 +1,9 @@
 //! Small things about threads and tasks that several parts need.
 
+use std::panic::resume_unwind;
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::thread::{self, ScopedJoinHandle};
+use tokio::runtime::Handle;
 use tokio::task::AbortHandle;
 
 /// Locks; a panic elsewhere while it was locked does not spread, since no lock here guards a half-done change.
@@ -15,6 +18,24 @@ pub(crate) fn try_lock<T: ?Sized>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>>
         Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
         Err(TryLockError::WouldBlock) => None,
     }
+}
+
+/// Returns true if thread-local values of the calling thread are destroyed: tokio's, without which it cannot wait.
+pub(crate) fn is_thread_ending() -> bool {
+    Handle::try_current().is_err_and(|error| error.is_thread_local_destroyed())
+}
+
+/// Makes a call on a thread of its own, which has its thread-local values, and waits for it.
+pub(crate) fn on_another_thread<T: Send>(call: impl Fn() -> T + Sync) -> T {
+    thread::scope(|threads| {
+        let spawned = thread::Builder::new().spawn_scoped(threads, &call);
+        match spawned.map(ScopedJoinHandle::join) {
+            Ok(Ok(result)) => result,
+            Ok(Err(panic)) => resume_unwind(panic),
+            // Without a thread, this one may do.
+            Err(_) => call(),
+        }
+    })
 }
 
 /// Ends a task with its owner.

@@ -7,15 +7,18 @@
 use bytes::Bytes;
 use std::borrow::Cow;
 use std::collections::VecDeque;
+use std::hash::{BuildHasher, RandomState};
 use std::sync::Arc;
 use std::task::{Context, Poll};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 mod frame;
 mod guarantees;
 mod heap_memory;
 #[cfg(feature = "memory")]
 pub mod memory;
+#[cfg(any(feature = "memory", feature = "zeromq"))]
+mod origins;
 #[cfg(feature = "zeromq")]
 pub mod zeromq;
 
@@ -102,6 +105,14 @@ pub struct Endpoint {
     /// Whether this sending end waits for slow peers instead of dropping messages. It tells them, see
     /// [`Receiver::is_lossless`].
     pub lossless: bool,
+    /// How many requests this requesting end may have sent without a reply. Default: 1.
+    pub in_flight: usize,
+    /// Whether this publishing end keeps its last message for subscribers that join later. It tells them, see
+    /// [`Receiver::is_latched`].
+    pub latched: bool,
+    /// For a subscribing end that continues for an earlier one: what a latched publisher is told of both. Default: none, which is
+    /// a new end.
+    pub resumed: Option<Resumed>,
     /// For a receiving end that passes messages on: how much the sender may have unacknowledged, and that messages are
     /// acknowledged by [`Receiver::acknowledge`] only, never because they were returned. Default: none.
     pub deferred: Option<Window>,
@@ -125,6 +136,9 @@ impl Endpoint {
             longest: Self::MAX_SIZE,
             newest_only: false,
             lossless: false,
+            in_flight: 1,
+            latched: false,
+            resumed: None,
             deferred: None,
             check: None,
         }
@@ -145,6 +159,13 @@ pub struct Window {
     pub messages: u64,
     /// In bytes.
     pub bytes: u64,
+}
+
+impl Resumed {
+    /// An end that has taken nothing yet, with a number that no other has, in any process. Not cryptographically random.
+    pub fn new_end() -> Self {
+        Self { end: RandomState::new().hash_one(std::process::id()), taken: 0 }
+    }
 }
 
 impl std::fmt::Debug for Endpoint {
@@ -222,6 +243,28 @@ pub trait Link: Send {
         }
     }
 
+    /// Sends a message that is `age` old, because the peer has joined since, and tells the peer so if it understands that. The
+    /// default sends the message alone.
+    ///
+    /// # Errors
+    /// Those of [`send`](Self::send).
+    fn send_latched(&mut self, cx: &mut Context<'_>, message: Frame, age: Duration) -> Result<(), Frame> {
+        let _the_peer_does_not_learn_it = age;
+        self.send(cx, message)
+    }
+
+    /// Returns true if the peer wants this message: a plain subscriber may have subscribed to others only.
+    fn wants(&self, message: &[u8]) -> bool {
+        let _wants_everything = message;
+        true
+    }
+
+    /// Which end the peer is, and what it has taken before, if this end announced [`Endpoint::latched`] and the peer said so. A
+    /// peer of which nothing is known counts as new.
+    fn resumed(&self) -> Option<Resumed> {
+        None
+    }
+
     /// Lends memory of `length` bytes, to be filled and given to [`send`](Self::send). A link that can send such memory
     /// without copying it offers it here; `None` if it has none, now or ever, or for messages of this length. Then the gate
     /// takes memory from the heap.
@@ -238,7 +281,18 @@ pub trait Link: Send {
         0
     }
 
-    /// Asks the peer to acknowledge everything sent so far. The task is woken when the answer arrives.
+    /// Number of messages sent that the peer's program has not received yet, as far as the peer has said: those that are
+    /// [unacknowledged](Self::unacknowledged), and those that wait in the peer's gate. It is counted as lost if the link is
+    /// dropped. The default is for a transport that cannot tell the two apart.
+    fn not_received(&self) -> u64 {
+        self.unacknowledged()
+    }
+
+    /// Reads what the peer has said before it disconnected; called before the link is dropped. Without a runtime.
+    fn read_last(&mut self) {}
+
+    /// Asks the peer to acknowledge everything sent so far, and to say so once its program has received that. The task is
+    /// woken when the answer arrives.
     fn request_acknowledgement(&mut self, cx: &mut Context<'_>) {
         let _acknowledges_nothing = cx;
     }
@@ -246,6 +300,15 @@ pub trait Link: Send {
     /// Prepares for calls without a runtime, as [`Sender::detach`] does. The connection is about to be closed, so
     /// messages are sent without regard to the peer's window.
     fn detach(&mut self) {}
+}
+
+/// A receiving end that connects to a latched publisher, perhaps again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Resumed {
+    /// A number of the receiving end that no other has: a program that restarts has another one.
+    pub end: u64,
+    /// Number of messages that this end has taken over its earlier connections.
+    pub taken: u64,
 }
 
 /// The peer of a [`Link`] is gone.
@@ -261,6 +324,11 @@ pub trait Tap: Send {
 
     /// Sends a message of two frames, `payload` and `meta`, to each observer, or drops it for those that read slowly.
     fn observe(&mut self, cx: &mut Context<'_>, payload: &Bytes, meta: &[u8]);
+
+    /// Keeps a message for each observer that joins from now on, in place of the one kept before. Only at a latched gate.
+    fn latch(&mut self, payload: &Bytes, meta: &[u8]) {
+        let _keeps_nothing = (payload, meta);
+    }
 
     /// Number of messages dropped so far because an observer reads slowly, each observer counted.
     fn dropped(&self) -> u64;
@@ -288,6 +356,18 @@ pub trait Receiver: Send {
         false
     }
 
+    /// Returns true if a connected sender has announced [`Endpoint::latched`]; only then is it worth calling
+    /// [`take_latched`](Self::take_latched).
+    fn is_latched(&self) -> bool {
+        false
+    }
+
+    /// When the message returned last was sent, if the sender had sent it before this end joined, as
+    /// [`Link::send_latched`] does. Ask at once: the answer is forgotten with the next message.
+    fn take_latched(&mut self) -> Option<Instant> {
+        None
+    }
+
     /// Number of messages skipped because they did not consist of exactly one frame.
     fn malformed(&self) -> u64 {
         0
@@ -305,6 +385,19 @@ pub trait Receiver: Send {
     fn take_acknowledgement_request(&mut self) -> bool {
         false
     }
+
+    /// Tells how many of the messages that were returned wait in the gate's queue, for [`Link::not_received`]: the program
+    /// has received the others, or the queue has dropped them. Called after each attempt to receive, so it must be cheap.
+    fn note_waiting(&mut self, waiting: u64) {
+        let _does_not_tell_its_senders = waiting;
+    }
+
+    /// Tells that the message returned last was dropped at once, because the gate's queue was full: the messages that wait
+    /// are older than it.
+    fn note_dropped(&mut self) {}
+
+    /// Acknowledges everything that the program has received, because it will receive no more over this end.
+    fn acknowledge_last(&mut self) {}
 
     /// Asks all senders to send nothing more to this end, which is about to be dropped: what they have not sent stays with
     /// them and is not lost. Only for an end with [`Endpoint::deferred`].
@@ -353,19 +446,26 @@ pub enum Answer {
         /// The reply.
         body: Bytes,
     },
+    /// The replier has refused a request: it will not be answered.
+    Refused {
+        /// The number given to [`Requester::request`].
+        id: u64,
+    },
     /// The connection broke; requests sent over it will not be answered.
     Lost,
 }
 
 /// A requesting end.
 pub trait Requester: Send {
-    /// Ready when the replier is connected. Reconnects by itself. Replies to earlier requests are discarded.
+    /// Ready when the replier is connected. Reconnects by itself. Replies to earlier requests are discarded, so it is not
+    /// called while one is awaited.
     fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<()>;
 
-    /// Sends a request under a number; its reply carries the number back.
+    /// Sends a request under a number; its reply carries the number back. As many requests as
+    /// [`Endpoint::in_flight`] says may be without a reply.
     ///
     /// # Errors
-    /// The body, if the replier is not connected.
+    /// The body, if the replier is not connected, or there is no room for another request now.
     fn request(&mut self, cx: &mut Context<'_>, id: u64, body: Bytes) -> Result<(), Bytes>;
 
     /// Returns true if the replier is connected, as far as is known without asking.
@@ -404,6 +504,12 @@ pub trait ReplyPath: Send + Sync {
     /// # Errors
     /// The requester has disconnected, or the replying end was dropped.
     fn reply(&self, envelope: &Bytes, body: Bytes) -> Result<(), RequesterGone>;
+
+    /// Tells the requester, if the transport can, that its request will not be answered, because it could not be decoded
+    /// for example: see [`Answer::Refused`]. By default it is told nothing, and waits until its timeout.
+    fn refuse(&self, envelope: &Bytes) {
+        let _cannot = envelope;
+    }
 }
 
 /// The requester disconnected before it was answered.

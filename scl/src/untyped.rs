@@ -56,6 +56,7 @@ pub use readiness::Readiness;
 use crate::component::{Opener, only_failures, wait_for_peers};
 use crate::error::{GateName, NotFlushed, NotReady, OpenError};
 use crate::gate::{Pub, Pull, Push, Rep, Req, Sub, Watch};
+use crate::log;
 use crate::options::OpenOptions;
 #[cfg(doc)]
 use crate::plan::GatePlan;
@@ -290,7 +291,7 @@ impl Component {
             return Ok(only_failures(handle.flush_blocking(Flush::Running, timeout))?);
         }
         if let Err(left) = handle.flush_blocking(Flush::Connected, timeout.min(stop::LAST_FLUSH)) {
-            tracing::warn!("{left}");
+            log::warn(&left.to_string());
         }
         Ok(())
     }

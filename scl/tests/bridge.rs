@@ -9,7 +9,7 @@ use scl::runtime_dir::{Announcement, RuntimeDir, SystemDir};
 use scl::transport::zeromq::ZeroMq;
 use scl::transport::{Link, Peer, PeerKind, Transport, Window};
 use scl::untyped::Component;
-use scl::{Medium, OpenOptions};
+use scl::{OpenOptions, TransportKind};
 use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::path::Path;
@@ -42,7 +42,7 @@ impl Host {
     }
 
     fn transport(&self) -> ZeroMq {
-        ZeroMq::new(self.dir.clone(), Medium::Ipc)
+        ZeroMq::new(self.dir.clone(), TransportKind::Ipc)
     }
 }
 

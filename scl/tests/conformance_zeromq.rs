@@ -2,24 +2,24 @@
 #![allow(clippy::unwrap_used)]
 
 use scl::runtime_dir::RuntimeDir;
-use scl::transport::zeromq::{Medium, ZeroMq};
+use scl::transport::zeromq::{TransportKind, ZeroMq};
 use tempfile::TempDir;
 
 mod ipc {
-    scl::transport_conformance!(super::fresh(super::Medium::Ipc));
+    scl::transport_conformance!(super::fresh(super::TransportKind::Ipc));
 }
 
 mod tcp {
-    scl::transport_conformance!(super::fresh(super::Medium::Tcp));
+    scl::transport_conformance!(super::fresh(super::TransportKind::Tcp));
 }
 
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 mod shm {
-    scl::transport_conformance!(lends; super::fresh(super::Medium::Shm));
+    scl::transport_conformance!(lends; super::fresh(super::TransportKind::Shm));
 }
 
-fn fresh(medium: Medium) -> (ZeroMq, TempDir) {
+fn fresh(kind: TransportKind) -> (ZeroMq, TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let runtime_dir = RuntimeDir::locate(&|name| (name == "SCL_RUNTIME_DIR").then(|| folder.path().into()));
-    (ZeroMq::new(runtime_dir.unwrap().system("rover").unwrap(), medium), folder)
+    (ZeroMq::new(runtime_dir.unwrap().system("rover").unwrap(), kind), folder)
 }

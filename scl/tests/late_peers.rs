@@ -1,7 +1,7 @@
 //! Peers that start while a gate has no room for what the others have sent.
 #![allow(clippy::unwrap_used)]
 
-use super::untyped::on_each_medium_async;
+use super::untyped::on_each_transport_async;
 use std::time::Duration;
 
 scl::topology!("late_peers.yaml");
@@ -11,7 +11,7 @@ const LONG: Duration = Duration::from_secs(60);
 
 #[test]
 fn all_get_ready_although_the_first_has_filled_the_queues() {
-    on_each_medium_async(|options| async move {
+    on_each_transport_async(|options| async move {
         let mut first = First::open_with(options.clone()).await.unwrap();
         let mut reader = Reader::open_with(options.clone()).await.unwrap();
         first.ready(LONG).await.unwrap();

@@ -8,7 +8,7 @@ mod observed;
 mod without_copies;
 
 use scl::transport::memory::Memory;
-use scl::{Medium, OpenOptions};
+use scl::{OpenOptions, TransportKind};
 use std::time::Duration;
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
 
@@ -21,7 +21,7 @@ const LONG: Duration = Duration::from_secs(60);
 #[repr(C)]
 struct Image {
     number: u64,
-    pixels: [u8; 100_000],
+    pixels: [u8; 64_000],
 }
 
 impl Image {
@@ -43,17 +43,17 @@ impl Image {
 }
 
 /// Runs a test in memory, on Unix sockets and on TCP. All its components are to be opened with the same options.
-fn on_each_medium(test: impl Fn(OpenOptions)) {
+fn on_each_transport(test: impl Fn(OpenOptions)) {
     test(OpenOptions::new().transport(Memory::new()));
-    for medium in [Medium::Ipc, Medium::Tcp] {
+    for kind in [TransportKind::Ipc, TransportKind::Tcp] {
         let folder = tempfile::tempdir().unwrap();
-        test(OpenOptions::new().runtime_dir(folder.path()).medium(medium));
+        test(OpenOptions::new().runtime_dir(folder.path()).transport_kind(kind));
     }
 }
 
 /// The same for async code.
-fn on_each_medium_async<F: Future<Output = ()>>(test: impl Fn(OpenOptions) -> F) {
-    on_each_medium(|options| {
+fn on_each_transport_async<F: Future<Output = ()>>(test: impl Fn(OpenOptions) -> F) {
+    on_each_transport(|options| {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
         runtime.block_on(test(options));
     });
@@ -67,7 +67,7 @@ async fn send(camera: &mut Camera, number: u64) {
 
 #[test]
 fn every_call_carries_whole_messages() {
-    on_each_medium_async(async |options| {
+    on_each_transport_async(async |options| {
         let mut camera = Camera::open_with(options.clone()).await.unwrap();
         // Before anybody is connected, from the heap.
         send(&mut camera, 1).await;
@@ -97,7 +97,7 @@ fn every_call_carries_whole_messages() {
 
 #[test]
 fn every_call_without_async_carries_whole_messages() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let mut camera = Camera::open_blocking_with(options.clone()).unwrap();
         let mut detector = Detector::open_blocking_with(options).unwrap();
         camera.ready_blocking(LONG).unwrap();
@@ -122,7 +122,7 @@ fn every_call_without_async_carries_whole_messages() {
 /// The message is given back to nobody, and its memory can be lent again.
 #[test]
 fn a_message_that_is_dropped_is_sent_to_nobody() {
-    on_each_medium_async(async |options| {
+    on_each_transport_async(async |options| {
         let mut camera = Camera::open_with(options.clone()).await.unwrap();
         let mut detector = Detector::open_with(options).await.unwrap();
         camera.ready(LONG).await.unwrap();
@@ -138,7 +138,7 @@ fn a_message_that_is_dropped_is_sent_to_nobody() {
 
 impl Image {
     fn new(number: u64) -> Self {
-        let mut image = Image { number: 0, pixels: [0; 100_000] };
+        let mut image = Image { number: 0, pixels: [0; 64_000] };
         image.fill(number);
         image
     }

@@ -13,6 +13,8 @@ mod conformance_zeromq;
 #[cfg(all(feature = "conformance", feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod guarantees;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod latched;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod late_peers;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "raw", feature = "zeromq"))]
 mod loans;

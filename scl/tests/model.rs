@@ -17,12 +17,12 @@ mod runner;
 mod wake_flag;
 
 use scl::runtime_dir::RuntimeDir;
-use scl::transport::zeromq::{Medium, ZeroMq};
+use scl::transport::zeromq::{TransportKind, ZeroMq};
 use tempfile::TempDir;
 
 /// A transport over real sockets, in a folder of its own.
 fn sockets() -> (ZeroMq, TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let runtime_dir = RuntimeDir::locate(&|name| (name == "SCL_RUNTIME_DIR").then(|| folder.path().into()));
-    (ZeroMq::new(runtime_dir.unwrap().system("model").unwrap(), Medium::Ipc), folder)
+    (ZeroMq::new(runtime_dir.unwrap().system("model").unwrap(), TransportKind::Ipc), folder)
 }

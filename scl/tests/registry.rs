@@ -4,7 +4,7 @@
 use bytes::Bytes;
 use scl::OpenOptions;
 use scl::registry::{Neighbour, Registered, Registry, RegistryError};
-use scl::spec::{ComponentSpec, GateSpec, LinkSpec};
+use scl::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use scl::transport::PeerCheck;
 use scl::transport::memory::Memory;
 use scl::untyped::Component;
@@ -40,9 +40,10 @@ impl Registered for Entry {
         self.table.running.lock().unwrap().get(component).copied()
     }
 
-    fn peer_check(&self, gate: &'static GateSpec, link: &'static LinkSpec) -> Option<PeerCheck> {
+    fn peer_check(&self, gate: &'static GateSpec, connection: &'static ConnectionSpec) -> Option<PeerCheck> {
         let refused = Arc::clone(&self.table.refused);
-        let names = format!("`{}.{}` and `{}.{}`", self.component, gate.name, link.peer_component, link.peer_gate);
+        let names =
+            format!("`{}.{}` and `{}.{}`", self.component, gate.name, connection.peer_component, connection.peer_gate);
         Some(Arc::new(move || match &*refused.lock().unwrap() {
             Some(reason) => Err(format!("{names} do not connect: {reason}")),
             None => Ok(()),

@@ -11,7 +11,7 @@ use std::{
 
 use rustix::process::{Resource, Rlimit, setrlimit};
 use scl::runtime_dir::internals::{ComponentLock, bind_ipc, bind_tcp, find};
-use scl::runtime_dir::{Holder, RuntimeDir, RuntimeDirError, SystemDir};
+use scl::runtime_dir::{ComponentProcess, RuntimeDir, RuntimeDirError, SystemDir};
 
 const ENDPOINT: &str = "sensor.measurements--controller.sensor.1a2b3c4d";
 const FOLDER: &str = "SCL_TEST_FOLDER";
@@ -28,7 +28,7 @@ fn the_lock_names_the_running_process_until_it_is_killed() {
 
     let error = ComponentLock::take(&dir, "sensor").unwrap_err();
     assert!(
-        matches!(&error, RuntimeDirError::AlreadyRunning { holder: Holder::Process(pid), .. } if *pid == first.id())
+        matches!(&error, RuntimeDirError::AlreadyRunning { holder: ComponentProcess::Process(pid), .. } if *pid == first.id())
     );
     assert_eq!(
         error.to_string(),
@@ -38,7 +38,7 @@ fn the_lock_names_the_running_process_until_it_is_killed() {
             first.id()
         )
     );
-    assert_eq!(ComponentLock::holder(&dir, "sensor"), Some(Holder::Process(first.id())));
+    assert_eq!(ComponentLock::holder(&dir, "sensor"), Some(ComponentProcess::Process(first.id())));
     drop(ComponentLock::take(&dir, "controller").unwrap());
     UnixStream::connect(dir.path(ENDPOINT).unwrap()).unwrap();
 
@@ -61,8 +61,8 @@ fn a_component_is_refused_twice_in_one_process_and_allowed_again_later() {
     let first = ComponentLock::take(&dir, "sensor").unwrap();
     let error = ComponentLock::take(&dir, "sensor").unwrap_err();
     assert!(error.to_string().starts_with("component `sensor` is already running in this process"), "{error}");
-    assert!(matches!(error, RuntimeDirError::AlreadyRunning { holder: Holder::ThisProcess, .. }));
-    assert_eq!(ComponentLock::holder(&dir, "sensor"), Some(Holder::ThisProcess));
+    assert!(matches!(error, RuntimeDirError::AlreadyRunning { holder: ComponentProcess::ThisProcess, .. }));
+    assert_eq!(ComponentLock::holder(&dir, "sensor"), Some(ComponentProcess::ThisProcess));
     drop(first);
     assert!(root.path().join("rover/sensor.lock").exists());
     ComponentLock::take(&dir, "sensor").unwrap();

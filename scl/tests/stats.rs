@@ -4,10 +4,10 @@
 use crate::untyped::plan;
 use bytes::Bytes;
 use scl::runtime_dir::{
-    Announcement, ComponentState, ComponentStats, GateFigures, Holder, RuntimeDir, RuntimeDirError, SystemDir,
+    Announcement, ComponentProcess, ComponentState, ComponentStats, GateFigures, RuntimeDir, RuntimeDirError, SystemDir,
 };
 use scl::untyped::Component;
-use scl::{Medium, OpenOptions};
+use scl::{OpenOptions, TransportKind};
 use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
@@ -25,7 +25,7 @@ struct Stage {
 impl Stage {
     fn new() -> Self {
         let root = tempfile::tempdir().unwrap();
-        let options = OpenOptions::new().runtime_dir(root.path()).medium(Medium::Ipc);
+        let options = OpenOptions::new().runtime_dir(root.path()).transport_kind(TransportKind::Ipc);
         Self { root, options }
     }
 
@@ -216,7 +216,7 @@ fn a_read_is_never_torn() {
             let (end, gates) = (block.len() - 8, 64);
             for number in 1_u64.. {
                 // All counts of a gate are the number of the write.
-                for at in (gates..gates + 88).step_by(8) {
+                for at in (gates..gates + 96).step_by(8) {
                     block[at..at + 8].copy_from_slice(&number.to_le_bytes());
                 }
                 file.write_at(&number.to_le_bytes(), 16).unwrap();
@@ -307,7 +307,7 @@ fn a_running_component_shows_its_plan() {
     let dir = stage.dir();
     assert_eq!(stage.runtime_dir().systems().unwrap(), ["untyped"]);
     assert_eq!(dir.components().unwrap(), ["sensor"]);
-    assert_eq!(dir.state("sensor"), ComponentState::Running(Holder::ThisProcess));
+    assert_eq!(dir.state("sensor"), ComponentState::Running(ComponentProcess::ThisProcess));
     assert_eq!(Announcement::read(&dir, "sensor").unwrap().plan, Some(plan("sensor")));
     // A plan of another version is left out, and so is none.
     let path = stage.root.path().join("untyped/sensor.json");

@@ -6,7 +6,7 @@ use bytes::Bytes;
 use scl::runtime_dir::{RuntimeDir, SystemDir};
 use scl::tap::{Observation, ObservedKind, Observer, TapEvent};
 use scl::untyped::Component;
-use scl::{Medium, OpenOptions};
+use scl::{OpenOptions, TransportKind};
 use std::io::{Read, Write};
 use std::os::unix::net::UnixListener;
 use std::path::Path;
@@ -20,9 +20,9 @@ struct Stage {
 }
 
 impl Stage {
-    fn new(medium: Medium) -> Self {
+    fn new(kind: TransportKind) -> Self {
         let root = tempfile::tempdir().unwrap();
-        let options = OpenOptions::new().runtime_dir(root.path()).medium(medium);
+        let options = OpenOptions::new().runtime_dir(root.path()).transport_kind(kind);
         Self { root, options }
     }
 
@@ -44,10 +44,10 @@ impl Stage {
     }
 }
 
-fn on_each_medium<F: Future<Output = ()>>(test: impl Fn(Stage) -> F) {
-    for medium in [Medium::Ipc, Medium::Tcp] {
+fn on_each_transport<F: Future<Output = ()>>(test: impl Fn(Stage) -> F) {
+    for kind in [TransportKind::Ipc, TransportKind::Tcp] {
         let current = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
-        current.block_on(test(Stage::new(medium)));
+        current.block_on(test(Stage::new(kind)));
     }
 }
 
@@ -65,7 +65,7 @@ async fn observed(observer: &mut Observer) -> Observation {
 /// The promise: messages, requests and replies are observed with what belongs to them, in whatever order the programs start.
 #[test]
 fn everything_at_a_gate_is_observed() {
-    on_each_medium(async |stage| {
+    on_each_transport(async |stage| {
         let (mut raw_tap, mut work_tap, mut call_tap) =
             (stage.observe("sensor.raw"), stage.observe("controller.work"), stage.observe("sensor.calibrate"));
         let (mut sensor, mut controller) = (stage.open("sensor").await, stage.open("controller").await);
@@ -103,10 +103,32 @@ fn everything_at_a_gate_is_observed() {
     });
 }
 
+/// The promise: an observer that joins a latched gate gets its last message first, and learns that it is old.
+#[test]
+fn an_observer_that_joins_a_latched_gate_gets_the_last_message() {
+    on_each_transport(async |stage| {
+        let mut plan = plan("sensor");
+        plan.gates.iter_mut().find(|gate| gate.name == "raw").unwrap().options.latched = true;
+        let mut sensor = Component::open_with(&plan, stage.options.clone()).await.unwrap();
+        let mut raw = sensor.publisher("raw").unwrap();
+        raw.send(&Bytes::from_static(b"one")).await.unwrap();
+        for text in [&b"two"[..], b"three"] {
+            raw.send(&Bytes::from_static(text)).await.unwrap();
+            let mut tap = stage.observe("sensor.raw");
+            assert_eq!(next(&mut tap).await, TapEvent::Connected);
+            let seen = observed(&mut tap).await;
+            assert_eq!((&seen.payload[..], seen.latched), (text, true));
+            raw.send(&Bytes::from_static(b"new")).await.unwrap();
+            let newer = observed(&mut tap).await;
+            assert_eq!((&newer.payload[..], newer.latched, newer.sequence), (&b"new"[..], false, seen.sequence + 1));
+        }
+    });
+}
+
 /// The promise: an observer sees the component again after a restart, and says when it was gone.
 #[test]
 fn a_component_that_restarts_is_observed_again() {
-    on_each_medium(async |stage| {
+    on_each_transport(async |stage| {
         let mut tap = stage.observe("sensor.raw");
         for _ in 0..3 {
             let mut sensor = stage.open("sensor").await;
@@ -123,7 +145,7 @@ fn a_component_that_restarts_is_observed_again() {
 /// The promise: whatever is sent after `Connected` was seen is observed, however soon.
 #[test]
 fn everything_after_connected_is_observed() {
-    on_each_medium(async |stage| {
+    on_each_transport(async |stage| {
         let plan = plan("sensor");
         let options = stage.options.clone();
         let (connected, connections) = std::sync::mpsc::channel::<u32>();
@@ -155,7 +177,7 @@ fn everything_after_connected_is_observed() {
 /// a message as long as they may be is, too.
 #[test]
 fn bursts_and_long_messages_are_observed_completely() {
-    on_each_medium(async |stage| {
+    on_each_transport(async |stage| {
         const BURST: u64 = 5000;
         let mut tap = stage.observe("sensor.raw");
         let mut sensor = stage.open("sensor").await;
@@ -180,7 +202,7 @@ fn bursts_and_long_messages_are_observed_completely() {
 /// The promise: an observer can be dropped and polled anew at any time without losing a message.
 #[test]
 fn waiting_is_cancel_safe() {
-    on_each_medium(async |stage| {
+    on_each_transport(async |stage| {
         let mut tap = stage.observe("sensor.raw");
         let mut sensor = stage.open("sensor").await;
         while tokio::time::timeout(Duration::from_micros(100), tap.next()).await != Ok(TapEvent::Connected) {}
@@ -205,7 +227,7 @@ fn waiting_is_cancel_safe() {
 /// The promise: a stranger in the place of a tap is no danger: what it says is counted or ends the connection.
 #[tokio::test]
 async fn nonsense_is_rejected_and_counted() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let folder = stage.dir().folder().to_owned();
     let tap = plan("sensor").gate("raw").unwrap().tap.clone().unwrap();
     let meta = |kind: u8| [&[7; 24][..], &[kind, 0, 0, 0, 0, 0, 0, 0]].concat();

@@ -1,4 +1,4 @@
-//! Untyped components: every call of their gates on every medium, typed peers, and what errors say.
+//! Untyped components: every call of their gates on every transport, typed peers, and what errors say.
 #![allow(clippy::unwrap_used)]
 
 mod asynchronous;
@@ -8,15 +8,17 @@ mod counterpart;
 mod ending_calls;
 mod ending_race;
 mod errors;
+mod in_flight;
 mod readiness;
 mod specs;
 mod timeouts;
 mod typed_peers;
+mod undecodable;
 
 use bytes::Bytes;
 use scl::plan::{Plan, SystemPlan};
 use scl::transport::memory::Memory;
-use scl::{Medium, OpenOptions};
+use scl::{OpenOptions, TransportKind};
 use std::path::Path;
 use std::time::Duration;
 
@@ -40,17 +42,17 @@ pub(crate) fn plan(component: &str) -> Plan {
 }
 
 /// Runs a test in memory, on Unix sockets and on TCP. All its components are to be opened with the same options.
-fn on_each_medium(test: impl Fn(OpenOptions)) {
+fn on_each_transport(test: impl Fn(OpenOptions)) {
     test(OpenOptions::new().transport(Memory::new()));
-    for medium in [Medium::Ipc, Medium::Tcp] {
+    for kind in [TransportKind::Ipc, TransportKind::Tcp] {
         let folder = tempfile::tempdir().unwrap();
-        test(OpenOptions::new().runtime_dir(folder.path()).medium(medium));
+        test(OpenOptions::new().runtime_dir(folder.path()).transport_kind(kind));
     }
 }
 
 /// The same for async code.
-pub(crate) fn on_each_medium_async<F: Future<Output = ()>>(test: impl Fn(OpenOptions) -> F) {
-    on_each_medium(|options| {
+pub(crate) fn on_each_transport_async<F: Future<Output = ()>>(test: impl Fn(OpenOptions) -> F) {
+    on_each_transport(|options| {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
         runtime.block_on(test(options));
     });

@@ -1,6 +1,7 @@
 """What the type checkers' tests say of messages, at run time."""
 
 import copy
+import pydoc
 import sys
 
 import everything_scl
@@ -39,11 +40,22 @@ for wrong in [lambda: Everything(a_dubble=1), lambda: message.a_sring, lambda: e
     else:
         sys.exit("nothing is wrong")
 
-assert set(everything_scl.__all__) <= {*dir(everything_scl), *everything_scl.__all__}
+# Before all are used.
+assert set(everything_scl.__all__) <= set(dir(everything_scl))
 for name in everything_scl.__all__:
     getattr(everything_scl, name)
+assert repr(Everything) == "<class 'everything_scl.Everything'>" and repr(Job(number=1)) == "number: 1\n"
+page = pydoc.plain(pydoc.render_doc(everything_scl))
+assert "class Everything(" in page and "class Import(" in page and "from_: `pub` publishes `every.Job` to" in page
 
 component = Import()
+for wrong in ["from__", "anything"]:
+    try:
+        setattr(component, wrong, 1)
+    except AttributeError as error:
+        assert f"component `import` has no attribute `{wrong}`" in str(error), error
+    else:
+        sys.exit("a misspelt gate is an attribute")
 # The module declares what the component has, and each public name of components is the name of a gate here.
 assert set(Import.__annotations__) == {it for it, gate in vars(component).items() if isinstance(gate, scl.Gate)}
 assert {f"{it}_" for it in dir(scl.Component) if not it.startswith("_")} <= set(Import.__annotations__)

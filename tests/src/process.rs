@@ -1,6 +1,6 @@
 //! A program under test: controlled through its input, observed through its output.
 
-use crate::wait_until;
+use crate::{HANG_LIMIT, wait_until};
 use rustix::process::{Pid, Signal};
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -8,10 +8,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
-use std::time::{Duration, Instant};
-
-/// How long a test waits for an expected event. Only a test that would hang otherwise ever reaches this limit.
-pub const HANG_LIMIT: Duration = Duration::from_secs(60);
+use std::time::Instant;
 
 /// A running program; killed when dropped.
 pub struct Process {

@@ -15,6 +15,16 @@ pub enum Address {
     Tcp(SocketAddr),
 }
 
+impl Address {
+    /// As ZeroMQ libraries write it.
+    pub fn url(&self) -> String {
+        match self {
+            Self::Unix(path) => format!("ipc://{}", path.display()),
+            Self::Tcp(address) => format!("tcp://{address}"),
+        }
+    }
+}
+
 /// A connection.
 #[derive(Debug)]
 pub enum Stream {

@@ -1,7 +1,7 @@
 //! The folder in which the programs of one test meet.
 
 use crate::{Address, Process};
-use scl::{Medium, OpenOptions};
+use scl::{OpenOptions, TransportKind};
 use std::ffi::OsStr;
 use std::fs::DirBuilder;
 use std::os::unix::fs::DirBuilderExt;
@@ -11,25 +11,25 @@ use tempfile::TempDir;
 /// A runtime folder for one test, with a path short enough for any socket.
 pub struct System {
     folder: TempDir,
-    medium: Medium,
+    kind: TransportKind,
 }
 
 /// Runs a test with listening gates on Unix sockets, then on TCP.
-pub fn on_each_medium(test: impl Fn(System)) {
-    for medium in [Medium::Ipc, Medium::Tcp] {
-        test(System::with_medium(medium));
+pub fn on_each_transport(test: impl Fn(System)) {
+    for kind in [TransportKind::Ipc, TransportKind::Tcp] {
+        test(System::over(kind));
     }
 }
 
 impl System {
     /// A fresh folder; gates listen on Unix sockets.
     pub fn new() -> Self {
-        Self::with_medium(Medium::Ipc)
+        Self::over(TransportKind::Ipc)
     }
 
-    /// A fresh folder; gates listen on a medium.
-    pub fn with_medium(medium: Medium) -> Self {
-        Self { folder: TempDir::with_prefix("scl").expect("a folder for the test"), medium }
+    /// A fresh folder; gates listen on a transport.
+    pub fn over(kind: TransportKind) -> Self {
+        Self { folder: TempDir::with_prefix("scl").expect("a folder for the test"), kind }
     }
 
     /// The runtime folder.
@@ -38,13 +38,13 @@ impl System {
     }
 
     /// What the gates listen on.
-    pub fn medium(&self) -> Medium {
-        self.medium
+    pub fn transport_kind(&self) -> TransportKind {
+        self.kind
     }
 
     /// For components that the test opens itself.
     pub fn options(&self) -> OpenOptions {
-        OpenOptions::new().runtime_dir(self.folder.path()).medium(self.medium)
+        OpenOptions::new().runtime_dir(self.folder.path()).transport_kind(self.kind)
     }
 
     /// Starts a program in this runtime folder.
@@ -54,13 +54,13 @@ impl System {
 
     /// Starts a program in this runtime folder with more environment variables.
     pub fn start_with(&self, program: &str, arguments: &[&str], more: &[(&str, &str)]) -> Process {
-        let medium = match self.medium {
-            Medium::Ipc => "ipc",
-            Medium::Tcp => "tcp",
-            Medium::Shm => "shm",
+        let kind = match self.kind {
+            TransportKind::Ipc => "ipc",
+            TransportKind::Tcp => "tcp",
+            TransportKind::Shm => "shm",
         };
         let mut environment =
-            vec![("SCL_RUNTIME_DIR", self.folder.path().as_os_str()), ("SCL_TRANSPORT", OsStr::new(medium))];
+            vec![("SCL_RUNTIME_DIR", self.folder.path().as_os_str()), ("SCL_TRANSPORT", OsStr::new(kind))];
         environment.extend(more.iter().map(|(name, value)| (*name, OsStr::new(value))));
         Process::start(program, arguments, &environment)
     }

@@ -1,8 +1,10 @@
-//! Waiting for what has no event of its own, such as a file that appears or a counter in `/proc`.
+//! How long tests wait, and waiting for what has no event of its own, such as a file that appears or a counter in `/proc`.
 
-use crate::HANG_LIMIT;
 use std::thread::park_timeout;
 use std::time::{Duration, Instant};
+
+/// How long a test waits for an expected event. Only a test that would hang otherwise ever reaches this limit.
+pub const HANG_LIMIT: Duration = Duration::from_secs(60);
 
 /// Checks a condition again and again until it holds.
 ///

@@ -45,6 +45,13 @@ impl Process {
         fs::read_dir(format!("/proc/{}/fd", self.id())).expect("a running process").count()
     }
 
+    /// Number of bytes read from files so far; what sockets receive does not count.
+    pub fn bytes_read(&self) -> u64 {
+        let counts = fs::read_to_string(format!("/proc/{}/io", self.id())).expect("a running process");
+        let read = counts.lines().find_map(|line| line.strip_prefix("rchar: "));
+        read.and_then(|bytes| bytes.parse().ok()).expect("a number")
+    }
+
     /// Number of threads.
     pub fn threads(&self) -> usize {
         self.thread_folders().count()

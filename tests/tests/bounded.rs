@@ -1,11 +1,11 @@
 //! Memory is bounded by the topology: a stopped subscriber costs its publisher its queue and no more.
 
 use crate::programs::BOUNDED;
-use scl_tests::on_each_medium;
+use scl_tests::on_each_transport;
 
 #[test]
 fn a_stopped_subscriber_of_large_messages_costs_its_queue_and_no_more() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut viewer = system.start(BOUNDED, &["viewer"]);
         let mut camera = system.start(BOUNDED, &["camera"]);
         camera.expect("ready");

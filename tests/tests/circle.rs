@@ -1,7 +1,7 @@
 //! The circles that the checker refuses as deadlocks stop in fact, and what it proposes keeps them moving.
 
 use crate::programs::CIRCLE;
-use scl_tests::{Process, on_each_medium, wait_until};
+use scl_tests::{Process, on_each_transport, wait_until};
 
 /// More than both queues, and what may be on the way between them, can hold.
 const MANY: usize = 20_000;
@@ -15,7 +15,7 @@ fn send(component: &mut Process, most: usize) -> usize {
 
 #[test]
 fn two_publishers_that_wait_for_each_other_stop() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut pair = ["left", "right"].map(|component| system.start(CIRCLE, &[component]));
         let mut sent = [0; 2];
         wait_until("both have to wait", || {
@@ -33,7 +33,7 @@ fn two_publishers_that_wait_for_each_other_stop() {
 
 #[test]
 fn one_queue_that_drops_keeps_both_moving() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut pair = ["free_left", "free_right"].map(|component| system.start(CIRCLE, &[component]));
         let mut sent = 0;
         wait_until("`free_right` has to wait", || {

@@ -1,7 +1,7 @@
 //! No descriptors left: a clear error when opening; later, no busy waiting, and recovery when some become free.
 
 use crate::programs::{PEER, open};
-use scl_tests::{Process, RawPeer, System, on_each_medium, wait_until};
+use scl_tests::{Process, RawPeer, System, on_each_transport, wait_until};
 
 #[test]
 fn a_component_that_gets_no_descriptors_fails_with_a_clear_error() {
@@ -35,7 +35,7 @@ fn a_pub_gate_turns_away_what_it_cannot_accept_and_recovers() {
 
 /// Uses up a program's descriptors with silent connections, and asserts that it does not spin; then closes them.
 fn exhaust(component: &str, endpoints: &[&str], works: impl Fn(&System, &mut Process)) {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut victim = system.start_after("ulimit -n 60", PEER, &[component]);
         victim.expect("open");
         let before = victim.descriptors();

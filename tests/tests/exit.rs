@@ -4,7 +4,7 @@ use crate::programs::{LEAVER, TAKER, open_with};
 use scl_tests::{Process, System};
 
 /// Every way to run and to end a program.
-const WAYS: [(&str, &str); 12] = [
+const WAYS: [(&str, &str); 14] = [
     ("current_thread", "close"),
     ("current_thread", "drop"),
     ("current_thread", "drop_after_runtime"),
@@ -13,6 +13,8 @@ const WAYS: [(&str, &str); 12] = [
     ("multi_thread", "drop_after_runtime"),
     ("blocking", "close"),
     ("blocking", "drop"),
+    ("blocking", "thread_local_close"),
+    ("blocking", "thread_local_drop"),
     ("main", "close"),
     ("main", "return"),
     ("main_blocking", "close"),

@@ -1,7 +1,7 @@
 //! The promise of `queue: 1`: however long a subscriber pauses, what it receives next is the newest message.
 
 use crate::programs::FRESH;
-use scl::Medium;
+use scl::TransportKind;
 use scl_tests::{Process, System, wait_until};
 
 /// Calls that wait, with and without async.
@@ -16,26 +16,26 @@ const PAUSES: [u64; 4] = [300, 2000, 30, 1000];
 
 #[test]
 fn a_call_that_waits_returns_the_newest_message_over_unix_sockets() {
-    calls_that_wait_return_the_newest(Medium::Ipc);
+    calls_that_wait_return_the_newest(TransportKind::Ipc);
 }
 
 #[test]
 fn a_call_that_waits_returns_the_newest_message_over_tcp() {
-    calls_that_wait_return_the_newest(Medium::Tcp);
+    calls_that_wait_return_the_newest(TransportKind::Tcp);
 }
 
 #[test]
 fn a_call_that_does_not_wait_returns_the_newest_message_over_unix_sockets() {
-    calls_that_do_not_wait_return_the_newest(Medium::Ipc);
+    calls_that_do_not_wait_return_the_newest(TransportKind::Ipc);
 }
 
 #[test]
 fn a_call_that_does_not_wait_returns_the_newest_message_over_tcp() {
-    calls_that_do_not_wait_return_the_newest(Medium::Tcp);
+    calls_that_do_not_wait_return_the_newest(TransportKind::Tcp);
 }
 
-fn calls_that_wait_return_the_newest(medium: Medium) {
-    let start = |call: &(&str, &str)| ["async", "blocking"].map(|clock| Pair::start(medium, clock, *call));
+fn calls_that_wait_return_the_newest(kind: TransportKind) {
+    let start = |call: &(&str, &str)| ["async", "blocking"].map(|clock| Pair::start(kind, clock, *call));
     let mut pairs: Vec<Pair> = WAITING.iter().flat_map(start).collect();
     for pause in PAUSES {
         // All of them pause at the same time.
@@ -49,10 +49,10 @@ fn calls_that_wait_return_the_newest(medium: Medium) {
 
 /// On a machine with other work the publisher may need longer than the call gives it, so this demands most of the values
 /// to be fresh. Without asking the publisher, none of them would be.
-fn calls_that_do_not_wait_return_the_newest(medium: Medium) {
+fn calls_that_do_not_wait_return_the_newest(kind: TransportKind) {
     for call in NOT_WAITING {
         for clock in ["async", "blocking"] {
-            let mut pair = Pair::start(medium, clock, call);
+            let mut pair = Pair::start(kind, clock, call);
             let ages = [150; 5].map(|pause| {
                 pair.viewer.tell(&pause.to_string());
                 pair.read_age()
@@ -71,8 +71,8 @@ struct Pair {
 }
 
 impl Pair {
-    fn start(medium: Medium, clock: &str, (call, mode): (&str, &str)) -> Self {
-        let system = System::with_medium(medium);
+    fn start(kind: TransportKind, clock: &str, (call, mode): (&str, &str)) -> Self {
+        let system = System::over(kind);
         let newest = system.runtime_dir().join("newest");
         let environment = [("NEWEST", newest.to_str().expect("a path in UTF-8"))];
         let clock_process = system.start_with(FRESH, &["clock", clock], &environment);

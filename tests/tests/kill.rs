@@ -1,11 +1,11 @@
 //! SIGKILL for each kind of peer while messages flow: the others get everything, and a successor takes over.
 
 use crate::programs::open;
-use scl_tests::{Stream, on_each_medium};
+use scl_tests::{Stream, on_each_transport};
 
 #[test]
 fn a_killed_subscriber_costs_the_others_nothing() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
         for round in 0..5 {
             let watcher = open(&system, "watcher");
@@ -27,7 +27,7 @@ fn a_killed_subscriber_costs_the_others_nothing() {
 
 #[test]
 fn a_killed_publisher_is_replaced_by_its_successor() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut sink = open(&system, "sink");
         let mut watcher = open(&system, "watcher");
         for round in 1..5 {
@@ -52,7 +52,7 @@ fn a_killed_publisher_is_replaced_by_its_successor() {
 
 #[test]
 fn a_killed_pusher_is_replaced_by_its_successor() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         for _ in 0..5 {
             let mut sink = open(&system, "sink");
             let mut source = open(&system, "source");
@@ -76,7 +76,7 @@ fn a_killed_pusher_is_replaced_by_its_successor() {
 
 #[test]
 fn a_killed_puller_takes_only_what_was_on_its_way() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut source = open(&system, "source");
         let mut sink = open(&system, "sink");
         source.tell("push 0 20000 2000");
@@ -92,7 +92,7 @@ fn a_killed_puller_takes_only_what_was_on_its_way() {
 
 #[test]
 fn a_killed_requester_leaves_the_replier_free_for_the_next() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut sink = open(&system, "sink");
         for _ in 0..5 {
             let mut source = open(&system, "source");
@@ -114,7 +114,7 @@ fn a_killed_requester_leaves_the_replier_free_for_the_next() {
 
 #[test]
 fn a_killed_replier_is_replaced_by_its_successor() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut source = open(&system, "source");
         for _ in 0..5 {
             let mut sink = open(&system, "sink");
@@ -135,7 +135,7 @@ fn a_killed_replier_is_replaced_by_its_successor() {
 
 #[test]
 fn a_silent_connection_does_not_make_a_dead_subscriber_look_alive() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut source = open(&system, "source");
         let address = system.address("six", "source.readings--sink.readings.");
         let connect = || Stream::connect(&address).expect("connected");

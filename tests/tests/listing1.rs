@@ -1,14 +1,13 @@
-//! The paper's Listing 1, byte for byte: four programs over Unix sockets and TCP, in every start order, and a plain
-//! ZeroMQ program in the place of one of them.
+//! The paper's Listing 1, byte for byte: four programs over Unix sockets and TCP, in every start order.
 
 use crate::programs::LISTING1;
-use scl_tests::{Process, System, on_each_medium, start_python};
+use scl_tests::{Process, System, on_each_transport};
 
 const COMPONENTS: [&str; 4] = ["sensor", "actuator", "controller", "user_interface"];
 
 #[test]
 fn four_programs_talk() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut actuator = system.start(LISTING1, &["actuator"]);
         let mut user_interface = system.start(LISTING1, &["user_interface"]);
         let _controller = system.start(LISTING1, &["controller"]);
@@ -31,17 +30,6 @@ fn four_programs_talk_in_every_start_order() {
         started[1].1.expect("set to b\"measured\"");
         started[3].1.expect("status b\"done\", event b\"faster\"");
     }
-}
-
-#[test]
-fn a_plain_zeromq_program_plays_the_user_interface() {
-    let system = System::new();
-    let _controller = system.start(LISTING1, &["controller"]);
-    let folder = system.runtime_dir().join("listing1");
-    let mut plain = start_python("user_interface.py", &[folder.to_str().expect("a path in UTF-8")]);
-    plain.expect("b'done'");
-    plain.expect("b'faster'");
-    assert!(plain.wait_for_exit().status.success());
 }
 
 /// All 24 permutations of four.

@@ -1,29 +1,23 @@
-//! Tests across processes, media and languages. One binary, so that its programs are linked once.
+//! Tests across processes and transports. One binary, so that its programs are linked once.
 
+mod accounts;
 mod bad_input;
 mod bounded;
+mod chaos;
 mod children;
 mod circle;
-mod cpp;
 mod descriptors;
 mod drop;
 mod exit;
 mod freshness;
 mod fuzz;
-mod interoperability;
-mod json;
 mod kill;
-mod languages;
+mod latched;
 mod listing1;
 mod max_size;
 mod opening;
 mod pause;
 mod programs;
-mod python;
-mod python_bench;
-mod python_generated;
-mod python_typing;
-mod python_values;
 mod realtime;
 mod restart;
 mod runtime_folder;
@@ -38,7 +32,6 @@ mod stats;
 mod strangers;
 mod subscribers;
 mod taps;
-mod testing_page;
 mod threads;
 mod unit;
 mod untyped;

@@ -1,6 +1,6 @@
 //! `max_size`: a longer message is refused where it is sent, and a peer that sends one all the same is disconnected.
 
-use scl::Medium;
+use scl::TransportKind;
 use scl::bytes::Bytes;
 use scl_tests::zmtp::{announcement, frame, message};
 use scl_tests::{RawPeer, System};
@@ -21,8 +21,8 @@ fn bytes(length: usize) -> Bytes {
 
 #[tokio::test]
 async fn a_message_of_the_longest_length_arrives() {
-    for medium in [Medium::Ipc, Medium::Tcp] {
-        let (mut giver, mut taker) = pair(&System::with_medium(medium)).await;
+    for kind in [TransportKind::Ipc, TransportKind::Tcp] {
+        let (mut giver, mut taker) = pair(&System::over(kind)).await;
         giver.values.send(&bytes(2048)).await.expect("sent");
         assert_eq!(taker.values.recv().await.expect("received").len(), 2048);
         giver.jobs.send(&bytes(3072)).await.expect("pushed");
@@ -78,8 +78,8 @@ async fn a_longer_reply_is_refused_with_both_sizes() {
 /// The peer's program may know nothing about the limit: it is checked before memory is reserved.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_peer_that_sends_a_longer_message_is_disconnected() {
-    for medium in [Medium::Ipc, Medium::Tcp] {
-        let system = System::with_medium(medium);
+    for kind in [TransportKind::Ipc, TransportKind::Tcp] {
+        let system = System::over(kind);
         let (_giver, mut taker) = pair(&system).await;
         for (endpoint, socket_type, limit) in LIMITS {
             let address = system.address("limits", endpoint);

@@ -1,7 +1,7 @@
 //! What keeps a component from opening, and what a message that does not decode does to a running one.
 
 use crate::programs::{PEER, open};
-use scl_tests::{Exit, Process, System, start_python};
+use scl_tests::{Exit, Process, System};
 use std::os::unix::fs::PermissionsExt;
 
 #[test]
@@ -45,26 +45,17 @@ fn a_runtime_folder_too_deep_for_a_socket_is_refused() {
 }
 
 #[test]
-fn a_medium_that_does_not_exist_is_refused() {
-    let exit = System::new().start_with(PEER, &["sink"], &[("SCL_TRANSPORT", "udp")]).wait_for_exit();
-    assert_fails(&exit, "`SCL_TRANSPORT=udp`");
-    assert_fails(&exit, "`ipc`, `tcp` or `shm`");
-}
-
-#[test]
-fn a_request_that_does_not_decode_names_gate_peer_and_codec_and_the_next_is_served() {
-    let system = System::new();
-    let mut sink = open(&system, "sink");
-    sink.tell("serve 2");
-    let folder = system.runtime_dir().join("six");
-    let mut plain = start_python("garbage.py", &[folder.to_str().expect("a path in UTF-8")]);
-    let error = sink.next_line();
-    for word in ["error: ", "`sink.answer`", "`source.question`", "protobuf"] {
-        assert!(error.contains(word), "{error}");
+fn a_transport_that_does_not_exist_is_refused() {
+    for (chosen, text) in [
+        ("udp", "`SCL_TRANSPORT=udp`"),
+        ("udp", "`ipc`, `tcp` or `shm`"),
+        (
+            "ipc,sink.reading=tcp",
+            "has no gate `reading`, for which a transport is chosen (`sink.reading=tcp`); did you mean `readings`?",
+        ),
+    ] {
+        assert_fails(&System::new().start_with(PEER, &["sink"], &[("SCL_TRANSPORT", chosen)]).wait_for_exit(), text);
     }
-    sink.expect("served");
-    plain.expect(r"b'\x08\n'");
-    assert!(plain.wait_for_exit().status.success());
 }
 
 fn assert_fails(exit: &Exit, text: &str) {

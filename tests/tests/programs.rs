@@ -8,9 +8,9 @@ pub(crate) const DROPPER: &str = env!("CARGO_BIN_EXE_dropper");
 pub(crate) const FRESH: &str = env!("CARGO_BIN_EXE_fresh");
 pub(crate) const FUZZ_ROUND: &str = env!("CARGO_BIN_EXE_fuzz_round");
 pub(crate) const IMAGES: &str = env!("CARGO_BIN_EXE_images");
+pub(crate) const LATCHED: &str = env!("CARGO_BIN_EXE_latched");
 pub(crate) const LEAVER: &str = env!("CARGO_BIN_EXE_leaver");
 pub(crate) const LISTING1: &str = env!("CARGO_BIN_EXE_listing1");
-pub(crate) const MATRIX: &str = env!("CARGO_BIN_EXE_matrix");
 pub(crate) const PEER: &str = env!("CARGO_BIN_EXE_peer");
 pub(crate) const PLAIN: &str = env!("CARGO_BIN_EXE_plain");
 pub(crate) const SHAPES: &str = env!("CARGO_BIN_EXE_shapes");
@@ -21,7 +21,6 @@ pub(crate) const TAKER: &str = env!("CARGO_BIN_EXE_taker");
 pub(crate) const TWIN: &str = env!("CARGO_BIN_EXE_twin");
 pub(crate) const WATCHED: &str = env!("CARGO_BIN_EXE_watched");
 pub(crate) const UNTYPED: &str = env!("CARGO_BIN_EXE_untyped");
-pub(crate) const ZEROMQ_TWIN: &str = env!("CARGO_BIN_EXE_zeromq_twin");
 
 /// Starts `peer COMPONENT` and waits until the component is open.
 #[track_caller]

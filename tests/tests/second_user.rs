@@ -1,11 +1,13 @@
 //! Programs on loopback TCP on a shared machine: another user can neither connect to them nor take a peer's place.
 //!
-//! A second user exists only if the test runs as root: it then starts a program as the user 65534.
+//! Only root can start a program as another user, here 65534.
 
-use crate::programs::{STRANGER, open};
-use scl::Medium;
+use crate::programs::{PEER, STRANGER, open};
+use scl::TransportKind;
+use scl_needs::needs;
 use scl_tests::{Address, Process, RawPeer, System};
 use std::fs;
+use std::net::TcpListener;
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
@@ -24,10 +26,11 @@ const LISTENING: [(&str, &str, &str); 6] = [
 ];
 
 /// The promise: another user can read, command and answer nothing. It is disconnected without a word.
+#[needs("root")]
 #[test]
 fn another_user_cannot_connect() {
-    let Some(stranger) = Stranger::new() else { return };
-    let system = System::with_medium(Medium::Tcp);
+    let stranger = Stranger::new();
+    let system = System::over(TransportKind::Tcp);
     let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
     source.ask("ready 30000", "ready");
     for (_, endpoint, socket_type) in LISTENING {
@@ -40,7 +43,7 @@ fn another_user_cannot_connect() {
 /// The same connections are allowed to plain ZeroMQ programs of the same user.
 #[test]
 fn a_plain_program_of_the_same_user_can_connect() {
-    let system = System::with_medium(Medium::Tcp);
+    let system = System::over(TransportKind::Tcp);
     let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
     for (_, endpoint, socket_type) in LISTENING {
         RawPeer::join(&system.address("six", endpoint), socket_type);
@@ -50,13 +53,14 @@ fn a_plain_program_of_the_same_user_can_connect() {
 }
 
 /// The promise: a port that a killed program left behind leads nowhere, even if another user listens there now.
+#[needs("root")]
 #[test]
 fn another_user_cannot_take_the_place_of_a_killed_program() {
-    let Some(stranger) = Stranger::new() else { return };
+    let stranger = Stranger::new();
     let pairs = [("source", "sink", &LISTENING[..1], "PUB"), ("sink", "source", &LISTENING[2..3], "PULL")];
     let replier = [("sink", "source", &LISTENING[4..5], "REP")];
     for (killed, other, endpoints, socket_type) in pairs.into_iter().chain(replier) {
-        let system = System::with_medium(Medium::Tcp);
+        let system = System::over(TransportKind::Tcp);
         let victim = open(&system, killed);
         let port = port(&system, endpoints[0].1);
         victim.kill();
@@ -76,6 +80,48 @@ fn another_user_cannot_take_the_place_of_a_killed_program() {
         source.ask("ready 30000", "ready");
         assert_good(&mut source, &mut sink);
     }
+}
+
+/// The table of all sockets takes the longer to read the more programs a machine runs.
+#[needs("root")]
+#[test]
+fn refusing_connections_does_not_read_the_table_of_sockets() {
+    let stranger = Stranger::new();
+    let system = System::over(TransportKind::Tcp);
+    let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
+    source.ask("ready 30000", "ready");
+    let _neighbours: Vec<_> = (0..200).map(|_| TcpListener::bind("127.0.0.1:0").expect("a port")).collect();
+    let row = 150;
+    let (before, connections) = (sink.bytes_read(), 500);
+    let mut program = stranger.start("flood", port(&system, "sink.jobs."), &connections.to_string());
+    program.expect("refused");
+    let read = sink.bytes_read() - before;
+    assert!(read < connections * 200 * row / 10, "{read} bytes were read to refuse {connections} connections");
+    assert_good(&mut source, &mut sink);
+}
+
+/// A sandbox without netlink: the table is read instead, and everybody is told apart as before.
+#[needs("root", "python3")]
+#[test]
+fn another_user_cannot_connect_where_the_kernel_is_not_to_be_asked() {
+    let stranger = Stranger::new();
+    let system = System::over(TransportKind::Tcp);
+    let [mut source, mut sink] = ["source", "sink"].map(|component| {
+        let script = concat!(env!("CARGO_MANIFEST_DIR"), "/python/without_netlink.py");
+        let mut process = system.start("python3", &[script, PEER, component]);
+        process.expect("open");
+        process
+    });
+    source.ask("ready 30000", "ready");
+    let mut program = stranger.start("flood", port(&system, "sink.jobs."), "10");
+    let mut other = stranger.start("connect", port(&system, "sink.answer."), "REQ");
+    other.expect("heard 0 bytes");
+    program.expect("refused");
+    assert_good(&mut source, &mut sink);
+    sink.kill();
+    let mut sink = open(&system, "sink");
+    source.ask("ready 30000", "ready");
+    assert_good(&mut source, &mut sink);
 }
 
 fn assert_good(source: &mut Process, sink: &mut Process) {
@@ -102,19 +148,14 @@ struct Stranger {
 }
 
 impl Stranger {
-    /// Returns `None`, and prints why, if this test is not run by root.
-    fn new() -> Option<Self> {
-        if !rustix::process::geteuid().is_root() {
-            println!("skipped: needs root to start a program as another user");
-            return None;
-        }
+    fn new() -> Self {
         let folder = TempDir::with_prefix("scl").expect("a folder");
         let program = folder.path().join("stranger");
         fs::copy(STRANGER, &program).expect("copied");
         for path in [folder.path(), &program] {
             fs::set_permissions(path, PermissionsExt::from_mode(0o755)).expect("opened to others");
         }
-        Some(Self { _folder: folder, program })
+        Self { _folder: folder, program }
     }
 
     fn start(&self, what: &str, port: u16, socket_type: &str) -> Process {

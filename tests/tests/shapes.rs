@@ -1,13 +1,13 @@
 //! Programs built from different versions of a message: they connect if protobuf allows it, or refuse and say why.
 
 use crate::programs::SHAPES;
-use scl_tests::{Process, System, on_each_medium};
+use scl_tests::{Process, System, on_each_transport};
 
 /// The promise: with the same field numbers for other fields, no swapped coordinates are ever exchanged. What connects
 /// refuses, and `ready`, the waiting call and the log name the message, the field, and both sides.
 #[test]
 fn swapped_field_numbers_are_refused_by_name() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         for (one, other) in [("original", "swapped"), ("swapped", "original")] {
             let (mut sensor, mut viewer) = (start(&system, one, "sensor"), start(&system, other, "viewer"));
             let (sensor_id, viewer_id) = (sensor.id().to_string(), viewer.id().to_string());
@@ -41,7 +41,7 @@ fn a_program_built_anew_is_found() {
 /// The promise: added and removed fields are compatible, in both directions.
 #[test]
 fn added_and_removed_fields_are_compatible() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         for (one, other) in [("original", "extended"), ("extended", "original")] {
             let (mut sensor, mut viewer) = (start(&system, one, "sensor"), start(&system, other, "viewer"));
             exchange(&mut sensor, &mut viewer);
@@ -54,7 +54,7 @@ fn added_and_removed_fields_are_compatible() {
 /// The promise: another type is refused, and both types are named, not two hashes.
 #[test]
 fn another_type_is_refused_and_both_are_named() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (mut sensor, mut viewer) = (start(&system, "original", "sensor"), start(&system, "renamed", "viewer"));
         let words = ["nav.Position", "nav.Location"];
         assert_names(&answer(&mut viewer, "ready 300"), &[&words[..], &["sensor"]].concat());

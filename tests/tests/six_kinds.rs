@@ -1,11 +1,11 @@
 //! Every kind of gate between separate processes, over Unix sockets and over TCP, whichever starts first.
 
 use crate::programs::open;
-use scl_tests::{System, on_each_medium};
+use scl_tests::{System, on_each_transport};
 
 #[test]
 fn every_kind_of_gate_carries_messages() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
         source.ask("ready 30000", "ready");
         source.ask("publish 0 100", "published");
@@ -22,7 +22,7 @@ fn every_kind_of_gate_carries_messages() {
 
 #[test]
 fn the_first_messages_wait_for_a_peer_that_starts_later() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut source = open(&system, "source");
         source.ask("publish 0 50", "published");
         source.ask("push 0 50", "pushed");
@@ -35,7 +35,7 @@ fn the_first_messages_wait_for_a_peer_that_starts_later() {
 
 #[test]
 fn peers_reconnect_after_either_was_killed() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (mut source, sink) = (open(&system, "source"), open(&system, "sink"));
         source.ask("ready 30000", "ready");
         sink.kill();
@@ -61,7 +61,7 @@ fn peers_reconnect_after_either_was_killed() {
 
 #[test]
 fn a_paused_subscriber_affects_only_itself() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
         let mut watcher = open(&system, "watcher");
         source.ask("peers 3", "peers");
@@ -88,7 +88,7 @@ fn a_paused_subscriber_affects_only_itself() {
 
 #[test]
 fn a_sender_with_backpressure_waits_and_loses_nothing() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
         source.ask("ready 30000", "ready");
         // 40 MiB are more than all buffers hold, so this ends only as the sink receives them.
@@ -157,7 +157,7 @@ fn closing_hands_over_what_was_published() {
 
 #[test]
 fn messages_published_between_computations_are_written_at_once() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
         source.ask("ready 30000", "ready");
         source.tell("publish_and_compute 0 100");

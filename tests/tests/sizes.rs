@@ -1,7 +1,7 @@
 //! Messages from no bytes to 64 MiB through each kind of gate, and calls that are cancelled half way.
 
 use scl::bytes::Bytes;
-use scl::{Medium, OpenOptions};
+use scl::{OpenOptions, TransportKind};
 use std::time::Duration;
 
 scl::topology!("topologies/sizes.yaml");
@@ -10,9 +10,9 @@ scl::topology!("topologies/sizes.yaml");
 const LARGE: usize = (64 << 20) - 16;
 const SIZES: [usize; 6] = [0, 1, 255, 256, LARGE, 0];
 
-async fn pair(medium: Medium) -> (tempfile::TempDir, Giver, Taker) {
+async fn pair(kind: TransportKind) -> (tempfile::TempDir, Giver, Taker) {
     let folder = tempfile::TempDir::with_prefix("scl").expect("a folder");
-    let options = || OpenOptions::new().runtime_dir(folder.path()).medium(medium);
+    let options = || OpenOptions::new().runtime_dir(folder.path()).transport_kind(kind);
     let giver = Giver::open_with(options()).await.expect("open");
     let taker = Taker::open_with(options()).await.expect("open");
     (folder, giver, taker)
@@ -25,8 +25,8 @@ fn message(size: usize) -> Bytes {
 
 #[tokio::test]
 async fn messages_of_any_size_arrive_whole() {
-    for medium in [Medium::Ipc, Medium::Tcp] {
-        let (_folder, mut giver, mut taker) = pair(medium).await;
+    for kind in [TransportKind::Ipc, TransportKind::Tcp] {
+        let (_folder, mut giver, mut taker) = pair(kind).await;
         for size in SIZES {
             let sent = message(size);
             let (given, taken) = tokio::join!(giver.published.send(&sent), taker.published.recv());
@@ -69,7 +69,7 @@ async fn ask_much(giver: &mut Giver, taker: &mut Taker) {
 async fn a_receiving_call_that_times_out_loses_nothing() {
     // Fewer than the queues hold.
     const COUNT: usize = 90;
-    let (_folder, mut giver, mut taker) = pair(Medium::Ipc).await;
+    let (_folder, mut giver, mut taker) = pair(TransportKind::Ipc).await;
     let giving = tokio::spawn(async move {
         giver.ready(Duration::from_secs(60)).await.expect("ready");
         for index in 0..COUNT {
@@ -104,7 +104,7 @@ async fn a_receiving_call_that_times_out_loses_nothing() {
 /// A call that is cancelled may still be answered; the next call gets its own reply.
 #[tokio::test]
 async fn a_cancelled_call_never_answers_the_next() {
-    let (_folder, mut giver, mut taker) = pair(Medium::Ipc).await;
+    let (_folder, mut giver, mut taker) = pair(TransportKind::Ipc).await;
     let mut late = Vec::new();
     for index in 0..20_u8 {
         let body = Bytes::from(vec![index]);

@@ -1,9 +1,8 @@
 //! What components leave for tools while they run, hang or are dead.
 
 use crate::programs::{PEER, open};
-use scl::runtime_dir::{Announcement, ComponentState, ComponentStats, Holder, RuntimeDir, SystemDir};
-use scl_tests::{System, python_with_packages, wait_until};
-use std::process::Command;
+use scl::runtime_dir::{Announcement, ComponentProcess, ComponentState, ComponentStats, RuntimeDir, SystemDir};
+use scl_tests::{System, wait_until};
 use std::time::{Duration, SystemTime};
 
 /// The promise: a killed component leaves its last figures and its announcement, and its successor starts afresh.
@@ -15,7 +14,7 @@ fn a_killed_component_leaves_its_figures() {
     source.ask("push 0 10", "pushed");
     sink.ask("pull 10", "0..10");
     let dir = dir(&system);
-    assert_eq!(dir.state("source"), ComponentState::Running(Holder::Process(source.id())));
+    assert_eq!(dir.state("source"), ComponentState::Running(ComponentProcess::Process(source.id())));
     wait_until("the figures are written", || sent(&dir) >= 10);
     let (pid, before) = (source.id(), ComponentStats::read(&dir, "source").expect("stats"));
     assert_eq!(before.pid, pid);
@@ -28,7 +27,7 @@ fn a_killed_component_leaves_its_figures() {
     let source = open(&system, "source");
     let found = ComponentStats::read(&dir, "source").expect("stats");
     assert_eq!((found.pid, sent(&dir)), (source.id(), 0));
-    assert_eq!(dir.state("source"), ComponentState::Running(Holder::Process(source.id())));
+    assert_eq!(dir.state("source"), ComponentState::Running(ComponentProcess::Process(source.id())));
     assert_eq!(source.wait_for_exit().code(), 0);
     assert_eq!((dir.state("source"), ComponentStats::read(&dir, "source")), (ComponentState::Stopped, None));
 }
@@ -68,48 +67,13 @@ fn the_period_is_a_setting() {
     assert!(refused.text().contains("500ms"), "{refused:?}");
 }
 
-/// The promise: the code of `docs/stats.md` reads what Rust reads.
-#[test]
-fn the_code_of_the_page_reads_the_figures() {
-    let page = include_str!("../../docs/stats.md");
-    let code = page.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).expect("code in Python");
-    let print = "import json, sys\nprint(json.dumps(read_stats(sys.argv[1])))";
-    let system = System::new();
-    let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("push 0 10", "pushed");
-    sink.ask("pull 10", "0..10");
-    let dir = dir(&system);
-    wait_until("the figures are written", || sent(&dir) >= 10);
-    // A killed program writes no more.
-    source.kill();
-    let python = Command::new(python_with_packages())
-        .args(["-c", &format!("{code}\n{print}")])
-        .arg(dir.folder().join("source.stats"))
-        .output()
-        .expect("Python");
-    assert!(python.status.success(), "{python:?}");
-    let found: serde_json::Value = serde_json::from_slice(&python.stdout).expect("JSON");
-    let expected = ComponentStats::read(&dir, "source").expect("stats");
-    let nanos = |time: SystemTime| time.duration_since(SystemTime::UNIX_EPOCH).expect("a time").as_nanos();
-    assert_eq!(found["written_ns"].as_u64().map(u128::from), Some(nanos(expected.written)));
-    assert_eq!((&found["pid"], &found["ready"]), (&expected.pid.into(), &expected.ready.into()));
-    assert_eq!(found["gates"].as_array().map(Vec::len), Some(expected.gates.len()));
-    for (index, gate) in expected.gates.iter().enumerate() {
-        let read = &found["gates"][index];
-        let numbers = ["sent", "bytes", "peers", "waiting"].map(|name| read[name].as_u64());
-        assert_eq!(numbers, [gate.sent, gate.bytes, gate.peers, gate.waiting].map(Some), "gate {index}");
-        let taken = read["connections"].as_array().expect("a list").iter().map(|one| one["taken"].as_u64());
-        let expected = gate.connections.iter().map(|one| Some(one.taken));
-        assert_eq!(taken.collect::<Vec<_>>(), expected.collect::<Vec<_>>(), "gate {index}");
-    }
-}
-
 fn sent(dir: &SystemDir) -> u64 {
     let found = ComponentStats::read(dir, "source").map(|found| found.gates);
     found.into_iter().flatten().map(|gate| gate.sent).sum()
 }
 
-fn dir(system: &System) -> SystemDir {
+/// The folder of the system that these programs form.
+pub(crate) fn dir(system: &System) -> SystemDir {
     let env = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| system.runtime_dir().into());
     let runtime_dir = RuntimeDir::existing(&env).expect("a safe folder").expect("the runtime folder");
     runtime_dir.existing_system("six").expect("a safe folder").expect("the system's folder")

@@ -1,44 +1,15 @@
-//! Plain ZeroMQ peers that do what ZeroMQ allows and SCL does not use: several frames, heartbeats, subscriptions to some
-//! messages. Hostile peers are in `bad_input`.
+//! Plain ZeroMQ peers that do what ZeroMQ allows and SCL does not use: heartbeats, subscriptions to some messages. Hostile
+//! peers are in `bad_input`.
 
 use crate::programs::open;
 use scl_tests::zmtp::{COMMAND, command, subscribe};
-use scl_tests::{Process, RawPeer, System, on_each_medium, start_python};
+use scl_tests::{RawPeer, System, on_each_transport};
 
 const READINGS: &str = "source.readings--sink.readings.";
 
 #[test]
-fn a_message_of_several_frames_is_skipped_and_counted() {
-    let system = System::new();
-    let mut sink = open(&system, "sink");
-    let mut plain = start_plain(&system, "multipart");
-    plain.expect("sent");
-    // The good message was sent after the other, so that one has been skipped by now.
-    sink.ask("pull 1", "5..6");
-    sink.ask("rejected", "1");
-    sink.tell("serve 1");
-    let mut plain = start_plain(&system, "two_bodies");
-    sink.expect("served");
-    plain.expect(r"b'\x08\n'");
-}
-
-#[test]
-fn a_subscriber_with_heartbeats_stays_connected() {
-    let system = System::new();
-    let mut source = open(&system, "source");
-    let mut plain = start_plain(&system, "heartbeats");
-    source.ask("peers 1", "peers");
-    // It sends one each millisecond.
-    for value in 0..200 {
-        source.ask(&format!("publish {value} {}", value + 1), "published");
-        plain.expect(&value.to_string());
-    }
-    plain.ask("still connected?", "yes");
-}
-
-#[test]
 fn a_pong_carries_the_context_of_its_ping() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (_source, _sink) = (open(&system, "source"), open(&system, "sink"));
         let ends = [(READINGS, "SUB"), ("source.readings.tap", "SUB"), ("sink.jobs.", "PUSH"), ("sink.answer.", "REQ")];
         for (endpoint, socket_type) in ends {
@@ -67,7 +38,7 @@ fn a_subscriber_gets_only_messages_that_start_with_its_prefix() {
 
 #[test]
 fn of_many_silent_connections_the_oldest_are_closed() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut source = open(&system, "source");
         let address = system.address("six", READINGS);
         let mut silent: Vec<RawPeer> = (0..300).map(|_| RawPeer::connect(&address)).collect();
@@ -75,9 +46,4 @@ fn of_many_silent_connections_the_oldest_are_closed() {
         let _sink = open(&system, "sink");
         source.ask("ready 30000", "ready");
     });
-}
-
-fn start_plain(system: &System, script: &str) -> Process {
-    let folder = system.runtime_dir().join("six");
-    start_python("strange_sender.py", &[folder.to_str().expect("a path in UTF-8"), script])
 }

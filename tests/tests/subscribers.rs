@@ -1,9 +1,8 @@
-//! A queue for each subscriber of a connection: plain ZeroMQ subscribers, stalled or not, cost the component nothing. And
-//! the accounts of each connection.
+//! A queue for each subscriber of a connection: plain ZeroMQ subscribers, stalled or not, cost the component nothing.
 
 use crate::programs::open;
 use scl_tests::zmtp::{command, subscribe};
-use scl_tests::{Process, RawPeer, System, on_each_medium};
+use scl_tests::{RawPeer, System, on_each_transport};
 
 const READINGS: &str = "source.readings--sink.readings.";
 const LOSSLESS: &str = "source.lossless--sink.lossless.";
@@ -11,7 +10,7 @@ const LOSSLESS: &str = "source.lossless--sink.lossless.";
 /// The promise: a plain subscriber that comes first does not take the messages that wait for the component.
 #[test]
 fn a_plain_subscriber_that_comes_first_takes_nothing_away() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut source = open(&system, "source");
         source.ask("publish 0 50", "published");
         let mut plain = subscribe_to(&system, READINGS);
@@ -29,7 +28,7 @@ fn a_plain_subscriber_that_comes_first_takes_nothing_away() {
 /// The promise: plain subscribers that never read cost the component beside them nothing, and bounded memory.
 #[test]
 fn plain_subscribers_that_never_read_starve_nobody() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
         source.ask("ready 30000", "ready");
         let before = source.memory();
@@ -51,7 +50,7 @@ fn plain_subscribers_that_never_read_starve_nobody() {
 /// The promise: nor does a sender with backpressure wait for them; it waits for the component alone.
 #[test]
 fn plain_subscribers_that_never_read_hold_up_no_sender() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
         source.ask("ready 30000", "ready");
         let stalled = subscribe_to(&system, LOSSLESS);
@@ -60,91 +59,6 @@ fn plain_subscribers_that_never_read_hold_up_no_sender() {
         source.expect("published");
         drop(stalled);
     });
-}
-
-/// The promise: published = taken + dropped + lost + waiting, for each connection, at any time: before the peer has
-/// started, while it reads, while it is paused, after it was killed, and for its successor.
-#[test]
-fn the_accounts_of_a_connection_are_exact_at_any_time() {
-    on_each_medium(|system| {
-        let mut source = open(&system, "source");
-        let mut published = 0;
-        // So long that the sink acknowledges some of what it takes in each round.
-        let mut publish = |source: &mut Process, count: u64| {
-            source.ask(&format!("publish {published} {} 4000", published + count), "published");
-            published += count;
-            published
-        };
-        // Nobody is there: the queue of 1000 fills up.
-        for count in [300, 700, 500] {
-            let total = publish(&mut source, count);
-            assert_balanced(&mut source, total);
-        }
-        let account = account_of_readings(&mut source);
-        assert_eq!((account.taken, account.dropped, account.lost, account.waiting), (0, 500, 0, 1000), "{account:?}");
-        for _ in 0..3 {
-            let mut sink = open(&system, "sink");
-            source.ask("ready 30000", "ready");
-            let total = publish(&mut source, 1);
-            sink.tell(&format!("receive_up_to {}", total - 1));
-            sink.next_line();
-            assert_balanced(&mut source, total);
-            sink.pause();
-            for count in [100, 1000, 2000] {
-                let total = publish(&mut source, count);
-                assert_balanced(&mut source, total);
-            }
-            sink.kill();
-            source.ask("alone", "alone");
-            let total = publish(&mut source, 10);
-            assert_balanced(&mut source, total);
-        }
-        let account = account_of_readings(&mut source);
-        assert!(account.lost > 0 && account.dropped > 500 && account.taken > 0, "{account:?}");
-    });
-}
-
-/// The promise: what counts as taken has been taken by the other program, not merely by a socket.
-#[test]
-fn a_message_is_taken_when_the_other_program_has_it() {
-    let system = System::new();
-    let (mut source, sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("ready 30000", "ready");
-    sink.pause();
-    source.ask("publish 0 10", "published");
-    let account = account_of_readings(&mut source);
-    assert_eq!((account.taken, account.waiting), (0, 10), "{account:?}");
-    sink.kill();
-    source.ask("alone", "alone");
-    let account = account_of_readings(&mut source);
-    assert_eq!((account.taken, account.lost, account.waiting), (0, 10, 0), "{account:?}");
-}
-
-#[derive(Debug)]
-struct Account {
-    published: u64,
-    taken: u64,
-    dropped: u64,
-    lost: u64,
-    waiting: u64,
-}
-
-fn account_of_readings(source: &mut Process) -> Account {
-    source.tell("account");
-    let line = source.next_line();
-    let words: Vec<&str> = line.split(' ').collect();
-    assert_eq!(words[0], "sink.readings", "{line}");
-    let [published, taken, dropped_oldest, dropped_newest, lost, waiting] =
-        [1, 2, 3, 4, 5, 6].map(|index| words[index].parse::<u64>().expect("a number"));
-    Account { published, taken, dropped: dropped_oldest + dropped_newest, lost, waiting }
-}
-
-#[track_caller]
-fn assert_balanced(source: &mut Process, published: u64) {
-    let account = account_of_readings(source);
-    assert_eq!(account.published, published, "{account:?}");
-    let sum = account.taken + account.dropped + account.lost + account.waiting;
-    assert_eq!(sum, published, "{account:?}");
 }
 
 /// Returns once the subscription has taken effect.

@@ -2,9 +2,8 @@
 
 use crate::programs::{TWIN, open};
 use scl_tests::zmtp::{command, subscribe};
-use scl_tests::{Address, Process, RawPeer, System, on_each_medium, start_python};
-use std::thread::park_timeout;
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use scl_tests::{Process, RawPeer, System, on_each_transport};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 const MESSAGE: u8 = 0;
 const REQUEST: u8 = 1;
@@ -13,7 +12,7 @@ const REPLY: u8 = 2;
 /// The promise: each message at a `pub` and a `pull` gate appears with its number and the time.
 #[test]
 fn messages_are_observed_with_number_and_time() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (mut left, mut right) = start_twins(&system);
         let mut published = observe(&system, "left.values.tap");
         let mut pulled = observe(&system, "left.jobs_in.tap");
@@ -38,7 +37,7 @@ fn messages_are_observed_with_number_and_time() {
 /// The promise: requests and replies are visible at a `rep` gate, and belong together by their call's id.
 #[test]
 fn requests_and_replies_are_observed_with_their_call() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let (_left, mut right) = start_twins(&system);
         let mut tap = observe(&system, "left.answer.tap");
         let mut calls = Vec::new();
@@ -79,27 +78,6 @@ fn an_observer_that_stops_reading_delays_nobody() {
             next += 1;
         }
         assert!(next < first + 10_000, "nothing was dropped for an observer that does not read");
-    }
-}
-
-/// The promise: every observer gets everything, and the second frame is part of the message for any ZeroMQ program.
-#[test]
-fn observers_with_plain_zeromq_get_two_frames() {
-    let system = System::new();
-    let (mut left, _right) = start_twins(&system);
-    let Address::Unix(path) = system.address("twins", "left.values.tap") else { unreachable!("a Unix socket") };
-    let address = format!("ipc://{}", path.display());
-    let mut observers = [start_python("tap.py", &[&address]), start_python("tap.py", &[&address])];
-    for observer in &mut observers {
-        // A subscriber of plain ZeroMQ does not know when it is connected.
-        let line = loop {
-            match observer.try_next_line() {
-                Some(line) => break line,
-                None => left.ask("publish 7 8", "published"),
-            }
-            park_timeout(Duration::from_millis(1));
-        };
-        assert_eq!(line, "0807 32 bytes");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Gates work on every runtime, in any task or thread, with and without async.
 
 use crate::programs::TWIN;
-use scl_tests::{Process, System, on_each_medium};
+use scl_tests::{Process, System, on_each_transport};
 
 const RUNTIMES: [&str; 7] = [
     "current_thread",
@@ -16,7 +16,7 @@ const RUNTIMES: [&str; 7] = [
 /// The promise: every kind of gate works on every runtime, each gate in a task or thread of its own.
 #[test]
 fn every_kind_of_gate_works_on_every_runtime() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         for runtime in RUNTIMES {
             // Alternates, so that each runtime meets the usual one and itself.
             for other in ["current_thread", runtime] {

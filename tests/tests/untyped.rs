@@ -3,7 +3,7 @@
 
 use crate::programs::{SHAPES, UNTYPED};
 use crate::shapes::{answer, assert_names, exchange};
-use scl_tests::{Process, System, on_each_medium};
+use scl_tests::{Process, System, on_each_transport};
 use std::path::Path;
 
 /// How a program was built, from which of the topologies in `topologies/shapes`.
@@ -17,7 +17,7 @@ use Program::{Typed, Untyped};
 /// The promise: what an untyped component sends and receives is what a typed one does, in all patterns and both directions.
 #[test]
 fn typed_and_untyped_programs_exchange_everything() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         for (sensor, viewer) in [
             (Untyped("original"), Typed("original")),
             (Typed("original"), Untyped("original")),
@@ -52,7 +52,7 @@ fn a_killed_program_is_found_again() {
 fn other_messages_are_refused_by_name_on_both_sides() {
     let swapped: [&str; 3] = ["nav.Position", "`lat`", "`lon`"];
     let renamed: [&str; 2] = ["nav.Position", "nav.Location"];
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         for (sensor, viewer, words) in [
             (Untyped("original"), Typed("swapped"), &swapped[..]),
             (Typed("original"), Untyped("swapped"), &swapped),

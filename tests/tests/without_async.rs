@@ -2,11 +2,11 @@
 //! never waits.
 
 use crate::programs::{PEER, PLAIN, open_with};
-use scl_tests::on_each_medium;
+use scl_tests::on_each_transport;
 
 #[test]
 fn a_publisher_that_never_waits_serves_late_subscribers() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut source = open_with(&system, PLAIN, "source");
         source.tell("publish_forever");
         for _ in 0..3 {
@@ -21,7 +21,7 @@ fn a_publisher_that_never_waits_serves_late_subscribers() {
 
 #[test]
 fn a_pushed_message_is_on_its_way_when_the_call_returns() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut source = open_with(&system, PLAIN, "source");
         let mut sink = open_with(&system, PEER, "sink");
         source.ask("ready", "ready");
@@ -33,7 +33,7 @@ fn a_pushed_message_is_on_its_way_when_the_call_returns() {
 
 #[test]
 fn a_reply_is_on_its_way_when_the_call_returns() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut source = open_with(&system, PEER, "source");
         let _sink = open_with(&system, PLAIN, "sink");
         source.ask("call 4", "8");
@@ -42,7 +42,7 @@ fn a_reply_is_on_its_way_when_the_call_returns() {
 
 #[test]
 fn closing_hands_over_what_was_pushed() {
-    on_each_medium(|system| {
+    on_each_transport(|system| {
         let mut source = open_with(&system, PLAIN, "source");
         let mut sink = open_with(&system, PEER, "sink");
         source.ask("ready", "ready");

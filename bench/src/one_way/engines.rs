@@ -1,8 +1,7 @@
 //! The variants of SCL that differ only in their transport, and in who makes the copies.
 
+use super::batch::{Batch, BatchReceiver, BatchSender};
 use super::message::Message;
-use super::receiver::{Batch, BatchReceiver};
-use super::sender::BatchSender;
 use crate::engines::{FAR, NEAR, Sink, Source, options};
 use crate::worker::Worker;
 use std::time::Duration;

@@ -1,8 +1,7 @@
 //! The variants over plain iceoryx2.
 
+use super::batch::{Batch, BatchReceiver, BatchSender};
 use super::message::Message;
-use super::receiver::{Batch, BatchReceiver};
-use super::sender::BatchSender;
 use crate::iceoryx::{Participant, Receiving, Sending, payload};
 use crate::worker::{Worker, print_line};
 use std::mem::MaybeUninit;

@@ -1,9 +1,8 @@
 //! The receiving side.
 
+use super::Timing;
+use super::batch::{Batch, BatchReceiver};
 use super::components::Sink;
-use super::message::sent_time;
-use super::{BatchReport, Timing};
-use crate::clock::now;
 use crate::raw::{SocketPaths, first_frame};
 use crate::runtime::start_runtime;
 use crate::unix::{FrameBuffer, PREFIX};
@@ -42,20 +41,6 @@ enum Receiver {
     Other(Box<dyn BatchReceiver>),
 }
 
-/// A receiver of whole batches.
-pub(super) trait BatchReceiver {
-    fn receive_batch(&mut self, runtime: &Runtime, batch: &mut Batch) -> scl::Result<()>;
-}
-
-/// The messages of a batch so far.
-pub(super) struct Batch {
-    missing: usize,
-    /// When the first message was sent, rather than received: a sender that queues everything before it writes is not
-    /// faster than one that writes at once.
-    first_sent: Option<u64>,
-    delays: Option<Vec<u64>>,
-}
-
 impl Receiver {
     fn open(runtime: &Runtime, id: &str, folder: &str, bytes: usize, rest: &[&str]) -> scl::Result<Self> {
         #[cfg(not(feature = "gateway"))]
@@ -67,7 +52,7 @@ impl Receiver {
             | "shm-copy-blocking" => {
                 return Ok(Self::Other(super::engines::open(runtime, id, folder)?));
             }
-            #[cfg(feature = "iceoryx2")]
+            #[cfg(feature = "shm")]
             "iceoryx-loan" | "iceoryx-copy" => return Ok(Self::Other(super::iceoryx::open(id, folder)?)),
             #[cfg(feature = "gateway")]
             "zenoh" => return Ok(Self::Other(super::zenoh::open(rest)?)),
@@ -133,34 +118,6 @@ impl Receiver {
                 Err(scl::Error::message("this variant receives whole batches only"))
             }
         }
-    }
-}
-
-impl Batch {
-    fn new(size: usize, has_delays: bool) -> Self {
-        Self { missing: size, first_sent: None, delays: has_delays.then(|| Vec::with_capacity(size)) }
-    }
-
-    pub(super) fn is_complete(&self) -> bool {
-        self.missing == 0
-    }
-
-    pub(super) fn add(&mut self, message: &[u8]) -> scl::Result<()> {
-        self.missing -= 1;
-        if self.first_sent.is_none() {
-            self.first_sent = Some(sent_time(message)?);
-        }
-        if let Some(delays) = &mut self.delays {
-            delays.push(now().saturating_sub(sent_time(message)?));
-        }
-        Ok(())
-    }
-
-    /// The report of a batch whose last message has just arrived.
-    fn report(self) -> BatchReport {
-        let now = now();
-        let span = now.saturating_sub(self.first_sent.unwrap_or(now));
-        BatchReport { span, delays: self.delays.unwrap_or_default() }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The sending side.
 
+use super::batch::BatchSender;
 use super::components::Source;
 use super::message::Message;
 use crate::raw::SocketPaths;
@@ -29,12 +30,6 @@ pub(super) enum Sender {
     Other(Box<dyn BatchSender>),
 }
 
-/// A sender of whole batches.
-pub(super) trait BatchSender {
-    /// Sends a message many times, as fast as possible.
-    fn send_batch(&mut self, runtime: &Runtime, message: &Message, batch: usize) -> scl::Result<()>;
-}
-
 impl Sender {
     /// Starts the receiver of a variant with the given arguments, and connects to it.
     pub(super) fn start(
@@ -47,11 +42,11 @@ impl Sender {
     ) -> scl::Result<(Self, Worker)> {
         match id {
             "ipc" | "ipc-blocking" | "tcp" => Self::other(super::engines::start(runtime, id, folder, receiver)?),
-            #[cfg(feature = "iceoryx2")]
+            #[cfg(feature = "shm")]
             "shm-loan" | "shm-loan-blocking" | "shm-copy" | "shm-copy-blocking" => {
                 Self::other(super::engines::start(runtime, id, folder, receiver)?)
             }
-            #[cfg(feature = "iceoryx2")]
+            #[cfg(feature = "shm")]
             "iceoryx-loan" | "iceoryx-copy" => {
                 Self::other(super::iceoryx::start(runtime, id, folder, bytes, receiver)?)
             }

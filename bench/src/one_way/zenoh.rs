@@ -1,8 +1,7 @@
 //! The variant over plain zenoh.
 
+use super::batch::{Batch, BatchReceiver, BatchSender};
 use super::message::Message;
-use super::receiver::{Batch, BatchReceiver};
-use super::sender::BatchSender;
 use crate::worker::{Worker, print_line, unknown_arguments};
 use crate::zenoh_peer::{Peer, Receiving, Sending, free_port, receive, send, wait_for_subscriber};
 use tokio::runtime::Runtime;

@@ -1,5 +1,6 @@
 //! The side that sends first, and measures.
 
+use super::batch_client::BatchClient;
 use super::components;
 use crate::raw::SocketPaths;
 use crate::unix::{FrameBuffer, zeroed_frame};
@@ -21,19 +22,6 @@ pub(super) enum Client {
     Blocking(BlockingClient),
     /// A client of another transport or library.
     Other(Box<dyn BatchClient>),
-}
-
-/// A client that exchanges whole batches.
-pub(super) trait BatchClient {
-    /// Sends messages one after the other, each when the previous one has returned, and calls `record` after each with
-    /// the time at which it was sent.
-    fn exchange(
-        &mut self,
-        runtime: &Runtime,
-        message: &Bytes,
-        messages: usize,
-        record: &mut dyn FnMut(Instant),
-    ) -> scl::Result<()>;
 }
 
 /// A client that runs on the async runtime.
@@ -64,11 +52,11 @@ impl Client {
         let echo = ["roundtrip", id, folder, &bytes.to_string()];
         let other = match id {
             "ipc" | "ipc-blocking" | "tcp" => Some(super::engines::start(runtime, id, folder, &echo)?),
-            #[cfg(feature = "iceoryx2")]
+            #[cfg(feature = "shm")]
             "shm-loan" | "shm-loan-blocking" | "shm-copy" | "shm-copy-blocking" => {
                 Some(super::engines::start(runtime, id, folder, &echo)?)
             }
-            #[cfg(feature = "iceoryx2")]
+            #[cfg(feature = "shm")]
             "iceoryx-loan" | "iceoryx-copy" => Some(super::iceoryx::start(runtime, id, folder, bytes, &echo)?),
             #[cfg(feature = "gateway")]
             "gateway" => Some(super::engines::start_across_hosts(runtime, folder, &echo)?),

@@ -21,7 +21,7 @@ pub(crate) fn run_echo(arguments: &[&str]) -> scl::Result<()> {
     match *id {
         "ipc" | "tcp" | "gateway" | "shm-loan" | "shm-copy" => runtime.block_on(super::engines::echo(id, folder)),
         "ipc-blocking" | "shm-loan-blocking" | "shm-copy-blocking" => super::engines::echo_blocking(id, folder),
-        #[cfg(feature = "iceoryx2")]
+        #[cfg(feature = "shm")]
         "iceoryx-loan" | "iceoryx-copy" => super::iceoryx::echo(id, folder, bytes),
         #[cfg(feature = "gateway")]
         "zenoh" => super::zenoh::echo(rest.first().ok_or_else(|| unknown_arguments(arguments))?),

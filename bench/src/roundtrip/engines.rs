@@ -1,6 +1,6 @@
 //! The variants of SCL that differ only in their transport, and in who makes the copies.
 
-use super::client::BatchClient;
+use super::batch_client::BatchClient;
 use crate::engines::{Client, Echo, FAR, NEAR, options};
 use crate::worker::Worker;
 use scl::bytes::Bytes;

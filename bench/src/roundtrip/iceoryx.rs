@@ -1,6 +1,6 @@
 //! The variants over plain iceoryx2, on plain threads as its users have them.
 
-use super::client::BatchClient;
+use super::batch_client::BatchClient;
 use crate::clock::now;
 use crate::iceoryx::{Participant, Receiving, Sending, payload};
 use crate::worker::{Worker, print_line};

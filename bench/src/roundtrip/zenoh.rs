@@ -1,6 +1,6 @@
 //! The variant over plain zenoh.
 
-use super::client::BatchClient;
+use super::batch_client::BatchClient;
 use crate::worker::{Worker, print_line};
 use crate::zenoh_peer::{Peer, Receiving, Sending, free_port, receive, send, wait_for_subscriber};
 use scl::bytes::Bytes;

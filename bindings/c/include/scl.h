@@ -16,10 +16,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/*
+ * For generated code: the pointer that is the last argument, if it points to a `type` or is a `void *`; otherwise the program
+ * does not compile, whatever the options of the compiler. The second one takes pointers to constants, too.
+ */
+#if !defined(__cplusplus) && defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
+#define SCL_POINTER(type, ...) _Generic((__VA_ARGS__), type *: (__VA_ARGS__), void *: (__VA_ARGS__))
+#define SCL_CONST_POINTER(type, ...) \
+    _Generic((__VA_ARGS__), \
+        type *: (__VA_ARGS__), const type *: (__VA_ARGS__), void *: (__VA_ARGS__), const void *: (__VA_ARGS__))
+#endif
+
+
 /**
  * Version of this interface. It grows when a change could break a program that was compiled before.
  */
 #define SCL_ABI 1
+
+/**
+ * As a timeout of scl_recv and scl_take_request: what is left of the timeout of the previous call. For code that goes on
+ * after scl_undecodable.
+ */
+#define SCL_REST -9223372036854775807
 
 /**
  * A component, opened by this process.
@@ -108,6 +126,11 @@ typedef int32_t scl_status;
 #define SCL_NOT_FLUSHED -11
 
 /**
+ * The replier could not decode the request, so it did not act on it.
+ */
+#define SCL_REFUSED -12
+
+/**
  * A wrong argument: a NULL pointer, a text that is not UTF-8, a length that no object can have, a wrong option.
  */
 #define SCL_ARGUMENT -20
@@ -189,8 +212,9 @@ const char *scl_status_name(scl_status status);
 /**
  * Returns the text of this thread's last error: what went wrong, where, and what to do.
  *
- * The text is empty before the first error, and never NULL. It is valid until the next call of this thread that fails.
- * Calls that succeed leave it alone.
+ * The text is empty before the first error, and never NULL. It stays as it is until 16 more calls of this thread have
+ * failed or the thread ends; then another text may replace it, but its memory is never freed. Calls that succeed leave
+ * it alone.
  */
 const char *scl_error(void);
 
@@ -205,7 +229,7 @@ const char *scl_error(void);
  *
  * The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. The transport is
  * `ipc`, `tcp` or `shm`, or a list with others for single connections, like `ipc,camera.frames=shm`; `shm` needs a
- * library that was built with the feature `iceoryx2`. The first component also starts the log (SCL_LOG) and applies the
+ * library that was built with the feature `shm`. The first component also starts the log (SCL_LOG) and applies the
  * real-time settings (SCL_SCHED, SCL_CPU) to the calling thread. Unless `signals` is false, SIGTERM and SIGINT no
  * longer end the process but request a stop: see scl_stop_requested.
  *
@@ -270,6 +294,13 @@ scl_gate *scl_gate_by_name(scl_component *component,
  * invalid handle and for a gate that another thread is using; `scl_error` then says so.
  */
 bool scl_is_connected(const scl_gate *gate);
+
+/**
+ * Returns the age, in nanoseconds, of the message that a `sub` gate received last, if its publisher has `latched: true` and
+ * had sent it before this gate was connected to it. -1 for every other message, before the first one, for gates of other
+ * kinds, and for an invalid handle or a gate that another thread is using; `scl_error` then says so.
+ */
+int64_t scl_latched_age(const scl_gate *gate);
 
 /**
  * Gives memory of `len` bytes, in which to make a message for `scl_send` or `scl_call` of this gate. It belongs to the
@@ -355,7 +386,10 @@ void scl_message_free(scl_message *message);
  *
  * On success, `*reply` is the reply, to be freed with scl_message_free; otherwise it is NULL.
  *
- * Errors: SCL_TIMEOUT, SCL_PEER_LOST, SCL_TOO_LONG, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY, SCL_HANDLE. A reply
+ * Calls of one gate follow each other, also with `in_flight`: SCL_BUSY says that another thread is calling. For several calls
+ * at once, declare several gates.
+ *
+ * Errors: SCL_TIMEOUT, SCL_PEER_LOST, SCL_REFUSED, SCL_TOO_LONG, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY, SCL_HANDLE. A reply
  * that comes too late is discarded; the next call never receives it.
  */
 scl_status scl_call(scl_gate *gate,
@@ -441,10 +475,10 @@ int scl_fd(scl_component *component);
  * Writes a gate's counts since its component was opened into a buffer of `capacity` bytes, as a JSON object that ends
  * with NUL, and stores its length without the NUL in `*len`:
  *
- *     {"sent": 2, "received": 0, "dropped_oldest": 0, "dropped_newest": 0, "dropped_for_observers": 0, "lost": 0,
- *      "rejected": 0, "bytes": 12, "waiting": 0, "peers": 1, "idle_ns": 1500000, "connections": [{"peer":
- *      "controller.sensor", "connected": true, "published": 2, "taken": 2, "dropped_oldest": 0, "dropped_newest": 0,
- *      "lost": 0, "waiting": 0}]}
+ *     {"sent": 2, "received": 0, "replaced": 0, "dropped_oldest": 0, "dropped_newest": 0, "dropped_for_observers": 0,
+ *      "lost": 0, "rejected": 0, "undecodable": 0, "bytes": 12, "waiting": 0, "peers": 1, "idle_ns": 1500000,
+ *      "connections": [{"peer": "controller.sensor", "connected": true, "published": 2, "taken": 2, "replaced": 0,
+ *      "dropped_oldest": 0, "dropped_newest": 0, "lost": 0, "waiting": 0}]}
  *
  * `idle_ns` is the time since a message last moved, or null. `connections` is empty for gates other than `pub` and
  * `push`.
@@ -464,11 +498,19 @@ scl_status scl_fail(scl_status status,
                     const char *text);
 
 /**
- * Counts a message, request or reply of this gate as undecodable, keeps the error with the names of the gate and its
- * peers, and returns SCL_DECODE. `type` is what it should have been: `rover.Measurement`. For generated code.
+ * Reports that the message or reply that this gate received last cannot be decoded, or this request, which is freed whatever the result: its
+ * sender is told, so its call fails. `request` is NULL unless the gate is `rep`. `reason` follows "cannot decode this
+ * message: ". It is counted. For generated code and for codecs of your own.
+ *
+ * Returns SCL_OK if the gate skips such messages: receive the next one, with the timeout SCL_REST. They are logged once for
+ * each peer.
+ *
+ * Errors: SCL_DECODE for a gate with `undecodable: fail` and for replies; the text names the gate and its peers. SCL_KIND,
+ * SCL_HANDLE.
  */
 scl_status scl_undecodable(scl_gate *gate,
-                           const char *type);
+                           scl_request *request,
+                           const char *reason);
 
 /**
  * Returns true if the program was asked to stop, by SIGTERM or SIGINT.

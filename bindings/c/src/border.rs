@@ -1,7 +1,9 @@
-//! The border between C and Rust: panics end here, and pointers are checked before they are used.
+//! The border between C and Rust: panics end here, pointers are checked before they are used, and calls of threads that
+//! are ending are made elsewhere.
 
 use crate::error::Failure;
 use crate::status::*;
+use crate::thread;
 use std::any::Any;
 use std::ffi::{CStr, c_char, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -17,11 +19,13 @@ pub(crate) fn status(call: impl FnOnce() -> Result<(), Failure>) -> scl_status {
 
 /// Runs a call that returns something else than a status.
 pub(crate) fn value<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T, scl_status> {
+    let result = if thread::is_ending() { thread::call_elsewhere(|| caught(call)) } else { caught(call) };
+    result.map_err(Failure::report)
+}
+
+fn caught<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
     // What a panic leaves behind is only used through locks, and gates keep their own state consistent.
-    match catch_unwind(AssertUnwindSafe(call)) {
-        Ok(result) => result.map_err(Failure::report),
-        Err(payload) => Err(panicked(&*payload).report()),
-    }
+    catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|payload| Err(panicked(&*payload)))
 }
 
 fn panicked(payload: &(dyn Any + Send)) -> Failure {
@@ -71,6 +75,18 @@ pub(crate) unsafe fn text<'a>(text: *const c_char, name: &str) -> Result<&'a str
     // SAFETY: not NULL, and the caller promises the rest.
     let text = unsafe { CStr::from_ptr(text) };
     text.to_str().map_err(|_| Failure::argument(format!("`{name}` is not UTF-8: {text:?}")))
+}
+
+/// A text argument that may quote bytes of a message: what is not UTF-8 is replaced.
+///
+/// # Safety
+/// As for [`text`].
+pub(crate) unsafe fn lossy_text(text: *const c_char, name: &str) -> Result<String, Failure> {
+    if text.is_null() {
+        return Err(null(name));
+    }
+    // SAFETY: not NULL, and the caller promises the rest.
+    Ok(unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned())
 }
 
 /// A bytes argument.
@@ -155,7 +171,7 @@ mod tests {
     use crate::error::scl_error;
 
     fn last_error() -> String {
-        // SAFETY: the text stays until this thread fails again.
+        // SAFETY: texts are never freed.
         unsafe { CStr::from_ptr(scl_error()) }.to_str().unwrap().to_owned()
     }
 

@@ -43,7 +43,7 @@ static COMPONENTS: Registry<Arc<Opened>> = Registry::new(3, "component");
 ///
 /// The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. The transport is
 /// `ipc`, `tcp` or `shm`, or a list with others for single connections, like `ipc,camera.frames=shm`; `shm` needs a
-/// library that was built with the feature `iceoryx2`. The first component also starts the log (SCL_LOG) and applies the
+/// library that was built with the feature `shm`. The first component also starts the log (SCL_LOG) and applies the
 /// real-time settings (SCL_SCHED, SCL_CPU) to the calling thread. Unless `signals` is false, SIGTERM and SIGINT no
 /// longer end the process but request a stop: see scl_stop_requested.
 ///

@@ -1,6 +1,7 @@
-//! Failures: a status and a text, which the thread keeps until its next failure.
+//! Failures: a status and a text, which the thread keeps.
 
 use crate::status::*;
+use crate::texts;
 use scl::host::text_with_causes;
 use scl::runtime_dir::RuntimeDirError;
 use scl::untyped::{GateError, WaitError};
@@ -9,7 +10,6 @@ use scl::{
     SendTimeoutError, TrySendError,
 };
 use std::borrow::Cow;
-use std::cell::RefCell;
 use std::error::Error;
 use std::ffi::{CStr, CString, c_char};
 
@@ -20,17 +20,14 @@ pub(crate) struct Failure {
     text: Cow<'static, CStr>,
 }
 
-thread_local! {
-    static LAST: RefCell<Cow<'static, CStr>> = const { RefCell::new(Cow::Borrowed(c"")) };
-}
-
 /// Returns the text of this thread's last error: what went wrong, where, and what to do.
 ///
-/// The text is empty before the first error, and never NULL. It is valid until the next call of this thread that fails.
-/// Calls that succeed leave it alone.
+/// The text is empty before the first error, and never NULL. It stays as it is until 16 more calls of this thread have
+/// failed or the thread ends; then another text may replace it, but its memory is never freed. Calls that succeed leave
+/// it alone.
 #[unsafe(no_mangle)]
 pub extern "C" fn scl_error() -> *const c_char {
-    LAST.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
+    texts::last()
 }
 
 impl Failure {
@@ -57,8 +54,7 @@ impl Failure {
 
     /// Keeps the text for `scl_error` and returns the status.
     pub(crate) fn report(self) -> scl_status {
-        // Without a place for the text, when the thread is ending, the status alone has to do.
-        let _ = LAST.try_with(|last| *last.borrow_mut() = self.text);
+        texts::keep(self.text);
         self.status
     }
 }
@@ -88,9 +84,10 @@ fn opening(error: &OpenError) -> scl_status {
         OpenError::RuntimeDir { source: RuntimeDirError::AlreadyRunning { .. }, .. } => SCL_TAKEN,
         OpenError::RuntimeDir { .. } => SCL_FOLDER,
         OpenError::Plan { .. } | OpenError::TooManyPlans { .. } => SCL_PLAN,
-        OpenError::Environment { .. } | OpenError::NoSuchGate { .. } | OpenError::NoSharedMemory { .. } => {
-            SCL_ENVIRONMENT
-        }
+        OpenError::Environment { .. }
+        | OpenError::NoSuchGate { .. }
+        | OpenError::NoSharedMemory { .. }
+        | OpenError::Unexpected { .. } => SCL_ENVIRONMENT,
         OpenError::Gate { .. } | OpenError::Timer { .. } | OpenError::Runtime { .. } => SCL_SYSTEM,
         _ => SCL_FAILED,
     }
@@ -170,6 +167,7 @@ impl From<CallError> for Failure {
             CallError::TooLong { .. } => SCL_TOO_LONG,
             CallError::Timeout { .. } => SCL_TIMEOUT,
             CallError::PeerLost { .. } => SCL_PEER_LOST,
+            CallError::Refused { .. } => SCL_REFUSED,
             CallError::Decode { .. } => SCL_DECODE,
             CallError::Blocking { source, .. } => blocking(source),
             _ => SCL_FAILED,

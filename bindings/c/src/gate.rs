@@ -2,11 +2,13 @@
 
 use crate::border;
 use crate::error::Failure;
+use crate::patience::Patience;
 use crate::registry::{Locked, Registry};
 use crate::status::*;
 use scl::bytes::Bytes;
 use scl::untyped::Gate;
 use std::ffi::c_void;
+use std::time::Duration;
 
 /// A gate. It belongs to its component and lives as long.
 #[allow(non_camel_case_types)]
@@ -23,6 +25,7 @@ pub(crate) struct OpenGate {
     pub(crate) kept: Option<Bytes>,
     /// The memory of `scl_buffer`.
     pub(crate) buffer: Vec<u8>,
+    pub(crate) patience: Patience,
 }
 
 static GATES: Registry<OpenGate> = Registry::new(5, "gate");
@@ -37,6 +40,15 @@ pub unsafe extern "C" fn scl_is_connected(gate: *const scl_gate) -> bool {
     border::value(|| Ok(lock(gate)?.gate.is_connected())).unwrap_or(false)
 }
 
+/// Returns the age, in nanoseconds, of the message that a `sub` gate received last, if its publisher has `latched: true` and
+/// had sent it before this gate was connected to it. -1 for every other message, before the first one, for gates of other
+/// kinds, and for an invalid handle or a gate that another thread is using; `scl_error` then says so.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_latched_age(gate: *const scl_gate) -> i64 {
+    let nanoseconds = |age: Duration| i64::try_from(age.as_nanos()).unwrap_or(i64::MAX);
+    border::value(|| Ok(lock(gate)?.gate.latched_age().map_or(-1, nanoseconds))).unwrap_or(-1)
+}
+
 /// Gives memory of `len` bytes, in which to make a message for `scl_send` or `scl_call` of this gate. It belongs to the
 /// gate and is valid until the next call to that gate; its content is arbitrary. Using it is optional, it spares
 /// allocating.
@@ -49,7 +61,7 @@ pub unsafe extern "C" fn scl_buffer(gate: *mut scl_gate, len: usize, buffer: *mu
         let result = unsafe { border::result(buffer, "buffer") }?;
         *result = std::ptr::null_mut();
         let mut open = lock(gate)?;
-        let limit = open.gate.spec().links.iter().map(|link| link.max_size).min().unwrap_or(u64::MAX);
+        let limit = open.gate.spec().connections.iter().map(|connection| connection.max_size).min().unwrap_or(u64::MAX);
         if len as u64 > limit {
             let name = &open.name;
             let text = format!("gate `{name}` cannot send {len} bytes: at most {limit} are accepted; raise `max_size`");
@@ -62,7 +74,7 @@ pub unsafe extern "C" fn scl_buffer(gate: *mut scl_gate, len: usize, buffer: *mu
 
 pub(crate) fn insert(component: &str, gate: Gate) -> Result<usize, Failure> {
     let name = format!("{component}.{}", gate.spec().name);
-    GATES.insert(OpenGate { name, gate, kept: None, buffer: Vec::new() })
+    GATES.insert(OpenGate { name, gate, kept: None, buffer: Vec::new(), patience: Patience::NONE })
 }
 
 /// Invalidates a gate's handle, waits for the end of the call that uses it, and returns the gate.

@@ -3,7 +3,9 @@
 use crate::border;
 use crate::error::Failure;
 use crate::gate::{self, scl_gate};
+use crate::request::{self, scl_request};
 use crate::status::*;
+use scl::untyped::Gate;
 use std::ffi::c_char;
 
 /// Keeps `text` as this thread's last error and returns `status`. For generated code.
@@ -16,17 +18,33 @@ pub unsafe extern "C" fn scl_fail(status: scl_status, text: *const c_char) -> sc
     })
 }
 
-/// Counts a message, request or reply of this gate as undecodable, keeps the error with the names of the gate and its
-/// peers, and returns SCL_DECODE. `type` is what it should have been: `rover.Measurement`. For generated code.
+/// Reports that the message or reply that this gate received last cannot be decoded, or this request, which is freed whatever the result: its
+/// sender is told, so its call fails. `request` is NULL unless the gate is `rep`. `reason` follows "cannot decode this
+/// message: ". It is counted. For generated code and for codecs of your own.
+///
+/// Returns SCL_OK if the gate skips such messages: receive the next one, with the timeout SCL_REST. They are logged once for
+/// each peer.
+///
+/// Errors: SCL_DECODE for a gate with `undecodable: fail` and for replies; the text names the gate and its peers. SCL_KIND,
+/// SCL_HANDLE.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn scl_undecodable(gate: *mut scl_gate, r#type: *const c_char) -> scl_status {
+pub unsafe extern "C" fn scl_undecodable(
+    gate: *mut scl_gate,
+    request: *mut scl_request,
+    reason: *const c_char,
+) -> scl_status {
     border::status(|| {
         // SAFETY: the caller's duty; NULL is refused.
-        let expected = unsafe { border::text(r#type, "type") }?;
+        let reason = unsafe { border::lossy_text(reason, "reason") }?;
+        // SAFETY: the caller promises a live request or NULL.
+        let request = (!request.is_null()).then(|| unsafe { request::remove(request) }).transpose()?;
         let mut open = gate::lock(gate)?;
-        match open.gate.reject(format!("it is not a `{expected}`")) {
-            Some(error) => Err(Failure::of(SCL_DECODE, error.inner())),
-            None => Err(open.wrong_kind("scl_undecodable")),
-        }
+        let reported = match (&open.gate, request) {
+            (Gate::Sub(_) | Gate::Pull(_) | Gate::Req(_), _) => open.gate.reject(reason),
+            (Gate::Rep(_), Some(request)) => open.gate.reject_request(request, reason),
+            (Gate::Rep(_), None) => return Err(border::null("request")),
+            _ => return Err(open.wrong_kind("scl_undecodable")),
+        };
+        reported.map_err(|error| Failure::of(SCL_DECODE, error.inner()))
     })
 }

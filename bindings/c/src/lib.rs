@@ -37,4 +37,7 @@ mod stop;
 mod border;
 mod fork;
 mod options;
+mod patience;
 mod registry;
+mod texts;
+mod thread;

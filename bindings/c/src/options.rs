@@ -1,7 +1,7 @@
 //! The options of `scl_open`, as JSON.
 
 use crate::error::Failure;
-use scl::{MediumChoice, OpenOptions};
+use scl::{OpenOptions, TransportChoice};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error};
 
@@ -11,8 +11,8 @@ use serde::de::{Deserializer, Error};
 pub(crate) struct Options {
     runtime_dir: Option<String>,
     system: Option<String>,
-    #[serde(deserialize_with = "media")]
-    transport: Option<MediumChoice>,
+    #[serde(deserialize_with = "transports")]
+    transport: Option<TransportChoice>,
     signals: Option<bool>,
 }
 
@@ -42,13 +42,13 @@ impl Options {
             options = options.system(system);
         }
         match &self.transport {
-            Some(choice) => options.media(choice.clone()),
+            Some(choice) => options.transports(choice.clone()),
             None => options,
         }
     }
 }
 
-fn media<'de, D: Deserializer<'de>>(from: D) -> Result<Option<MediumChoice>, D::Error> {
+fn transports<'de, D: Deserializer<'de>>(from: D) -> Result<Option<TransportChoice>, D::Error> {
     let text = Option::<String>::deserialize(from)?;
     text.map(|text| text.parse().map_err(Error::custom)).transpose()
 }
@@ -63,9 +63,9 @@ mod tests {
         let shown = |json| Options::read(json).map(|options| format!("{:?}", options.for_opening()));
         let read =
             shown(r#"{"runtime_dir": "/run/x", "system": "rover-2", "transport": "tcp,a.b=shm", "signals": false}"#);
-        let expected = r#"runtime_dir: Some("/run/x"), system: Some("rover-2"), medium: Some(Tcp), "#;
-        let media = r#"medium_of: [("a.b", Shm)], transport: None"#;
-        assert_eq!(read.unwrap(), format!("OpenOptions {{ {expected}{media} }}"));
+        let expected = r#"runtime_dir: Some("/run/x"), system: Some("rover-2"), transport_kind: Some(Tcp), "#;
+        let transports = r#"transport_of: [("a.b", Shm)], transport: None"#;
+        assert_eq!(read.unwrap(), format!("OpenOptions {{ {expected}{transports} }}"));
         for json in ["", " ", "{}"] {
             assert!(Options::read(json).unwrap().signals());
         }

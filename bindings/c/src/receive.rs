@@ -22,7 +22,7 @@ pub(crate) const NOTHING: Failure = Failure::usual(SCL_NOTHING, c"no message has
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_recv(gate: *mut scl_gate, timeout_ns: i64, message: *mut *mut scl_message) -> scl_status {
     // SAFETY: the caller's duty; NULL is refused.
-    border::status(|| unsafe { give(message, || receive(&mut *gate::lock(gate)?, Wait::of(timeout_ns))) })
+    border::status(|| unsafe { give(message, || receive(&mut *gate::lock(gate)?, timeout_ns)) })
 }
 
 /// Receives the next message of a `sub` or `pull` gate into a buffer of `capacity` bytes, and stores its length in
@@ -45,7 +45,7 @@ pub unsafe extern "C" fn scl_recv_into(
         *len = 0;
         border::check_buffer(buffer, capacity)?;
         let mut open = gate::lock(gate)?;
-        let message = receive(&mut open, Wait::of(timeout_ns))?;
+        let message = receive(&mut open, timeout_ns)?;
         *len = message.len();
         // SAFETY: the caller promises `capacity` bytes, or NULL with a capacity of 0.
         let stored = unsafe { border::store(&message, buffer, capacity) };
@@ -67,10 +67,11 @@ pub unsafe extern "C" fn scl_latest(gate: *mut scl_gate, message: *mut *mut scl_
     border::status(|| unsafe { give(message, || newest(&mut *gate::lock(gate)?)) })
 }
 
-fn receive(open: &mut OpenGate, wait: Wait) -> Result<Bytes, Failure> {
+fn receive(open: &mut OpenGate, timeout_ns: i64) -> Result<Bytes, Failure> {
     if let Some(kept) = open.kept.take() {
         return Ok(kept);
     }
+    let wait = open.patience.of(timeout_ns).ok_or(NOTHING)?;
     match (&mut open.gate, wait) {
         (Gate::Sub(gate), Wait::No) => gate.try_recv()?.ok_or(NOTHING),
         (Gate::Sub(gate), Wait::For(time)) => Ok(gate.recv_timeout(time)?),

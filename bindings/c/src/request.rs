@@ -38,7 +38,7 @@ pub unsafe extern "C" fn scl_take_request(
         // SAFETY: the caller's duty; NULL is refused.
         let result = unsafe { border::result(request, "request") }?;
         *result = std::ptr::null_mut();
-        let request = take(&mut *gate::lock(gate)?, Wait::of(timeout_ns))?;
+        let request = take(&mut *gate::lock(gate)?, timeout_ns)?;
         *result = Box::into_raw(Box::new(scl_request { mark: MARK, request, buffer: Vec::new() }));
         Ok(())
     })
@@ -120,13 +120,25 @@ pub unsafe extern "C" fn scl_request_free(request: *mut scl_request) {
     });
 }
 
-fn take(open: &mut OpenGate, wait: Wait) -> Result<Request<Bytes, Bytes>, Failure> {
+fn take(open: &mut OpenGate, timeout_ns: i64) -> Result<Request<Bytes, Bytes>, Failure> {
+    let wait = open.patience.of(timeout_ns).ok_or(NOTHING)?;
     match (&mut open.gate, wait) {
         (Gate::Rep(gate), Wait::No) => gate.try_recv()?.ok_or(NOTHING),
         (Gate::Rep(gate), Wait::For(time)) => Ok(gate.recv_timeout(time)?),
         (Gate::Rep(gate), Wait::Forever) => Ok(gate.recv_blocking()?),
         _ => Err(open.wrong_kind("scl_take_request")),
     }
+}
+
+/// The request of a handle, which is freed.
+///
+/// # Safety
+/// `request` is NULL, or points to at least 8 readable bytes.
+pub(crate) unsafe fn remove(request: *mut scl_request) -> Result<Request<Bytes, Bytes>, Failure> {
+    // SAFETY: the caller's duty.
+    unsafe { live(request) }?;
+    // SAFETY: just found to be live.
+    Ok(unsafe { take_back(request) })
 }
 
 /// # Safety

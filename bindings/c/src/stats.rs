@@ -12,10 +12,10 @@ use std::time::Instant;
 /// Writes a gate's counts since its component was opened into a buffer of `capacity` bytes, as a JSON object that ends
 /// with NUL, and stores its length without the NUL in `*len`:
 ///
-///     {"sent": 2, "received": 0, "dropped_oldest": 0, "dropped_newest": 0, "dropped_for_observers": 0, "lost": 0,
-///      "rejected": 0, "bytes": 12, "waiting": 0, "peers": 1, "idle_ns": 1500000, "connections": [{"peer":
-///      "controller.sensor", "connected": true, "published": 2, "taken": 2, "dropped_oldest": 0, "dropped_newest": 0,
-///      "lost": 0, "waiting": 0}]}
+///     {"sent": 2, "received": 0, "replaced": 0, "dropped_oldest": 0, "dropped_newest": 0, "dropped_for_observers": 0,
+///      "lost": 0, "rejected": 0, "undecodable": 0, "bytes": 12, "waiting": 0, "peers": 1, "idle_ns": 1500000,
+///      "connections": [{"peer": "controller.sensor", "connected": true, "published": 2, "taken": 2, "replaced": 0,
+///      "dropped_oldest": 0, "dropped_newest": 0, "lost": 0, "waiting": 0}]}
 ///
 /// `idle_ns` is the time since a message last moved, or null. `connections` is empty for gates other than `pub` and
 /// `push`.
@@ -49,11 +49,13 @@ fn counts(open: &OpenGate) -> Value {
     json!({
         "sent": stats.sent,
         "received": stats.received,
+        "replaced": stats.replaced,
         "dropped_oldest": stats.dropped_oldest,
         "dropped_newest": stats.dropped_newest,
         "dropped_for_observers": stats.dropped_for_observers,
         "lost": stats.lost,
         "rejected": stats.rejected,
+        "undecodable": stats.undecodable,
         "bytes": stats.bytes,
         "waiting": stats.waiting + usize::from(open.kept.is_some()),
         "peers": stats.peers,
@@ -76,6 +78,7 @@ fn connection(stats: &PeerStats) -> Value {
         "connected": stats.connected,
         "published": stats.published,
         "taken": stats.taken,
+        "replaced": stats.replaced,
         "dropped_oldest": stats.dropped_oldest,
         "dropped_newest": stats.dropped_newest,
         "lost": stats.lost,

@@ -31,6 +31,8 @@ pub const SCL_BUFFER: scl_status = -9;
 pub const SCL_DECODE: scl_status = -10;
 /// Not all peers have taken all messages. The component was closed nevertheless.
 pub const SCL_NOT_FLUSHED: scl_status = -11;
+/// The replier could not decode the request, so it did not act on it.
+pub const SCL_REFUSED: scl_status = -12;
 /// A wrong argument: a NULL pointer, a text that is not UTF-8, a length that no object can have, a wrong option.
 pub const SCL_ARGUMENT: scl_status = -20;
 /// The handle was closed or freed, or never was one.
@@ -72,6 +74,7 @@ const NAMES: &[(scl_status, &CStr)] = &[
     (SCL_BUFFER, c"SCL_BUFFER"),
     (SCL_DECODE, c"SCL_DECODE"),
     (SCL_NOT_FLUSHED, c"SCL_NOT_FLUSHED"),
+    (SCL_REFUSED, c"SCL_REFUSED"),
     (SCL_ARGUMENT, c"SCL_ARGUMENT"),
     (SCL_HANDLE, c"SCL_HANDLE"),
     (SCL_NAME, c"SCL_NAME"),
@@ -111,7 +114,8 @@ mod tests {
             let definition = format!("#define {} {status}", expected.to_str().unwrap());
             assert!(defined.contains(&definition.as_str()), "{definition}");
         }
-        let negative = defined.iter().filter(|line| line.contains(" -")).count();
+        let value = |line: &str| line.rsplit(' ').next().and_then(|value| value.parse::<scl_status>().ok());
+        let negative = defined.iter().filter(|line| value(line).is_some_and(|value| value < 0)).count();
         assert_eq!(negative, NAMES.len() - 1, "each status of the header has a name");
         assert_eq!(name(7), c"unknown status");
         assert_eq!(name(scl_status::MIN), c"unknown status");

@@ -15,17 +15,19 @@ fn wrong_arguments_are_explained() {
 }
 
 /// The promise: a forked child can use nothing of its parent, and harms nothing.
+///
+/// Without AddressSanitizer: that of GCC 12 does not protect the locks of its allocator when a process forks, so a child hangs in
+/// `malloc` if another thread of the parent was in there.
 #[test]
 fn a_forked_child_is_refused() {
-    on_each_build(|program| {
-        let mut peer = program.peer();
-        let (mut values, mut out) = (peer.publisher("values").unwrap(), peer.subscriber("out").unwrap());
-        values.send_blocking(&"hello".into()).unwrap();
-        let mut c = program.start("forked", &[]);
-        c.expect("done");
-        assert_eq!(out.recv_blocking().unwrap(), "still here");
-        expect_success(c);
-    });
+    let program = Program::new(System::new(), Build::Plain);
+    let mut peer = program.peer();
+    let (mut values, mut out) = (peer.publisher("values").unwrap(), peer.subscriber("out").unwrap());
+    values.send_blocking(&"hello".into()).unwrap();
+    let mut c = program.start("forked", &[]);
+    c.expect("done");
+    assert_eq!(out.recv_blocking().unwrap(), "still here");
+    expect_success(c);
 }
 
 /// The promise: a peer with another contract, or with messages of another shape, is not connected, and the text says why.

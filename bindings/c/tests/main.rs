@@ -3,11 +3,12 @@
 
 mod bad_input;
 mod calls;
+mod copies;
 mod counterpart;
 mod event_loop;
+mod exits;
 mod header;
-mod leaks;
-mod page;
+#[allow(dead_code, reason = "the tests with tools use the rest")]
 mod programs;
 mod stopping;
 mod threads;

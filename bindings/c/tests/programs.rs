@@ -114,6 +114,14 @@ pub fn compiled(program: &str, build: Build) -> PathBuf {
     made.clone()
 }
 
+/// A shared library, compiled from a source in C.
+pub fn shared_library(source: &Path, name: &str, options: &[&str]) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("c-{name}.so"));
+    let compile = Compile::c(source).option("-D_GNU_SOURCE").option("-pthread").option("-shared").option("-fPIC");
+    options.iter().fold(compile, |compile, option| compile.option(*option)).program(&path);
+    path
+}
+
 /// Asserts that a program ends with success, which it does not after a leak.
 #[track_caller]
 pub fn expect_success(process: Process) {

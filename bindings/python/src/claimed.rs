@@ -104,7 +104,7 @@ impl<'g> Claim<'g> {
     }
 
     /// Takes the gate along, for a call that needs it between its steps, too.
-    pub(crate) fn take(&mut self) -> Result<Gate, Unusable> {
+    fn take(&mut self) -> Result<Gate, Unusable> {
         let mut slot = self.0.lock();
         match std::mem::replace(&mut *slot, Slot::Away) {
             Slot::Here(gate) => Ok(gate),
@@ -116,7 +116,7 @@ impl<'g> Claim<'g> {
         }
     }
 
-    pub(crate) fn bring_back(&mut self, gate: Gate) {
+    fn bring_back(&mut self, gate: Gate) {
         self.0.bring_back(gate);
     }
 
@@ -124,18 +124,6 @@ impl<'g> Claim<'g> {
     pub(crate) fn borrow(mut self) -> Result<Borrowed<'g>, Unusable> {
         let gate = self.take()?;
         Ok(Borrowed { gate: Some(gate), claim: self })
-    }
-
-    /// Keeps the claim beyond the life of this value, until [`Claimed::resume`].
-    pub(crate) fn keep(self) {
-        std::mem::forget(self);
-    }
-}
-
-impl Claimed {
-    /// Goes on with a claim that was kept.
-    pub(crate) fn resume(&self) -> Claim<'_> {
-        Claim(self)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::failure::{Failure, no_panic};
 use crate::gate::Gate;
 use crate::limit::Limit;
 use crate::plan::Plan;
-use crate::process::{drop_detached, stay_if_exiting};
+use crate::process::{detach, drop_detached};
 use crate::readiness::Readiness;
 use crate::shared::Shared;
 use crate::wait_any::wait_any;
@@ -13,7 +13,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use scl::host::{self, text_with_causes};
 use scl::untyped;
-use scl::{MediumError, NotReady, OpenOptions};
+use scl::{NotReady, OpenOptions, TransportChoiceError};
 use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -50,13 +50,13 @@ impl Component {
     ) -> PyResult<Self> {
         let options = options(runtime_dir, system, transport)?;
         let plan = plan.component(component)?;
-        let opened = py.detach(|| {
+        let opened = detach(py, || {
             no_panic(|| {
                 host::notify_service_manager();
                 host::apply_real_time()?;
                 WithGates::of(untyped::Component::open_blocking_with(plan, options)?, plan)
             })
-        });
+        })?;
         Self::new(py, plan, opened?, false)
     }
 
@@ -65,12 +65,12 @@ impl Component {
     fn open_test(py: Python<'_>, plan: &Plan, component: &str) -> PyResult<(Self, Self)> {
         let plan = plan.component(component)?;
         let counterpart = plan.counterpart();
-        let opened = py.detach(|| {
+        let opened = detach(py, || {
             no_panic(|| {
                 let (component, peer) = untyped::Component::test_blocking(plan)?;
                 Ok((WithGates::of(component, plan)?, WithGates::of(peer, &counterpart)?))
             })
-        });
+        })?;
         let (component, peer) = opened?;
         Ok((Self::new(py, plan, component, true)?, Self::new(py, &counterpart, peer, true)?))
     }
@@ -91,15 +91,15 @@ impl Component {
         self.gates.iter().map(|gate| gate.clone_ref(py)).collect()
     }
 
-    /// Waits until all required peers are connected.
-    #[pyo3(signature = (timeout=None))]
-    fn ready(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<()> {
-        let limit = Limit::of_seconds(timeout)?;
+    /// Waits until all required peers are connected. `waited` is for the message of the error, if the caller has waited before.
+    #[pyo3(signature = (timeout=None, waited=None))]
+    fn ready(&self, py: Python<'_>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<()> {
+        let limit = Limit::of_seconds(timeout)?.after(waited);
         self.shared.check()?;
         let mut missing: Option<NotReady> = None;
         let ready = wait(py, limit, &self.shared, |within| {
             let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
-            let component = component.as_ref().ok_or_else(|| self.shared.closed())?;
+            let component = component.as_ref().ok_or_else(|| self.shared.ended())?;
             match component.ready_blocking(within) {
                 Ok(()) => Ok(Some(())),
                 Err(error) => {
@@ -111,7 +111,9 @@ impl Component {
         })?;
         match (ready, missing) {
             (None, Some(mut missing)) => {
-                missing.waited = limit.waited();
+                if !limit.waited().is_zero() {
+                    missing.waited = limit.waited();
+                }
                 Err(Failure::from(missing).into())
             }
             _ => Ok(()),
@@ -138,10 +140,11 @@ impl Component {
         if self.shared.is_inherited() || self.shared.close() {
             return Ok(());
         }
-        py.detach(|| self.gates.iter().for_each(|gate| gate.get().claimed().close()));
-        let Some(component) = py.detach(|| self.component.lock().unwrap_or_else(PoisonError::into_inner).take()) else {
-            return Ok(());
-        };
+        let component = detach(py, || {
+            self.gates.iter().for_each(|gate| gate.get().claimed().close());
+            self.component.lock().unwrap_or_else(PoisonError::into_inner).take()
+        })?;
+        let Some(component) = component else { return Ok(()) };
         // On a thread of its own, so that Ctrl-C ends the wait; the thread then goes on handing over.
         let (done, is_done) = sync_channel(1);
         let is_done = Mutex::new(is_done);
@@ -152,11 +155,7 @@ impl Component {
         });
         closing?;
         loop {
-            let closed = py.detach(|| {
-                let closed = is_done.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(LOOK);
-                stay_if_exiting();
-                closed
-            });
+            let closed = detach(py, || is_done.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(LOOK))?;
             match closed {
                 Ok(closed) => return Ok(closed?),
                 Err(RecvTimeoutError::Timeout) => py.check_signals()?,
@@ -167,7 +166,10 @@ impl Component {
 
     /// A file descriptor for event loops: of calls that were polled with it, or, with `all_gates`, of all gates.
     fn readiness(&self, all_gates: bool) -> PyResult<Readiness> {
-        self.shared.check_open()?;
+        match all_gates {
+            true => self.shared.check_open()?,
+            false => self.shared.check()?,
+        }
         Ok(self.new_readiness(all_gates)?)
     }
 
@@ -206,7 +208,7 @@ impl Component {
 
     fn new_readiness(&self, all_gates: bool) -> Result<Readiness, Failure> {
         let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
-        let component = component.as_ref().ok_or_else(|| self.shared.closed())?;
+        let component = component.as_ref().ok_or_else(|| self.shared.ended())?;
         let readiness = match all_gates {
             true => component.readiness().map_err(|error| Failure::of_box(&error)),
             false => component.readiness_of(&[]).map_err(|error| Failure::of_box(error.inner())),
@@ -232,8 +234,8 @@ fn options(runtime_dir: Option<PathBuf>, system: Option<String>, transport: Opti
         options = options.system(name);
     }
     if let Some(text) = transport {
-        let wrong = |error: MediumError| PyValueError::new_err(format!("transport={text:?}: {error}"));
-        options = options.media(text.parse().map_err(wrong)?);
+        let wrong = |error: TransportChoiceError| PyValueError::new_err(format!("transport={text:?}: {error}"));
+        options = options.transports(text.parse().map_err(wrong)?);
     }
     Ok(options)
 }

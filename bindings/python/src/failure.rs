@@ -1,10 +1,10 @@
 //! Errors on their way to Python: the class of `scl._errors`, and the text.
 
-use crate::process::stay_detached_if_exiting;
+use crate::process::{Inside, thread_exit};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
-use scl::host::text_with_causes;
+use scl::host::{self, text_with_causes};
 use scl::{
     BlockingError, CallError, NotFlushed, NotReady, RecvError, RecvTimeoutError, ReplyError, SendError,
     SendTimeoutError, TrySendError,
@@ -40,6 +40,16 @@ impl Failure {
     fn of(class: &'static str, error: &dyn std::error::Error) -> Self {
         Self::new(class, text_with_causes(error))
     }
+
+    fn raised(&self, py: Python<'_>) -> PyResult<PyErr> {
+        if self.is("Stopped") {
+            // Its class depends on who is to receive it.
+            let stopped = py.import("scl._stopping")?.getattr("stopped")?.call1((&self.text,))?;
+            return Ok(PyErr::from_value(stopped));
+        }
+        let class = py.import("scl._errors")?.getattr(self.class)?.cast_into::<PyType>()?;
+        Ok(PyErr::from_type(class, self.text.clone()))
+    }
 }
 
 /// Turns a panic into an exception: none may cross the border.
@@ -51,17 +61,15 @@ pub(crate) fn no_panic<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T
     })
 }
 
-/// Not to be used while a lock is held: the end of the interpreter keeps all other threads here.
 impl From<Failure> for PyErr {
     fn from(failure: Failure) -> Self {
         Python::attach(|py| {
-            stay_detached_if_exiting(py);
-            let class = py.import("scl._errors").and_then(|errors| errors.getattr(failure.class));
-            match class.and_then(|class| Ok(class.cast_into::<PyType>()?)) {
-                Ok(class) => PyErr::from_type(class, failure.text),
+            // The components are being closed, so that the failure says nothing to the program.
+            let Some(_inside) = Inside::enter() else { return thread_exit() };
+            failure.raised(py).unwrap_or_else(|_| {
                 // Only without the Python part of the package.
-                Err(_) => PyRuntimeError::new_err(failure.text),
-            }
+                PyRuntimeError::new_err(failure.text)
+            })
         })
     }
 }
@@ -70,6 +78,8 @@ fn class_of(error: BlockingError) -> &'static str {
     match error {
         BlockingError::Stopped => "Stopped",
         BlockingError::Forked => "Forked",
+        // The component may have been closed after the request and during the call.
+        _ if host::gates_stopped() => "Stopped",
         _ => "Closed",
     }
 }
@@ -154,6 +164,7 @@ impl From<CallError> for Failure {
             CallError::TooLong { .. } => "TooLong",
             CallError::Timeout { .. } => "Timeout",
             CallError::PeerLost { .. } => "PeerLost",
+            CallError::Refused { .. } => "Refused",
             CallError::Decode { .. } => "DecodeError",
             CallError::Blocking { source, .. } => class_of(*source),
             _ => "Error",

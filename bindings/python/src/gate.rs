@@ -4,6 +4,7 @@ use crate::claimed::{Claim, Claimed, StepError, Unusable};
 use crate::failure::{Failure, no_panic};
 use crate::limit::Limit;
 use crate::pending_call::PendingCall;
+use crate::process::detach;
 use crate::readiness::Readiness;
 use crate::request::Request;
 use crate::shared::Shared;
@@ -53,7 +54,7 @@ impl Gate {
 
     pub(crate) fn unusable(&self, unusable: Unusable) -> Failure {
         if unusable == Unusable::Closed {
-            return self.shared.closed();
+            return self.shared.ended();
         }
         let text = "is in use by another thread or task; one at a time may use a gate, others may use other gates";
         Failure::new("Busy", format!("gate `{}` {text}", self.full_name()))
@@ -321,37 +322,66 @@ impl Gate {
         Ok(taken.map(|request| Request::new(request, Arc::clone(&self.shared))))
     }
 
+    /// Reports that the package could not decode the message or reply that the gate received last, or this request. Returns
+    /// true if the gate skips such messages.
+    #[pyo3(signature = (reason, request=None))]
+    fn reject(&self, reason: String, request: Option<&Bound<'_, Request>>) -> PyResult<bool> {
+        let request = request.and_then(|request| request.get().take());
+        Ok(self.at_once(|gate| match request {
+            Some(request) => Ok(gate.reject_request(request, reason).is_ok()),
+            None => Ok(gate.reject(reason).is_ok()),
+        })?)
+    }
+
     /// Sends a request and waits for the reply.
     #[pyo3(signature = (request, timeout=None))]
     fn call<'py>(
-        slf: &Bound<'py, Self>,
+        &self,
+        py: Python<'py>,
         request: &Bound<'_, PyBytes>,
         timeout: Option<f64>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let py = slf.py();
-        let call = PendingCall::start(slf, request, timeout)?;
-        let (shared, driver) = (&slf.get().shared, slf.get().shared.driver());
-        let reply = wait(py, Limit::of_seconds(None)?, shared, |within| call.drive(&driver, within))?;
-        let reply = reply.ok_or_else(|| shared.closed())?;
+        let call = self.start_call(request, timeout)?;
+        let driver = self.shared.driver();
+        let reply = wait(py, Limit::of_seconds(None)?, &self.shared, |within| call.drive(&driver, within))?;
+        let reply = reply.ok_or_else(|| self.shared.ended())?;
         Ok(PyBytes::new(py, &reply))
     }
 
     /// Sends a request. The reply comes from the result, which must be asked for it before anything is sent.
     #[pyo3(signature = (request, timeout=None))]
-    fn start_call(slf: &Bound<'_, Self>, request: &Bound<'_, PyBytes>, timeout: Option<f64>) -> PyResult<PendingCall> {
-        PendingCall::start(slf, request, timeout)
+    fn start_call(&self, request: &Bound<'_, PyBytes>, timeout: Option<f64>) -> PyResult<PendingCall> {
+        let timeout = timeout.map(|seconds| Limit::of_seconds(Some(seconds))).transpose()?;
+        let timeout = timeout.map(|limit| limit.left(Duration::MAX));
+        let request = Bytes::copy_from_slice(request.as_bytes());
+        self.shared.check()?;
+        // Not claimed: several calls may be in progress.
+        let requester = self.gate.visit(|gate| match gate {
+            AnyGate::Req(requester) => Ok(requester.clone()),
+            _ => self.has_no("call"),
+        });
+        let requester = requester.map_err(|unusable| self.unusable(unusable))??;
+        Ok(PendingCall::start(Arc::clone(&self.shared), requester, request, timeout))
     }
 
     #[getter]
     fn is_connected(&self, py: Python<'_>) -> PyResult<bool> {
         self.shared.check_open()?;
-        let connected = py.detach(|| self.gate.visit(|gate| gate.is_connected()));
+        let connected = detach(py, || self.gate.visit(|gate| gate.is_connected()))?;
         Ok(connected.map_err(|unusable| self.unusable(unusable))?)
+    }
+
+    /// In seconds.
+    #[getter]
+    fn latched_age(&self, py: Python<'_>) -> PyResult<Option<f64>> {
+        self.shared.check_open()?;
+        let age = py.detach(|| self.gate.visit(|gate| gate.latched_age()));
+        Ok(age.map_err(|unusable| self.unusable(unusable))?.map(|age| age.as_secs_f64()))
     }
 
     fn stats<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.shared.check_open()?;
-        let stats = py.detach(|| self.gate.visit(|gate| stats::of_gate(gate)));
+        let stats = detach(py, || self.gate.visit(|gate| stats::of_gate(gate)))?;
         stats.map_err(|unusable| self.unusable(unusable))?.to_dict(py)
     }
 

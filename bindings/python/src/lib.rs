@@ -11,6 +11,7 @@ mod gate;
 mod limit;
 mod logging;
 mod pending_call;
+mod plain;
 mod plan;
 mod process;
 mod readiness;
@@ -31,9 +32,11 @@ mod _native {
     #[pymodule_export]
     use super::gate::Gate;
     #[pymodule_export]
-    use super::logging::{log_hold, log_level, log_release, log_start, log_take, log_wait};
+    use super::logging::{forked, log_end, log_hold, log_level, log_release, log_start, log_take, log_wait};
     #[pymodule_export]
     use super::pending_call::PendingCall;
+    #[pymodule_export]
+    use super::plain::is_plain;
     #[pymodule_export]
     use super::plan::{Plan, unknown_gate};
     #[pymodule_export]
@@ -43,7 +46,7 @@ mod _native {
     #[pymodule_export]
     use super::request::Request;
     #[pymodule_export]
-    use super::stop::{stop_check, stop_handle, stop_request, stop_requested};
+    use super::stop::{stop_handle, stop_request, stop_requested, stop_within};
     use pyo3::prelude::*;
 
     #[pymodule_init]

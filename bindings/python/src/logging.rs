@@ -3,7 +3,7 @@
 //! A record may be made anywhere: by a thread that holds a gate's lock while the interpreter waits for that lock. So no
 //! record waits for the interpreter: it goes into a queue, from which a thread of the package takes it.
 
-use crate::process::stay_if_exiting;
+use crate::process::{detach, forget_threads};
 use pyo3::prelude::*;
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -19,8 +19,10 @@ use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
 /// How many records may wait; more are counted and dropped.
 const CAPACITY: usize = 4096;
 
-static QUEUE: Queue =
-    Queue { records: Mutex::new(Records { waiting: VecDeque::new(), dropped: 0 }), added: Condvar::new() };
+static QUEUE: Queue = Queue {
+    records: Mutex::new(Records { waiting: VecDeque::new(), dropped: 0, ended: false }),
+    added: Condvar::new(),
+};
 /// The least level that anybody reads, of Python's `logging`.
 static LEVEL: AtomicU8 = AtomicU8::new(0);
 
@@ -32,6 +34,8 @@ struct Queue {
 struct Records {
     waiting: VecDeque<Record>,
     dropped: u64,
+    /// Whether the thread that takes them shall end.
+    ended: bool,
 }
 
 impl Queue {
@@ -46,6 +50,7 @@ type Record = (u8, &'static str, String);
 /// Sends records to the queue from now on.
 #[pyfunction]
 pub(crate) fn log_start() {
+    QUEUE.lock().ended = false;
     // A forked child inherits it.
     let _already_set = tracing::subscriber::set_global_default(tracing_subscriber::registry().with(ToQueue));
 }
@@ -62,31 +67,47 @@ thread_local! {
 
 /// Locks the queue before a fork: a thread that held the lock would not exist in the child.
 #[pyfunction]
-pub(crate) fn log_hold(py: Python<'_>) {
-    py.detach(|| HELD.set(Some(QUEUE.lock())));
+pub(crate) fn log_hold(py: Python<'_>) -> PyResult<()> {
+    detach(py, || HELD.set(Some(QUEUE.lock())))
 }
 
-/// Unlocks the queue after a fork, in both processes.
+/// Unlocks the queue after a fork, in the parent.
 #[pyfunction]
 pub(crate) fn log_release() {
     HELD.set(None);
 }
 
-/// Waits for records, no longer than some seconds.
+/// The same in the child, where no other thread exists.
 #[pyfunction]
-pub(crate) fn log_wait(py: Python<'_>, timeout: f64) {
+pub(crate) fn forked() {
+    HELD.set(None);
+    forget_threads();
+}
+
+/// Waits for records, no longer than some seconds. Returns false once the thread that takes them shall end.
+#[pyfunction]
+pub(crate) fn log_wait(py: Python<'_>, timeout: f64) -> PyResult<bool> {
     let timeout = Duration::try_from_secs_f64(timeout).unwrap_or_default();
-    py.detach(|| {
-        let is_empty = |records: &mut Records| records.waiting.is_empty();
-        drop(QUEUE.added.wait_timeout_while(QUEUE.lock(), timeout, is_empty));
-        stay_if_exiting();
-    });
+    detach(py, || {
+        let is_idle = |records: &mut Records| records.waiting.is_empty() && !records.ended;
+        let waited = QUEUE.added.wait_timeout_while(QUEUE.lock(), timeout, is_idle);
+        !waited.unwrap_or_else(PoisonError::into_inner).0.ended
+    })
+}
+
+/// Ends the thread that takes records.
+#[pyfunction]
+pub(crate) fn log_end(py: Python<'_>) -> PyResult<()> {
+    detach(py, || {
+        QUEUE.lock().ended = true;
+        QUEUE.added.notify_all();
+    })
 }
 
 /// Takes all records, and the number of those that were dropped.
 #[pyfunction]
-pub(crate) fn log_take(py: Python<'_>) -> (Vec<Record>, u64) {
-    py.detach(|| {
+pub(crate) fn log_take(py: Python<'_>) -> PyResult<(Vec<Record>, u64)> {
+    detach(py, || {
         let mut records = QUEUE.lock();
         (records.waiting.drain(..).collect(), std::mem::take(&mut records.dropped))
     })

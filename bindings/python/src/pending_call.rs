@@ -1,15 +1,14 @@
 //! A request that waits for its reply, in steps.
 
 use crate::failure::{Failure, no_panic};
-use crate::gate::Gate;
-use crate::limit::Limit;
 use crate::process::drop_detached;
 use crate::readiness::Readiness;
+use crate::shared::Shared;
 use bytes::Bytes;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use scl::CallError;
-use scl::untyped::{Driver, Gate as AnyGate};
+use scl::untyped::Driver;
+use scl::{CallError, Req};
 use std::future::poll_fn;
 use std::pin::{Pin, pin};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,35 +16,29 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
 
-/// A call of a `req` gate. It has the gate until it is over; dropping it cancels the call.
+/// A call of a `req` gate. Dropping it cancels the call.
 #[pyclass(frozen, module = "scl._native")]
 pub(crate) struct PendingCall {
-    gate: Py<Gate>,
+    shared: Arc<Shared>,
     cancelled: Arc<AtomicBool>,
     /// `None` once it is over.
     call: Mutex<Option<Call>>,
 }
 
-/// Ends with the gate, and the reply unless the call was cancelled.
-type Call = Pin<Box<dyn Future<Output = (AnyGate, Option<Result<Bytes, CallError>>)> + Send>>;
+/// Ends with the reply unless the call was cancelled.
+type Call = Pin<Box<dyn Future<Output = Option<Result<Bytes, CallError>>> + Send>>;
 
 impl PendingCall {
     /// Begins a call, which sends nothing before it is polled.
-    pub(crate) fn start(gate: &Bound<'_, Gate>, request: &Bound<'_, PyBytes>, timeout: Option<f64>) -> PyResult<Self> {
-        let timeout = timeout.map(|seconds| Limit::of_seconds(Some(seconds))).transpose()?;
-        let timeout = timeout.map(|limit| limit.left(Duration::MAX));
-        let request = Bytes::copy_from_slice(request.as_bytes());
+    pub(crate) fn start(
+        shared: Arc<Shared>,
+        requester: Req<Bytes, Bytes>,
+        request: Bytes,
+        timeout: Option<Duration>,
+    ) -> Self {
         let cancelled = Arc::new(AtomicBool::new(false));
-        let own = gate.get();
-        let mut claim = own.claim()?;
-        let taken = claim.take().map_err(|unusable| own.unusable(unusable))?;
-        if !matches!(taken, AnyGate::Req(_)) {
-            claim.bring_back(taken);
-            return Ok(own.has_no("call")?);
-        }
-        claim.keep();
-        let call = Box::pin(exchange(taken, request, timeout, Arc::clone(&cancelled)));
-        Ok(Self { gate: gate.clone().unbind(), cancelled, call: Mutex::new(Some(call)) })
+        let call = Box::pin(exchange(requester, request, timeout, Arc::clone(&cancelled)));
+        Self { shared, cancelled, call: Mutex::new(Some(call)) }
     }
 
     /// Waits for the reply no longer than a given time; `None` if there is none yet.
@@ -70,10 +63,9 @@ impl PendingCall {
     fn finish(
         &self,
         slot: &mut Option<Call>,
-        (gate, reply): (AnyGate, Option<Result<Bytes, CallError>>),
+        reply: Option<Result<Bytes, CallError>>,
     ) -> Result<Option<Bytes>, Failure> {
         *slot = None;
-        self.gate.get().claimed().resume().bring_back(gate);
         Ok(reply.transpose()?)
     }
 
@@ -90,7 +82,7 @@ impl PendingCall {
 impl PendingCall {
     /// Returns the reply, or `None`, and then the readiness reports when there may be one.
     fn poll_reply<'py>(&self, py: Python<'py>, readiness: &Readiness) -> PyResult<Option<Bound<'py, PyBytes>>> {
-        self.gate.get().shared().check()?;
+        self.shared.check()?;
         let waker = readiness.waker();
         let reply = no_panic(|| self.poll(&mut Context::from_waker(&waker)))?;
         Ok(reply.map(|reply| PyBytes::new(py, &reply)))
@@ -99,7 +91,7 @@ impl PendingCall {
     /// Ends the call; a reply that still comes is discarded. The gate can be used again.
     fn cancel(&self) {
         self.cancelled.store(true, Ordering::Release);
-        if self.gate.get().shared().is_inherited() {
+        if self.shared.is_inherited() {
             return;
         }
         let _over = no_panic(|| self.poll(&mut Context::from_waker(Waker::noop())));
@@ -115,20 +107,16 @@ impl Drop for PendingCall {
 }
 
 async fn exchange(
-    mut gate: AnyGate,
+    mut requester: Req<Bytes, Bytes>,
     request: Bytes,
     timeout: Option<Duration>,
     cancelled: Arc<AtomicBool>,
-) -> (AnyGate, Option<Result<Bytes, CallError>>) {
-    let AnyGate::Req(req) = &mut gate else { return (gate, None) };
-    let timeout = timeout.unwrap_or(req.timeout());
-    let reply = {
-        let mut call = pin!(req.call_within(&request, timeout));
-        poll_fn(|cx| match cancelled.load(Ordering::Acquire) {
-            true => Poll::Ready(None),
-            false => call.as_mut().poll(cx).map(Some),
-        })
-        .await
-    };
-    (gate, reply)
+) -> Option<Result<Bytes, CallError>> {
+    let timeout = timeout.unwrap_or(requester.timeout());
+    let mut call = pin!(requester.call_within(&request, timeout));
+    poll_fn(|cx| match cancelled.load(Ordering::Acquire) {
+        true => Poll::Ready(None),
+        false => call.as_mut().poll(cx).map(Some),
+    })
+    .await
 }

@@ -2,6 +2,7 @@
 //! words of `scl check`.
 
 use crate::failure::{Failure, no_panic};
+use crate::process::detach;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use scl::host::text_with_causes;
@@ -34,7 +35,7 @@ impl Plan {
     /// Reads and checks a topology file. Returns the plans and the warnings; all errors together are one `TopologyError`.
     #[staticmethod]
     fn of_file(py: Python<'_>, path: PathBuf) -> PyResult<(Self, Vec<String>)> {
-        let (plan, warnings) = py.detach(|| no_panic(|| check(path)))?;
+        let (plan, warnings) = detach(py, || no_panic(|| check(path)))??;
         Ok((Self { plan }, warnings))
     }
 

@@ -1,46 +1,91 @@
 //! The process: whether it is a forked child, and whether its interpreter is ending.
 
 use forkguard::atfork::Guard;
+use pyo3::exceptions::PySystemExit;
 use pyo3::prelude::*;
-use std::sync::OnceLock;
-use std::thread::{self, ThreadId};
+use rustix::thread::gettid;
+use std::sync::atomic::{AtomicI32, AtomicUsize, Ordering};
+use std::thread;
 use std::time::Duration;
 
-/// The thread that ends the interpreter.
-static EXITING: OnceLock<ThreadId> = OnceLock::new();
+/// The thread that ends the interpreter, 0 before the end.
+static EXITING: AtomicI32 = AtomicI32::new(0);
+/// Number of threads that have yet to return into the interpreter: they work without it, or run Python code from here.
+static INSIDE: AtomicUsize = AtomicUsize::new(0);
 
-/// Says that this thread is about to end the interpreter.
+/// How often the end of the interpreter looks whether all threads have returned.
+const RETURN_LOOK: Duration = Duration::from_millis(1);
+
+/// Says that this thread is about to end the interpreter, and waits until no other thread is in a call that waits.
 ///
-/// All other threads are daemon threads then, which Python ends where they are. A call of such a thread must not return into
-/// an interpreter that is gone, nor fail because the components are being closed, so it stays where it is until the process
-/// ends.
+/// All other threads are daemon threads then, which Python stops where they are. Those in a call must not return into an
+/// interpreter that is gone, and must not stay in the call either: they may hold a lock that the end of the interpreter needs,
+/// for example that of a logging handler. So their calls raise `SystemExit`, which releases what they hold, and which
+/// `threading` does not print.
 #[pyfunction]
-pub(crate) fn exiting() {
-    let _is_set = EXITING.set(thread::current().id());
+pub(crate) fn exiting(py: Python<'_>) {
+    EXITING.store(this_thread(), Ordering::SeqCst);
+    py.detach(|| {
+        while INSIDE.load(Ordering::SeqCst) > 0 {
+            thread::sleep(RETURN_LOOK);
+        }
+    });
 }
 
-/// Never returns once another thread is about to end the interpreter.
-pub(crate) fn stay_if_exiting() {
-    while is_ended_by_another() {
-        thread::sleep(Duration::MAX);
+/// Forgets the threads of the parent process, in a forked child.
+pub(crate) fn forget_threads() {
+    EXITING.store(0, Ordering::SeqCst);
+    INSIDE.store(0, Ordering::SeqCst);
+}
+
+/// A thread that the end of the interpreter waits for.
+pub(crate) struct Inside(());
+
+impl Inside {
+    /// Returns `None` if another thread is ending the interpreter.
+    pub(crate) fn enter() -> Option<Self> {
+        // Counted first: the thread that ends the interpreter either sees it, or is seen.
+        INSIDE.fetch_add(1, Ordering::SeqCst);
+        let inside = Self(());
+        (!is_ended_by_another()).then_some(inside)
     }
 }
 
-/// As [`stay_if_exiting`], for a thread that has the interpreter.
-pub(crate) fn stay_detached_if_exiting(py: Python<'_>) {
-    if is_ended_by_another() {
-        py.detach(stay_if_exiting);
+impl Drop for Inside {
+    fn drop(&mut self) {
+        INSIDE.fetch_sub(1, Ordering::SeqCst);
     }
+}
+
+/// Works without the interpreter. Fails with `SystemExit` if another thread is ending it.
+pub(crate) fn detach<R: Send>(py: Python<'_>, work: impl FnOnce() -> R + Send) -> PyResult<R> {
+    let inside = Inside::enter().ok_or_else(thread_exit)?;
+    let result = py.detach(work);
+    drop(inside);
+    if is_ended_by_another() { Err(thread_exit()) } else { Ok(result) }
+}
+
+/// What ends a thread while another one ends the interpreter.
+pub(crate) fn thread_exit() -> PyErr {
+    PySystemExit::new_err(())
 }
 
 fn is_ended_by_another() -> bool {
-    EXITING.get().is_some_and(|ending| *ending != thread::current().id())
+    let ending = EXITING.load(Ordering::SeqCst);
+    ending != 0 && ending != this_thread()
+}
+
+fn this_thread() -> i32 {
+    gettid().as_raw_pid()
 }
 
 /// Drops a value that may wait for peers, without the interpreter where there is one.
 pub(crate) fn drop_detached<T: Send>(value: T) {
     let mut value = Some(value);
-    Python::try_attach(|py| py.detach(|| drop(value.take())));
+    Python::try_attach(|py| match Inside::enter() {
+        Some(_inside) => py.detach(|| drop(value.take())),
+        None => drop(value.take()),
+    });
     drop(value);
 }
 

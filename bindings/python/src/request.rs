@@ -22,6 +22,13 @@ impl Request {
     }
 }
 
+impl Request {
+    /// The request itself, unless it was answered.
+    pub(crate) fn take(&self) -> Option<scl::Request<Bytes, Bytes>> {
+        self.request.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+}
+
 #[pymethods]
 impl Request {
     #[getter]
@@ -34,8 +41,7 @@ impl Request {
         if self.shared.is_inherited() {
             self.shared.check_open()?;
         }
-        let request = self.request.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let request = request.ok_or_else(|| Failure::new("Answered", "this request was answered before"))?;
+        let request = self.take().ok_or_else(|| Failure::new("Answered", "this request was answered before"))?;
         Ok(no_panic(|| Ok(request.reply(&Bytes::copy_from_slice(message.as_bytes()))?))?)
     }
 }

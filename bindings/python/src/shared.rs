@@ -29,12 +29,19 @@ impl Shared {
 
     /// Fails if no call may be made, or go on waiting. What a forked child inherits is looked at first: its locks may be
     /// held by threads that exist in the parent only.
+    ///
+    /// A stop request comes before the end of the component, which often follows it: `Closed` is an `Exception`, and a task or
+    /// thread that handles those would go on.
     pub(crate) fn check(&self) -> Result<(), Failure> {
-        self.check_open()?;
-        if host::gates_stopped() {
+        if !self.is_inherited() && host::gates_stopped() {
             return Err(Failure::new("Stopped", "stop requested"));
         }
-        Ok(())
+        self.check_open()
+    }
+
+    /// Why a call fails whose gate is gone.
+    pub(crate) fn ended(&self) -> Failure {
+        self.check().err().unwrap_or_else(|| self.closed())
     }
 
     /// As [`check`](Self::check), for what also works after a stop request.
@@ -48,7 +55,7 @@ impl Shared {
         Ok(())
     }
 
-    pub(crate) fn closed(&self) -> Failure {
+    fn closed(&self) -> Failure {
         Failure::new("Closed", format!("component `{}` is closed", self.component))
     }
 

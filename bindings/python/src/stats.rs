@@ -35,11 +35,13 @@ fn counts(dict: &Bound<'_, PyDict>, stats: &GateStats) -> PyResult<()> {
     let idle = stats.last_activity.map(|last| Instant::now().saturating_duration_since(last).as_secs_f64());
     dict.set_item("sent", stats.sent)?;
     dict.set_item("received", stats.received)?;
+    dict.set_item("replaced", stats.replaced)?;
     dict.set_item("dropped_oldest", stats.dropped_oldest)?;
     dict.set_item("dropped_newest", stats.dropped_newest)?;
     dict.set_item("dropped_for_observers", stats.dropped_for_observers)?;
     dict.set_item("lost", stats.lost)?;
     dict.set_item("rejected", stats.rejected)?;
+    dict.set_item("undecodable", stats.undecodable)?;
     dict.set_item("bytes", stats.bytes)?;
     dict.set_item("waiting", stats.waiting)?;
     dict.set_item("peers", stats.peers)?;
@@ -52,6 +54,7 @@ fn of_peer<'py>(py: Python<'py>, stats: &PeerStats) -> PyResult<Bound<'py, PyDic
     dict.set_item("connected", stats.connected)?;
     dict.set_item("published", stats.published)?;
     dict.set_item("taken", stats.taken)?;
+    dict.set_item("replaced", stats.replaced)?;
     dict.set_item("dropped_oldest", stats.dropped_oldest)?;
     dict.set_item("dropped_newest", stats.dropped_newest)?;
     dict.set_item("lost", stats.lost)?;

@@ -56,8 +56,8 @@ pub(crate) fn stop_requested() -> bool {
     host::is_stop_requested()
 }
 
-/// Fails if `SCL_STOP_WITHIN` is no duration.
+/// How long a program may run after a stop request, in seconds. Fails if `SCL_STOP_WITHIN` is no duration.
 #[pyfunction]
-pub(crate) fn stop_check() -> PyResult<()> {
-    Ok(host::grace_period().map(drop).map_err(Failure::from)?)
+pub(crate) fn stop_within() -> PyResult<f64> {
+    Ok(host::grace_period().map_err(Failure::from)?.as_secs_f64())
 }

@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, no_panic};
 use crate::limit::Limit;
-use crate::process::stay_if_exiting;
+use crate::process::detach;
 use crate::shared::Shared;
 use pyo3::prelude::*;
 use std::time::Duration;
@@ -21,11 +21,7 @@ pub(crate) fn wait<T: Send>(
     mut attempt: impl FnMut(Duration) -> Result<Option<T>, Failure> + Send,
 ) -> PyResult<Option<T>> {
     loop {
-        let attempted = py.detach(|| {
-            let attempted = no_panic(|| attempt(limit.left(LOOK)));
-            stay_if_exiting();
-            attempted
-        });
+        let attempted = detach(py, || no_panic(|| attempt(limit.left(LOOK))))?;
         if let Some(done) = attempted? {
             return Ok(Some(done));
         }

@@ -27,6 +27,11 @@ HANG_LIMIT = 60.0
 """How long a test waits for an expected event, in seconds. Only a test that would hang otherwise ever reaches it."""
 
 
+NEVER = "1000s"
+"""The grace period of programs after a stop request: longer than a test waits, so that no program that hangs, or that a busy
+machine delays, is ended by it."""
+
+
 class Program:
     """A program under test: controlled through its input, observed through its output."""
 
@@ -123,7 +128,8 @@ class System:
         return self._start([sys.executable, "-c", text, *arguments], environment)
 
     def _start(self, arguments: list[str], environment: dict[str, str] | None = None) -> Program:
-        own = {"SCL_RUNTIME_DIR": self.folder, "SCL_TRANSPORT": self.transport, **(environment or {})}
+        own = {"SCL_RUNTIME_DIR": self.folder, "SCL_TRANSPORT": self.transport, "SCL_STOP_WITHIN": NEVER}
+        own |= environment or {}
         program = Program(arguments, own)
         self._programs.append(program)
         return program

@@ -200,7 +200,8 @@ def test_closing_ends_what_tasks_wait_for(system: System, run: Run) -> None:
             asyncio.create_task(sink.answer.recv_async()),
             asyncio.create_task(source.question.call_async(source.question.type())),
         ]
-        await asyncio.sleep(0.01)
+        # They wait when this goes on.
+        await asyncio.sleep(0)
         sink.close()
         source.close()
         for error in await asyncio.gather(*waiting, return_exceptions=True):

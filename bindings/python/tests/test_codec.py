@@ -1,15 +1,28 @@
 """Codecs: what they accept, what they refuse, and in which words."""
 
+import array
 import builtins
+import collections
+import ctypes
 import dataclasses
+import datetime
+import decimal
 import enum
+import fractions
+import ipaddress
 import json
 import math
+import mmap
+import re
+import struct
 import sys
+import uuid
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypedDict
+from typing import Any, NamedTuple, TypedDict
 
 import cbor2
+import msgpack
+import numpy
 import pytest
 import scl
 from google.protobuf import descriptor_pb2, timestamp_pb2
@@ -108,6 +121,80 @@ def test_json_has_no_nan(value: object) -> None:
     for text in [b"NaN", b"[Infinity]", b'{"a": -Infinity}']:
         with pytest.raises(scl.DecodeError):
             codec("json").decode(text)
+
+
+class Pair(NamedTuple):
+    left: object
+    right: object
+
+
+UNDOCUMENTED: list[object] = [
+    {1, 2},
+    frozenset([1]),
+    decimal.Decimal("1.5"),
+    fractions.Fraction(1, 2),
+    complex(1, 2),
+    datetime.datetime(2026, 11, 23, tzinfo=datetime.UTC),
+    datetime.date(2026, 11, 23),
+    uuid.UUID(int=1),
+    re.compile("a"),
+    ipaddress.ip_address("127.0.0.1"),
+    cbor2.CBORTag(1, 2),
+    cbor2.CBORSimpleValue(9),
+    cbor2.undefined,
+    msgpack.ExtType(1, b"a"),
+    msgpack.Timestamp(1, 2),
+    range(3),
+    collections.deque([1]),
+    memoryview(b"a"),
+    numpy.int64(1),
+    numpy.zeros(2),
+    enum.Enum("Color", "RED")["RED"],
+    ...,
+]
+
+
+@pytest.mark.parametrize("name", VALUES)
+@pytest.mark.parametrize("value", UNDOCUMENTED, ids=lambda value: type(value).__name__)
+def test_what_is_not_documented_is_refused_with_its_path(name: str, value: object) -> None:
+    if name != "msgpack" and isinstance(value, msgpack.ExtType):
+        # For the others it is a named tuple.
+        assert codec("json").encode(Pair(1, [2])) == b"[1,[2]]"
+        return
+    places: list[tuple[object, str]] = [
+        (value, ""),
+        ([0, value], " at `message[1]`"),
+        ({"a": [{"b": (value,)}]}, " at `message['a'][0]['b'][0]`"),
+        (Pair(1, value), " at `message[1]`"),
+        ([Position(1.5, [], value)], " at `message[0].inner`"),  # type: ignore[arg-type]
+    ]
+    for message, place in places:
+        with pytest.raises(TypeError) as error:
+            codec(name).encode(message)
+        assert f"`{place} is neither a plain value nor a dataclass" in str(error.value), error.value
+        assert str(error.value).startswith("gate `gps.position` cannot send this value as the ")
+
+
+@pytest.mark.parametrize("name", VALUES)
+def test_integers_have_64_bits(name: str) -> None:
+    one = codec(name)
+    for value in [-(2**63), 2**64 - 1, enum.IntEnum("Level", {"HIGH": 2**64 - 1})["HIGH"], True]:
+        assert one.decode(one.encode({"a": value})) == {"a": value}
+    for value in [-(2**63) - 1, 2**64, 2**70, enum.IntEnum("Level", {"HIGH": 2**64})["HIGH"]]:
+        with pytest.raises(scl.EncodeError, match="the integer at `message\\['a'\\]` is not between -2\\*\\*63 and 2"):
+            one.encode({"a": value})
+
+
+def test_keys_of_json_are_texts() -> None:
+    assert codec("json").encode({1: "a", "b": Mode.FAST, Mode.FAST: 1}) == b'{"1":"a","b":"fast","fast":1}'
+    for key in [None, 1.5, (1, 2)]:
+        with pytest.raises(TypeError, match="a key at `message\\[0\\]` is .*; JSON has `str` and `int` as keys"):
+            codec("json").encode([{key: 1}])
+    with pytest.raises(scl.EncodeError, match="`nan` at `message\\['a'\\]` is not a number of JSON"):
+        codec("json").encode({"a": math.nan})
+    for name in ["cbor", "msgpack"]:
+        with pytest.raises(TypeError, match="`Fraction` at `message.keys\\(\\)` is neither"):
+            codec(name).encode({fractions.Fraction(1, 2): 1})
 
 
 class Other:
@@ -222,16 +309,38 @@ def test_texts_that_are_not_canonical_json_are_refused(text: bytes) -> None:
         codec("json", "nav.Fix", MESSAGES).decode(text)
 
 
-def test_bytes_are_bytes() -> None:
+def test_every_buffer_is_bytes() -> None:
     one = codec("raw", None)
     assert one.type is bytes
-    values: list[object] = [b"a", bytearray(b"a"), memoryview(b"a")]
-    for value in values:
-        assert one.encode(value) == b"a" and type(one.encode(value)) is bytes
+    grid = numpy.arange(6, dtype="<u2").reshape(2, 3)
+    values: list[tuple[Any, bytes]] = [
+        (b"a", b"a"),
+        (bytearray(b"a"), b"a"),
+        (memoryview(b"a"), b"a"),
+        (memoryview(b""), b""),
+        (array.array("H", [1, 2]), struct.pack("=HH", 1, 2)),
+        ((ctypes.c_uint8 * 2)(1, 2), b"\1\2"),
+        (mmap.mmap(-1, 3), bytes(3)),
+        (grid, struct.pack("<6H", *range(6))),
+        (numpy.float32(1.5), struct.pack("=f", 1.5)),
+        # What is not contiguous is copied, element by element in the order of the indices.
+        (memoryview(b"abcdef")[::2], b"ace"),
+        (grid[:, 1], struct.pack("<2H", 1, 4)),
+        (grid.T, struct.pack("<6H", 0, 3, 1, 4, 2, 5)),
+        (numpy.asfortranarray(grid), struct.pack("<6H", *range(6))),
+    ]
+    for value, expected in values:
+        assert one.encode(value) == expected and type(one.encode(value)) is bytes
+    released = memoryview(b"a")
+    released.release()
     refused: list[tuple[object, str]] = [
         ("a", "not `str`; use its method `encode` first"),
         (3, "not `int`"),
         ([1], "not `list`"),
+        (None, "not `NoneType`"),
+        (numpy.array([object()]), "not `ndarray` of Python objects"),
+        (numpy.array(["2026-11-23"], dtype="datetime64[D]"), "not `ndarray`: "),
+        (released, "not `memoryview`: "),
     ]
     for value, words in refused:
         with pytest.raises(TypeError, match="gate `gps.position` carries bytes") as error:

@@ -17,8 +17,8 @@ import pytest
 import scl
 from conftest import SIX, Program, System
 
-GENERATED = Path(__file__).parents[3] / "scl-generate" / "tests" / "python" / "expected" / "testable_scl.py"
-TOPOLOGY = Path(__file__).parents[3] / "scl-generate" / "tests" / "topologies" / "testable.yaml"
+GENERATED = Path(__file__).parents[3] / "crates" / "scl-generate" / "tests" / "python" / "expected" / "testable_scl.py"
+TOPOLOGY = Path(__file__).parents[3] / "crates" / "scl-generate" / "tests" / "topologies" / "testable.yaml"
 LONG = 60.0
 
 

@@ -1,13 +1,17 @@
 """Wrong programs and wrong input: what, where, and what to do."""
 
+import array
+import asyncio
 import json
 import pickle
+import pydoc
 import re
 import threading
 import warnings
 from pathlib import Path
 from typing import Any
 
+import numpy
 import pytest
 import scl
 from conftest import SIX, TOPOLOGIES, System
@@ -57,14 +61,51 @@ def test_a_message_of_another_class_is_a_type_error(system: System) -> None:
     assert source.readings.stats()["connections"][0]["published"] == 0
 
 
-def test_bytes_gates_take_anything_with_bytes(system: System) -> None:
+def test_bytes_gates_take_every_buffer(system: System) -> None:
     giver = system.open("giver", TOPOLOGIES / "limits.yaml")
     taker = system.open("taker", TOPOLOGIES / "limits.yaml")
     giver.ready(60)
-    for message in [b"one", bytearray(b"two"), memoryview(b"three")]:
+    for message in [b"one", bytearray(b"two"), memoryview(b"three"), array.array("I", [4]), numpy.arange(5)[::2]]:
         giver.jobs.send(message)
-        assert taker.jobs.recv(60) == bytes(message)
+        assert taker.jobs.recv(60) == memoryview(message).tobytes()
     assert "carries bytes, not `str`" in refused(TypeError, giver.jobs.send, "text")
+
+
+@pytest.mark.parametrize("codec", ["json", "cbor", "msgpack"])
+def test_none_is_a_message(system: System, tmp_path: Path, codec: str) -> None:
+    file = tmp_path / "values.yaml"
+    file.write_text(
+        "system: values\ncomponents:\n"
+        f"  - {{name: giver, gates: [values: {{push: a.Message, codec: {codec}}}]}}\n"
+        f"  - {{name: taker, gates: [values: {{pull: a.Message, codec: {codec}}}]}}\n"
+        "connections: [[giver.values, taker.values]]\n"
+    )
+    giver, taker = system.open("giver", file), system.open("taker", file)
+    giver.ready(60)
+    nothing = object()
+    assert taker.values.try_recv(nothing) is taker.values.latest(nothing) is nothing
+    assert taker.values.try_recv() is taker.values.latest() is None
+    for take in [lambda: taker.values.recv(60), lambda: next(iter(taker.values))]:
+        giver.values.send(None)
+        assert take() is None
+    for call in [taker.values.try_recv, taker.values.latest]:
+        giver.values.send(None)
+        taker.wait(taker.values)
+        text = f"gate `taker.values` received the message `None`, which `{call.__name__}()` returns for no message"
+        assert refused(scl.NoneReceived, call).startswith(text)
+        giver.values.send(None)
+        taker.wait(taker.values)
+        assert call(nothing) is None
+
+    async def asynchronous() -> None:
+        giver.values.send(None)
+        assert await taker.values.recv_async(60) is None
+        giver.values.send(None)
+        async for message in taker.values:
+            assert message is None
+            break
+
+    asyncio.run(asynchronous())
 
 
 def test_a_message_that_is_too_long_is_sent_to_nobody(system: System) -> None:
@@ -159,6 +200,10 @@ def test_components_that_do_not_run_are_named(system: System) -> None:
     source = system.open("source")
     text = refused(scl.NotReady, source.ready, 0.05)
     assert text.startswith("component `source` is not ready after 50ms: `sink.readings` is not running")
+    # The whole time, not that of the last step.
+    waited = refused(scl.NotReady, lambda: asyncio.run(source.ready_async(0.5)))
+    assert re.search(r" is not ready after ([5-9]\d\dms|[\d.]+s): ", waited), waited
+    assert " is not ready after " in refused(scl.NotReady, source.ready, 0)
 
 
 def test_a_full_queue_is_named(system: System) -> None:
@@ -185,10 +230,8 @@ def test_a_frame_that_is_no_message_is_skipped(system: System, tmp_path: Path) -
         sink = system.open("sink")
         raw.jobs.send(b"\xff\xff")
         raw.jobs.send(sink.jobs.type(value=5).SerializeToString())
-        text = refused(scl.DecodeError, sink.jobs.recv, 60)
-        assert "gate `sink.jobs`" in text and "`source.jobs`" in text and "test.Number" in text
         assert sink.jobs.recv(60).value == 5
-        assert sink.jobs.stats()["rejected"] == 1
+        assert (sink.jobs.stats()["rejected"], sink.jobs.stats()["undecodable"]) == (1, 1)
 
 
 def test_a_request_is_answered_once(system: System) -> None:
@@ -232,7 +275,47 @@ def test_gates_and_components_cannot_be_pickled_or_replaced(system: System) -> N
     assert "cannot be pickled" in refused(TypeError, pickle.dumps, sink)
     assert "cannot be pickled" in refused(TypeError, pickle.dumps, sink.readings)
     assert "cannot be replaced" in refused(AttributeError, setattr, sink, "readings", 1)
-    sink.anything_else = 1
+    assert "cannot be replaced" in refused(AttributeError, setattr, sink.readings, "recv", 1)
+    assert "cannot be deleted" in refused(AttributeError, delattr, sink, "readings")
+
+
+def test_misspelt_attributes_are_suggested(system: System) -> None:
+    source, sink = system.open("source"), system.open("sink")
+    for owner, name, words in [
+        (source, "reading", "component `source` has no attribute `reading`; did you mean `readings`?"),
+        (source, "anything_else", "component `source` has no attribute `anything_else`"),
+        (source.question, "timout", "gate `source.question` has no attribute `timout`; did you mean `timeout`?"),
+        (sink.readings, "anything_else", "gate `sink.readings` has no attribute `anything_else`"),
+    ]:
+        assert refused(AttributeError, setattr, owner, name, 1) == words
+    assert refused(AttributeError, getattr, sink.readings, "tryrecv").endswith("; did you mean `try_recv`?")
+    assert refused(scl.UnknownGate, getattr, source, "redy") == (
+        "component `source` has no gate `redy`; did you mean `ready`?"
+    )
+
+    class Own(scl.Component):
+        """A class of the program, which has attributes of its own."""
+
+    plan = scl._native.Plan.of_file(str(SIX))[0].to_json()
+    own = Own(plan, "watcher", runtime_dir=system.folder)
+    own.anything_else = 1
+    own.close()
+
+
+def test_programs_see_gates_messages_and_names(system: System) -> None:
+    source = system.open("source")
+    assert {"readings", "question", "ready", "close"} <= set(dir(source))
+    assert {"send", "send_async", "type", "stats"} <= set(dir(source.readings))
+    text = pydoc.plain(pydoc.render_doc(source))
+    assert "readings: `pub` of `test.Number`, connected to `sink.readings`, `sink.newest`" in text
+    assert "question: `req` of `test.Number` -> `test.Number`, connected to `sink.answer`" in text
+    text = pydoc.plain(pydoc.render_doc(source.readings))
+    assert "Pub in module scl" in text and "send(self, message" in text
+    assert repr(source.readings) == "<pub gate source.readings of test.Number>"
+    assert repr(source) == "<component source of six>"
+    assert repr(scl.NotReady("text")) == "NotReady('text')"
+    for name in set(scl.__all__) - {"__version__", "codec", "Transport", "Buffer"}:
+        assert getattr(scl, name).__module__ == "scl", name
 
 
 def test_codecs_of_other_languages_are_refused_before_anything_is_opened(system: System, tmp_path: Path) -> None:

@@ -158,7 +158,7 @@ def test_log_records_arrive_at_logging(system: System, caplog: pytest.LogCapture
         for _ in range(2000):
             source.readings.send(source.readings.type())
         source.close()
-        scl._logging.drain()
+        scl._logging._hand_over()
         _wait_for(caplog, "queue of `sink.readings` is full; dropping messages")
     record = next(record for record in caplog.records if "is full" in record.message)
     assert record.name == "scl.gate.connection" and record.levelno == logging.WARNING
@@ -217,7 +217,7 @@ def test_a_handler_that_fails_is_told_and_the_next_record_goes_on(system: System
 
 def _wait_for(caplog: pytest.LogCaptureFixture, text: str) -> None:
     while text not in caplog.text:
-        scl._logging.drain()
+        scl._logging._hand_over()
 
 
 def test_real_time_settings_are_applied_with_the_first_component(system: System) -> None:

@@ -1,6 +1,6 @@
 //! `scl call`: sends a request in place of a component, and prints the reply.
 
-use crate::observed::exit_code;
+use crate::observed::{COULD_NOT_DO, exit_code};
 use crate::play::{Plans, PlayArguments, message_type, problem_of};
 use clap::{Args, ValueEnum};
 use scl::CallError;
@@ -22,16 +22,16 @@ const CLOSE: Duration = Duration::from_secs(1);
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  scl call controller.commands --template              an example request
+  scl call controller.commands                         an example request; nothing is sent
   scl call controller.commands '{target_speed: 0.5}'
   scl call controller.commands '{target_speed: 0.5}' --as user_interface --format json | jq .accepted
 
 Exit code: 0 a reply was printed, 1 no reply within --timeout, 2 no such gate, the component runs, or the request is
-wrong.")]
+wrong or missing.")]
 pub(crate) struct CallArguments {
     /// The `rep` gate, as `component.gate`.
     gate: String,
-    /// The request, as YAML or JSON [default: all fields have their default].
+    /// The request, as YAML or JSON; `{}` has the default in each field. Without, an example is printed and nothing sent.
     #[arg(conflicts_with = "template", allow_hyphen_values = true)]
     request: Option<String>,
     /// The component that asks [default: the only one that is connected to the gate and not running].
@@ -70,10 +70,12 @@ async fn run(arguments: &CallArguments) -> Result<ExitCode, Problem> {
     let (plan, gate) = plans.gate(&arguments.gate)?;
     check_kind(&plan, &gate)?;
     let (requests, replies) = types(&plan, &gate)?;
-    if arguments.template {
-        return print_template(arguments, &gate, &requests);
-    }
-    let request = requests.encode(&read_yaml(arguments.request.as_deref().unwrap_or("{}"))?)?;
+    let written = arguments.request.as_deref().filter(|request| !request.trim().is_empty());
+    let Some(request) = written.filter(|_| !arguments.template) else {
+        print_template(arguments, &gate, &requests)?;
+        return Ok(if arguments.template { ExitCode::SUCCESS } else { without_request(arguments) });
+    };
+    let request = requests.encode(&read_yaml(request)?)?;
     let requester = find_requester(arguments, &plans, &gate)?;
     let mut component = plans.open(&plans.component(&requester.peer_component)?).await?;
     let mut asks = component.requester(&requester.peer_gate).map_err(|error| problem_of(&error))?;
@@ -128,7 +130,14 @@ fn types(plan: &Plan, gate: &GatePlan) -> Result<(MessageType, MessageType), Pro
     Ok((message_type(plan, gate, request)?, message_type(plan, gate, reply)?))
 }
 
-fn print_template(arguments: &CallArguments, gate: &GatePlan, requests: &MessageType) -> Result<ExitCode, Problem> {
+/// A request with defaults could move an actuator, so it is sent only if it is written.
+fn without_request(arguments: &CallArguments) -> ExitCode {
+    let problem = Problem::new("there is no request, so nothing was sent; an example is on standard output");
+    print_err(&problem.help(format!("`scl call {} '{{}}'` sends one with defaults", arguments.gate)).to_string());
+    ExitCode::from(COULD_NOT_DO)
+}
+
+fn print_template(arguments: &CallArguments, gate: &GatePlan, requests: &MessageType) -> Result<(), Problem> {
     let Some(template) = requests.template() else {
         let problem = Problem::new(format!("the type of the requests of `{}` is not known", arguments.gate));
         return Err(problem.note(format!("they are `{}`, in `{}`, without `schemas:`", gate.payload, gate.codec)));
@@ -137,7 +146,7 @@ fn print_template(arguments: &CallArguments, gate: &GatePlan, requests: &Message
         ReplyFormat::Yaml => to_yaml(&template),
         ReplyFormat::Json => format!("{}\n", to_json(&template)),
     });
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// The connection to the component that asks.

@@ -1,22 +1,26 @@
 //! `scl diff`: what differs between two topologies, and which components that concerns.
 
 mod change;
+mod connections;
 mod facts;
 mod messages;
 mod rebuild;
 mod report;
+mod revision;
 mod together;
 
-use crate::load::{MaxSize, STDIN, load_file, show_errors};
+use crate::load::{MaxSize, STDIN, TOPOLOGY, load_file, request, show_errors};
 use change::find_changes;
 use clap::{Args, ValueEnum};
 use messages::find_message_changes;
 use rebuild::find_rebuilds;
 use report::{report_json, report_text};
+use revision::Revision;
+use scl_loader::{Loaded, Request, load};
 use scl_plan::SystemPlan;
-use scl_terminal::{print_err, print_out};
+use scl_terminal::{Problem, print_err, print_out};
 use scl_topology::topology::Topology;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use together::group;
 
@@ -33,18 +37,23 @@ const TROUBLE: u8 = 2;
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  scl diff old.yaml new.yaml
-  git show main:topology.yaml | scl diff - topology.yaml   against another branch
+  scl diff HEAD                      what has changed in ./topology.yaml since the last commit
+  scl diff main -- rover/topology.yaml
+  scl diff v1.0..v1.1                two revisions
+  scl diff old.yaml new.yaml         two files
   scl diff old.yaml new.yaml --format json                 one object
 
-Exit code, as of diff: 0 the same, 1 different, 2 a file has errors or could not be read.")]
+Exit code, as of diff: 0 the same, 1 different, 2 a file or revision has errors or could not be read.")]
 pub(crate) struct DiffArguments {
-    /// The topology as it was; `-` is standard input.
-    #[arg(value_name = "OLD")]
+    /// The topology as it was; `-` is standard input. Without NEW, a git revision, or two with `..` between them.
+    #[arg(value_name = "OLD|REVISION")]
     old: PathBuf,
     /// The topology as it is; `-` is standard input.
     #[arg(value_name = "NEW")]
-    new: PathBuf,
+    new: Option<PathBuf>,
+    /// The file that is compared with its revision.
+    #[arg(last = true, value_name = "FILE", default_value = TOPOLOGY, conflicts_with = "new")]
+    file: PathBuf,
     /// How to say it.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -62,13 +71,14 @@ enum Format {
 
 /// The body of `scl diff`.
 pub(crate) fn diff(arguments: &DiffArguments) -> ExitCode {
-    if [&arguments.old, &arguments.new].iter().all(|file| file.as_os_str() == STDIN) {
-        print_err("error: standard input can be read only once\n  = help: name a file instead of one `-`\n");
-        return ExitCode::from(TROUBLE);
-    }
-    // Both are read, so that the problems of both are told.
-    let (old, new) = (read(&arguments.old, arguments), read(&arguments.new, arguments));
-    let (Some(old), Some(new)) = (old, new) else { return ExitCode::from(TROUBLE) };
+    let (old, new) = match sides(arguments) {
+        Ok((Some(old), Some(new))) => (old, new),
+        Ok(_) => return ExitCode::from(TROUBLE),
+        Err(problem) => {
+            print_err(&problem.to_string());
+            return ExitCode::from(TROUBLE);
+        }
+    };
     let (mut changes, rebuilds) = (find_changes(&old, &new), find_rebuilds(&old, &new));
     let messages = find_message_changes(&old, &new);
     let groups = group(&old, &new, messages.add_rebuilds(rebuilds, &new), &messages.pairs);
@@ -89,8 +99,28 @@ struct Side {
     system: String,
 }
 
-fn read(path: &Path, arguments: &DiffArguments) -> Option<Side> {
-    let loaded = load_file(path, arguments.max_size);
+/// Both sides, or `None` for those that are not sound. Both are read, so that the problems of both are told.
+fn sides(arguments: &DiffArguments) -> Result<(Option<Side>, Option<Side>), Problem> {
+    let DiffArguments { old, new, file, max_size, .. } = arguments;
+    if let Some(new) = new {
+        if [old, new].iter().all(|file| file.as_os_str() == STDIN) {
+            return Err(Problem::new("standard input can be read only once").help("name a file instead of one `-`"));
+        }
+        return Ok((side(load_file(old, *max_size)), side(load_file(new, *max_size))));
+    }
+    let name = old.to_string_lossy();
+    let revision = |name: &str| {
+        let name = if name.is_empty() { "HEAD" } else { name };
+        let Revision { path, shown, .. } = &Revision::read(name, file)?;
+        Ok::<_, Problem>(side(load(&Request { shown_as: shown.clone(), ..request(path, *max_size) })))
+    };
+    match name.split_once("..") {
+        Some((old, new)) => Ok((revision(old)?, revision(new)?)),
+        None => Ok((revision(&name)?, side(load_file(file, *max_size)))),
+    }
+}
+
+fn side(loaded: Loaded) -> Option<Side> {
     if loaded.topology.is_none() {
         show_errors(&loaded);
     }

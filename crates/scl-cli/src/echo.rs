@@ -3,15 +3,17 @@
 mod output;
 mod watched;
 
+use crate::load::TOPOLOGY;
 use crate::observed::{SystemArgument, exit_code};
 use clap::{Args, ValueEnum};
 use output::Output;
 use scl::tap::TapEvent;
-use scl_observe::{ObservedGate, System, Taps, TapsEvent, at_taps};
-use scl_terminal::{Problem, parse_duration, print_err, quoted_list};
-use scl_value::{Condition, FieldPath, UnknownField, Value};
+use scl_observe::{ObservedGate, Selection, System, Taps, TapsEvent, at_taps};
+use scl_terminal::{Problem, output_is_closed, parse_duration, print_err, quoted_list};
+use scl_value::{Condition, FieldPath, Value};
 use std::io::{self, IsTerminal};
 use std::num::NonZeroU64;
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 use tokio::runtime::Builder;
@@ -22,7 +24,7 @@ use watched::Watched;
 /// Show the messages that pass gates, decoded: messages of `pub` and `push` gates, requests and replies of `rep` gates.
 ///
 /// Nothing is restarted, and no gate is delayed: messages that this program is too slow to read are dropped for it
-/// alone, and are noted on standard error. A component that stops is waited for, and followed when it runs again. A
+/// alone, and are noted on standard error. A component that does not run yet, or stops, is waited for. A
 /// payload that is not the gate's type is shown as bytes, with the reason.
 ///
 /// At a gate that receives, the messages are shown where they come from; those of a `req` gate at the gate that
@@ -31,6 +33,7 @@ use watched::Watched;
 #[command(after_help = "\
 Examples:
   scl echo sensor.measurements
+  scl echo sensor                                     all that a component sends at its `pub` gates
   scl echo sensor.measurements --field speed --field pose.x
   scl echo sensor.measurements --where \"speed > 1.5 and mode == 'AUTO'\"
   scl echo controller.commands                        requests and replies, with the number of their call
@@ -38,11 +41,11 @@ Examples:
   scl echo sensor.measurements controller.actuator --format json | jq .message
   scl echo sensor.measurements --format csv > speed.csv
 
-Exit code: 0 shown, or stopped with Ctrl-C; 1 no message within --timeout; 2 no such gate, field or system, or it is not
-running.")]
+Exit code: 0 shown, or stopped with Ctrl-C; 1 no message within --timeout; 2 no such gate, field or system, or
+standard output could not be written.")]
 pub(crate) struct EchoArguments {
-    /// The gates, as `component.gate`.
-    #[arg(required = true, value_name = "GATE")]
+    /// Gates, as `component.gate`, or components, for their `pub`, `rep` and `pull` gates.
+    #[arg(required = true, value_name = "GATE|COMPONENT")]
     gates: Vec<String>,
     /// Show this field only, for example `pose.x`, `joints[0].angle` or `limits."front left"`; may be repeated.
     #[arg(long = "field", value_name = "PATH")]
@@ -88,18 +91,19 @@ pub(crate) fn echo(arguments: &EchoArguments) -> ExitCode {
 async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
     let interrupt = signal(SignalKind::interrupt());
     let mut interrupt = interrupt.map_err(|error| Problem::new(format!("cannot watch for signals: {error}")))?;
-    let system = arguments.system.find()?;
-    let gates = find_gates(&system, &arguments.gates)?;
-    let mut watched: Vec<Watched> = gates.iter().cloned().map(Watched::new).collect();
-    for path in &arguments.fields {
-        check_field(&watched, |gate| gate.check_field(path))?;
-    }
-    if let Some(condition) = &arguments.condition {
-        check_field(&watched, |gate| gate.check_condition(condition))?;
-    }
-    let watched_several = watched.iter().flat_map(Watched::types).count() > 1;
-    let mut output = Output::new(arguments.format, &arguments.fields, &watched);
-    let mut taps = Taps::open(&system, gates);
+    let system = arguments.system.find_or_await()?;
+    let selection = Selection::new(&system, &arguments.gates, &[], Path::new(TOPOLOGY))?;
+    note_where_seen(&system, &selection, &arguments.gates);
+    let mut taps = Taps::follow_all(&system, {
+        let selection = selection.clone();
+        move |gate| selection.includes(gate)
+    });
+    // These are reported as started, too.
+    let mut known = taps.gates().len();
+    let mut watched: Vec<Watched> = taps.gates().iter().cloned().map(Watched::new).collect();
+    let mut output = Output::new(arguments.format, &arguments.fields, !selection.is_one_gate());
+    check_all(arguments, &selection, taps.gates(), &watched)?;
+    output.learn(&watched);
     let limit = if arguments.once { Some(1) } else { arguments.count.map(NonZeroU64::get) };
     let (started, mut shown, mut last) = (Instant::now(), 0, Instant::now());
     loop {
@@ -117,7 +121,17 @@ async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
             }
             event = taps.next() => match event {
                 TapsEvent::Event { gate, event } => (gate, event),
-                TapsEvent::Started(_) => continue,
+                TapsEvent::Started(gate) => {
+                    if known > 0 {
+                        known -= 1;
+                        continue;
+                    }
+                    print_err(&format!("note: `{}` has started\n", gate.name()));
+                    watched.push(Watched::new(gate));
+                    check_all(arguments, &selection, taps.gates(), &watched)?;
+                    output.learn(&watched);
+                    continue;
+                }
             },
         };
         let Some(gate) = watched.get_mut(gate) else { continue };
@@ -134,15 +148,17 @@ async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
         };
         gate.count(&seen);
         let message = gate.decode(&seen);
-        if arguments.condition.as_ref().is_some_and(|condition| !condition.holds(&message)) {
+        if let Some(condition) = &arguments.condition
+            && !condition.holds(&message)?
+        {
             continue;
         }
         // A request does not have the fields of its reply.
-        if watched_several && !has_any(&message, &arguments.fields) {
+        if output.shows_several_types() && !has_any(&message, &arguments.fields) {
             continue;
         }
-        if output.print(gate, &seen, &message).is_err() {
-            // The reader has gone (`scl echo | head`).
+        output.print(gate, &seen, &message);
+        if output_is_closed() {
             return Ok(ExitCode::SUCCESS);
         }
         (shown, last) = (shown + 1, Instant::now());
@@ -159,19 +175,40 @@ async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The gates at whose taps the messages of the named gates are seen.
-fn find_gates(system: &System, names: &[String]) -> Result<Vec<ObservedGate>, Problem> {
-    let named = names.iter().map(|name| system.gate(name)).collect::<Result<Vec<_>, _>>()?;
-    for gate in named.iter().filter(|gate| gate.taps.first().is_some_and(|tap| tap.component != gate.component)) {
-        let senders: Vec<String> = at_taps(std::slice::from_ref(gate)).iter().map(ObservedGate::name).collect();
+/// Says what is waited for, and where messages of gates that receive are seen.
+fn note_where_seen(system: &System, selection: &Selection, names: &[String]) {
+    for name in selection.waiting() {
+        print_err(&format!("note: `{name}` is not running; waiting until it starts\n"));
+    }
+    let named = names.iter().filter_map(|name| system.gate(name).ok());
+    for gate in named.filter(|gate| gate.taps.first().is_some_and(|tap| tap.component != gate.component)) {
+        let senders: Vec<String> = at_taps(std::slice::from_ref(&gate)).iter().map(ObservedGate::name).collect();
         let senders = quoted_list(senders.iter().map(String::as_str));
         print_err(&format!("note: the messages of `{}` are shown where they are seen: {senders}\n", gate.name()));
     }
-    Ok(at_taps(&named))
 }
 
-/// A field must be one of at least one of the gates.
-fn check_field(gates: &[Watched], check: impl Fn(&Watched) -> Result<(), UnknownField>) -> Result<(), Problem> {
+/// Checks the fields and the condition, as soon as all gates are known.
+fn check_all(
+    arguments: &EchoArguments,
+    selection: &Selection,
+    gates: &[ObservedGate],
+    watched: &[Watched],
+) -> Result<(), Problem> {
+    if !selection.is_complete(gates) {
+        return Ok(());
+    }
+    for path in &arguments.fields {
+        check_field(watched, |gate| gate.check_field(path))?;
+    }
+    match &arguments.condition {
+        Some(condition) => check_field(watched, |gate| gate.check_condition(condition)),
+        None => Ok(()),
+    }
+}
+
+/// Fields and conditions must fit at least one of the gates.
+fn check_field<E: Into<Problem>>(gates: &[Watched], check: impl Fn(&Watched) -> Result<(), E>) -> Result<(), Problem> {
     let mut errors = gates.iter().map(check);
     match errors.next() {
         Some(Err(first)) if errors.all(|result| result.is_err()) => Err(first.into()),

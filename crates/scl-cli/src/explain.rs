@@ -1,4 +1,4 @@
-//! `scl explain`: what a code of the checker or a word of the topology file means.
+//! `scl explain`: what a code of the checker or a word of the topology file or the launch file means.
 
 use clap::Args;
 use scl_terminal::{print_err, print_out};
@@ -11,13 +11,14 @@ use std::process::ExitCode;
 /// Exit code: there is no such check or word.
 const UNKNOWN: u8 = 2;
 
-/// Explain a code of the checker or a word of the topology file, with an example; without one, list them all.
+/// Explain a code of the checker, or a word of the topology file or the launch file; without one, list them all.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   scl explain SCL0502
   scl explain 502        the same
   scl explain queue      an option; likewise sections, keys, kinds of gate, queue policies and codecs
+  scl explain restart    a key of launch files
   scl explain | grep -i codec
 
 Exit code: 0 explained, 2 there is no such code or word.")]
@@ -31,12 +32,16 @@ pub(crate) struct ExplainArguments {
 pub(crate) fn explain(arguments: &ExplainArguments) -> ExitCode {
     let Some(written) = &arguments.word else {
         let entries = grammar::entries();
-        print_out(&ALL.iter().map(|rule| line(rule)).chain(entries.iter().map(word_line)).collect::<String>());
+        let lines = ALL.iter().map(|rule| line(rule)).chain(entries.iter().map(word_line));
+        print_out(&lines.chain(launch_keys().iter().map(|(entry, _)| word_line(entry))).collect::<String>());
         return ExitCode::SUCCESS;
     };
     let code = full_code(written);
     let word = written.trim_matches([':', '`', ' ']).to_ascii_lowercase();
-    match catalogue::explain(&code).or_else(|| grammar::explain(&word)) {
+    let keys = launch_keys().into_iter().filter(|(key, _)| key.word == word).map(|(key, _)| key.text);
+    let found: Vec<String> =
+        catalogue::explain(&code).or_else(|| grammar::explain(&word)).into_iter().chain(keys).collect();
+    match (!found.is_empty()).then(|| found.iter().map(|text| text.trim_end()).collect::<Vec<_>>().join("\n\n")) {
         Some(text) => {
             print_out(&format!("{}\n", text.trim_end()));
             ExitCode::SUCCESS
@@ -59,14 +64,36 @@ fn is_like_code(code: &str) -> bool {
 
 /// Says that the topology file has no such word, and which one may have been meant.
 fn unknown_word(written: &str, word: &str) -> String {
-    let mut text = format!("error: `{written}` is neither a code of the checker nor a word of the topology file\n");
-    let entries = grammar::entries();
-    for near in similar(word, entries.iter().map(|entry| entry.word)) {
+    let mut text =
+        format!("error: `{written}` is neither a code of the checker nor a word of the topology or the launch file\n");
+    let (entries, keys) = (grammar::entries(), launch_keys());
+    // A name that other tools use for a key.
+    let known = keys.iter().filter(|(_, also)| also.contains(&word)).map(|(key, _)| key.word);
+    let entries: Vec<&Entry> = entries.iter().chain(keys.iter().map(|(key, _)| key)).collect();
+    let words = entries.iter().map(|entry| entry.word);
+    let mut likely: Vec<&str> = known.chain(similar(word, words)).collect();
+    likely.dedup();
+    for near in likely {
         let meanings = entries.iter().filter(|entry| entry.word == near).map(|entry| entry.what);
         let meanings: Vec<&str> = meanings.collect();
         text.push_str(&format!("  = help: a similar word exists: `{near}` ({})\n", meanings.join(", ")));
     }
     text + "  = help: `scl explain` lists all of them\n"
+}
+
+/// The keys of launch files with the names that other tools use for them, if this program reads such files.
+#[cfg(feature = "run")]
+fn launch_keys() -> Vec<(Entry, &'static [&'static str])> {
+    let entry = |key: scl_run::LaunchKey| {
+        let scl_run::LaunchKey { word, also, what, summary, text } = key;
+        (Entry { word, what, summary, text }, also)
+    };
+    scl_run::launch_keys().into_iter().map(entry).collect()
+}
+
+#[cfg(not(feature = "run"))]
+fn launch_keys() -> Vec<(Entry, &'static [&'static str])> {
+    Vec::new()
 }
 
 /// `scl0502`, `[SCL0502]`, `502` and `scl::SCL0502`, as editors show it, are all `SCL0502`.

@@ -3,15 +3,16 @@
 use crate::format::{FormatArgument, print_json};
 use crate::observed::{SystemArgument, exit_code};
 use clap::Args;
-use scl_observe::{Component, System, connected_peers};
+use scl_observe::{Activity, Component, System, connected_peers};
 use scl_terminal::{Align, Problem, Table, age_text, print_out};
 use serde_json::{Value, json};
 use std::process::ExitCode;
 use std::time::SystemTime;
 
-/// List the components of a running system: which run, since when, and in which process.
+/// List the components of a running system: which run, since when, and in which process. If several systems run, all are
+/// listed.
 ///
-/// States: `running`; `not ready` (running, but required peers are not connected); `hangs` (running, but it has not
+/// States: `running`; `waiting` (running, but required peers are not connected); `hangs` (running, but it has not
 /// written its figures for some time); `dead` (killed or crashed); `stopped` (closed in order, or known only as the peer
 /// of another component).
 #[derive(Args)]
@@ -20,6 +21,8 @@ Examples:
   scl list
   scl list -v                                   with the gates
   scl list --system rover --format json | jq -r '.components[] | select(.state == \"dead\") | .name'
+
+In JSON, several systems are an array `systems`.
 
 Exit code: 0 listed, 2 there is no such system or none runs.")]
 pub(crate) struct ListArguments {
@@ -38,17 +41,22 @@ pub(crate) fn list(arguments: &ListArguments) -> ExitCode {
 }
 
 fn print_list(arguments: &ListArguments) -> Result<ExitCode, Problem> {
-    let system = arguments.system.find()?;
-    let (components, now) = (system.components(), SystemTime::now());
+    let (systems, now) = (arguments.system.find_all()?, SystemTime::now());
     if arguments.format.is_json() {
-        print_json(&to_json(&system, &components, now));
+        let mut values: Vec<Value> = systems.iter().map(|system| to_json(system, &system.components(), now)).collect();
+        print_json(&if values.len() == 1 { values.remove(0) } else { json!({"systems": values}) });
     } else {
-        print_out(&format!("{}: {}\n\n{}", system.name(), summary(&components), component_table(&components, now)));
-        if arguments.verbose {
-            print_out(&format!("\n{}", gate_table(&components)));
-        }
+        let texts = systems.iter().map(|system| to_text(system, arguments.verbose, now));
+        print_out(&texts.collect::<Vec<_>>().join("\n"));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn to_text(system: &System, verbose: bool, now: SystemTime) -> String {
+    let components = system.components();
+    let table = component_table(&components, now);
+    let gates = if verbose { format!("\n{}", gate_table(&components)) } else { String::new() };
+    format!("{}: {}\n\n{table}{gates}", system.name(), summary(&components))
 }
 
 fn to_json(system: &System, components: &[Component], now: SystemTime) -> Value {
@@ -80,7 +88,7 @@ fn component_table(components: &[Component], now: SystemTime) -> String {
         let program = component.host().map(|host| format!("on host {}", scl_terminal::escape(host))).or(program);
         table.row([
             component.name.clone(),
-            state_text(component, now),
+            state_word(component, now).to_owned(),
             component.process_id().map(|id| id.to_string()).unwrap_or_default(),
             started.map(|started| age_text(now.duration_since(started).unwrap_or_default())).unwrap_or_default(),
             program.unwrap_or_default(),
@@ -89,14 +97,19 @@ fn component_table(components: &[Component], now: SystemTime) -> String {
     table.text()
 }
 
-/// The state of a component in one or two words.
+/// The state of a component, with the time for which it has hung.
 pub(crate) fn state_text(component: &Component, now: SystemTime) -> String {
-    if let Some(silence) = component.silent_for(now) {
-        return format!("hangs for {}", age_text(silence));
+    match component.silent_for(now) {
+        Some(silence) => format!("hangs for {}", age_text(silence)),
+        None => state_word(component, now).to_owned(),
     }
-    match &component.stats {
-        Some(stats) if component.is_running() && !stats.ready => "not ready".to_owned(),
-        _ => component.state_word().to_owned(),
+}
+
+/// One word, so that scripts can split the lines.
+fn state_word(component: &Component, now: SystemTime) -> &'static str {
+    match component.activity(now) {
+        Activity::Ready => "running",
+        activity => activity.word(),
     }
 }
 

@@ -10,6 +10,9 @@ use scl_topology::size;
 use std::io::{self, Read};
 use std::path::Path;
 
+/// The topology file that is used if there is one in the working folder.
+pub(crate) const TOPOLOGY: &str = "topology.yaml";
+
 /// The path that stands for standard input.
 pub(crate) const STDIN: &str = "-";
 
@@ -44,7 +47,7 @@ pub(crate) fn request(path: &Path, max_size: MaxSize) -> Request {
         return Request { max_size, ..Request::new(path) };
     }
     // Schemas are looked for in the working folder, and the system is called like that of `topology.yaml`.
-    Request { shown_as: STDIN_NAME.to_owned(), max_size, ..Request::new("topology.yaml") }
+    Request { shown_as: STDIN_NAME.to_owned(), max_size, ..Request::new(TOPOLOGY) }
 }
 
 /// Reads and checks a file, or standard input for `-`.
@@ -61,6 +64,16 @@ pub(crate) fn load_file(path: &Path, max_size: MaxSize) -> Loaded {
             Loaded { diagnostics: vec![problem], ..Loaded::default() }
         }
     }
+}
+
+/// The name of the system in the working folder, if its topology file has one.
+#[cfg(feature = "run")]
+pub(crate) fn system_of_folder() -> Option<String> {
+    let path = Path::new(TOPOLOGY);
+    // Mistakes elsewhere in the file do not matter.
+    let loaded = path.is_file().then(|| load_file(path, MaxSize::default()))?;
+    let checked = loaded.topology.as_ref().map(|topology| topology.system().to_owned());
+    checked.or_else(|| Some(loaded.model.system?.value))
 }
 
 /// Shows diagnostics on standard error, each followed by an empty line.

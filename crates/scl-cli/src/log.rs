@@ -1,15 +1,17 @@
 //! `scl log`: what a component has printed, also after it and `scl run` have ended.
 
 use crate::format::FormatArgument;
-use crate::load::{MaxSize, load_file};
+use crate::load::system_of_folder;
 use clap::{Args, ValueEnum};
-use scl_run::{LogEntry, LogFolder, LogReader, LogStream};
-use scl_terminal::{Problem, closest_name, escape, escape_json, parse_duration, print_err, quoted_list, timestamp};
+use scl_run::{LogEntry, LogFolder, LogReader, LogStream, running_systems};
+use scl_terminal::{
+    Problem, choose_system, closest_name, escape, escape_json, output_is_closed, output_is_terminal, parse_duration,
+    print_err, print_out, quoted_list, timestamp,
+};
 use std::collections::VecDeque;
 use std::env;
 use std::ffi::OsString;
-use std::io::{self, IsTerminal, Write, stdout};
-use std::path::Path;
+use std::io;
 use std::process::ExitCode;
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
@@ -52,7 +54,7 @@ pub(crate) struct LogArguments {
     /// Show lines of this stream only.
     #[arg(long, value_enum, value_name = "STREAM")]
     stream: Option<StreamArgument>,
-    /// The system [default: $SCL_SYSTEM, or that of ./topology.yaml, or the only one with logs].
+    /// The system [default: $SCL_SYSTEM, or the only one that runs, or that of ./topology.yaml, or the only one with logs].
     #[arg(long, value_name = "NAME")]
     system: Option<String>,
     #[command(flatten)]
@@ -89,7 +91,7 @@ fn show(arguments: &LogArguments) -> Result<(), Problem> {
     let mut printer = Printer::new(arguments);
     print_existing(arguments, &mut reader, &mut printer).map_err(unreadable)?;
     // Until a signal, or until nobody reads any more.
-    while arguments.follow && !printer.is_closed {
+    while arguments.follow && !output_is_closed() {
         match reader.next_entry().map_err(unreadable)? {
             Some(entry) => printer.print(&entry),
             None => sleep(LOOK),
@@ -102,7 +104,7 @@ fn show(arguments: &LogArguments) -> Result<(), Problem> {
 fn print_existing(arguments: &LogArguments, reader: &mut LogReader, printer: &mut Printer) -> io::Result<()> {
     let kept = arguments.lines.or((arguments.follow && arguments.since.is_none()).then_some(LINES_BEFORE));
     let mut last = VecDeque::new();
-    while let Some(entry) = reader.next_entry()?.filter(|_| !printer.is_closed) {
+    while let Some(entry) = reader.next_entry()?.filter(|_| !output_is_closed()) {
         match kept {
             None => printer.print(&entry),
             Some(kept) if printer.filter.wants(&entry) => {
@@ -137,8 +139,6 @@ struct Printer {
     run: Option<u64>,
     /// Whether control characters are shown as escapes. In a pipe, programs get what was printed.
     escapes: bool,
-    /// Whether the reader of our output has gone.
-    is_closed: bool,
 }
 
 impl Printer {
@@ -148,15 +148,13 @@ impl Printer {
             timestamp(now.checked_sub(since).unwrap_or(SystemTime::UNIX_EPOCH))
         });
         let filter = Filter { earliest, stream: arguments.stream };
-        let escapes = stdout().is_terminal();
-        Self { filter, is_json: arguments.format.is_json(), run: None, escapes, is_closed: false }
+        let escapes = output_is_terminal();
+        Self { filter, is_json: arguments.format.is_json(), run: None, escapes }
     }
 
     fn print(&mut self, entry: &LogEntry) {
         if self.filter.wants(entry) {
-            let text = self.text(entry);
-            let mut out = stdout().lock();
-            self.is_closed |= out.write_all(text.as_bytes()).and_then(|()| out.flush()).is_err();
+            print_out(&self.text(entry));
         }
     }
 
@@ -183,10 +181,10 @@ fn variable(name: &str) -> Option<OsString> {
     env::var_os(name)
 }
 
+/// The system that is meant, or the only one with logs.
 fn find_system(name: Option<&str>) -> Result<String, Problem> {
-    let own = || variable("SCL_SYSTEM").filter(|name| !name.is_empty()).and_then(|name| name.into_string().ok());
-    if let Some(name) = name.map(str::to_owned).or_else(own).or_else(system_of_folder) {
-        return Ok(name);
+    if let Some(chosen) = choose_system(name, &variable, &running_systems(), &system_of_folder)? {
+        return Ok(chosen);
     }
     match &LogFolder::systems(&variable)[..] {
         [only] => Ok(only.clone()),
@@ -195,13 +193,6 @@ fn find_system(name: Option<&str>) -> Result<String, Problem> {
             .help(format!("name one: `--system {}`, or set `SCL_SYSTEM`", several[0]))
             .note(format!("systems: {}", quoted_list(several.iter().map(String::as_str))))),
     }
-}
-
-/// The system of the topology file in the working folder, if that is one without mistakes.
-fn system_of_folder() -> Option<String> {
-    let file = Path::new("topology.yaml");
-    let loaded = file.is_file().then(|| load_file(file, MaxSize::default()))?;
-    Some(loaded.topology?.system().to_owned())
 }
 
 fn no_folder(system: &str) -> Problem {

@@ -1,5 +1,6 @@
 //! The `scl` command: checks, draws and runs SCL systems.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
+#![cfg_attr(not(test), warn(clippy::print_stdout, reason = "a failed write would go unnoticed"))]
 
 #[cfg(feature = "bench")]
 mod bench;
@@ -70,6 +71,7 @@ mod stop;
 mod top;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use scl_terminal::{finish_output, note_failure};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -157,7 +159,21 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    match CommandLine::parse().command {
+    finish_output(match CommandLine::try_parse() {
+        Ok(command_line) => run_command(command_line.command),
+        // `--help` and `--version` are output, too.
+        Err(error) => {
+            let printed = error.print();
+            if !error.use_stderr() {
+                note_failure(printed);
+            }
+            ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(u8::MAX))
+        }
+    })
+}
+
+fn run_command(command: Command) -> ExitCode {
+    match command {
         #[cfg(feature = "bench")]
         Command::Bench(arguments) => bench::bench(&arguments),
         #[cfg(feature = "bench")]

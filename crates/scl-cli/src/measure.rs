@@ -4,9 +4,10 @@ use crate::format::FormatArgument;
 use crate::observed::{SystemArgument, exit_code};
 use clap::Args;
 use scl_observe::{GateReport, Measurement, Meter, ObservedGate, at_taps};
-use scl_terminal::{Problem, escape_json, output_width, parse_duration, print_err, quoted_list, shorten};
+use scl_terminal::{
+    Problem, escape_json, output_is_closed, output_width, parse_duration, print_err, print_out, quoted_list, shorten,
+};
 use serde_json::{Map, Value, json};
-use std::io::{self, Write};
 use std::process::ExitCode;
 use std::time::Duration;
 use tokio::runtime::Builder;
@@ -104,15 +105,15 @@ async fn run<M: Shown + 'static>(
             () = &mut until_deadline => break false,
             _ = ticks.tick(), if !arguments.once => {
                 let reports = measurement.take_interval();
-                if output.print::<M>(&reports, false).is_err() {
-                    // The reader has gone (`scl hz | head`).
+                output.print::<M>(&reports, false);
+                if output_is_closed() {
                     return Ok(ExitCode::SUCCESS);
                 }
             }
         }
     };
     let reports = measurement.total();
-    let _reader_has_gone = output.print::<M>(&reports, true);
+    output.print::<M>(&reports, true);
     let seen = reports.iter().any(|report| M::cells(&report.figures).is_some());
     Ok(if seen || interrupted { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
@@ -146,16 +147,14 @@ struct Output {
 }
 
 impl Output {
-    fn print<M: Shown>(&mut self, reports: &[GateReport<M::Figures>], is_total: bool) -> io::Result<()> {
+    fn print<M: Shown>(&mut self, reports: &[GateReport<M::Figures>], is_total: bool) {
         let text = if self.is_json {
             let lines = reports.iter().map(|report| format!("{}\n", to_json::<M>(report, is_total)));
             escape_json(&lines.collect::<String>()).into_owned()
         } else {
             self.table::<M>(reports, is_total)
         };
-        let mut out = io::stdout().lock();
-        out.write_all(text.as_bytes())?;
-        out.flush()
+        print_out(&text);
     }
 
     fn table<M: Shown>(&mut self, reports: &[GateReport<M::Figures>], is_total: bool) -> String {

@@ -1,8 +1,10 @@
 //! What the commands that look at a running system share: which system, and how they fail.
 
 use clap::Args;
+use scl::runtime_dir::RuntimeDir;
 use scl_observe::System;
-use scl_terminal::{Problem, print_err};
+use scl_terminal::{Problem, choose_system, named_system, print_err};
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Exit code: the command could not do its work.
@@ -24,6 +26,44 @@ impl SystemArgument {
     pub(crate) fn find(&self) -> Result<System, Problem> {
         System::find(self.system.as_deref())
     }
+
+    /// Whether the user names one.
+    ///
+    /// # Errors
+    /// Those of [`named_system`].
+    pub(crate) fn is_named(&self) -> Result<bool, Problem> {
+        named_system(self.system.as_deref(), &variable).map(|name| name.is_some())
+    }
+
+    /// The name of the system; `here` is that of the working folder.
+    ///
+    /// # Errors
+    /// Those of [`choose_system`].
+    pub(crate) fn choose(&self, here: &dyn Fn() -> Option<String>) -> Result<Option<String>, Problem> {
+        let runtime_dir = RuntimeDir::existing(&variable).ok().flatten();
+        let running = runtime_dir.and_then(|dir| dir.running_systems().ok()).unwrap_or_default();
+        choose_system(self.system.as_deref(), &variable, &running, here)
+    }
+
+    /// Finds the system, or waits for its first start if it is named.
+    ///
+    /// # Errors
+    /// Those of [`System::find_or_await`].
+    pub(crate) fn find_or_await(&self) -> Result<System, Problem> {
+        System::find_or_await(self.system.as_deref())
+    }
+
+    /// Finds the system that is named, or all that run.
+    ///
+    /// # Errors
+    /// Those of [`System::find_all`].
+    pub(crate) fn find_all(&self) -> Result<Vec<System>, Problem> {
+        System::find_all(self.system.as_deref())
+    }
+}
+
+fn variable(name: &str) -> Option<OsString> {
+    std::env::var_os(name)
 }
 
 /// The exit code of a command; a problem is printed and means that the command could not do its work.

@@ -1,6 +1,6 @@
 //! What `scl pub` and `scl call` share: playing a component that is not running.
 
-use crate::load::{MaxSize, load_file, show_errors, shown_path};
+use crate::load::{MaxSize, TOPOLOGY, load_file, show_errors, shown_path};
 use crate::observed::SystemArgument;
 use clap::Args;
 use scl::OpenOptions;
@@ -8,13 +8,10 @@ use scl::runtime_dir::{ComponentState, RuntimeDir, SystemDir};
 use scl::untyped::Component;
 use scl_observe::System;
 use scl_plan::{GateKind, GatePlan, Plan, SystemPlan};
-use scl_terminal::{Problem, closest_name, escape, quoted_list};
+use scl_terminal::{Problem, closest_name, escape, named_system, quoted_list};
 use scl_value::MessageType;
 use std::error::Error;
 use std::path::{Path, PathBuf};
-
-/// The topology file that is used if there is one in the working folder.
-const TOPOLOGY: &str = "topology.yaml";
 
 /// Where the plan of the component comes from.
 #[derive(Args)]
@@ -53,9 +50,12 @@ impl Plans {
             let problem = Problem::new(format!("the topology `{}` cannot be used", escape(&shown)));
             return Err(problem.help("correct the errors above, or choose another file with `--topology FILE`"));
         };
-        // The file in the working folder may be that of another system.
-        if arguments.topology.is_none() && system.as_ref().is_some_and(|system| *system != plans.system) {
-            return Ok(Self { source: Source::Announcements(arguments.system.find()?), system });
+        // The file in the working folder may be that of another system. `SCL_SYSTEM` gives this one another name.
+        if arguments.topology.is_none() && (system.is_some() || !arguments.system.is_named()?) {
+            let chosen = arguments.system.choose(&|| Some(plans.system.clone()))?;
+            if chosen.is_some_and(|chosen| chosen != plans.system) {
+                return Ok(Self { source: Source::Announcements(arguments.system.find()?), system });
+            }
         }
         Ok(Self { source: Source::Topology { plans, file: shown }, system })
     }
@@ -134,8 +134,8 @@ impl Plans {
             Source::Topology { plans, .. } => plans,
         };
         let variables = |name: &str| std::env::var_os(name);
-        let chosen = variables("SCL_SYSTEM").filter(|name| !name.is_empty()).and_then(|name| name.into_string().ok());
-        let name = self.system.clone().or(chosen).unwrap_or_else(|| plans.system.clone());
+        let chosen = named_system(self.system.as_deref(), &variables).ok()?;
+        let name = chosen.unwrap_or_else(|| plans.system.clone());
         RuntimeDir::existing(&variables).ok()??.existing_system(&name).ok()?
     }
 

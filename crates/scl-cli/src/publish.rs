@@ -80,6 +80,9 @@ async fn run(arguments: &PubArguments) -> Result<ExitCode, Problem> {
     let plans = Plans::find(&arguments.play)?;
     let (plan, gate) = plans.gate(&arguments.gate)?;
     check_kind(&plan, &gate)?;
+    if arguments.message.trim().is_empty() {
+        return Err(Problem::new("the message is empty").help("write `{}` for one with defaults"));
+    }
     let messages = message_type(&plan, &gate, gate.payload.types().next())?;
     let mut messages =
         Messages::new(&arguments.message, messages, arguments.rate.is_some() || arguments.count.is_some())?;

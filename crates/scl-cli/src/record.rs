@@ -16,7 +16,7 @@ use std::time::Duration;
 /// Record messages, requests and replies of a running system into an MCAP file.
 ///
 /// The gates are observed at their taps; a recorder that cannot keep up never slows them down. Components that start
-/// later or start again are recorded too. Ctrl-C or SIGTERM ends the recording; then, and in the file, each gate's
+/// later or start again are recorded too; a system that is named with `--system` may itself start later. Ctrl-C or SIGTERM ends the recording; then, and in the file, each gate's
 /// messages are counted that were recorded and that were lost.
 ///
 /// Everything is handed to the operating system each second, so that a crash of the recorder loses at most that second.
@@ -103,13 +103,14 @@ pub(crate) fn record(arguments: &RecordArguments) -> ExitCode {
 }
 
 fn run(arguments: &RecordArguments) -> Result<ExitCode, Problem> {
-    let system = arguments.system.find()?;
     if arguments.trigger {
+        let system = arguments.system.find()?;
         for file in record::trigger(&system)? {
             print_out(&format!("{}\n", escape(&file.to_string_lossy())));
         }
         return Ok(ExitCode::SUCCESS);
     }
+    let system = arguments.system.find_or_await()?;
     let report = record::record(&system, &options(arguments, &system)?)?;
     if arguments.format.is_json() {
         print_json(&report.json());
@@ -145,6 +146,7 @@ fn options(arguments: &RecordArguments, system: &System) -> Result<Options, Prob
         sync: arguments.sync,
         memory: usize::try_from(arguments.memory).unwrap_or(usize::MAX),
         ring: arguments.ring.map(|window| RingOptions { window, save_at_end: arguments.save_at_exit }),
+        topology: arguments.topology.clone().unwrap_or_else(|| TOPOLOGY.into()),
         attached: attached_files(arguments, system)?,
     })
 }

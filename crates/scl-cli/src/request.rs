@@ -1,12 +1,11 @@
 //! What `scl stop` and `scl restart` share: asking the `scl run` of the components, and showing what happened.
 
 use crate::format::{FormatArgument, print_json};
-use crate::load::{MaxSize, load_file};
+use crate::load::system_of_folder;
 use clap::Args;
 use scl_run::control::{Command, ComponentReport, Wish, ask};
-use scl_terminal::{escape, print_err, print_out};
+use scl_terminal::{Problem, escape, print_err, print_out};
 use serde_json::json;
-use std::path::Path;
 use std::process::ExitCode;
 
 /// Exit code: nothing was done.
@@ -23,30 +22,28 @@ pub(crate) struct RequestArguments {
 }
 
 /// Asks, waits, prints what happened, and returns the exit code.
-pub(crate) fn request(command: Command, components: &[String], arguments: &RequestArguments) -> ExitCode {
+pub(crate) fn request(command: Command, components: &[String], build: bool, arguments: &RequestArguments) -> ExitCode {
     let system = arguments.system.as_deref();
-    let reports = match ask(&Wish { command, components, system, here: &system_here }) {
-        Ok(reports) => reports,
+    let done = match ask(&Wish { command, components, system, here: &system_of_folder, build }) {
+        Ok(done) => done,
         Err(problems) => {
-            problems.iter().for_each(|problem| print_err(&format!("{problem}\n")));
+            show(&problems);
             return ExitCode::from(COULD_NOT_DO);
         }
     };
+    let reports = done.components;
     if arguments.format.is_json() {
         print_json(&json!({ "components": reports }));
     } else {
         print_out(&reports.iter().map(line).collect::<String>());
     }
-    if reports.iter().all(|report| report.done) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    show(&done.problems);
+    let all_done = done.problems.is_empty() && reports.iter().all(|report| report.done);
+    if all_done { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// The system of the topology in the working folder.
-fn system_here() -> Option<String> {
-    let path = Path::new("topology.yaml");
-    if !path.is_file() {
-        return None;
-    }
-    load_file(path, MaxSize::default()).topology.map(|topology| topology.system().to_owned())
+fn show(problems: &[Problem]) {
+    problems.iter().for_each(|problem| print_err(&format!("{problem}\n")));
 }
 
 fn line(report: &ComponentReport) -> String {

@@ -49,6 +49,9 @@ pub(crate) struct RunArguments {
     /// Build the cargo package with optimizations.
     #[arg(long)]
     release: bool,
+    /// Start the programs as they are, without building anything; `scl restart` builds nothing either.
+    #[arg(long, conflicts_with = "release")]
+    no_build: bool,
 }
 
 fn after_help() -> String {
@@ -95,6 +98,7 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
         without: arguments.without.clone(),
         host: arguments.host.clone(),
         release: arguments.release,
+        no_build: arguments.no_build,
         run_for: arguments.run_for,
         grace: arguments.grace,
     };

@@ -16,7 +16,7 @@ Examples:
   scl stop sensor                 one component
   scl stop --system rover         where several systems run
 
-Exit code: 0 stopped, 2 nothing was done.")]
+Exit code: 0 stopped, 1 something was not stopped, 2 nothing was done.")]
 pub(crate) struct StopArguments {
     /// The components; all if none is named.
     #[arg(value_name = "COMPONENT")]
@@ -27,5 +27,5 @@ pub(crate) struct StopArguments {
 
 /// The body of `scl stop`.
 pub(crate) fn stop(arguments: &StopArguments) -> ExitCode {
-    request(Command::Stop, &arguments.components, &arguments.request)
+    request(Command::Stop, &arguments.components, false, &arguments.request)
 }

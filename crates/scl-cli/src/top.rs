@@ -15,7 +15,8 @@ use crate::observed::{SystemArgument, exit_code};
 use clap::{Args, ValueEnum};
 use rows::{COMPONENT_COLUMNS, GATE_COLUMNS, component_cells, gate_cells, sort, to_json};
 use scl_observe::{Snapshot, Watch};
-use scl_terminal::{Align, Problem, Table, parse_duration, print_out};
+use scl_terminal::{Align, Problem, Table, escape, parse_duration, print_out};
+use serde_json::json;
 use std::process::ExitCode;
 use std::thread;
 use std::time::Duration;
@@ -26,12 +27,14 @@ const SHORTEST_PERIOD: Duration = Duration::from_millis(100);
 /// Show the components and gates of a running system, live.
 ///
 /// Everything is read from the files that components write twice a second, and from /proc, so watching costs them nothing.
+/// If several systems run, all are shown.
 /// Keys: q ends, arrows choose a gate, Enter shows its connections, s changes the order, space pauses.
 #[derive(Args)]
 #[command(after_help = "\
 Columns: CPU is the part of one processor, MEM the resident memory, RATE the messages per second (each once for all peers),
-SENT counts a message once for each peer, WAIT those that wait in the program, DROP those dropped because a queue was full,
-LOST those on their way when a connection broke, PEERS the connected peers of all.
+SENT counts a message once for each peer, WAIT those that wait in the program, DROP those dropped because a queue was full
+(not those that a newer one has replaced in a `queue: 1`), LOST those on their way when a connection broke, PEERS the connected
+peers of all.
 
 Examples:
   scl top
@@ -80,33 +83,42 @@ pub(crate) fn top(arguments: &TopArguments) -> ExitCode {
 
 fn run(arguments: &TopArguments) -> Result<ExitCode, Problem> {
     let period = arguments.period.max(SHORTEST_PERIOD);
-    let mut watch = Watch::new(arguments.system.find()?);
+    let mut watches: Vec<Watch> = arguments.system.find_all()?.into_iter().map(Watch::new).collect();
     if arguments.once {
-        watch.look();
+        watches.iter_mut().for_each(|watch| drop(watch.look()));
         thread::sleep(period);
-        let mut snapshot = watch.look();
-        sort(&mut snapshot, arguments.sort);
-        match arguments.format.is_json() {
-            true => print_json(&to_json(&snapshot)),
-            false => print_out(&table(&snapshot)),
-        }
+        let mut snapshots: Vec<Snapshot> = watches.iter_mut().map(Watch::look).collect();
+        snapshots.iter_mut().for_each(|snapshot| sort(snapshot, arguments.sort));
+        print_once(&snapshots, arguments.format.is_json());
         return Ok(ExitCode::SUCCESS);
     }
     if arguments.format.is_json() {
         return Err(Problem::new("the live display has no other format").help("add `--once`"));
     }
-    live(watch, period, arguments.sort)
+    live(watches, period, arguments.sort)
 }
 
 #[cfg(feature = "tui")]
-fn live(watch: Watch, period: Duration, order: Order) -> Result<ExitCode, Problem> {
-    live::run(watch, period, order)
+fn live(watches: Vec<Watch>, period: Duration, order: Order) -> Result<ExitCode, Problem> {
+    live::run(watches, period, order)
 }
 
 #[cfg(not(feature = "tui"))]
-fn live(_watch: Watch, _period: Duration, _order: Order) -> Result<ExitCode, Problem> {
+fn live(_watches: Vec<Watch>, _period: Duration, _order: Order) -> Result<ExitCode, Problem> {
     Err(Problem::new("this `scl` was built without the live display")
         .help("add `--once`, or build with `--features tui`"))
+}
+
+fn print_once(snapshots: &[Snapshot], is_json: bool) {
+    match (snapshots, is_json) {
+        ([only], true) => print_json(&to_json(only)),
+        ([only], false) => print_out(&table(only)),
+        (several, true) => print_json(&json!({"systems": several.iter().map(to_json).collect::<Vec<_>>()})),
+        (several, false) => {
+            let texts = several.iter().map(|it| format!("{}:\n{}", escape(&it.system), table(it)));
+            print_out(&texts.collect::<Vec<_>>().join("\n"));
+        }
+    }
 }
 
 fn table(snapshot: &Snapshot) -> String {

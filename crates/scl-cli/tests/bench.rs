@@ -1,6 +1,7 @@
 //! `scl bench`: every benchmark runs for next to nothing and prints values that programs can read. No value is judged.
 
 use serde_json::Value;
+use std::os::unix::fs::MetadataExt;
 use std::process::{Command, Output};
 
 fn bench(arguments: &[&str]) -> Output {
@@ -168,6 +169,22 @@ fn fresh_measures_every_call() {
     let baselines = &expected[4..];
     for ours in &expected[..4] {
         assert_compared_everywhere(&report, "age_p50_periods", ours, baselines);
+    }
+}
+
+/// Root alone can start a process of another user.
+#[test]
+fn strangers_measures_calls_and_a_dead_peer() {
+    if std::fs::metadata("/proc/self").unwrap().uid() != 0 {
+        let output = bench(&["strangers", "--quick"]);
+        assert!(String::from_utf8_lossy(&output.stderr).contains("only root"), "{output:?}");
+        return;
+    }
+    let report = report(&["strangers"]);
+    let flooded = ["100 connections/s refused", "1000 connections/s refused"];
+    assert_eq!(names(&report), ["no other user", flooded[0], flooded[1], "tcp", "ipc"]);
+    for ours in flooded {
+        assert_compared(&report["tables"][0], "calls_per_s", ours, &["no other user"]);
     }
 }
 

@@ -11,7 +11,7 @@ fn a_request_is_answered() {
     rover.stop("user_interface");
     let text = rover.text(&["call", "controller.commands", "{target_speed: 0.5}"]);
     assert_eq!(text, "accepted: true\nreason: within limits\n");
-    let json = rover.json(&["call", "controller.commands", "--as", "user_interface", "--format", "json"]);
+    let json = rover.json(&["call", "controller.commands", "{}", "--as", "user_interface", "--format", "json"]);
     assert_eq!(json, serde_json::json!({"accepted": true, "reason": "within limits"}));
     let output = elsewhere(&rover, &["call", "controller.commands", "{target_speed: 0.5}"]).output().unwrap();
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
@@ -50,21 +50,48 @@ fn a_template_needs_no_running_system() {
     assert_eq!(String::from_utf8_lossy(&output.stdout), template);
 }
 
+/// Not even to a component that runs: defaults may move an actuator.
+#[test]
+fn without_a_request_nothing_is_sent() {
+    let rover = Rover::stopped();
+    let mut controller = open(&rover, "controller");
+    let mut commands = controller.replier("commands").unwrap();
+    for arguments in [&["call", "controller.commands"][..], &["call", "controller.commands", ""]] {
+        let output = rover.scl(arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).starts_with("error: "), "{arguments:?}");
+    }
+    let output = rover.scl(&["call", "controller.commands"]).output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "target_speed: 0.0\n");
+    assert_eq!(
+        String::from_utf8_lossy(&output.stderr),
+        "error: there is no request, so nothing was sent; an example is on standard output\n  \
+           = help: `scl call controller.commands '{}'` sends one with defaults\n"
+    );
+    // The first request that arrives is the one that was written.
+    let arguments = ["call", "controller.commands", "{target_speed: 2}", "--timeout", "60s"];
+    let process = rover.scl(&arguments).stdout(Stdio::null()).spawn().unwrap();
+    let request = commands.recv_blocking().unwrap();
+    assert_eq!(request.message()[..], [&[9][..], &2_f64.to_le_bytes()].concat());
+    request.reply(&"".into()).unwrap();
+    assert!(process.wait_with_output().unwrap().status.success());
+}
+
 #[test]
 fn a_replier_that_does_not_reply_is_the_answer_no() {
     let rover = Rover::stopped();
-    let error = rover.error(&["call", "controller.commands", "--timeout", "100ms"], 2);
+    let error = rover.error(&["call", "controller.commands", "{}", "--timeout", "100ms"], 2);
     assert!(error.starts_with("error: gate `user_interface.commands` got no reply from `controller.commands` within "));
     assert!(error.ends_with(": `controller.commands` is not running\n"), "{error}");
     let _controller = open(&rover, "controller");
-    let error = rover.error(&["call", "controller.commands", "--timeout", "5s"], 1);
+    let error = rover.error(&["call", "controller.commands", "{}", "--timeout", "5s"], 1);
     assert!(error.starts_with("error: gate `user_interface.commands` got no reply from `controller.commands` within "));
 }
 
 #[test]
 fn every_requester_runs() {
     let rover = Rover::start();
-    let error = rover.error(&["call", "controller.commands"], 2);
+    let error = rover.error(&["call", "controller.commands", "{}"], 2);
     let expected = format!(
         "error: every component that asks at `controller.commands` is running\n  \
            = help: stop one of them, to play it here\n  \
@@ -72,7 +99,7 @@ fn every_requester_runs() {
         rover.process_id("user_interface")
     );
     assert_eq!(error, expected);
-    let error = rover.error(&["call", "controller.commands", "--as", "user_interface"], 2);
+    let error = rover.error(&["call", "controller.commands", "{}", "--as", "user_interface"], 2);
     assert!(error.contains(&format!("already running as process {}", rover.process_id("user_interface"))), "{error}");
 }
 
@@ -96,7 +123,7 @@ connections:
           = help: choose one with `--as screen`
           = note: not running: `screen`, `remote`
     "#]]
-    .assert_eq(&rover.error(&["call", "controller.commands"], 2));
+    .assert_eq(&rover.error(&["call", "controller.commands", "{}"], 2));
     expect![[r#"
         error: the type of the requests of `controller.raw` is not known
           = note: they are `bytes`, in `raw`, without `schemas:`
@@ -118,7 +145,7 @@ fn mistakes_say_what_to_write() {
     "#]],
     );
     check(
-        &["controller.commands", "--as", "sensor"],
+        &["controller.commands", "{}", "--as", "sensor"],
         expect![[r#"
         error: component `sensor` does not ask at `controller.commands`
           = note: those that do: `user_interface`

@@ -56,7 +56,7 @@ fn differences_are_named_and_counted() {
             "gate": "controller.actuator", "equal": false,
             "paired": 2, "different": 1, "missing": 1, "additional": 0,
             "differences": [{
-                "kind": "different", "index": 1, "seconds": 0.012, "field": "throttle",
+                "kind": "different", "index": 1, "count": 1, "seconds": 0.012, "field": "throttle",
                 "first": "0.2500001", "second": "0.25",
             }],
         }]})

@@ -2,6 +2,7 @@
 
 use crate::system::System;
 use expect_test::expect;
+use scl_needs::needs;
 use std::process::{Command, Output};
 
 const TOPOLOGY: &str = "\
@@ -55,6 +56,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
+#[needs("systemd-analyze")]
 #[test]
 fn systemd_accepts_the_units_without_a_word() {
     let system = system(&LAUNCH.replace("  ground: {address: 127.0.0.2, components: []}\n", ""));

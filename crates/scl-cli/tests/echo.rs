@@ -4,6 +4,7 @@ use crate::rover::Rover;
 use crate::system::kill;
 use expect_test::{Expect, expect};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdout, Stdio};
 use std::sync::mpsc::channel;
@@ -299,6 +300,37 @@ fn silence_within_the_timeout_is_the_answer_no() {
 }
 
 #[test]
+fn a_component_stands_for_its_gates() {
+    let rover = Rover::start();
+    let (mut echo, mut lines) = start(&rover, &["echo", "sensor", "--format", "json"]);
+    let mut left = BTreeSet::from(["sensor.measurements", "sensor.position", "sensor.image"].map(str::to_owned));
+    while !left.is_empty() {
+        let gate = next_json(&mut lines)["gate"].as_str().unwrap().to_owned();
+        assert!(gate.starts_with("sensor."), "{gate}");
+        left.remove(&gate);
+    }
+    kill("-INT", echo.id());
+    assert_eq!(echo.wait().unwrap().code(), Some(0));
+}
+
+#[test]
+fn what_starts_later_is_waited_for() {
+    let mut rover = Rover::stopped();
+    let arguments =
+        ["echo", "sensor.measurements", "--system", "rover", "--where", "count >= 0", "--format", "csv", "-n", "1"];
+    let (mut echo, mut lines) = start(&rover, &arguments);
+    let mut notes = BufReader::new(echo.stderr.take().unwrap());
+    let mut note = String::new();
+    notes.read_line(&mut note).unwrap();
+    assert_eq!(note, "note: `sensor.measurements` is not running; waiting until it starts\n");
+    rover.play_alone("sensor");
+    let mut header = String::new();
+    lines.read_line(&mut header).unwrap();
+    assert_eq!(header, "@time,@sequence,speed,count\n");
+    assert_eq!(echo.wait().unwrap().code(), Some(0));
+}
+
+#[test]
 fn mistakes_say_what_to_write() {
     let rover = Rover::start();
     let check = |arguments: &[&str], expected: Expect| {
@@ -335,6 +367,20 @@ fn mistakes_say_what_to_write() {
     "#]],
     );
     check(
+        &["sensor.measurements", "--where", "count"],
+        expect![[r#"
+        error: `count` is a number, which is neither true nor false
+          = help: compare it, for example `count > 0`
+    "#]],
+    );
+    check(
+        &["sensor.measurements", "--where", "speed > 'fast'"],
+        expect![[r#"
+        error: `speed` is a number, and `'fast'` is a text: they cannot be compared
+          = help: only texts stand in quotes
+    "#]],
+    );
+    check(
         &["sensor.measurements", "--where", "speed >"],
         expect![[r#"
         error: invalid value 'speed >' for '--where <CONDITION>': `speed >` is not a condition: expected a field or a value at character 8
@@ -351,10 +397,11 @@ fn mistakes_say_what_to_write() {
     "#]],
     );
     check(
-        &["actuator.setpoint"],
+        &["actuator.setpint"],
         expect![[r#"
-        error: component `actuator` is not running
-          = help: `scl list` shows what runs
+        error: component `actuator` has no gate `setpint`
+          = help: did you mean `setpoint`?
+          = note: known in `topology.yaml`: `setpoint`
     "#]],
     );
 }

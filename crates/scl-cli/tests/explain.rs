@@ -21,7 +21,8 @@ fn an_entry_is_that_of_the_catalogue() {
 fn all_checks_are_listed() {
     let (code, text, _) = explain(&[]);
     assert_eq!(code, Some(0));
-    assert_eq!(text.lines().count(), scl_topology::catalogue::ALL.len() + scl_topology::grammar::entries().len());
+    let of_topologies = scl_topology::catalogue::ALL.len() + scl_topology::grammar::entries().len();
+    assert!(text.lines().count() >= of_topologies, "{text}");
     assert!(text.contains("\nqueue         option               How many messages may wait"), "{text}");
     assert!(text.contains("\nSCL0502  error    unknown gate\n"), "{text}");
 }
@@ -85,7 +86,7 @@ fn an_unknown_word_gets_a_suggestion() {
     unknown(
         "quue",
         expect![[r#"
-            error: `quue` is neither a code of the checker nor a word of the topology file
+            error: `quue` is neither a code of the checker nor a word of the topology or the launch file
               = help: a similar word exists: `queue` (option)
               = help: `scl explain` lists all of them
         "#]],
@@ -93,7 +94,7 @@ fn an_unknown_word_gets_a_suggestion() {
     unknown(
         "codex",
         expect![[r#"
-            error: `codex` is neither a code of the checker nor a word of the topology file
+            error: `codex` is neither a code of the checker nor a word of the topology or the launch file
               = help: a similar word exists: `codec` (section, option)
               = help: `scl explain` lists all of them
         "#]],
@@ -101,8 +102,49 @@ fn an_unknown_word_gets_a_suggestion() {
     unknown(
         "teapot",
         expect![[r#"
-        error: `teapot` is neither a code of the checker nor a word of the topology file
+        error: `teapot` is neither a code of the checker nor a word of the topology or the launch file
           = help: `scl explain` lists all of them
     "#]],
+    );
+}
+
+#[cfg(feature = "run")]
+#[test]
+fn keys_of_launch_files_are_explained() {
+    let (code, text, error) = explain(&["restart_delay"]);
+    assert_eq!((code, &*error), (Some(0), ""));
+    expect![[r#"
+        # restart_delay (key of a program)
+
+        Time before a restart. It doubles with each one, and starts again after a minute without one.
+
+        Value: a range like `100ms..5s`, or one time
+        Default: `100ms..5s`
+        It may also stand in `defaults`, for all programs.
+
+        See docs/launch.md.
+    "#]]
+    .assert_eq(&text);
+    // A word of both files.
+    let (_, text, _) = explain(&["components"]);
+    assert!(text.contains("# components (section)") && text.contains("# components (key of a launch file)"), "{text}");
+    let (_, all, _) = explain(&[]);
+    assert!(all.lines().any(|line| line.starts_with("stop_within ")), "{all}");
+    // What other tools call it, and a typo.
+    unknown(
+        "respawn",
+        expect![[r#"
+            error: `respawn` is neither a code of the checker nor a word of the topology or the launch file
+              = help: a similar word exists: `restart` (key of a program)
+              = help: `scl explain` lists all of them
+        "#]],
+    );
+    unknown(
+        "restrat",
+        expect![[r#"
+            error: `restrat` is neither a code of the checker nor a word of the topology or the launch file
+              = help: a similar word exists: `restart` (key of a program)
+              = help: `scl explain` lists all of them
+        "#]],
     );
 }

@@ -1,6 +1,6 @@
 //! `scl list`: what runs, what ran, and what is only known as a peer.
 
-use crate::rover::Rover;
+use crate::rover::{COMPONENTS, Rover};
 use expect_test::expect;
 use serde_json::Value;
 
@@ -16,9 +16,9 @@ fn components_and_their_states_are_listed() {
 
         COMPONENT STATE PID FOR PROGRAM
         actuator stopped
-        controller not ready PID AGE tests
+        controller waiting PID AGE tests
         logger stopped
-        sensor not ready PID AGE tests
+        sensor waiting PID AGE tests
         user_interface dead PID tests
     "#]]
     .assert_eq(&shown(&rover, &["list"]));
@@ -95,6 +95,49 @@ fn a_stopped_system_is_found_by_its_name_or_its_topology() {
     }
     let error = rover.error(&["list", "--system", "rovr"], 2);
     assert!(error.contains("error: there is no system `rovr`\n  = help: did you mean `rover`?"), "{error}");
+}
+
+#[test]
+fn all_running_systems_are_listed() {
+    let mut rover = Rover::start();
+    rover.play(&COMPONENTS, |command| {
+        command.env("SCL_SYSTEM", "twin");
+    });
+    rover.write("topology.yaml", "system: third\ncomponents:\n  - name: other\n");
+    let text = rover.text(&["list"]);
+    assert!(text.starts_with("rover: 4 running") && text.contains("\n\ntwin: 4 running"), "{text}");
+    let systems = rover.json(&["list", "--format", "json"])["systems"].clone();
+    let names: Vec<_> = systems.as_array().unwrap().iter().map(|system| &system["system"]).collect();
+    assert_eq!(names, ["rover", "twin"]);
+    let top = rover.text(&["top", "--once", "--period", "100ms"]);
+    assert!(top.starts_with("rover:\n") && top.contains("\n\ntwin:\n"), "{top}");
+    assert!(rover.text(&["list", "--system", "twin"]).starts_with("twin: "));
+    // Everything else needs one.
+    let several = "error: several systems are running\n  = help: name one: `--system rover`, or set `SCL_SYSTEM`\n  \
+                   = note: running: `rover`, `twin`\n";
+    for arguments in [&["info", "sensor"][..], &["echo", "sensor"], &["hz"], &["record"], &["pub", "sensor.image", "x"]]
+    {
+        assert_eq!(rover.error(arguments, 2), several, "{arguments:?}");
+    }
+    #[cfg(feature = "run")]
+    assert_eq!(rover.error(&["log", "sensor"], 2), several);
+}
+
+#[test]
+fn nothing_is_cut_in_a_pipe() {
+    let name = "measurement_unit_of_the_left_front_wheel_of_the_vehicle";
+    let topology = format!(
+        "system: rover\nschemas: [rover.proto]\ncomponents:\n  - name: {name}\n    gates:\n      \
+         - measurements: {{pub: rover.Measurement}}\n"
+    );
+    let mut rover = Rover::of(&topology);
+    rover.play_alone(name);
+    let gate = format!("{name}.measurements");
+    for arguments in [&["list", "-v"][..], &["info", name], &["info", &gate], &["top", "--once"]] {
+        let text = rover.text(arguments);
+        assert!(text.contains(name) && !text.contains('…'), "{arguments:?}: {text}");
+    }
+    assert!(rover.text(&["list", "-v"]).contains(&gate));
 }
 
 /// A table with single spaces, and with process numbers as `PID`, ages as `AGE` and test programs as `tests`.

@@ -26,9 +26,10 @@ mod diff;
 mod doctor;
 #[cfg(feature = "observe")]
 mod echo;
-mod editor;
 mod explain;
 mod external;
+#[cfg(feature = "record")]
+mod formats;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
@@ -38,15 +39,14 @@ mod hz;
 mod info;
 #[cfg(feature = "observe")]
 mod json;
-#[cfg(all(feature = "run", feature = "generate"))]
-mod languages;
 #[cfg(feature = "observe")]
 mod list;
 #[cfg(feature = "run")]
 mod log;
-mod lsp;
 #[cfg(feature = "new")]
 mod new;
+#[cfg(feature = "record")]
+mod output;
 mod plan;
 #[cfg(feature = "observe")]
 mod publish;
@@ -61,11 +61,13 @@ mod rover;
 #[cfg(feature = "run")]
 mod run_build;
 #[cfg(feature = "run")]
+mod run_completed;
+#[cfg(feature = "run")]
 mod run_control;
 #[cfg(all(feature = "run", feature = "observe"))]
+mod run_expected;
+#[cfg(all(feature = "run", feature = "observe"))]
 mod run_hang;
-#[cfg(feature = "run")]
-mod run_hosts;
 #[cfg(feature = "run")]
 mod run_mistakes;
 #[cfg(feature = "run")]
@@ -77,15 +79,15 @@ mod run_placement;
 #[cfg(feature = "run")]
 mod run_profiles;
 #[cfg(feature = "run")]
-mod run_ready;
+mod run_rebuild;
 #[cfg(feature = "run")]
 mod run_restart;
 #[cfg(feature = "run")]
 mod run_stop;
 #[cfg(feature = "run")]
 mod run_transports;
-mod rust_analyzer;
-mod schema;
+#[cfg(feature = "run")]
+mod run_twice;
 mod system;
 #[cfg(feature = "run")]
 mod systemd;

@@ -60,7 +60,10 @@ fn a_plan_names_everything_a_program_needs() {
                   "queue": 1,
                   "when_full": "drop_oldest",
                   "backpressure": false,
+                  "latched": false,
                   "timeout_ns": 1000000000,
+                  "in_flight": 1,
+                  "undecodable": "skip",
                   "connections": [
                     {
                       "peer_component": "sensor",

@@ -60,6 +60,29 @@ fn messages_are_sent_in_order_and_counted() {
 }
 
 #[test]
+fn a_latched_gate_stays_latched() {
+    let mut rover = Rover::new();
+    let latched = "{pub: rover.Measurement, latched: true}";
+    rover.plan = rover.plan_of(&ROVER.replace("{pub: rover.Measurement}", latched));
+    rover.record("flight.mcap", &[(MEASUREMENTS, 0, "1"), (MEASUREMENTS, 5, "2"), (LOG, HOUR, "end")]);
+    let replay = rover.start(&["flight.mcap", "--as", "sensor", "--ready", "0s"]);
+    for is_late in [false, true, true] {
+        let mut controller = rover.open("controller");
+        for gate in ["newest", "history"] {
+            let mut gate = controller.subscriber(gate).unwrap();
+            let mut received = text(&gate.recv_timeout(HANG_LIMIT).unwrap());
+            while received != "2" && !is_late {
+                received = text(&gate.recv_timeout(HANG_LIMIT).unwrap());
+            }
+            assert_eq!(received, "2");
+            assert!(gate.latched_age().is_some() || !is_late);
+        }
+    }
+    kill("-INT", replay.id());
+    replay.wait_with_output().unwrap();
+}
+
+#[test]
 fn the_rate_scales_time() {
     let rover = Rover::new();
     let _controller = rover.open("controller");

@@ -110,7 +110,7 @@ error: the build command `no_such_tool` of component `a` is not in the search pa
 
 ";
     assert_eq!(text(&missing.stderr), expected);
-    let in_shell = run("components: {a: {build: no_such_tool all, command: echo a}}", &[]);
+    let in_shell = run("components: {a: {build: 'no_such_tool > all', command: echo a}}", &[]);
     let err = text(&in_shell.stderr);
     assert!(err.contains("\n  = help: install the command that was not found\n"), "{err}");
     assert_eq!((missing.status.code(), in_shell.status.code()), (Some(2), Some(2)));

@@ -102,11 +102,23 @@ fn who_does_not_stop_in_time_is_named_and_killed() {
 
 #[test]
 fn what_a_program_leaves_behind_ends_with_it() {
-    let system = System::of(&[("sensor", "exec 3>alive; (trap '' TERM; tail -f /dev/null >/dev/null) & echo started")]);
-    let pipe = system.make_pipe("alive");
-    let run = system.start(&NO_END_OF_GRACE);
+    let leaving = |trap: &str| {
+        let script = format!("exec 3>alive; ({trap}exec tail -f /dev/null >/dev/null) & echo started");
+        let launch = format!("components: {{sensor: {{command: [sh, -c, {script:?}]}}}}");
+        System::of_files(&[("launch.yaml", &launch)])
+    };
+    let polite = leaving("");
+    let pipe = polite.make_pipe("alive");
+    let run = polite.start(&NO_END_OF_GRACE);
     assert_eq!(wait_for_writers_to_end(&pipe), "");
     assert_eq!(run.finish().0.code(), Some(0));
+    let stubborn = leaving("trap '' TERM; ");
+    let pipe = stubborn.make_pipe("alive");
+    let run = stubborn.start(&["--grace", "100ms"]);
+    assert_eq!(wait_for_writers_to_end(&pipe), "");
+    let (status, _, err) = run.finish();
+    assert!(err.contains("sensor  not stopped within 100ms, killed\n"), "{err}");
+    assert_eq!(status.code(), Some(0), "{err}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! `scl top`: its table, its JSON, and the live display in a real terminal.
 
 use crate::rover::{COMPONENTS, Rover};
+use scl_needs::needs;
 use std::process::{Command, Output};
 
 #[test]
@@ -148,6 +149,7 @@ fn in_terminal(steps: &[&str]) -> String {
     String::from_utf8(stdout).unwrap()
 }
 
+#[needs("python3")]
 #[test]
 #[cfg(feature = "tui")]
 fn the_terminal_is_restored_however_the_display_ends() {
@@ -157,6 +159,7 @@ fn the_terminal_is_restored_however_the_display_ends() {
     }
 }
 
+#[needs("python3")]
 #[test]
 #[cfg(feature = "tui")]
 fn the_terminal_is_restored_while_the_display_is_suspended() {
@@ -166,6 +169,7 @@ fn the_terminal_is_restored_while_the_display_is_suspended() {
     }
 }
 
+#[needs("python3")]
 #[test]
 #[cfg(feature = "tui")]
 fn keys_and_sizes_change_what_is_shown() {

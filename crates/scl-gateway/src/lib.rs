@@ -6,6 +6,7 @@ pub mod keys;
 pub mod local;
 mod pump;
 pub mod route;
+mod slot;
 pub mod wire;
 
 // For the certificates that tests of both kinds use.

@@ -8,20 +8,16 @@ mod announcing;
 mod mirroring;
 mod neighbours;
 mod routes;
-mod slot;
-
-pub(crate) use announcing::Run;
-pub(crate) use slot::{Held, View};
 
 use crate::pump::Counts;
 use crate::route::Route;
-use crate::wire::Wire;
+use crate::slot::Slot;
+use crate::wire::{Announced, Wire};
 use announcing::announce;
 use mirroring::{Remote, mirror};
-use scl::Medium;
+use scl::TransportKind;
 use scl::bridge::{Change, Mirror, Presence};
 use scl::runtime_dir::SystemDir;
-use slot::Slot;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use std::time::Duration;
@@ -39,7 +35,7 @@ pub struct GatewayOptions {
     /// The folder of the system on this host.
     pub dir: SystemDir,
     /// What the ends listen on that stand in for components of other hosts.
-    pub medium: Medium,
+    pub kind: TransportKind,
     /// This host.
     pub host: String,
     /// The host of each component of the system.
@@ -81,7 +77,7 @@ impl Gateway {
         let (mut changes, mut remotes) = (HashMap::new(), HashMap::new());
         for (component, host) in &options.components {
             if *host == options.host {
-                let (slot, (sender, receiver)) = (Slot::<Run>::new(), mpsc::unbounded_channel());
+                let (slot, (sender, receiver)) = (Slot::<Announced>::new(), mpsc::unbounded_channel());
                 runs.insert(component.clone(), slot.view());
                 changes.insert(component.clone(), sender);
                 tasks.spawn(announce(Arc::clone(&wire), receiver, slot));

@@ -2,6 +2,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod check;
+mod descriptors;
 mod files;
 mod log;
 mod make_keys;
@@ -9,6 +10,7 @@ mod one_thread;
 mod run;
 
 use clap::{Parser, Subcommand};
+use scl_terminal::finish_output;
 use std::process::ExitCode;
 
 /// Connect the components of a system that run on several hosts.
@@ -36,9 +38,9 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    match CommandLine::parse().command {
+    finish_output(match CommandLine::parse().command {
         Command::Check(arguments) => check::check(&arguments),
         Command::Keys(arguments) => make_keys::make_keys(&arguments),
         Command::Run(arguments) => run::run(&arguments),
-    }
+    })
 }

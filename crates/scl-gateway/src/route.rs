@@ -25,6 +25,8 @@ pub struct Route {
     pub when_full: WhenFull,
     /// Whether a sender waits for slow receivers instead of dropping messages.
     pub lossless: bool,
+    /// Whether the publisher keeps its last message for subscribers that join.
+    pub latched: bool,
     /// The longest message that an end of the route accepts, in bytes; for requests, the longest request or reply.
     pub max_size: u64,
     /// Whether only the newest message matters to the receiving gate.
@@ -121,6 +123,7 @@ fn route(
         queue: *queue,
         when_full: *when_full,
         lossless: gate.options.waits_for(*when_full),
+        latched: gate.options.latched,
         max_size: connection.max_size.max(replies),
         newest_only,
         key: format!("scl/{}/{sender}/{peer_component}/{peer_gate}/{contract}", system.system),

@@ -1,12 +1,13 @@
 //! `scl gateway run`: the gateway of a host, until it is told to stop.
 
+use crate::descriptors;
 use crate::files::{FileArguments, check_certificates, find_host, show};
 use crate::log;
 use crate::one_thread;
 use clap::Args;
 use scl::host::{tell_service_manager, text_with_causes};
 use scl::runtime_dir::{RuntimeDir, SystemDir};
-use scl::{Medium, MediumChoice};
+use scl::{TransportChoice, TransportKind};
 use scl_gateway::deployment::{Host, System};
 use scl_gateway::keys::HostFiles;
 use scl_gateway::local::{Gateway, GatewayOptions};
@@ -44,15 +45,16 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
 fn try_run(arguments: &RunArguments) -> Option<()> {
     shown(one_thread::ensure())?;
     shown(log::start())?;
+    descriptors::raise_limit();
     let system = arguments.files.load()?;
     let host = find_host(&system, &arguments.host)?;
     let certificates = check_certificates(&system, host).ok()?;
     let dir = shown(system_dir(arguments, &system))?;
-    let medium = shown(medium())?;
+    let kind = shown(transport_kind())?;
     let routes = routes(&system.plan, &system.deployment, &host.name);
     let wire = wire_options(&system, host, certificates, &routes);
     let options =
-        GatewayOptions { dir, medium, host: host.name.clone(), components: system.hosts_of_components(), routes };
+        GatewayOptions { dir, kind, host: host.name.clone(), components: system.hosts_of_components(), routes };
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = shown(runtime.map_err(|error| Problem::new(format!("cannot start the runtime: {error}"))))?;
     shown(runtime.block_on(serve(wire, options)))
@@ -111,15 +113,15 @@ fn system_dir(arguments: &RunArguments, system: &System) -> Result<SystemDir, Pr
 
 /// What the ends listen on that stand in for components of other hosts. What is chosen for single gates, and shared memory,
 /// does not concern connections to other hosts.
-fn medium() -> Result<Medium, Problem> {
+fn transport_kind() -> Result<TransportKind, Problem> {
     let value = std::env::var_os("SCL_TRANSPORT").unwrap_or_default();
     let choice = match &*value.to_string_lossy() {
-        "" => MediumChoice::default(),
+        "" => TransportChoice::default(),
         text => text.parse().map_err(|error| Problem::new(format!("`SCL_TRANSPORT` is not understood: {error}")))?,
     };
-    match choice.default_medium() {
-        Medium::Tcp => Ok(Medium::Tcp),
-        Medium::Ipc | Medium::Shm => Ok(Medium::Ipc),
+    match choice.default_kind() {
+        TransportKind::Tcp => Ok(TransportKind::Tcp),
+        TransportKind::Ipc | TransportKind::Shm => Ok(TransportKind::Ipc),
     }
 }
 

@@ -17,6 +17,7 @@ mod header;
 mod keys;
 mod lane;
 mod link;
+mod mail;
 mod mailbox;
 mod neighbour;
 mod options;

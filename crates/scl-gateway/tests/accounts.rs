@@ -18,6 +18,7 @@ pub(crate) struct Account {
     pub(crate) published: u64,
     /// Of which the receiving program has told that it has taken them. It does not tell for each.
     pub(crate) taken: u64,
+    /// By the queue, or replaced in it by a newer one.
     pub(crate) dropped: u64,
     /// On their way when the connection broke: each of them may have arrived, or not.
     pub(crate) lost: u64,

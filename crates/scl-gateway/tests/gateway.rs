@@ -41,6 +41,11 @@ impl Gateway {
         self.process.wait().unwrap()
     }
 
+    /// The number of its open file descriptors.
+    pub(crate) fn descriptors(&self) -> usize {
+        std::fs::read_dir(format!("/proc/{}/fd", self.process.id())).unwrap().count()
+    }
+
     #[track_caller]
     pub(crate) fn assert_runs(&mut self) {
         assert_eq!(self.process.try_wait().unwrap(), None, "the gateway has ended:\n{}", self.log());

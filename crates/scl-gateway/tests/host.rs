@@ -28,6 +28,16 @@ impl Host {
         self.folder.path().join("run")
     }
 
+    /// The address and port of its gateway.
+    pub(crate) fn socket_address(&self) -> String {
+        format!("{}:7447", self.address)
+    }
+
+    /// Runs a program that changes its network.
+    pub(crate) fn run(&self, line: &str) {
+        self.namespace.run(line);
+    }
+
     /// A program that will run on this host.
     pub(crate) fn command(&self, program: impl AsRef<Path>) -> Command {
         let mut command = self.namespace.command(program.as_ref());

@@ -4,6 +4,7 @@
 
 mod accounts;
 mod hosts;
+mod latched;
 mod messages;
 mod outages;
 mod presence;

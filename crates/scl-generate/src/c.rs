@@ -9,6 +9,7 @@ mod function;
 mod gate;
 mod header;
 mod helpers;
+mod literal;
 mod protobuf_c;
 mod recursion;
 mod source;

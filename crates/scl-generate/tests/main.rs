@@ -2,13 +2,10 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod all_topologies;
-mod c;
-mod c_programs;
 mod clashes;
-mod cpp;
 mod cpp_names;
+#[allow(dead_code, reason = "the tests with tools use the rest")]
 mod fixture;
 mod python;
-mod testable;
 mod writing;
 mod zmq;

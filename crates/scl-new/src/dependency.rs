@@ -72,7 +72,7 @@ impl Dependency {
     pub(crate) fn install_command(&self) -> String {
         match self {
             Self::Folder { path, .. } => {
-                format!("cargo install --path '{}'", beside(path, "scl-cli").replace('\'', r"'\''"))
+                format!("cargo install --path '{}'", beside(path, "crates/scl-cli").replace('\'', r"'\''"))
             }
             Self::Registry => format!("cargo install scl-cli --version {VERSION}"),
         }
@@ -105,7 +105,7 @@ fn is_scl(folder: &Path) -> bool {
     })
 }
 
-/// The path of another crate of the same repository.
+/// A path in the same repository as the crate `scl`.
 fn beside(path: &str, name: &str) -> String {
     Path::new(path).with_file_name(name).display().to_string()
 }
@@ -137,7 +137,7 @@ mod tests {
         let dependency = Dependency::Folder { path: path.to_owned(), found: PathBuf::from(path) };
         let line = r#"scl = { package = "scl-gates", path = "/it's \"here\"\\\u007f/scl" }"#;
         assert_eq!(dependency.manifest_line(), line);
-        let command = "cargo install --path '/it'\\''s \"here\"\\\u{7f}/scl-cli'";
+        let command = "cargo install --path '/it'\\''s \"here\"\\\u{7f}/crates/scl-cli'";
         assert_eq!(dependency.install_command(), command);
     }
 }

@@ -47,7 +47,7 @@ pub struct Created {
 /// If the name cannot be used, something with that name exists, SCL is not where it should be, or the files cannot be
 /// written. Nothing is left behind then.
 pub fn create(parent: &Path, project: &Project) -> Result<Created, Problem> {
-    name::check(&project.name, project.template)?;
+    name::check(&project.name, &project.template.programs())?;
     write::check_absent(parent, &project.name)?;
     let dependency = match &project.scl {
         Some(path) => Dependency::at(parent, path)?,

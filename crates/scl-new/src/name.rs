@@ -1,6 +1,5 @@
 //! Names of projects. They become names of systems, packages, modules and folders.
 
-use crate::Template;
 use scl_loader::{Request, load_bytes};
 use scl_terminal::{Problem, quoted_list};
 use scl_topology::diagnostic::{Diagnostic, Severity};
@@ -22,8 +21,8 @@ pub(crate) fn code_name(name: &str) -> String {
     name.replace('-', "_").to_ascii_lowercase()
 }
 
-/// Checks a name before anything is written.
-pub(crate) fn check(name: &str, template: Template) -> Result<(), Problem> {
+/// Checks a name before anything is written; `programs` are those of the template.
+pub(crate) fn check(name: &str, programs: &[&str]) -> Result<(), Problem> {
     let shown = name.escape_debug();
     if name.contains('/') {
         let last = name.trim_end_matches('/').rsplit('/').next().unwrap_or_default().escape_debug();
@@ -63,9 +62,8 @@ pub(crate) fn check(name: &str, template: Template) -> Result<(), Problem> {
     if OF_TYPES.contains(&code.as_str()) {
         return reserved(format!("`{code}` is a type of Rust, which the module of the messages would hide"));
     }
-    let programs = template.sources().iter().filter_map(|(path, _)| path.strip_prefix("src/bin/")?.strip_suffix(".rs"));
-    if programs.clone().any(|program| program == code) {
-        return reserved(format!("its components are called {}", quoted_list(programs)));
+    if programs.contains(&code.as_str()) {
+        return reserved(format!("its components are called {}", quoted_list(programs.iter().copied())));
     }
     Ok(())
 }

@@ -67,8 +67,14 @@ impl Template {
     /// All templates.
     pub const ALL: [Template; 2] = [Template::Minimal, Template::Control];
 
+    /// The names of its programs, which are those of its components.
+    pub(crate) fn programs(self) -> Vec<&'static str> {
+        let program = |(path, _): &(&'static str, _)| path.strip_prefix("src/bin/")?.strip_suffix(".rs");
+        self.sources().iter().filter_map(program).collect()
+    }
+
     /// The paths and texts of the template's own files.
-    pub(crate) fn sources(self) -> &'static [(&'static str, &'static str)] {
+    fn sources(self) -> &'static [(&'static str, &'static str)] {
         match self {
             Template::Minimal => MINIMAL,
             Template::Control => CONTROL,

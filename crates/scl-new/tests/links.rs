@@ -15,7 +15,11 @@ fn every_page_is_in_the_summary() {
 #[test]
 fn every_link_leads_somewhere() {
     let of_root = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(str::to_owned);
-    let pages = of_root.into_iter().chain(files_below("docs", "md")).chain(files_below("examples", "md"));
+    let pages = of_root
+        .into_iter()
+        .chain(files_below("docs", "md"))
+        .chain(files_below("examples", "md"))
+        .chain(files_below("bindings", "md"));
     let (mut links, mut broken) = (0, Vec::new());
     for page in pages {
         for target in targets(&read(&page)) {

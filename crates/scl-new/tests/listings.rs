@@ -3,7 +3,7 @@
 
 use crate::{files_below, read};
 
-const PAGES: [&str; 4] = ["your-own-project", "testing", "shutdown", "threads"];
+const PAGES: [&str; 5] = ["tutorial", "your-own-project", "testing", "shutdown", "threads"];
 
 const SOURCES: [&str; 4] = [
     "crates/scl-new/templates/control/src",

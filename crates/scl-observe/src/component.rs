@@ -1,5 +1,6 @@
 //! A component of a system: whether it runs, what it announces, and its figures.
 
+use crate::activity::Activity;
 use scl::runtime_dir::{Announcement, ComponentState, ComponentStats, SystemDir};
 use scl_plan::{GatePlan, Plan};
 use std::time::{Duration, SystemTime};
@@ -57,11 +58,11 @@ impl Component {
     pub fn transports(&self, gate: &str) -> Vec<(&str, Vec<&str>)> {
         let endpoints = self.announcement.iter().flat_map(|announcement| &announcement.endpoints);
         let mut transports: Vec<(&str, Vec<&str>)> = Vec::new();
-        for end in endpoints.filter(|end| end.gate == gate && !end.tap && !end.medium.is_empty()) {
+        for end in endpoints.filter(|end| end.gate == gate && !end.tap && !end.transport.is_empty()) {
             let peers = end.peers.iter().map(String::as_str);
-            match transports.iter_mut().find(|(transport, _)| *transport == end.medium) {
+            match transports.iter_mut().find(|(transport, _)| *transport == end.transport) {
                 Some((_, known)) => known.extend(peers),
-                None => transports.push((&end.medium, peers.collect())),
+                None => transports.push((&end.transport, peers.collect())),
             }
         }
         transports
@@ -73,5 +74,19 @@ impl Component {
         let stats = self.stats.as_ref().filter(|_| self.is_running())?;
         let age = now.duration_since(stats.written).ok()?;
         (age > SHORTEST_SILENCE.max(stats.period * MISSED_PERIODS)).then_some(age)
+    }
+
+    /// What it does now.
+    pub fn activity(&self, now: SystemTime) -> Activity {
+        match self.state {
+            ComponentState::Stopped => Activity::Stopped,
+            ComponentState::Dead => Activity::Dead,
+            ComponentState::Running(_) => match (self.silent_for(now), &self.stats) {
+                (Some(silence), _) => Activity::Hangs(silence),
+                (None, None) => Activity::Running,
+                (None, Some(stats)) if stats.ready => Activity::Ready,
+                (None, Some(_)) => Activity::Waiting,
+            },
+        }
     }
 }

@@ -8,6 +8,7 @@ mod limits;
 mod peers;
 mod processors;
 mod real_time;
+mod undecodable;
 
 use crate::{Component, System};
 use scl::runtime_dir::RuntimeDir;
@@ -69,11 +70,12 @@ pub fn examine(
     let systems = systems.into_iter().map(|system| (system.components(), system));
     let systems = systems.map(|(components, system)| (system, components)).collect();
     let examined = Examined { variables, systems };
-    let checks: [fn(&Examined<'_>) -> Vec<Finding>; 8] = [
+    let checks: [fn(&Examined<'_>) -> Vec<Finding>; 9] = [
         environment::check,
         folder::check,
         components::check,
         peers::check,
+        undecodable::check,
         limits::check,
         real_time::check,
         processors::check,

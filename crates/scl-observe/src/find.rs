@@ -2,7 +2,7 @@
 
 use scl::runtime_dir::{RuntimeDir, RuntimeDirError, SystemDir};
 use scl_loader::{Request, load};
-use scl_terminal::{Problem, closest_name, quoted_list};
+use scl_terminal::{Problem, choose_system, closest_name, named_system, quoted_list};
 use std::error::Error;
 use std::ffi::OsString;
 use std::path::Path;
@@ -20,59 +20,66 @@ pub(crate) fn find_system(
 ) -> Result<(String, SystemDir), Problem> {
     let existing = RuntimeDir::existing(variables).map_err(|error| from_runtime_dir(&error))?;
     let Some(runtime_dir) = existing else { return Err(no_runtime_folder()) };
-    let name = match chosen_name(name, variables)? {
-        Some(name) => name,
-        None => only_name(&runtime_dir, folder)?,
+    let is_named = named_system(name, variables)?.is_some();
+    let running = running_systems(&runtime_dir)?;
+    let Some(name) = choose_system(name, variables, &running, &|| system_of_folder(folder))? else {
+        return Err(no_system(&runtime_dir));
     };
     match runtime_dir.existing_system(&name).map_err(|error| from_runtime_dir(&error))? {
         Some(dir) => Ok((name, dir)),
-        None => Err(unknown_system(&runtime_dir, &name)),
+        None if is_named => Err(unknown_system(&runtime_dir, &name)),
+        None => Err(no_system(&runtime_dir)),
     }
 }
 
-fn chosen_name(name: Option<&str>, variables: Variables<'_>) -> Result<Option<String>, Problem> {
-    if let Some(name) = name {
-        return Ok(Some(name.to_owned()));
-    }
-    let Some(value) = variables("SCL_SYSTEM").filter(|value| !value.is_empty()) else { return Ok(None) };
-    let not_text = |value: OsString| {
-        Problem::new(format!("`SCL_SYSTEM` is `{}`, which is not a name in UTF-8", value.to_string_lossy()))
-            .help("name the system with `--system`")
+/// The system of [`find_system`], or the folder of a named one that has never run here.
+pub(crate) fn find_or_create_system(
+    name: Option<&str>,
+    variables: Variables<'_>,
+    folder: &Path,
+) -> Result<(String, SystemDir), Problem> {
+    let problem = match find_system(name, variables, folder) {
+        Ok(found) => return Ok(found),
+        Err(problem) => problem,
     };
-    value.into_string().map(Some).map_err(not_text)
+    let Some(name) = named_system(name, variables)? else { return Err(problem) };
+    let existing = RuntimeDir::existing(variables).map_err(|error| from_runtime_dir(&error))?;
+    let known = existing.map(|runtime_dir| all_systems(&runtime_dir)).transpose()?.unwrap_or_default();
+    if closest_name(&name, known.iter().map(String::as_str)).is_some() {
+        return Err(problem);
+    }
+    let created = RuntimeDir::locate(variables).and_then(|runtime_dir| runtime_dir.system(&name));
+    created.map(|dir| (name, dir)).map_err(|error| from_runtime_dir(&error))
 }
 
-/// The only running system, or the one of the topology file in `folder`.
-fn only_name(runtime_dir: &RuntimeDir, folder: &Path) -> Result<String, Problem> {
-    let running = running_systems(runtime_dir)?;
-    if let [only] = &running[..] {
-        return Ok(only.clone());
+/// The named system, or all that run, or that of [`find_system`].
+pub(crate) fn find_systems(
+    name: Option<&str>,
+    variables: Variables<'_>,
+    folder: &Path,
+) -> Result<Vec<(String, SystemDir)>, Problem> {
+    let existing = RuntimeDir::existing(variables).map_err(|error| from_runtime_dir(&error))?;
+    if let (None, Some(runtime_dir)) = (named_system(name, variables)?, existing) {
+        let running = running_systems(&runtime_dir)?.into_iter();
+        let found = running.filter_map(|name| runtime_dir.existing_system(&name).ok().flatten().map(|dir| (name, dir)));
+        let found: Vec<_> = found.collect();
+        if !found.is_empty() {
+            return Ok(found);
+        }
     }
-    let own = system_of_folder(folder);
-    match own {
-        Some(name) if running.contains(&name) => Ok(name),
-        _ if !running.is_empty() => Err(several_systems(&running)),
-        Some(name) if matches!(runtime_dir.existing_system(&name), Ok(Some(_))) => Ok(name),
-        _ => Err(no_system(runtime_dir)),
-    }
+    Ok(vec![find_system(name, variables, folder)?])
 }
 
 fn running_systems(runtime_dir: &RuntimeDir) -> Result<Vec<String>, Problem> {
-    let mut systems = all_systems(runtime_dir)?;
-    systems.retain(|name| is_running(runtime_dir, name));
-    Ok(systems)
+    runtime_dir.running_systems().map_err(|error| unreadable(runtime_dir, &error))
 }
 
 fn all_systems(runtime_dir: &RuntimeDir) -> Result<Vec<String>, Problem> {
-    let unreadable = |error| Problem::new(format!("cannot read `{}`: {error}", runtime_dir.path().display()));
-    runtime_dir.systems().map_err(unreadable)
+    runtime_dir.systems().map_err(|error| unreadable(runtime_dir, &error))
 }
 
-fn is_running(runtime_dir: &RuntimeDir, system: &str) -> bool {
-    // Folders that are not safe, or disappear meanwhile, are no systems that could be observed.
-    let Ok(Some(dir)) = runtime_dir.existing_system(system) else { return false };
-    let components = dir.components().unwrap_or_default();
-    components.iter().any(|component| crate::Component::read(&dir, component).is_running())
+fn unreadable(runtime_dir: &RuntimeDir, error: &std::io::Error) -> Problem {
+    Problem::new(format!("cannot read `{}`: {error}", runtime_dir.path().display()))
 }
 
 /// The name of the system that the topology file in this folder describes.
@@ -88,12 +95,6 @@ fn no_runtime_folder() -> Problem {
     Problem::new("no system is running")
         .help("start one, for example with `scl run`")
         .note("the runtime folder does not exist (`SCL_RUNTIME_DIR` chooses another)")
-}
-
-fn several_systems(running: &[String]) -> Problem {
-    Problem::new("several systems are running")
-        .help(format!("name one: `--system {}`, or set `SCL_SYSTEM`", running[0]))
-        .note(format!("running: {}", quoted_list(running.iter().map(String::as_str))))
 }
 
 fn no_system(runtime_dir: &RuntimeDir) -> Problem {
@@ -114,7 +115,7 @@ fn unknown_system(runtime_dir: &RuntimeDir, name: &str) -> Problem {
         None => problem.help("start it, for example with `scl run`"),
     };
     let problem = problem.note(looked_in(runtime_dir));
-    let running: Vec<String> = all.into_iter().filter(|name| is_running(runtime_dir, name)).collect();
+    let running = running_systems(runtime_dir).unwrap_or_default();
     match running.is_empty() {
         true => problem.note("no system is running there"),
         false => problem.note(format!("running: {}", quoted_list(running.iter().map(String::as_str)))),

@@ -3,7 +3,7 @@
 use crate::component::Component;
 use crate::peer::{Peer, peers};
 use crate::throughput::{GateRate, message_count};
-use scl::runtime_dir::{ComponentState, ConnectionFigures, GateFigures, Holder};
+use scl::runtime_dir::{ComponentProcess, ComponentState, ConnectionFigures, GateFigures};
 use scl_plan::{GatePlan, Payload};
 use scl_terminal::timestamp;
 use serde_json::{Value, json};
@@ -22,8 +22,8 @@ impl Component {
     /// The process that runs it, if that is visible from here; of a dead one, the process that ran it.
     pub fn process_id(&self) -> Option<u32> {
         match self.state {
-            ComponentState::Running(Holder::ThisProcess) => Some(std::process::id()),
-            ComponentState::Running(Holder::Process(id)) => Some(id),
+            ComponentState::Running(ComponentProcess::ThisProcess) => Some(std::process::id()),
+            ComponentState::Running(ComponentProcess::Process(id)) => Some(id),
             ComponentState::Running(_) => None,
             _ => self.announcement.as_ref().map(|announcement| announcement.pid),
         }
@@ -114,7 +114,10 @@ fn peer_to_json(peer: &Peer<'_>) -> Value {
 fn connection_to_json(figures: &ConnectionFigures) -> Value {
     json!({
         "waiting": figures.waiting,
+        "in_flight": figures.in_flight,
         "taken": figures.taken,
+        "latched": figures.latched,
+        "replaced": figures.replaced,
         "dropped": figures.dropped,
         "lost": figures.lost,
     })
@@ -128,12 +131,14 @@ fn figures_to_json(plan: &GatePlan, figures: &GateFigures) -> Value {
         "bytes": figures.bytes,
         "waiting": figures.waiting,
         "peers": figures.peers,
+        "replaced": figures.replaced,
         "dropped_oldest": figures.dropped_oldest,
         "dropped_newest": figures.dropped_newest,
         "dropped_for_observers": figures.dropped_for_observers,
         "tap_dropped": figures.tap_dropped,
         "lost": figures.lost,
         "rejected": figures.rejected,
+        "undecodable": figures.undecodable,
         "last_activity": figures.last_activity.map(timestamp),
     })
 }

@@ -17,6 +17,7 @@
 //! ```
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod activity;
 mod bandwidth;
 mod component;
 mod delay;
@@ -32,6 +33,7 @@ mod peer;
 mod plan_of;
 mod process;
 mod rate;
+mod selection;
 mod silence;
 mod snapshot;
 mod system;
@@ -39,6 +41,7 @@ mod taps;
 mod throughput;
 mod woken;
 
+pub use activity::Activity;
 pub use bandwidth::{BandwidthFigures, BandwidthMeter};
 pub use component::Component;
 pub use delay::{DelayFigures, DelayMeter};
@@ -48,7 +51,8 @@ pub use gate::{ObservedGate, Tap};
 pub use measure::{GateReport, Measurement, Meter, at_taps};
 pub use peer::{Peer, connected_peers, peers};
 pub use rate::{RateFigures, RateMeter};
-pub use snapshot::{Activity, ComponentRow, ConnectionRow, GateRow, Snapshot, Watch};
+pub use selection::Selection;
+pub use snapshot::{ComponentRow, ConnectionRow, GateRow, Snapshot, Watch};
 pub use system::System;
 pub use taps::{Taps, TapsEvent};
 pub use throughput::{GateRate, message_count, rates};

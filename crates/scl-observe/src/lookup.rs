@@ -1,4 +1,4 @@
-//! Gates by their names, and why one cannot be observed.
+//! Components and gates by their names, and why one cannot be observed.
 
 use crate::component::Component;
 use crate::gate::{ObservedGate, Tap, own_tap, peer_names};
@@ -9,40 +9,76 @@ use scl_terminal::{Problem, closest_name, escape, quoted_list};
 
 const LIST: &str = "`scl list` shows what runs";
 
-/// The component with this name.
-pub(crate) fn component<'c>(system: &System, all: &'c [Component], name: &str) -> Result<&'c Component, Problem> {
+impl System {
+    /// A component by its name.
+    ///
+    /// # Errors
+    /// There is none; the text suggests the closest.
+    pub fn component(&self, name: &str) -> Result<Component, Problem> {
+        component(self, &self.components(), name).cloned()
+    }
+
+    /// A component, or a gate and its component, by name: `component` or `component.gate`. The gate is its number in the
+    /// plan. The component runs or was killed; otherwise nothing is known about it.
+    ///
+    /// # Errors
+    /// There is no such component or gate, or the component is stopped.
+    pub fn component_and_gate(&self, name: &str) -> Result<(Component, Option<usize>), Problem> {
+        let all = self.components();
+        let (component_name, gate_name) = name.split_once('.').map_or((name, None), |(name, gate)| (name, Some(gate)));
+        let component = component(self, &all, component_name)?;
+        if component.announcement.is_none() {
+            return Err(not_running(component));
+        }
+        let gate = gate_name.map(|gate| gate_number(&all, component, gate)).transpose()?;
+        Ok((component.clone(), gate))
+    }
+
+    /// A gate by its name, `component.gate`, with the taps where its messages are seen.
+    ///
+    /// # Errors
+    /// There is no such component or gate; the component does not run; for a `sub`, `req` or `push` gate, none of its
+    /// peers runs.
+    pub fn gate(&self, name: &str) -> Result<ObservedGate, Problem> {
+        let all = self.components();
+        let Some((component_name, gate_name)) = name.split_once('.') else { return Err(not_a_gate(self, &all, name)) };
+        let component = component(self, &all, component_name)?;
+        if !component.is_running() {
+            return Err(not_running(component));
+        }
+        let plan = &component.gates()[gate_number(&all, component, gate_name)?];
+        let taps = taps(&all, component, plan);
+        if taps.is_empty() {
+            let mut hosts =
+                plan.connections.iter().filter_map(|it| all.iter().find(|peer| peer.name == it.peer_component)?.host());
+            return Err(match component.host().or(hosts.next()) {
+                Some(host) => elsewhere(self, name, host),
+                None => no_taps(name, plan),
+            });
+        }
+        Ok(ObservedGate::new(component_name, plan, self.schema_of(component), taps))
+    }
+}
+
+/// Whether the messages of a running component, or of one of its gates, are seen here now.
+///
+/// # Errors
+/// It has no such gate, or it runs on another host and the gate's messages are seen there only.
+pub(crate) fn is_seen(system: &System, all: &[Component], name: &str) -> Result<bool, Problem> {
+    let (component_name, gate) = name.split_once('.').map_or((name, None), |(name, gate)| (name, Some(gate)));
+    let component = component(system, all, component_name)?;
+    let number = gate.map(|gate| gate_number(all, component, gate)).transpose()?;
+    let has_taps = |number: usize| !taps(all, component, &component.gates()[number]).is_empty();
+    match (component.host(), number) {
+        (Some(host), None) => Err(elsewhere(system, name, host)),
+        (Some(host), Some(number)) if !has_taps(number) => Err(elsewhere(system, name, host)),
+        (_, number) => Ok(number.is_none_or(has_taps)),
+    }
+}
+
+/// The component with this name among those of the system.
+fn component<'c>(system: &System, all: &'c [Component], name: &str) -> Result<&'c Component, Problem> {
     all.iter().find(|component| component.name == name).ok_or_else(|| unknown_component(system, all, name))
-}
-
-/// The component, and the gate's number in its plan if the name has one.
-pub(crate) fn component_and_gate(system: &System, name: &str) -> Result<(Component, Option<usize>), Problem> {
-    let all = system.components();
-    let (component_name, gate_name) = name.split_once('.').map_or((name, None), |(name, gate)| (name, Some(gate)));
-    let component = component(system, &all, component_name)?;
-    if component.announcement.is_none() {
-        return Err(not_running(component));
-    }
-    let gate = gate_name.map(|gate| gate_number(&all, component, gate)).transpose()?;
-    Ok((component.clone(), gate))
-}
-
-/// The gate with this name, `component.gate`.
-pub(crate) fn gate(system: &System, name: &str) -> Result<ObservedGate, Problem> {
-    let all = system.components();
-    let Some((component_name, gate_name)) = name.split_once('.') else { return Err(not_a_gate(system, &all, name)) };
-    let component = component(system, &all, component_name)?;
-    if !component.is_running() {
-        return Err(not_running(component));
-    }
-    let plan = &component.gates()[gate_number(&all, component, gate_name)?];
-    let taps: Vec<Tap> = match own_tap(component_name, plan) {
-        Some(tap) => vec![tap],
-        None => peer_taps(&all, plan).collect(),
-    };
-    if taps.is_empty() {
-        return Err(no_taps(name, plan));
-    }
-    Ok(ObservedGate::new(component_name, plan, system.schema_of(component), taps))
 }
 
 fn gate_number(all: &[Component], component: &Component, gate: &str) -> Result<usize, Problem> {
@@ -53,17 +89,34 @@ fn gate_number(all: &[Component], component: &Component, gate: &str) -> Result<u
     number.ok_or_else(|| unknown_gate(all, component, gate))
 }
 
-/// The taps of a gate's running peers.
+/// Where the messages of a running component's gate are seen: at its own tap, or at those of its running peers. A component
+/// of another host has its taps there.
+fn taps(all: &[Component], component: &Component, plan: &GatePlan) -> Vec<Tap> {
+    match own_tap(&component.name, plan) {
+        Some(_) if component.host().is_some() => Vec::new(),
+        Some(tap) => vec![tap],
+        None => peer_taps(all, plan).collect(),
+    }
+}
+
+/// The taps of a gate's running peers on this host.
 fn peer_taps(all: &[Component], plan: &GatePlan) -> impl Iterator<Item = Tap> {
     plan.connections.iter().filter_map(|connection| {
-        let peer =
-            all.iter().find(|component| component.name == connection.peer_component && component.is_running())?;
+        let is_meant = |it: &&Component| it.name == connection.peer_component && it.is_running() && it.host().is_none();
+        let peer = all.iter().find(is_meant)?;
         let gate = peer.gates().iter().find(|gate| gate.name == connection.peer_gate)?;
         own_tap(&peer.name, gate)
     })
 }
 
-fn unknown_component(system: &System, all: &[Component], name: &str) -> Problem {
+/// Its messages pass another host.
+fn elsewhere(system: &System, name: &str, host: &str) -> Problem {
+    let (system, name, host) = (escape(system.name()), escape(name), escape(host));
+    Problem::new(format!("the messages of `{name}` are seen on host `{host}`, where its component runs"))
+        .help(format!("run the command there, for example `ssh {host} scl echo {name} --system {system}`"))
+}
+
+pub(crate) fn unknown_component(system: &System, all: &[Component], name: &str) -> Problem {
     let problem = Problem::new(format!("system `{}` has no component `{}`", system.name(), escape(name)));
     let names = || all.iter().map(|component| component.name.as_str());
     let problem = match closest_name(name, names()) {

@@ -75,6 +75,8 @@ impl<M: Meter> Measurement<M> {
                         continue;
                     };
                     match event {
+                        // It was sent before this began.
+                        TapEvent::Observed(seen) if seen.latched => {}
                         TapEvent::Observed(seen) => measured.meter.observe(&seen),
                         TapEvent::Connected | TapEvent::Disconnected => measured.meter.interrupt(),
                     }

@@ -1,9 +1,10 @@
 //! A system at one moment: its components and gates, with rates since the moment before. Only files are read, so it costs
 //! the components nothing.
 
+use crate::activity::Activity;
 use crate::process::ProcessFigures;
 use crate::{Component, System, throughput};
-use scl::runtime_dir::{ComponentState, ComponentStats, GateFigures};
+use scl::runtime_dir::{ComponentStats, GateFigures};
 use scl_plan::{GateKind, GatePlan};
 use std::collections::HashMap;
 use std::time::{Duration, Instant, SystemTime};
@@ -33,23 +34,6 @@ pub struct Snapshot {
     pub components: Vec<ComponentRow>,
     /// The gates of those that run, by component, in the order of the topology file.
     pub gates: Vec<GateRow>,
-}
-
-/// What a component does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Activity {
-    /// It runs. Whether all required peers are connected is unknown, because it writes no figures.
-    Running,
-    /// It runs, and all required peers are connected.
-    Ready,
-    /// It runs, and waits for peers.
-    NotReady,
-    /// It runs, and has not written its figures for so long.
-    Hangs(Duration),
-    /// It was killed or has crashed.
-    Dead,
-    /// It does not run.
-    Stopped,
 }
 
 /// One component.
@@ -126,20 +110,6 @@ impl Watch {
     }
 }
 
-impl Activity {
-    /// In one or two words: `not ready`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Running => "running",
-            Self::Ready => "ready",
-            Self::NotReady => "not ready",
-            Self::Hangs(_) => "hangs",
-            Self::Dead => "dead",
-            Self::Stopped => "stopped",
-        }
-    }
-}
-
 impl GateRow {
     /// `component.gate`.
     pub fn name(&self) -> String {
@@ -149,20 +119,6 @@ impl GateRow {
     /// Messages dropped because a queue was full.
     pub fn dropped(&self) -> Option<u64> {
         self.figures.as_ref().map(|it| it.dropped_oldest.saturating_add(it.dropped_newest))
-    }
-}
-
-/// What a component does now.
-pub(crate) fn activity(component: &Component, now: SystemTime) -> Activity {
-    match component.state {
-        ComponentState::Stopped => Activity::Stopped,
-        ComponentState::Dead => Activity::Dead,
-        ComponentState::Running(_) => match (component.silent_for(now), &component.stats) {
-            (Some(silence), _) => Activity::Hangs(silence),
-            (None, None) => Activity::Running,
-            (None, Some(stats)) if stats.ready => Activity::Ready,
-            (None, Some(_)) => Activity::NotReady,
-        },
     }
 }
 
@@ -185,7 +141,7 @@ fn component_row(
     let started = component.announcement.as_ref().filter(|_| component.is_running()).map(|it| it.started);
     let row = ComponentRow {
         name: component.name.clone(),
-        activity: activity(component, time),
+        activity: component.activity(time),
         pid,
         processor,
         memory: process.map(|process| process.memory),

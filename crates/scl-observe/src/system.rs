@@ -1,9 +1,8 @@
 //! One system's folder, opened for reading.
 
 use crate::component::Component;
-use crate::find::find_system;
+use crate::find::{find_or_create_system, find_system, find_systems};
 use crate::gate::{ObservedGate, own_tap};
-use crate::lookup;
 use scl::bytes::Bytes;
 use scl::runtime_dir::SystemDir;
 use scl_terminal::Problem;
@@ -41,6 +40,27 @@ impl System {
         find_system(name, variables, folder).map(|(name, dir)| Self { name, dir })
     }
 
+    /// [`find`](Self::find), but a named system need not have run here: its components are noticed when they start.
+    ///
+    /// # Errors
+    /// The name is probably misspelled, because a system with a similar name exists; otherwise those of `find`.
+    pub fn find_or_await(name: Option<&str>) -> Result<Self, Problem> {
+        let variables = |variable: &str| std::env::var_os(variable);
+        let (name, dir) = find_or_create_system(name, &variables, Path::new("."))?;
+        Ok(Self { name, dir })
+    }
+
+    /// The systems of which a query without a name shows all: the one with this name, else `$SCL_SYSTEM`, else all that
+    /// run, else what [`find`](Self::find) finds.
+    ///
+    /// # Errors
+    /// Those of `find`, but for several that run.
+    pub fn find_all(name: Option<&str>) -> Result<Vec<Self>, Problem> {
+        let variables = |variable: &str| std::env::var_os(variable);
+        let found = find_systems(name, &variables, Path::new("."))?;
+        Ok(found.into_iter().map(|(name, dir)| Self { name, dir }).collect())
+    }
+
     /// Its folder.
     pub fn dir(&self) -> &SystemDir {
         &self.dir
@@ -63,37 +83,11 @@ impl System {
         components
     }
 
-    /// A component by its name.
-    ///
-    /// # Errors
-    /// There is none; the text suggests the closest.
-    pub fn component(&self, name: &str) -> Result<Component, Problem> {
-        let components = self.components();
-        lookup::component(self, &components, name).cloned()
-    }
-
-    /// A component, or a gate and its component, by name: `component` or `component.gate`. The gate is its number in the
-    /// plan. The component runs or was killed; otherwise nothing is known about it.
-    ///
-    /// # Errors
-    /// There is no such component or gate, or the component is stopped.
-    pub fn component_and_gate(&self, name: &str) -> Result<(Component, Option<usize>), Problem> {
-        lookup::component_and_gate(self, name)
-    }
-
-    /// A gate by its name, `component.gate`, with the taps where its messages are seen.
-    ///
-    /// # Errors
-    /// There is no such component or gate; the component does not run; for a `sub`, `req` or `push` gate, none of its
-    /// peers runs.
-    pub fn gate(&self, name: &str) -> Result<ObservedGate, Problem> {
-        lookup::gate(self, name)
-    }
-
-    /// All gates of running components that have a tap of their own: `pub`, `rep` and `pull`.
+    /// All gates of running components that have a tap of their own on this host: `pub`, `rep` and `pull`.
     pub fn gates(&self) -> Vec<ObservedGate> {
         let components = self.components();
-        components.iter().filter(|component| component.is_running()).flat_map(|it| self.gates_of(it)).collect()
+        let here = components.iter().filter(|component| component.is_running() && component.host().is_none());
+        here.flat_map(|it| self.gates_of(it)).collect()
     }
 
     fn gates_of(&self, component: &Component) -> Vec<ObservedGate> {

@@ -24,7 +24,7 @@ pub fn message_count(kind: GateKind, figures: &GateFigures) -> u64 {
     match kind {
         GateKind::Pub => {
             let connections = figures.connections.iter();
-            connections.map(|it| it.taken + it.waiting + it.dropped + it.lost).max().unwrap_or(0)
+            connections.map(|it| it.published() - it.latched).max().unwrap_or(0)
         }
         GateKind::Push | GateKind::Req => figures.sent,
         GateKind::Sub | GateKind::Pull | GateKind::Rep => figures.received,

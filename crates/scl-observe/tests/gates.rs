@@ -1,7 +1,11 @@
 //! Gates by name: where they are observed, and why not.
 
-use crate::world::World;
+use crate::world::{TOPOLOGY, World, plan};
 use expect_test::expect;
+use scl::runtime_dir::Announcement;
+use scl::runtime_dir::internals::ComponentLock;
+use scl_observe::Selection;
+use std::path::Path;
 
 #[tokio::test]
 async fn each_kind_is_observed_where_it_listens() {
@@ -102,4 +106,37 @@ async fn a_killed_peer_is_no_place_to_observe() {
     assert!(problem.contains("none of its peers is running"), "{problem}");
     let problem = system.gate("controller.jobs").unwrap_err().to_string();
     assert!(problem.contains("component `controller` is not running") && problem.contains("was killed or crashed"));
+}
+
+/// The gateway shows components of other hosts in the runtime folder, but their taps are on their hosts.
+#[tokio::test]
+async fn gates_of_another_host_say_where_they_are_seen() {
+    let world = World::new();
+    let _sensor = world.open("sensor").await;
+    let system = world.find(None).unwrap();
+    let _lock = ComponentLock::take(system.dir(), "controller").unwrap();
+    let mut announcement = Announcement::of_this_process("controller");
+    announcement.plan = Some(plan(TOPOLOGY).component("controller").unwrap().clone());
+    announcement.host = Some("board".to_owned());
+    let _file = announcement.publish(system.dir()).unwrap();
+    let expected = |name: &str| {
+        format!(
+            "error: the messages of `{name}` are seen on host `board`, where its component runs\n  \
+               = help: run the command there, for example `ssh board scl echo {name} --system rover`\n"
+        )
+    };
+    // Also what is sent to a component there.
+    for name in ["controller.answer", "controller.jobs", "sensor.jobs", "sensor.ask"] {
+        assert_eq!(system.gate(name).unwrap_err().to_string(), expected(name));
+    }
+    assert_eq!(system.gate("controller.values").unwrap().taps[0].component, "sensor");
+    let own: Vec<String> = system.gates().iter().map(|gate| gate.name()).collect();
+    assert_eq!(own, ["sensor.values"]);
+    for name in ["controller", "controller.answer"] {
+        let names = [name.to_owned()];
+        let problem = Selection::new(&system, &names, &[], Path::new("none.yaml")).unwrap_err();
+        assert_eq!(problem.to_string(), expected(name));
+    }
+    let names = ["controller.values".to_owned()];
+    assert!(Selection::new(&system, &names, &[], Path::new("none.yaml")).unwrap().waiting().is_empty());
 }

@@ -83,6 +83,6 @@ impl World {
     }
 }
 
-fn plan(topology: &str) -> SystemPlan {
+pub(crate) fn plan(topology: &str) -> SystemPlan {
     load_bytes(&Request::new("topology.yaml"), topology.as_bytes().to_vec()).system_plan().unwrap()
 }

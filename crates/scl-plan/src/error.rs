@@ -1,7 +1,7 @@
 //! Why a text is not a plan, or a plan cannot work.
 
 #[cfg(feature = "json")]
-use crate::json::VERSION;
+use crate::version::VERSION;
 use thiserror::Error;
 
 /// A plan could not be read, or contradicts itself.

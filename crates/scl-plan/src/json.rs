@@ -10,6 +10,3 @@ mod object;
 mod read;
 mod text;
 mod write;
-
-/// The version of the format. It grows with every change, because readers accept no unknown field.
-pub const VERSION: u64 = 1;

@@ -84,6 +84,34 @@ impl GateKind {
     }
 }
 
+/// What a receiving call does with a message that its codec cannot read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Undecodable {
+    /// The message is counted, logged and skipped; the call goes on with the next one.
+    #[default]
+    Skip,
+    /// The call fails.
+    Fail,
+}
+
+impl Undecodable {
+    /// All of them, in the order in which messages list them.
+    pub const ALL: [Undecodable; 2] = [Undecodable::Skip, Undecodable::Fail];
+
+    /// The word in topology files and plans.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Undecodable::Skip => "skip",
+            Undecodable::Fail => "fail",
+        }
+    }
+
+    /// The choice with this word.
+    pub fn of(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|choice| choice.word() == word)
+    }
+}
+
 /// What a full queue does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum WhenFull {

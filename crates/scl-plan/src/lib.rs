@@ -46,12 +46,14 @@ mod system;
 #[cfg(all(test, feature = "json"))]
 mod tests;
 mod validate;
+#[cfg(feature = "json")]
+mod version;
 
 pub use error::{PlanError, UnknownComponent};
-#[cfg(feature = "json")]
-pub use json::VERSION;
-pub use kind::{GateKind, WhenFull};
+pub use kind::{GateKind, Undecodable, WhenFull};
 pub use nearest::nearest;
 pub use options::{GateOptions, OptionField, Place};
 pub use plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
 pub use system::SystemPlan;
+#[cfg(feature = "json")]
+pub use version::VERSION;

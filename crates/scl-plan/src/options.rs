@@ -1,7 +1,7 @@
 //! The options of a gate that its program needs: their values, defaults and names, told once for the topology file, the
 //! JSON text, generated code and the runtime.
 
-use crate::kind::WhenFull;
+use crate::kind::{Undecodable, WhenFull};
 use std::time::Duration;
 
 /// The options of a gate that its program needs, defaults filled in.
@@ -15,18 +15,27 @@ pub struct GateOptions {
     pub when_full: WhenFull,
     /// Whether a peer with `when_full: wait` may make this gate wait. It has an effect for `pub` and `push`.
     pub backpressure: bool,
+    /// Whether a subscriber that joins or restarts gets the last message at once. It has an effect for `pub`.
+    pub latched: bool,
     /// How long a call may take: more than zero, at most a day. It has an effect for `req`.
     pub timeout: Duration,
+    /// How many calls may be in progress at once, at least one. It has an effect for `req`.
+    pub in_flight: u32,
+    /// What a receiving call does with a message that the codec cannot read. It has an effect for `sub`, `pull` and `rep`.
+    pub undecodable: Undecodable,
 }
 
 impl GateOptions {
-    /// A gate for which the topology file declares nothing: 64 MiB, 100 messages, 1 s.
+    /// A gate for which the topology file declares nothing: 64 MiB, 100 messages, 1 s, one call at a time.
     pub const DEFAULT: Self = Self {
         max_size: 64 << 20,
         queue: 100,
         when_full: WhenFull::DropOldest,
         backpressure: false,
+        latched: false,
         timeout: Duration::from_secs(1),
+        in_flight: 1,
+        undecodable: Undecodable::Skip,
     };
 
     /// Whether this sending gate waits, rather than drop a message, for a peer whose full queue does this.
@@ -35,17 +44,20 @@ impl GateOptions {
     }
 
     /// A gate of a component's counterpart in unit tests: it drops and refuses nothing. A call that takes longer fails the
-    /// test, so its timeout is long.
+    /// test, so its timeout is long, and so does a message that it cannot decode.
     pub(crate) const COUNTERPART: Self = Self {
         max_size: u64::MAX,
         queue: u32::MAX,
         when_full: WhenFull::Wait,
         backpressure: true,
+        latched: false,
         timeout: Duration::from_secs(10),
+        in_flight: 64,
+        undecodable: Undecodable::Fail,
     };
 
     /// All of them, in the order of the JSON text.
-    pub const ALL: [OptionField; 5] = [
+    pub const ALL: [OptionField; 8] = [
         OptionField { key: "max_size", json: "max_size", place: Place::Size(|options| &mut options.max_size) },
         OptionField { key: "queue", json: "queue", place: Place::Number(|options| &mut options.queue) },
         OptionField { key: "when_full", json: "when_full", place: Place::Policy(|options| &mut options.when_full) },
@@ -54,7 +66,14 @@ impl GateOptions {
             json: "backpressure",
             place: Place::Flag(|options| &mut options.backpressure),
         },
+        OptionField { key: "latched", json: "latched", place: Place::Flag(|options| &mut options.latched) },
         OptionField { key: "timeout", json: "timeout_ns", place: Place::Duration(|options| &mut options.timeout) },
+        OptionField { key: "in_flight", json: "in_flight", place: Place::Number(|options| &mut options.in_flight) },
+        OptionField {
+            key: "undecodable",
+            json: "undecodable",
+            place: Place::Undecodable(|options| &mut options.undecodable),
+        },
     ];
 }
 
@@ -88,6 +107,8 @@ pub enum Place {
     Flag(fn(&mut GateOptions) -> &mut bool),
     /// A queue policy.
     Policy(fn(&mut GateOptions) -> &mut WhenFull),
+    /// What becomes of undecodable messages.
+    Undecodable(fn(&mut GateOptions) -> &mut Undecodable),
 }
 
 #[cfg(test)]

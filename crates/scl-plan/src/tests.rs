@@ -89,7 +89,10 @@ fn the_format_is_this() {
                   "queue": 100,
                   "when_full": "drop_oldest",
                   "backpressure": false,
+                  "latched": false,
                   "timeout_ns": 1500000000,
+                  "in_flight": 1,
+                  "undecodable": "skip",
                   "connections": [
                     {
                       "peer_component": "panel",
@@ -124,6 +127,14 @@ fn plans_come_back_from_their_text() {
 }
 
 #[test]
+fn an_option_that_is_missing_has_its_default() {
+    let text = rover().to_json();
+    let older = text.replace("\"in_flight\": 1,", "").replace("\"undecodable\": \"skip\",", "");
+    assert!(older.len() < text.len());
+    assert_eq!(SystemPlan::from_json(&older).unwrap(), rover());
+}
+
+#[test]
 fn one_component_is_not_several() {
     let text = rover().to_json();
     let error = Plan::from_json(&text).unwrap_err().to_string();
@@ -147,7 +158,7 @@ fn errors_say_what_is_wrong_and_where() {
         ("\"version\": 1,", ""),
         ("\"version\": 1,", "\"version\": 1, \"verson\": 1,"),
         ("\"system\": \"rover\",", ""),
-        ("\"queue\": 100,", ""),
+        ("\"codec\": \"protobuf\",", ""),
         ("\"queue\": 100", "\"queue\": 100, \"queu\": 1"),
         ("\"queue\": 100", "\"queue\": 4294967296"),
         ("\"queue\": 100", "\"queue\": -1"),
@@ -160,6 +171,8 @@ fn errors_say_what_is_wrong_and_where() {
         ("\"endpoint\": null", "\"endpoint\": 7"),
         ("\"message\": \"rover.Measurement\"", "\"request\": \"rover.Measurement\""),
         ("\"message\": \"rover.Measurement\"", ""),
+        ("\"undecodable\": \"skip\"", "\"undecodable\": \"ignore\""),
+        ("\"in_flight\": 1", "\"in_flight\": 0"),
         ("\"timeout_ns\": 1500000000", "\"timeout_ns\": 0"),
         ("\"timeout_ns\": 1500000000", "\"timeout_ns\": 18446744073709551615"),
         ("\"schema\": \"1a2b\"", "\"schema\": \"1a2c\""),
@@ -177,7 +190,7 @@ fn errors_say_what_is_wrong_and_where() {
         field `version` is missing in the document
         unknown field `verson` in the document; did you mean `version`?
         field `system` is missing in the document
-        field `queue` is missing in `components[0].gates[0]`
+        field `codec` is missing in `components[0].gates[0]`
         unknown field `queu` in `components[0].gates[0]`; did you mean `queue`?
         `components[0].gates[0].queue` must be a whole number from 0 to 4294967295, but it is 4294967296
         `components[0].gates[0].queue` must be a whole number from 0 to 4294967295, but it is -1
@@ -190,6 +203,8 @@ fn errors_say_what_is_wrong_and_where() {
         `components[0].gates[0].endpoint` must be a text or null, but it is 7
         field `reply` is missing in `components[0].gates[0].payload`
         `components[0].gates[0].payload` must be null, or an object with `message`, or one with `request` and `reply`, but it is {}
+        `components[0].gates[0].undecodable` must be one of `skip`, `fail`, but it is "ignore"
+        gate `controller.pub_gate` allows no call to be in progress
         gate `controller.pub_gate` has a timeout of nothing or over a day
         gate `controller.pub_gate` has a timeout of nothing or over a day
         `components[0].schema` refers to `1a2c`, which is not in `schemas`

@@ -47,6 +47,7 @@ fn validate_gate(part: &str, gate: &GatePlan) -> Result<(), PlanError> {
     )?;
     ensure(gate.tap.is_none() || kind.listens(), part, "has a tap, which only `pub`, `rep` and `pull` gates have")?;
     ensure(gate.options.queue > 0, part, "has a queue of 0 messages")?;
+    ensure(gate.options.in_flight > 0, part, "allows no call to be in progress")?;
     ensure(gate.options.max_size > 0, part, "accepts messages of 0 bytes only")?;
     ensure(
         !gate.options.timeout.is_zero() && gate.options.timeout <= LONGEST_TIMEOUT,

@@ -5,6 +5,7 @@
 
 pub mod compare;
 pub mod format;
+mod parse;
 pub mod progress;
 pub mod record;
 pub mod recording;

@@ -17,9 +17,9 @@ mod plans;
 mod queue;
 mod report;
 mod ring;
-mod selection;
 mod storage;
 mod trigger;
+mod write_error;
 
 pub use contents::AttachedFile;
 pub use continuous::Split;
@@ -37,9 +37,8 @@ use options::Notes;
 use plans::Plans;
 use queue::queue;
 use ring::Ring;
-use scl_observe::{System, Taps};
+use scl_observe::{Selection, System, Taps};
 use scl_terminal::{Problem, escape};
-use selection::Selection;
 use std::sync::Arc;
 use std::thread;
 use std::time::Instant;
@@ -61,12 +60,15 @@ async fn record_async(system: &System, options: &Options) -> Result<Report, Prob
     // First, so that an early signal ends a recording and not the process.
     let signals = Signals::listen()?;
     let notes = Notes::new();
-    let (selection, waiting) = Selection::new(system, &options.gates, &options.exclude)?;
+    let selection = Selection::new(system, &options.gates, &options.exclude, &options.topology)?;
     let (plans, plan) = Plans::of(system);
     let contents =
         Contents { system: system.name().to_owned(), attached: options.attached.clone(), plan, gates: Vec::new() };
     let (destination, trigger) = open_store(system, options, &contents, &notes)?;
-    waiting.iter().for_each(|note| notes.say(note));
+    selection
+        .waiting()
+        .iter()
+        .for_each(|name| notes.say(&format!("`{name}` is not running; recording it once it has started")));
 
     let taps = Taps::follow_all(system, move |gate| selection.includes(gate));
     let (sender, receiver) = queue(options.memory);

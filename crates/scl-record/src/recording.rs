@@ -86,6 +86,7 @@ impl Recording {
             let gate = sum.entry(gate).or_default();
             gate.recorded += totals.recorded;
             gate.lost += totals.lost;
+            gate.latched += totals.latched;
         }
         sum
     }

@@ -9,7 +9,7 @@ mod target;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mcap::McapError;
 use records::{FileRecord, FileRecords};
-use scl_terminal::{Problem, closest_name};
+use scl_terminal::{Problem, bytes_text, closest_name};
 use std::fs::{self, File};
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
@@ -33,7 +33,8 @@ pub struct Recovered {
 /// renamed, so that there always is one of the two.
 ///
 /// # Errors
-/// The input cannot be read, is no recording, or is being recorded; the output exists or cannot be written.
+/// The input cannot be read, is no recording, or is being recorded; it has no message that can be recovered, or most of it
+/// would be lost in place; the output exists or cannot be written. Then the input is as it was.
 pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem> {
     let file = File::open(input).map_err(|error| cannot_open(input, &error))?;
     let unreadable = |error: &io::Error| Problem::new(format!("cannot read `{}`: {error}", input.display()));
@@ -61,12 +62,23 @@ pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem
     let mut copy = Target::create(target, &metadata)?;
     let copied = copy_records(records, &mut copy, &progress);
     progress.finish_and_clear();
-    let Copied { messages, dropped, is_complete } = copied.map_err(|error| match error {
+    let Copied { messages, dropped, unread, is_complete } = copied.map_err(|error| match error {
         CopyError::Read(error) => unreadable(&error),
         CopyError::Write(error) => Problem::new(format!("cannot write `{}`: {}", target.display(), text_of(&error))),
     })?;
     if is_complete && output.is_none() {
         return Ok(Recovered { path: input.to_owned(), messages, dropped, was_complete: true });
+    }
+    if messages == 0 && !is_complete {
+        return Err(Problem::new(format!("no message can be recovered from `{}`", input.display()))
+            .note("the file was left as it is"));
+    }
+    // What is unreadable now, another program may be able to read.
+    if output.is_none() && unread > size / 2 {
+        let (unread, size) = (bytes_text(unread as f64), bytes_text(size as f64));
+        return Err(Problem::new(format!("{unread} of the {size} of `{}` cannot be read", input.display()))
+            .help(format!("`scl recover {} -o FILE` writes the {messages} messages before them", input.display()))
+            .note("the file was left as it is"));
     }
     copy.publish()?;
     let path = output.unwrap_or(input).to_owned();
@@ -76,6 +88,8 @@ pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem
 struct Copied {
     messages: u64,
     dropped: u64,
+    /// Those of the dropped bytes that follow the last record.
+    unread: u64,
     is_complete: bool,
 }
 
@@ -122,6 +136,7 @@ fn copy_records(
     Ok(Copied {
         messages: target.messages(),
         dropped: unusable + records.rest(),
+        unread: records.rest(),
         is_complete: records.is_complete() && unusable == 0,
     })
 }

@@ -6,9 +6,9 @@
 
 mod alarm;
 mod answers;
-mod cast;
 mod lateness;
 mod pace;
+mod participants;
 mod players;
 mod report;
 mod routes;
@@ -18,8 +18,8 @@ pub use report::{AnswerReport, GateReport, Late, NotTaken, ReplayReport};
 
 use crate::recording::{RecordedChannel, Recording};
 use answers::read_answers;
-use cast::Cast;
 use pace::Pace;
+use participants::Participants;
 use players::{GateId, Players};
 use routes::{Route, route};
 use scl_plan::{GateKind, SystemPlan};
@@ -85,7 +85,7 @@ pub async fn replay(
         Some(plan) => plan.clone(),
         None => recording.plan()?.ok_or_else(|| no_plan(recording))?,
     };
-    let cast = Cast::choose(&plan, options)?;
+    let cast = Participants::choose(&plan, options)?;
     check_only(&plan, options)?;
     let (origin, span) = span(recording, options)?;
     // Read before anything is opened, so that a recording that does not fit disturbs nobody.
@@ -130,7 +130,7 @@ async fn until_stopped<F: Future>(future: F) -> Option<F::Output> {
 /// What is played, and what became of it so far.
 struct Stage<'a> {
     plan: &'a SystemPlan,
-    cast: &'a Cast,
+    cast: &'a Participants,
     options: &'a ReplayOptions,
     /// By the recording's channels.
     gates: Vec<Played>,
@@ -252,7 +252,7 @@ impl Stage<'_> {
 }
 
 /// The `rep` gates that are played.
-fn answering_gates(cast: &Cast) -> Vec<GateId> {
+fn answering_gates(cast: &Participants) -> Vec<GateId> {
     let gates = cast.played.iter().flat_map(|plan| plan.gates.iter().map(|gate| (&plan.component, gate)));
     let answering = gates.filter(|(_, gate)| gate.kind == GateKind::Rep);
     answering.map(|(component, gate)| (component.clone(), gate.name.clone())).collect()

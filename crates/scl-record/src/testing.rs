@@ -84,6 +84,12 @@ impl Recorder {
         self
     }
 
+    /// Leaves out a number, as a recorder does that has lost a message.
+    pub fn lose_message(mut self) -> Self {
+        self.sequence += 1;
+        self
+    }
+
     pub fn restart_numbers(mut self) -> Self {
         self.sequence = 0;
         self

@@ -1,11 +1,12 @@
 //! The running programs, of components and builds: each in its own process group, each with threads that watch it.
 
-use super::control::Asked;
 use super::ending::Ending;
-use super::lifecycle::Notice;
+use super::event::Event;
 use super::notify::Notified;
 use super::orphan_guard::{OrphanGuard, bound_command};
 use super::output::{Output, Stream};
+use super::plan::COMPONENT;
+use super::process_group;
 use super::program::Program;
 use nix::errno::Errno;
 use nix::sys::signal::{Signal, killpg};
@@ -14,30 +15,9 @@ use nix::unistd::Pid;
 use std::io::{self, Read};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, Stdio};
-use std::sync::Arc;
 use std::sync::mpsc::Sender;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
-
-/// How long a killed process may need to end.
-const LAST_BREATH: Duration = Duration::from_millis(200);
-
-/// What the other threads tell the supervisor.
-#[derive(Debug)]
-pub(crate) enum Event {
-    /// A program ended.
-    Ended { process: usize, ending: Ending },
-    /// One of the two streams of a program ended.
-    StreamClosed { process: usize },
-    /// A process of this group said something about itself.
-    Notified { group: Pid, notice: Notice },
-    /// The reader of our output has gone.
-    OutputLost,
-    /// A signal asks us to stop.
-    Signalled(Signal),
-    /// Another `scl` asks for something.
-    Asked(Asked),
-}
 
 /// What a program is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +30,31 @@ pub(crate) enum Role {
     Gateway,
 }
 
+/// What a build writes to its standard output for `scl run` and not for the user.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Messages(Arc<Mutex<Vec<u8>>>);
+
+impl Messages {
+    /// What has been written so far.
+    pub(crate) fn take(&self) -> Vec<u8> {
+        std::mem::take(&mut self.lock())
+    }
+
+    fn read(&self, mut from: impl Read) -> io::Result<()> {
+        let mut buffer = vec![0; 64 * 1024];
+        loop {
+            match from.read(&mut buffer)? {
+                0 => return Ok(()),
+                count => self.lock().extend_from_slice(&buffer[..count]),
+            }
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Vec<u8>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 /// How a program is started, besides what it is.
 #[derive(Debug)]
 pub(crate) struct Start<'a> {
@@ -60,6 +65,8 @@ pub(crate) struct Start<'a> {
     pub(crate) role: Role,
     /// Where it says that it is ready and alive.
     pub(crate) notify: Option<Notified<'a>>,
+    /// Where its standard output goes, if not to the user.
+    pub(crate) messages: Option<&'a Messages>,
 }
 
 /// A running program. It is reaped when this value is dropped, so that its process group id is not reused
@@ -84,8 +91,8 @@ impl Running {
         events: &Sender<Event>,
     ) -> io::Result<Self> {
         let mut command = bound_command(&program.command, &program.placement)?;
-        // What is set for us, by systemd, is not for our children.
-        for name in ["NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"] {
+        // What is set for us, by systemd or another `scl run`, is not for our children.
+        for name in ["NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID", COMPONENT] {
             command.env_remove(name);
         }
         let mut process = command
@@ -103,9 +110,12 @@ impl Running {
         guard.watch(group)?;
         // Standard output has only what the components print.
         let out_stream = if start.role == Role::Build { Stream::Err } else { Stream::Out };
-        watch_stream(start, out_stream, out, output, events);
+        match (start.messages, out) {
+            (Some(messages), Some(out)) => watch_messages(start.process, out, messages.clone(), events.clone()),
+            (_, out) => watch_stream(start, out_stream, out, output, events),
+        }
         watch_stream(start, Stream::Err, err, output, events);
-        watch_end(start.process, group, events.clone());
+        watch_end(start.process, start.role, group, events.clone());
         Ok(running)
     }
 
@@ -119,21 +129,19 @@ impl Running {
         // The group may hold nothing but the ended program, which is not an error.
         let _ = killpg(self.group, signal);
     }
+
+    /// Asks every process of the program to end.
+    pub(crate) fn ask_to_end(&self, signal: Signal) {
+        self.signal(signal);
+        let group = self.group;
+        thread::spawn(move || process_group::repeat_where_missed(group, signal));
+    }
 }
 
 impl Drop for Running {
     fn drop(&mut self) {
         self.signal(Signal::SIGKILL);
         let _ = self.process.wait();
-    }
-}
-
-/// Waits until the last process of a killed group has gone, so that what they held (a component's lock, a port) is free.
-/// Not for long: processes that nobody reaps stay.
-pub(crate) fn wait_for_group(group: Pid) {
-    let until = Instant::now() + LAST_BREATH;
-    while killpg(group, None).is_ok() && Instant::now() < until {
-        thread::sleep(Duration::from_millis(1));
     }
 }
 
@@ -153,9 +161,23 @@ fn watch_stream(
     });
 }
 
-fn watch_end(process: usize, group: Pid, events: Sender<Event>) {
+fn watch_messages(process: usize, from: impl Read + Send + 'static, messages: Messages, events: Sender<Event>) {
     thread::spawn(move || {
-        let _ = events.send(Event::Ended { process, ending: wait_for_end(group) });
+        // What could not be read is missed where it is needed.
+        let _ = messages.read(from);
+        let _ = events.send(Event::StreamClosed { process });
+    });
+}
+
+fn watch_end(process: usize, role: Role, group: Pid, events: Sender<Event>) {
+    thread::spawn(move || {
+        let ending = wait_for_end(group);
+        // What a build leaves behind, such as a compiler's server, is not waited for.
+        if role != Role::Build && !process_group::is_empty(group) {
+            let _ = events.send(Event::LeaderEnded { process, ending });
+            process_group::wait_until_empty(group);
+        }
+        let _ = events.send(Event::Ended { process, ending });
     });
 }
 

@@ -2,29 +2,30 @@
 //!
 //! `<runtime folder>/<system>/run.<pid>.control`, with mode 0600 in a folder with mode 0700. A client writes one
 //! [`Request`] as a line of JSON and reads one [`Response`] as a line of JSON, which comes when the request is done. A
-//! line may have up to 64 KiB and must arrive within two seconds.
+//! line may have up to 64 KiB and must arrive within two seconds. Of more than 32 clients that have sent no line yet, the
+//! oldest is disconnected.
 
 mod ask;
+mod build;
 mod client;
 mod protocol;
+mod silent_clients;
 
-pub use ask::{Wish, ask};
-pub use client::{ControlledRun, find_runs};
-pub use protocol::{Command, ComponentReport, Request, Response, VERSION};
+pub use ask::{Done, Wish, ask};
+pub use client::{ControlledRun, NoAnswer, find_runs};
+pub use protocol::{BuildCommand, Command, ComponentReport, Request, Response, VERSION};
 
-use super::children::Event;
 use super::own_file::OwnFile;
+use silent_clients::SilentClients;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::mpsc::Sender;
 use std::thread;
 use std::time::{Duration, Instant};
 
 const LONGEST_LINE: u64 = 64 * 1024;
 const PATIENCE: Duration = Duration::from_secs(2);
-const MOST_CLIENTS: usize = 32;
 
 /// The control socket of this process. Dropping this value removes it.
 #[derive(Debug)]
@@ -40,14 +41,14 @@ pub(crate) struct Asked {
 }
 
 impl ControlSocket {
-    /// Listens in the folder of a system, and sends requests as events.
+    /// Listens in the folder of a system, and passes each request to `receive`, on a thread of its client.
     ///
     /// # Errors
     ///
     /// If the socket cannot be bound.
-    pub(crate) fn open(folder: &Path, events: Sender<Event>) -> io::Result<Self> {
+    pub(crate) fn open(folder: &Path, receive: impl Fn(Asked) + Clone + Send + 'static) -> io::Result<Self> {
         let (file, listener) = OwnFile::bind(folder, "control", |path| UnixListener::bind(path))?;
-        thread::Builder::new().spawn(move || accept_clients(&listener, &events))?;
+        thread::Builder::new().spawn(move || accept_clients(&listener, &receive))?;
         Ok(Self { _file: file })
     }
 }
@@ -59,33 +60,33 @@ impl Asked {
     }
 }
 
-fn accept_clients(listener: &UnixListener, events: &Sender<Event>) {
-    let clients = Arc::new(());
+fn accept_clients(listener: &UnixListener, receive: &(impl Fn(Asked) + Clone + Send + 'static)) {
+    let silent = Arc::new(SilentClients::default());
     loop {
         let Ok((client, _)) = listener.accept() else {
             // Out of file descriptors, which passes.
             thread::sleep(Duration::from_millis(100));
             continue;
         };
-        if Arc::strong_count(&clients) > MOST_CLIENTS {
-            continue;
-        }
-        let (events, slot) = (events.clone(), Arc::clone(&clients));
-        // Without a thread for it, the client sees the end of the connection.
-        let _ = thread::Builder::new().spawn(move || {
-            serve(client, &events);
-            drop(slot);
+        // Without a descriptor or a thread for it, the client sees the end of the connection.
+        let Ok(number) = silent.add(&client) else { continue };
+        let (receive, all) = (receive.clone(), Arc::clone(&silent));
+        let served = thread::Builder::new().spawn(move || {
+            let line = read_line(&client);
+            all.remove(number);
+            if let Ok(line) = line {
+                serve(client, &line, receive);
+            }
         });
+        if served.is_err() {
+            silent.remove(number);
+        }
     }
 }
 
-fn serve(client: UnixStream, events: &Sender<Event>) {
-    let Ok(line) = read_line(&client) else { return };
-    match Request::parse(&line) {
-        Ok(request) => {
-            // After the supervisor has finished, the client sees the end of the connection.
-            let _ = events.send(Event::Asked(Asked { request, client }));
-        }
+fn serve(client: UnixStream, line: &str, receive: impl Fn(Asked)) {
+    match Request::parse(line) {
+        Ok(request) => receive(Asked { request, client }),
         Err(error) => send(&client, &Response::error(error)),
     }
 }

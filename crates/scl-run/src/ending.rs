@@ -36,6 +36,11 @@ impl Ending {
             Ending::KilledByUnnamedSignal => false,
         }
     }
+
+    /// Returns true for the exit codes by which a shell or another launcher says that a signal ended its program: 128 + number.
+    pub(crate) fn is_signal_of_child(self) -> bool {
+        matches!(self, Ending::Exited(code) if Signal::try_from(code - 128).is_ok())
+    }
 }
 
 impl fmt::Display for Ending {

@@ -1,6 +1,6 @@
 //! The program `scl-gateway`, which is installed apart from `scl`.
 
-use super::program::Component;
+use super::component::Component;
 use scl_terminal::{Problem, print_err};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};

@@ -167,3 +167,5 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests;
+
+pub use keys::{LaunchKey, launch_keys};

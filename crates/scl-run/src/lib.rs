@@ -4,16 +4,21 @@
 //! [`START_WORD`], which calls [`start_component`], and [`GUARD_WORD`], which calls [`keep_watch`].
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
-mod cargo_package;
+mod already_running;
+mod cargo;
 mod children;
+mod command_line;
+mod component;
 pub mod control;
 mod deployment;
 mod ending;
+mod event;
 mod gateway_program;
 mod launch_file;
 mod launch_text;
 mod lifecycle;
 mod log_file;
+mod member;
 mod notify;
 mod orphan_guard;
 mod output;
@@ -21,6 +26,7 @@ mod own_file;
 mod placement;
 mod plan;
 mod policy;
+mod process_group;
 mod program;
 mod reports;
 mod requests;
@@ -35,32 +41,37 @@ mod units;
 
 pub use deployment::{Deployment, Host};
 pub use launch_file::EXAMPLE as EXAMPLE_LAUNCH_FILE;
+pub use launch_file::{LaunchKey, launch_keys};
 pub use log_file::{LogEntry, LogFolder, LogReader, LogStream};
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use placement::Placement;
 pub use plan::{ComponentNames, DeployedSystem, read_deployment};
-pub use system_names::SystemNames;
+pub use system_names::{SystemNames, running_systems};
 pub use units::{Unit, UnitOptions, systemd_units};
 
-use children::{Event, Role};
+use children::{Messages, Role};
+use component::Component;
 use ending::Ending;
+use event::Event;
 use log_file::LogFile;
+use member::Member;
 use nix::sys::signal::Signal;
 use orphan_guard::{OrphanGuard, stop_signals};
 use output::Output;
-use plan::RunPlan;
+use plan::{Built, RunPlan};
 use policy::Policy;
-use program::{Build, Component};
+use program::{Build, Program};
 use reports::Reports;
 use scl_terminal::{Problem, print_err};
 use sockets::Sockets;
+use std::ffi::OsString;
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::Duration;
-use supervisor::{Member, Outcome, Supervisor, Surroundings};
+use supervisor::{Outcome, Supervisor, Surroundings};
 
 /// What to run, and how long.
 #[derive(Debug, Clone, Default)]
@@ -77,6 +88,8 @@ pub struct Options {
     pub without: Vec<String>,
     /// Whether to build the cargo package with optimizations.
     pub release: bool,
+    /// Whether to start the programs as they are, without building anything.
+    pub no_build: bool,
     /// When to stop the components without being asked, if ever.
     pub run_for: Option<Duration>,
     /// How long components without a `stop_within` may take to stop before they are killed.
@@ -91,7 +104,8 @@ pub struct Options {
 ///
 /// Every reason why the system could not be started.
 pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<bool, Vec<Problem>> {
-    let plan = plan::plan_run(options, component_names)?;
+    let mut plan = plan::plan_run(options, component_names)?;
+    already_running::check(&plan).map_err(|problem| vec![problem])?;
     plan.gateway.as_ref().map_or(Ok(()), gateway_program::check)?;
     let builds = plan.builds.iter().map(Build::label);
     let names = builds.chain(plan.programs().map(|component| component.name.as_str()));
@@ -101,7 +115,7 @@ pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<boo
     let blocked = stop_signals().thread_block();
     blocked.map_err(|error| vec![Problem::new(format!("cannot block signals: {error}"))])?;
     let reports = Reports::new(Arc::clone(&output));
-    let ended = run_plan(&plan, options, &output, &reports);
+    let ended = run_plan(&mut plan, options, &output, &reports);
     reports.finish(options.grace);
     ended
 }
@@ -126,7 +140,12 @@ fn handle_stop_signals() -> io::Result<()> {
     Ok(())
 }
 
-fn run_plan(plan: &RunPlan, options: &Options, output: &Arc<Output>, reports: &Reports) -> Result<bool, Vec<Problem>> {
+fn run_plan(
+    plan: &mut RunPlan,
+    options: &Options,
+    output: &Arc<Output>,
+    reports: &Reports,
+) -> Result<bool, Vec<Problem>> {
     let failed = |message: &str, error: io::Error| vec![Problem::new(format!("cannot {message}: {error}"))];
     let (sender, events) = channel();
     listen_for_signals(sender.clone()).map_err(|error| failed("listen for signals", error))?;
@@ -134,14 +153,14 @@ fn run_plan(plan: &RunPlan, options: &Options, output: &Arc<Output>, reports: &R
     let guard = OrphanGuard::start().map_err(|error| failed("start the guard", error))?;
     let surroundings = Surroundings { reports, output, events, sender: sender.clone() };
     let mut supervisor = Supervisor::new(surroundings, guard, sockets.notify());
-    for (label, build) in plan.builds.iter().enumerate() {
-        build.check().map_err(|problem| vec![problem])?;
-        reports.announce(&format!("building {}: {}", build.owner(), build.shown_command()));
-        match supervisor.run(&[build_member(build, label, options.grace)], None) {
-            Outcome::InOrder => {}
-            Outcome::Failed(ending) => return Err(vec![failed_build(build, ending)]),
-            Outcome::Stopped(signal) => return Err(vec![stopped_build(signal)]),
-        }
+    if options.no_build {
+        plan.find_programs_built_before()?;
+    } else if !plan.builds.is_empty() {
+        let built =
+            run_builds(&plan.builds, options.grace, &mut supervisor, reports).map_err(|problem| vec![problem])?;
+        plan.take_built(&built)?;
+        // Somebody else may have built and started them meanwhile.
+        already_running::check(plan).map_err(|problem| vec![problem])?;
     }
     let problems: Vec<Problem> = plan.programs().filter_map(|component| component.check().err()).collect();
     if !problems.is_empty() {
@@ -153,21 +172,56 @@ fn run_plan(plan: &RunPlan, options: &Options, output: &Arc<Output>, reports: &R
     let members = members.map(|(index, (program, role))| member(program, role, plan.builds.len() + index));
     let members: Vec<Member<'_>> = members.collect();
     let _control = sockets.open_control(&sender);
-    Ok(!matches!(supervisor.run(&members, options.run_for), Outcome::Failed(_)))
+    // With `--no-build`, a restart builds nothing either.
+    let builds = if options.no_build { &[][..] } else { plan.builds.as_slice() };
+    Ok(!matches!(supervisor.run(&members, builds, options.run_for), Outcome::Failed(_)))
 }
 
-fn build_member(build: &Build, label: usize, grace: Duration) -> Member<'_> {
-    let policy = Policy { stop_within: grace, ..Policy::default() };
-    Member { name: build.label(), label, role: Role::Build, program: &build.program, policy }
+/// Runs the builds one after the other, and returns the programs that they say they have made.
+fn run_builds(
+    builds: &[Build],
+    grace: Duration,
+    supervisor: &mut Supervisor<'_>,
+    reports: &Reports,
+) -> Result<Built, Problem> {
+    let mut built = Built::new();
+    for (label, build) in builds.iter().enumerate() {
+        build.check()?;
+        reports.announce(&format!("building {}: {}", build.owner(), build.shown_command()));
+        let mut program = Program { command: build.command(), ..build.program.clone() };
+        let messages = build.cargo_choices.as_ref().map(|_| Messages::default());
+        if messages.is_some() {
+            program.command.extend(cargo::MESSAGES.map(OsString::from));
+        }
+        let policy = Policy { stop_within: grace, ..Policy::default() };
+        let messages_of_member = messages.clone();
+        let member = Member {
+            name: build.label(),
+            label,
+            role: Role::Build,
+            program: &program,
+            policy,
+            messages: messages_of_member,
+            entry: None,
+        };
+        match supervisor.run(&[member], &[], None) {
+            Outcome::InOrder => {}
+            Outcome::Failed(ending) => return Err(failed_build(build, ending, "nothing was started")),
+            Outcome::Stopped(signal) => return Err(stopped_build(signal)),
+        }
+        built.push(messages.map_or_else(Vec::new, |messages| cargo::read_artifacts(&messages.take())));
+    }
+    Ok(built)
 }
 
 fn member(component: &Component, role: Role, label: usize) -> Member<'_> {
-    let Component { name, program, policy, .. } = component;
-    Member { name, label, role, program, policy: policy.clone() }
+    let Component { name, program, policy, entry, .. } = component;
+    Member { name, label, role, program, policy: policy.clone(), messages: None, entry: entry.as_deref() }
 }
 
-fn failed_build(build: &Build, ending: Option<Ending>) -> Problem {
-    let problem = Problem::new(format!("the build of {} failed, so nothing was started", build.owner()));
+/// What a failed build means for the user; `consequence` follows a "so".
+fn failed_build(build: &Build, ending: Option<Ending>, consequence: &str) -> Problem {
+    let problem = Problem::new(format!("the build of {} failed, so {consequence}", build.owner()));
     let Some(ending) = ending else { return problem };
     let problem = problem.note(format!("`{}` {ending}", build.shown_command()));
     // As shells report it.

@@ -93,8 +93,18 @@ impl Lifecycle {
             (Input::CannotStart(error), State::Starting) => {
                 self.take_failure(now, format!("cannot be started: {error}"))
             }
+            (Input::LeaderEnded, State::Running | State::Ready) => {
+                self.state = State::Stopping { reason: StopReason::LeaderEnded, kill_at: self.kill_time(now) };
+                vec![Action::Signal(Signal::SIGTERM)]
+            }
+            (Input::LeaderEnded, State::Stopping { reason, kill_at }) => self.stop_rest(reason, kill_at),
             (Input::Exited(ending), State::Running | State::Ready | State::Stopping { .. }) => {
                 self.take_end(now, ending)
+            }
+            (Input::Refused(text), State::Running | State::Ready) => {
+                self.state = State::Stopping { reason: StopReason::Refused, kill_at: self.kill_time(now) };
+                self.failure = Some(text.clone());
+                vec![Action::Report(text)]
             }
             (Input::Notified(notice), State::Running | State::Ready | State::Stopping { .. }) => {
                 self.take_notice(now, notice)
@@ -165,10 +175,9 @@ impl Lifecycle {
             }
             State::Stopping { reason: earlier, kill_at } => {
                 // A process that was told to end needs no other signal. One that hangs had one that it may have ignored.
-                let is_told = matches!(earlier, StopReason::Everything(_) | StopReason::Request { .. });
                 let reason = if matches!(earlier, StopReason::Everything(_)) { earlier } else { reason };
                 self.state = State::Stopping { reason, kill_at };
-                if is_told { Vec::new() } else { vec![Action::Signal(reason.signal())] }
+                if earlier.is_asked() { Vec::new() } else { vec![Action::Signal(reason.signal())] }
             }
             State::Waiting { .. } | State::Starting => {
                 self.state = State::Ended(verdict);
@@ -176,6 +185,18 @@ impl Lifecycle {
             }
             State::Ended(_) => Vec::new(),
         }
+    }
+
+    /// What is left of a program whose first process has ended while it was stopping. A second signal would end a program of
+    /// SCL at once, so it is for those that have had none.
+    fn stop_rest(&mut self, reason: StopReason, kill_at: Option<Time>) -> Vec<Action> {
+        let reason = match reason {
+            StopReason::Own => StopReason::LeaderEnded,
+            StopReason::Refused => reason,
+            _ => return Vec::new(),
+        };
+        self.state = State::Stopping { reason, kill_at };
+        vec![Action::Signal(Signal::SIGTERM)]
     }
 
     fn restart(&mut self, now: Time) -> Vec<Action> {
@@ -218,7 +239,7 @@ impl Lifecycle {
     /// Ends a process at once. Why is the reason of its failure, unless it had failed before.
     fn kill(&mut self, reason: StopReason, why: String) -> Vec<Action> {
         self.state = State::Stopping { reason, kill_at: None };
-        if reason != StopReason::Failed {
+        if !matches!(reason, StopReason::Failed | StopReason::Refused) {
             self.failure = Some(why);
         }
         vec![Action::Signal(Signal::SIGKILL)]
@@ -242,7 +263,7 @@ impl Lifecycle {
             State::Stopping { reason, kill_at } => (Some(reason), kill_at.is_none()),
             _ => (None, false),
         };
-        let failed = !matches!(reason, Some(StopReason::Failed | StopReason::Request { .. }));
+        let failed = !matches!(reason, Some(StopReason::Failed | StopReason::Refused | StopReason::Request { .. }));
         let asked_by = reason.and_then(StopReason::asked_by);
         if failed && !was_killed && !ending.is_in_order(asked_by) {
             self.failure = Some(ending.to_string());
@@ -250,20 +271,29 @@ impl Lifecycle {
         let next = match reason {
             Some(StopReason::Request { start_again: true }) => self.start(),
             Some(StopReason::Request { start_again: false }) => self.end(Verdict::Stopped),
-            Some(StopReason::Everything(_)) if ending.is_in_order(asked_by) => self.end(Verdict::InOrder),
+            Some(StopReason::Everything(_)) if !was_killed && ending.is_in_order(asked_by) => {
+                self.end(Verdict::InOrder)
+            }
             Some(StopReason::Everything(_)) => self.end(Verdict::Failed),
             Some(StopReason::Failed) => self.start_again(now),
-            Some(StopReason::Own) | None if self.is_final(ending) => self.end(Verdict::Failed),
-            Some(StopReason::Own) | None if !ending.is_in_order(None) => self.start_again(now),
-            Some(StopReason::Own) | None if self.policy.restart == Restart::Always => self.start_again(now),
-            Some(StopReason::Own) | None => self.end(Verdict::InOrder),
+            Some(StopReason::Refused) => self.end(Verdict::Failed),
+            Some(StopReason::Own | StopReason::LeaderEnded) | None if self.is_final(ending) => {
+                self.end(Verdict::Failed)
+            }
+            Some(StopReason::Own | StopReason::LeaderEnded) | None if !ending.is_in_order(None) => {
+                self.start_again(now)
+            }
+            Some(StopReason::Own | StopReason::LeaderEnded) | None if self.policy.restart == Restart::Always => {
+                self.start_again(now)
+            }
+            Some(StopReason::Own | StopReason::LeaderEnded) | None => self.end(Verdict::InOrder),
         };
         [vec![report], next].concat()
     }
 
     /// Returns true for an exit code by which the program itself says that it has failed, if that is not to be tried again.
     fn is_final(&self, ending: Ending) -> bool {
-        let is_code = matches!(ending, Ending::Exited(_)) && !ending.is_in_order(None);
+        let is_code = matches!(ending, Ending::Exited(_)) && !ending.is_in_order(None) && !ending.is_signal_of_child();
         is_code && self.policy.restart == Restart::OnAbnormal
     }
 

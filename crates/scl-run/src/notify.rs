@@ -3,7 +3,7 @@
 //! The kernel adds the sender's process id to each datagram. Only processes of a component's own process group count;
 //! everything else that arrives is ignored.
 
-use super::children::Event;
+use super::event::Event;
 use super::lifecycle::Notice;
 use super::own_file::OwnFile;
 use nix::unistd::{Pid, getpgid};
@@ -98,11 +98,14 @@ fn notice(line: &str) -> Option<Notice> {
         ("READY", "1") => Some(Notice::Ready),
         ("STOPPING", "1") => Some(Notice::Stopping),
         ("WATCHDOG", "1") => Some(Notice::Alive),
-        ("STATUS", text) => {
-            Some(Notice::Status(escape(&text.chars().take(LONGEST_STATUS).collect::<String>()).into_owned()))
-        }
+        ("STATUS", text) => Some(Notice::Status(shown(text))),
+        ("X_SCL_OPENS", component) => Some(Notice::Opens(shown(component))),
         _ => None,
     }
+}
+
+fn shown(text: &str) -> String {
+    escape(&text.chars().take(LONGEST_STATUS).collect::<String>()).into_owned()
 }
 
 #[cfg(test)]
@@ -112,11 +115,12 @@ mod tests {
     #[test]
     fn known_lines_are_read_and_others_ignored() {
         let status = |text: &str| Notice::Status(text.to_owned());
-        let cases: [(&[u8], Vec<Notice>); 7] = [
+        let cases: [(&[u8], Vec<Notice>); 8] = [
             (b"READY=1", vec![Notice::Ready]),
             (b"STATUS=waiting for a.b\nREADY=1\n", vec![status("waiting for a.b"), Notice::Ready]),
             (b"WATCHDOG=1\nMAINPID=1\nX\n\n=\nSTOPPING=1", vec![Notice::Alive, Notice::Stopping]),
             (b"READY=0\nready=1\n READY=1\nWATCHDOG=trigger", vec![]),
+            (b"X_SCL_OPENS=rover.gps\n", vec![Notice::Opens("rover.gps".to_owned())]),
             (b"STATUS=a=b", vec![status("a=b")]),
             (b"READY=1\xff", vec![]),
             (b"", vec![]),

@@ -3,6 +3,7 @@
 use super::log_file::{LogFile, LogStream};
 use anstream::ColorChoice;
 use owo_colors::{AnsiColors, OwoColorize};
+use scl_terminal::{output_is_closed, print_out_bytes};
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -129,8 +130,14 @@ impl Output {
     fn write(&self, stream: Stream, line: &[u8]) -> io::Result<()> {
         let _writing = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
         match stream {
-            Stream::Out => write_whole(&mut io::stdout().lock(), line),
-            Stream::Err => write_whole(&mut io::stderr().lock(), line),
+            Stream::Out => {
+                print_out_bytes(line);
+                if output_is_closed() { Err(io::ErrorKind::WriteZero.into()) } else { Ok(()) }
+            }
+            Stream::Err => {
+                let mut err = io::stderr().lock();
+                err.write_all(line).and_then(|()| err.flush())
+            }
         }
     }
 }
@@ -140,9 +147,4 @@ impl Log {
     fn begin(&self, stream: Stream) -> u64 {
         self.runs[stream as usize].fetch_add(1, Ordering::Relaxed) + 1
     }
-}
-
-fn write_whole(to: &mut impl Write, line: &[u8]) -> io::Result<()> {
-    to.write_all(line)?;
-    to.flush()
 }

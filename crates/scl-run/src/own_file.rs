@@ -1,6 +1,7 @@
 //! The sockets of a `scl run`, named by its process id: `run.<pid>.control`, `run.<pid>.notify`. Those that a killed
 //! process left behind are removed by the next that finds them.
 
+use rustix::net::{AddressFamily, SocketAddrUnix, SocketFlags, SocketType, socket_with};
 use std::fs;
 use std::io;
 use std::os::unix::fs::PermissionsExt;
@@ -54,19 +55,36 @@ impl Drop for OwnFile {
 /// The sockets with this ending in a folder, by process id.
 pub(crate) fn sockets_in(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let pid = |path: &Path| -> Option<u32> {
-        path.file_name()?.to_str()?.strip_prefix(PREFIX)?.strip_suffix(ending)?.strip_suffix('.')?.parse().ok()
-    };
-    let mut found: Vec<_> = entries.filter_map(|entry| Some((pid(&entry.path())?, entry.path()))).collect();
+    let mut found: Vec<_> =
+        entries.filter_map(|entry| Some((process_of(&entry.path(), ending)?, entry.path()))).collect();
     found.sort();
     found.into_iter().map(|(_, path)| path).collect()
 }
 
+/// The process whose socket with this ending this is.
+pub(crate) fn process_of(path: &Path, ending: &str) -> Option<u32> {
+    path.file_name()?.to_str()?.strip_prefix(PREFIX)?.strip_suffix(ending)?.strip_suffix('.')?.parse().ok()
+}
+
 /// Connects to the `scl run` of a control socket. Removes the socket if its process has ended.
+///
+/// # Errors
+///
+/// [`io::ErrorKind::WouldBlock`] if the process accepts no connections at the moment.
 pub(crate) fn connect(path: &Path) -> io::Result<UnixStream> {
-    let connected = UnixStream::connect(path);
+    let connected = connect_at_once(path);
     remove_if_dead(path, connected.as_ref().err());
     connected
+}
+
+/// Connects without waiting: a process that is stopped accepts nothing, and connections would wait for it.
+fn connect_at_once(path: &Path) -> io::Result<UnixStream> {
+    let flags = SocketFlags::CLOEXEC | SocketFlags::NONBLOCK;
+    let socket = socket_with(AddressFamily::UNIX, SocketType::STREAM, flags, None)?;
+    rustix::net::connect(&socket, &SocketAddrUnix::new(path)?)?;
+    let stream = UnixStream::from(socket);
+    stream.set_nonblocking(false)?;
+    Ok(stream)
 }
 
 /// Removes the sockets of processes that have ended.
@@ -107,5 +125,23 @@ mod tests {
         assert!(path("run.x.control").exists());
         drop(own);
         assert!(sockets_in(folder.path(), "control").is_empty());
+    }
+
+    #[test]
+    fn a_process_that_accepts_nothing_is_not_waited_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.1.control");
+        let socket = socket_with(AddressFamily::UNIX, SocketType::STREAM, SocketFlags::CLOEXEC, None).unwrap();
+        rustix::net::bind(&socket, &SocketAddrUnix::new(&path).unwrap()).unwrap();
+        rustix::net::listen(&socket, 1).unwrap();
+        let mut waiting = Vec::new();
+        let error = loop {
+            match connect(&path) {
+                Ok(connection) => waiting.push(connection),
+                Err(error) => break error,
+            }
+        };
+        assert_eq!(error.kind(), io::ErrorKind::WouldBlock);
+        assert!(path.exists() && !waiting.is_empty());
     }
 }

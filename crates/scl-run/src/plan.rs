@@ -1,14 +1,17 @@
 //! Decides what to build and to start: from a launch file, or from the cargo package beside the topology.
 
+mod cargo_builds;
 mod host;
 mod package;
 
 pub use host::{DeployedSystem, read_deployment};
 
 use super::Options;
+use super::cargo::{Artifact, CargoRun};
+use super::component::Component;
 use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
 use super::placement::Placement;
-use super::program::{Build, Component, Program};
+use super::program::{Build, Program};
 use super::selection::Selection;
 use super::system_names::SystemNames;
 use scl_terminal::{Problem, print_err, quoted_list};
@@ -20,6 +23,8 @@ const LAUNCH_FILE: &str = "launch.yaml";
 const TOPOLOGY_FILE: &str = "topology.yaml";
 /// The variable that gives programs the name of their system.
 const SYSTEM: &str = "SCL_SYSTEM";
+/// The variable that tells programs which components they were started for, so that no other runs in their place.
+pub(crate) const COMPONENT: &str = "SCL_COMPONENT";
 /// The variable that chooses the transport of connections.
 const TRANSPORT: &str = "SCL_TRANSPORT";
 
@@ -36,6 +41,9 @@ pub(crate) struct RunPlan {
     /// The program that connects this host to the others, with `--host`.
     pub(crate) gateway: Option<Component>,
 }
+
+/// The programs that each build has made, as far as cargo says so.
+pub(crate) type Built = Vec<Vec<Artifact>>;
 
 /// Returns what to build and to start for a system's folder or a launch file.
 ///
@@ -74,9 +82,13 @@ pub(crate) fn plan_run_launch_file(
         let problem = Problem::new(format!("there is no `{LAUNCH_FILE}` in `{}`", folder.display()));
         return Err(vec![problem.help("give the folder of a system, or a launch file; `scl run --help` shows one")]);
     }
-    let plan = plan_from_launch_file(&folder, &launch_path, options, component_names)?;
+    let mut plan = plan_from_launch_file(&folder, &launch_path, options, component_names)?;
     let problems = plan.check();
-    if problems.is_empty() { Ok(plan) } else { Err(problems) }
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    plan.find_programs_built_before()?;
+    Ok(plan)
 }
 
 impl RunPlan {
@@ -161,10 +173,14 @@ fn plan_from_launch_file(
         gateway.map(|host| host::plan_gateway(folder, launch_path, topology.as_deref(), &launch, host, options));
     let gateway = gateway.transpose().map_err(|problem| vec![problem])?;
     let chosen: Vec<LaunchComponent> = components.into_iter().filter(|it| selection.includes(&it.name)).collect();
+    let mut builds = plan_builds(folder, &launch, &chosen);
+    let topology_name = known.as_ref().map(|names| names.system.as_str());
+    let plan = |component| plan_component(folder, &launch, component, topology_name, options.grace, &mut builds);
+    let components = chosen.iter().map(plan).collect();
     Ok(RunPlan {
         system: own_name.or_else(system_of_environment).or_else(|| known.map(|names| names.system)),
-        builds: plan_builds(folder, &launch, &chosen),
-        components: chosen.iter().map(|component| plan_component(folder, &launch, component, options.grace)).collect(),
+        builds,
+        components,
         gateway,
     })
 }
@@ -188,7 +204,7 @@ fn find_topology(folder: &Path, document: &LaunchDocument<'_>) -> Result<Option<
 
 /// A launch file may omit components that are started elsewhere (another terminal, a replay), but not silently.
 fn note_missing(launched: &[LaunchComponent], components: &[String]) {
-    let is_launched = |name: &String| launched.iter().any(|component| component.name == *name);
+    let is_launched = |name: &String| launched.iter().any(|it| it.name == *name || it.opens.names(name));
     let missing: Vec<&str> = components.iter().filter(|name| !is_launched(name)).map(String::as_str).collect();
     if !missing.is_empty() {
         print_err(&format!("note: not in the launch file, so not started: {}\n", quoted_list(missing)));
@@ -197,17 +213,11 @@ fn note_missing(launched: &[LaunchComponent], components: &[String]) {
 
 /// The builds in file order. Equal commands in the same folder become one.
 fn plan_builds(folder: &Path, launch: &LaunchFile, components: &[LaunchComponent]) -> Vec<Build> {
-    // So that a build can call `scl generate` where `scl` is not installed, or another version is.
-    let scl = std::env::current_exe().ok().and_then(|path| Some(("SCL".to_owned(), path.to_str()?.to_owned())));
-    let program = |command: &[String], folder: PathBuf| Program {
-        command: command.iter().map(OsString::from).collect(),
-        environment: scl.iter().chain(&launch.environment).cloned().collect(),
-        folder,
-        placement: Placement::default(),
-    };
+    let program = |command, folder| build_program(launch, command, folder);
     let mut builds = Vec::new();
     if let Some(command) = &launch.build {
-        builds.push(Build { components: Vec::new(), program: program(command, folder.to_owned()) });
+        let program = program(command, folder.to_owned());
+        builds.push(Build { components: Vec::new(), program, cargo_choices: None });
     }
     for component in components {
         let Some(command) = &component.build else { continue };
@@ -216,25 +226,64 @@ fn plan_builds(folder: &Path, launch: &LaunchFile, components: &[LaunchComponent
             // The build of the whole system has run already.
             Some(build) if build.components.is_empty() => {}
             Some(build) => build.components.push(component.name.clone()),
-            None => builds.push(Build { components: vec![component.name.clone()], program }),
+            None => builds.push(Build { components: vec![component.name.clone()], program, cargo_choices: None }),
         }
     }
     builds
 }
 
-fn plan_component(folder: &Path, launch: &LaunchFile, component: &LaunchComponent, grace: Duration) -> Component {
+fn build_program(launch: &LaunchFile, command: &[String], folder: PathBuf) -> Program {
+    // So that a build can call `scl generate` where `scl` is not installed, or another version is.
+    let scl = std::env::current_exe().ok().and_then(|path| Some(("SCL".to_owned(), path.to_str()?.to_owned())));
+    Program {
+        command: command.iter().map(OsString::from).collect(),
+        environment: scl.iter().chain(&launch.environment).cloned().collect(),
+        folder,
+        placement: Placement::default(),
+    }
+}
+
+/// The program of a component; what cargo makes of it is added to the builds.
+fn plan_component(
+    folder: &Path,
+    launch: &LaunchFile,
+    component: &LaunchComponent,
+    topology_name: Option<&str>,
+    grace: Duration,
+    builds: &mut Vec<Build>,
+) -> Component {
     let settings = settings_of(launch, component);
+    let cargo = match &component.source {
+        Source::Command(words) => CargoRun::parse(words),
+        Source::Replay(_) => None,
+    };
+    let made_by_cargo = cargo.as_ref().map(|cargo| {
+        let program = build_program(launch, &cargo.build, folder_of(folder, &settings));
+        cargo_builds::add(builds, program, &component.name, cargo)
+    });
     let (command, recording) = match &component.source {
-        Source::Command(words) => (words.iter().map(OsString::from).collect(), None),
+        Source::Command(words) => {
+            let program = cargo.map(|cargo| [vec![cargo.build[0].clone()], cargo.arguments].concat());
+            (program.as_ref().unwrap_or(words).iter().map(OsString::from).collect(), None)
+        }
         Source::Replay(path) => (replay_command(path, &component.name), Some(PathBuf::from(path))),
     };
+    let expected = component.expected(topology_name).map(|expected| (COMPONENT.to_owned(), expected));
+    let own = component.environment.iter().cloned();
     let program = Program {
         command,
-        environment: environment_of_programs(launch).chain(component.environment.iter().cloned()).collect(),
+        environment: expected.into_iter().chain(environment_of_programs(launch)).chain(own).collect(),
         folder: folder_of(folder, &settings),
         placement: Placement { cpu: settings.cpu.clone().unwrap_or_default(), fifo: settings.priority },
     };
-    Component { name: component.name.clone(), program, policy: settings.policy(grace), recording }
+    Component {
+        name: component.name.clone(),
+        program,
+        policy: settings.policy(grace),
+        recording,
+        made_by_cargo,
+        entry: Some(component.place.clone()),
+    }
 }
 
 /// The variables of all programs.

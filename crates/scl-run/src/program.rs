@@ -1,7 +1,7 @@
-//! The programs of a run: what makes them, and what runs the components.
+//! The programs of a run, and the commands that build them.
 
+use super::command_line::shell_text;
 use super::placement::Placement;
-use super::policy::Policy;
 use scl_terminal::{Problem, quoted_list};
 use std::ffi::{OsStr, OsString};
 use std::os::unix::fs::PermissionsExt;
@@ -20,42 +20,13 @@ pub(crate) struct Program {
     pub(crate) placement: Placement,
 }
 
-/// A component and the program that runs it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Component {
-    pub(crate) name: String,
-    pub(crate) program: Program,
-    pub(crate) policy: Policy,
-    /// The file that its program plays, from the program's folder.
-    pub(crate) recording: Option<PathBuf>,
-}
-
 /// A build command, and the components whose programs it makes; all of them if none is named.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Build {
     pub(crate) components: Vec<String>,
     pub(crate) program: Program,
-}
-
-impl Component {
-    /// Checks that the folder and the executable exist.
-    pub(crate) fn check(&self) -> Result<(), Problem> {
-        self.program.check("program", &self.shown())?;
-        let Some(recording) = self.recording.as_ref().map(|path| self.program.folder.join(path)) else { return Ok(()) };
-        if recording.is_file() {
-            return Ok(());
-        }
-        Err(Problem::new(format!("the recording of {} does not exist: `{}`", self.shown(), recording.display())))
-    }
-
-    /// As [`check`](Self::check), but only what no build can change: whether a program without a path is installed.
-    pub(crate) fn check_installed(&self) -> Result<(), Problem> {
-        self.program.check_installed("program", &self.shown())
-    }
-
-    fn shown(&self) -> String {
-        format!("component `{}`", self.name)
-    }
+    /// If it is one of cargo that makes programs of components: how each of the components is chosen, `--bin sensor`.
+    pub(crate) cargo_choices: Option<Vec<Vec<String>>>,
 }
 
 impl Build {
@@ -75,10 +46,30 @@ impl Build {
 
     /// The command as it stands in the launch file.
     pub(crate) fn shown_command(&self) -> String {
-        match self.program.command.as_slice() {
-            [shell, option, line] if shell == "/bin/sh" && option == "-c" => line.display().to_string(),
-            words => words.iter().map(|word| word.display().to_string()).collect::<Vec<_>>().join(" "),
+        let words = self.command();
+        let words_text = || words.iter().map(|word| word.display().to_string()).collect::<Vec<_>>().join(" ");
+        shell_text(&words).map_or_else(words_text, |text| text.display().to_string())
+    }
+
+    /// The command for all its components.
+    pub(crate) fn command(&self) -> Vec<OsString> {
+        let choices = self.cargo_choices.iter().flatten().flatten().map(OsString::from);
+        self.program.command.iter().cloned().chain(choices).collect()
+    }
+
+    /// The build for these components alone; `None` if it makes nothing of them.
+    pub(crate) fn only_for(&self, components: &[String]) -> Option<Build> {
+        if self.components.is_empty() {
+            return Some(self.clone());
         }
+        let is_chosen = |index: &usize| components.contains(&self.components[*index]);
+        let chosen: Vec<usize> = (0..self.components.len()).filter(is_chosen).collect();
+        let choices = |all: &Vec<Vec<String>>| chosen.iter().filter_map(|index| all.get(*index).cloned()).collect();
+        (!chosen.is_empty()).then(|| Build {
+            components: chosen.iter().map(|index| self.components[*index].clone()).collect(),
+            program: self.program.clone(),
+            cargo_choices: self.cargo_choices.as_ref().map(choices),
+        })
     }
 
     /// Checks that the folder and the executable exist.
@@ -94,7 +85,7 @@ impl Build {
 
 impl Program {
     /// Checks that it can be started; `what` and `owner` name it in the problem.
-    fn check(&self, what: &str, owner: &str) -> Result<(), Problem> {
+    pub(crate) fn check(&self, what: &str, owner: &str) -> Result<(), Problem> {
         let folder = &self.folder;
         if !folder.is_dir() {
             return Err(Problem::new(format!("the folder of {owner} does not exist: `{}`", folder.display())));
@@ -113,13 +104,19 @@ impl Program {
         }
     }
 
+    /// Whether it is a text that a shell was given, so that the shell's processes are the program.
+    pub(crate) fn is_shell_text(&self) -> bool {
+        shell_text(&self.command).is_some()
+    }
+
     /// The absolute path of a program in the search path.
     pub(crate) fn find_installed(&self, name: &OsStr) -> Option<PathBuf> {
         let folders = search_path(self).into_iter();
         folders.map(|folder| self.folder.join(folder).join(name)).find(|file| is_executable(file))
     }
 
-    fn check_installed(&self, what: &str, owner: &str) -> Result<(), Problem> {
+    /// As [`check`](Self::check), but only whether a program without a path is installed.
+    pub(crate) fn check_installed(&self, what: &str, owner: &str) -> Result<(), Problem> {
         let Some(name) = self.command.first().filter(|name| !is_path(name)) else { return Ok(()) };
         if self.find_installed(name).is_some() {
             return Ok(());

@@ -48,7 +48,7 @@ impl Requests {
             .collect();
         let each = |input: Input| targets.iter().map(|target| RunEvent::One(target.index, input.clone())).collect();
         let events = match command {
-            Command::List => Vec::new(),
+            Command::List | Command::Builds => Vec::new(),
             // Twice would be a kill.
             Command::Stop if chosen.is_empty() && state.stopping().is_some() => Vec::new(),
             Command::Stop if chosen.is_empty() => vec![RunEvent::Stop(Signal::SIGTERM)],
@@ -86,7 +86,7 @@ impl Requests {
 fn outcome(command: Command, component: &Lifecycle, starts_before: usize) -> Option<bool> {
     let is_new = component.starts() > starts_before;
     match (command, component.state()) {
-        (Command::List, _) | (Command::Stop, State::Ended(_)) => Some(true),
+        (Command::List | Command::Builds, _) | (Command::Stop, State::Ended(_)) => Some(true),
         (Command::Restart, State::Ready) if is_new => Some(true),
         (Command::Restart, State::Running) if is_new && component.policy().ready_within.is_none() => Some(true),
         // It has failed again, or everything was stopped meanwhile.

@@ -2,8 +2,9 @@
 //!
 //! A run without them works, except for what needs them, so that a launch file of other programs runs anywhere.
 
-use super::children::Event;
+use super::component::Component;
 use super::control::ControlSocket;
+use super::event::Event;
 use super::notify::NotifySocket;
 use super::own_file::remove_stale;
 use super::plan::RunPlan;
@@ -27,9 +28,8 @@ impl Sockets {
     ///
     /// One problem.
     pub(crate) fn open(plan: &RunPlan, events: &Sender<Event>) -> Result<Self, Vec<Problem>> {
-        let needs_notices = |component: &super::program::Component| {
-            component.policy.ready_within.is_some() || component.policy.alive_within.is_some()
-        };
+        let needs_notices =
+            |component: &Component| component.policy.ready_within.is_some() || component.policy.alive_within.is_some();
         match Self::try_open(plan, events) {
             Ok(sockets) => Ok(sockets),
             Err(error) if plan.programs().any(needs_notices) => {
@@ -61,7 +61,12 @@ impl Sockets {
 
     /// Opens the socket for requests. Without a system, nobody could find it.
     pub(crate) fn open_control(&self, events: &Sender<Event>) -> Option<ControlSocket> {
-        match ControlSocket::open(self.system_folder.as_ref()?, events.clone()) {
+        let events = events.clone();
+        let receive = move |asked| {
+            // After the supervisor has finished, the client sees the end of the connection.
+            let _ = events.send(Event::Asked(asked));
+        };
+        match ControlSocket::open(self.system_folder.as_ref()?, receive) {
             Ok(socket) => Some(socket),
             Err(error) => {
                 print_err(&format!("note: `scl stop` and `scl restart` cannot reach this run: {error}\n"));

@@ -2,8 +2,8 @@
 
 use super::children::Role;
 use super::lifecycle::{Lifecycle, State, Verdict};
+use super::member::Member;
 use super::run_state::RunState;
-use super::supervisor::Member;
 
 /// A line for each component that failed or was restarted.
 pub(crate) fn lines(members: &[Member<'_>], state: &RunState) -> Vec<String> {

@@ -2,15 +2,16 @@
 
 mod process;
 
-use super::children::{Event, Role, Running, Start, wait_for_group};
-use super::control::{Asked, Command};
+use super::children::{Role, Running, Start};
+use super::control::{Asked, BuildCommand, Command, Response};
 use super::ending::Ending;
-use super::lifecycle::{Action, Input, State};
+use super::event::Event;
+use super::lifecycle::{Action, Input, Notice, State};
+use super::member::Member;
 use super::notify::{Notified, NotifySocket};
 use super::orphan_guard::OrphanGuard;
 use super::output::Output;
-use super::policy::Policy;
-use super::program::Program;
+use super::program::Build;
 use super::reports::Reports;
 use super::requests::Requests;
 use super::restarts::Time;
@@ -34,17 +35,6 @@ pub(crate) enum Outcome {
     Stopped(Signal),
 }
 
-/// A program to supervise.
-#[derive(Debug)]
-pub(crate) struct Member<'p> {
-    pub(crate) name: &'p str,
-    /// Its number in the output.
-    pub(crate) label: usize,
-    pub(crate) role: Role,
-    pub(crate) program: &'p Program,
-    pub(crate) policy: Policy,
-}
-
 /// Where reports and output go, and where events come from.
 pub(crate) struct Surroundings<'a> {
     pub(crate) reports: &'a Reports,
@@ -66,6 +56,8 @@ pub(crate) struct Supervisor<'a> {
 /// A run in progress.
 struct Run<'r> {
     members: &'r [Member<'r>],
+    /// What makes their programs, for restarts.
+    builds: &'r [Build],
     state: RunState,
     began: Instant,
     requests: Requests,
@@ -77,11 +69,13 @@ impl<'a> Supervisor<'a> {
         Self { surroundings, notify, guard, processes: Vec::new(), next_process: 0 }
     }
 
-    /// Starts the programs and waits until all have ended. They are stopped after a time, if one is given.
-    pub(crate) fn run(&mut self, members: &[Member<'_>], run_for: Option<Duration>) -> Outcome {
+    /// Starts the programs and waits until all have ended. They are stopped after a time, if one is given. `builds` are what
+    /// `scl restart` is told to run.
+    pub(crate) fn run(&mut self, members: &[Member<'_>], builds: &[Build], run_for: Option<Duration>) -> Outcome {
         let last = members.iter().position(|member| member.role == Role::Gateway);
         let state = RunState::new(members.iter().map(|member| member.policy.clone()), last, run_for);
-        let mut run = Run { members, state, began: Instant::now(), requests: Requests::default(), said_ready: false };
+        let mut run =
+            Run { members, builds, state, began: Instant::now(), requests: Requests::default(), said_ready: false };
         self.processes = members.iter().map(|_| None).collect();
         self.apply(&mut run, RunEvent::Time);
         while !(run.state.is_over() && self.processes.iter().flatten().all(Process::is_silent)) {
@@ -126,17 +120,30 @@ impl<'a> Supervisor<'a> {
                     process.open_streams -= 1;
                 }
             }
+            Event::LeaderEnded { process, ending } => {
+                let Some((index, _)) = self.find(|it| it.number == process) else { return };
+                // The processes that a shell has started are the program: `./one & ./two &`.
+                let goes_on = run.members[index].program.is_shell_text() && ending.is_in_order(None);
+                if !(goes_on && matches!(run.state.components()[index].state(), State::Running | State::Ready)) {
+                    self.apply(run, RunEvent::One(index, Input::LeaderEnded));
+                }
+            }
             Event::Ended { process, ending } => {
                 let Some((index, process)) = self.find(|it| it.number == process) else { return };
                 process.ended = Some(Instant::now());
-                // Processes that the program left behind in its group are no longer needed.
+                // Processes that a build left behind in its group are no longer needed.
                 process.running.signal(Signal::SIGTERM);
                 self.apply(run, RunEvent::One(index, Input::Exited(ending)));
             }
             Event::Notified { group, notice } => {
-                if let Some((index, _)) = self.find(|it| it.running.group() == group && it.ended.is_none()) {
-                    self.apply(run, RunEvent::One(index, Input::Notified(notice)));
-                }
+                let Some((index, _)) = self.find(|it| it.running.group() == group && it.ended.is_none()) else {
+                    return;
+                };
+                let input = match notice {
+                    Notice::Opens(opened) => Input::Refused(wrong_program(&run.members[index], &opened)),
+                    notice => Input::Notified(notice),
+                };
+                self.apply(run, RunEvent::One(index, input));
             }
             Event::Signalled(signal) => {
                 if run.state.stopping().is_none() {
@@ -156,8 +163,18 @@ impl<'a> Supervisor<'a> {
         let chosen: String = chosen.map(|name| format!(" {name}")).collect();
         match asked.request.command {
             Command::List => {}
+            Command::Builds => {
+                let builds = run.builds.iter().filter_map(|build| build.only_for(&asked.request.components));
+                let builds = builds.map(|build| BuildCommand::of(&build)).collect();
+                return asked.answer(&Response { builds, ..Response::of(Vec::new()) });
+            }
             Command::Stop => self.surroundings.reports.announce(&format!("requested: `scl stop{chosen}`")),
-            Command::Restart => self.surroundings.reports.announce(&format!("requested: `scl restart{chosen}`")),
+            Command::Restart => {
+                if let Some(problem) = unusable(run, &asked.request.components) {
+                    return asked.answer(&Response::error(problem));
+                }
+                self.surroundings.reports.announce(&format!("requested: `scl restart{chosen}`"));
+            }
         }
         for event in run.requests.take(asked, &names, &run.state) {
             self.apply(run, event);
@@ -179,8 +196,10 @@ impl<'a> Supervisor<'a> {
                 // Stopped before it could be started.
                 Action::Start => {}
                 Action::Signal(signal) => {
-                    if let Some(process) = &self.processes[index] {
-                        process.running.signal(signal);
+                    let running = self.processes[index].as_ref().map(|process| &process.running);
+                    match signal {
+                        Signal::SIGKILL => running.into_iter().for_each(|running| running.signal(signal)),
+                        _ => running.into_iter().for_each(|running| running.ask_to_end(signal)),
                     }
                 }
                 Action::Report(text) => self.report(index, &run.members[index], text),
@@ -196,13 +215,17 @@ impl<'a> Supervisor<'a> {
         if let Some(process) = &mut self.processes[index] {
             let late = std::mem::take(&mut process.reports);
             late.iter().for_each(|text| self.surroundings.reports.report(member.label, text));
-            let group = process.running.group();
             self.discard(index);
-            wait_for_group(group);
         }
         let notify = self.notify.filter(|_| member.role != Role::Build);
         let notify = notify.map(|socket| Notified { socket, alive_within: member.policy.alive_within });
-        let start = Start { process: self.next_process, label: member.label, role: member.role, notify };
+        let start = Start {
+            process: self.next_process,
+            label: member.label,
+            role: member.role,
+            notify,
+            messages: member.messages.as_ref(),
+        };
         let Surroundings { output, sender, .. } = &self.surroundings;
         let running = Running::start(member.program, &start, &mut self.guard, output, sender)?;
         let number = self.next_process;
@@ -258,6 +281,25 @@ impl Run<'_> {
     fn now(&self) -> Time {
         self.began.elapsed()
     }
+}
+
+/// Why one of these components could not be started again, so that its old process is better than none.
+fn unusable(run: &Run<'_>, components: &[String]) -> Option<String> {
+    let chosen = run.members.iter().filter(|member| components.iter().any(|name| name == member.name));
+    let mut checks = chosen.map(|member| member.program.check("program", &format!("component `{}`", member.name)));
+    checks.find_map(Result::err).map(|problem| problem.message().to_owned())
+}
+
+/// What the user is told of a program that opens another component than the one that it was started as.
+fn wrong_program(member: &Member<'_>, opened: &str) -> String {
+    let shown = match opened.rsplit_once('.') {
+        Some((system, name)) => format!("`{name}` of system `{system}`"),
+        None => format!("`{opened}`"),
+    };
+    let program =
+        member.program.command.first().map_or_else(String::new, |program| format!("`{}` ", program.display()));
+    let place = member.entry.map_or_else(String::new, |place| format!("; its entry is at {place}"));
+    format!("wrong program: {program}opens component {shown}, but was started as `{}`{place}", member.name)
 }
 
 fn end_text(role: Role, ending: Ending, after: Duration) -> String {

@@ -1,4 +1,6 @@
-//! The names that a launch file is checked against.
+//! The names that a launch file is checked against, and the systems that run.
+
+use scl::runtime_dir::RuntimeDir;
 
 /// What is read from a topology file.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -9,4 +11,10 @@ pub struct SystemNames {
     pub components: Vec<String>,
     /// Its gates as `component.gate`, in file order.
     pub gates: Vec<String>,
+}
+
+/// The names of the systems that run on this machine, sorted.
+pub fn running_systems() -> Vec<String> {
+    let runtime_dir = RuntimeDir::existing(&|name| std::env::var_os(name)).ok().flatten();
+    runtime_dir.and_then(|dir| dir.running_systems().ok()).unwrap_or_default()
 }

@@ -6,9 +6,10 @@
 mod text;
 
 use super::Options;
+use super::component::Component;
 use super::plan::{ComponentNames, RunPlan, plan_run_launch_file};
 use super::policy::{Policy, Restart};
-use super::program::{Component, Program};
+use super::program::Program;
 use scl_terminal::Problem;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

@@ -5,8 +5,10 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod compare;
+mod memory;
 
 pub use compare::{Difference, Encoding, What, compare, differences};
+pub use memory::{Format, Language, MemoryEstimate, NotJson};
 pub use prost::DecodeError;
 pub use prost_types::FileDescriptorSet;
 

@@ -3,8 +3,7 @@
 //! The engine's segments are files with holes. Writing into a hole when no memory is left ends the program with SIGBUS, so
 //! each sample's memory is reserved with `fallocate` before its first use, which reports that as an error.
 
-use crate::limits::{TooLittle, available};
-use crate::service::HEADERS;
+use crate::limits::{HEADERS, TooLittle, available};
 use rustix::fs::{FallocateFlags, fallocate};
 use rustix::io::Errno;
 use std::collections::HashMap;

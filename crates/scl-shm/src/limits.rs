@@ -1,7 +1,5 @@
 //! How much memory a connection needs, and whether there is enough.
 
-use crate::service::HEADERS;
-
 /// Where the operating system keeps shared memory.
 pub(crate) const FOLDER: &str = "/dev/shm";
 /// The most samples that may be sent and not acknowledged.
@@ -14,6 +12,8 @@ const QUEUE: usize = 512;
 /// the free memory and a write.
 const SPARE: u64 = 2 << 20;
 const PAGE: u64 = 4096;
+/// The most bytes that the engine puts before the payload of a sample.
+pub(crate) const HEADERS: usize = 256;
 
 /// The limits of one connection, which follow from the receiving gate's queue and from its longest message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,10 +2,7 @@
 
 use crate::error::ShmError;
 use crate::folder::Folder;
-use crate::limits::{self, Limits};
-use crate::receiver::SampleReceiver;
-use crate::sender::SampleSender;
-use crate::service::{self, ServiceName};
+use crate::limits;
 use crate::unfinished;
 use iceoryx2::node::{Node, NodeBuilder};
 use iceoryx2::prelude::SignalHandlingMode;
@@ -14,6 +11,9 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
+
+#[cfg(test)]
+use crate::service::{Port, ServiceName};
 
 #[cfg(test)]
 type Builder = iceoryx2::service::builder::publish_subscribe::Builder<[u8], (), Engine>;
@@ -75,35 +75,15 @@ impl SharedMemory {
         Ok(Self { node: Some(Mutex::new(node)), folder })
     }
 
-    /// Opens the receiving end of a connection, and with it the connection's service. The sending end is opened next.
-    ///
-    /// # Errors
-    /// [`ShmError`] if the service exists already or cannot be created.
-    pub fn receiver(self: &Arc<Self>, name: &ServiceName, limits: Limits) -> Result<SampleReceiver, ShmError> {
-        limits::require(0)?;
-        let service = service::create(&self.node(), name, &limits)?;
-        SampleReceiver::new(&service, limits, self)
-    }
-
-    /// Opens the sending end of a connection whose receiving end is open. Messages of `expected` bytes need no second
-    /// segment.
-    ///
-    /// # Errors
-    /// [`ShmError`] if the service does not exist, or is not one that [`receiver`](Self::receiver) has created.
-    pub fn sender(self: &Arc<Self>, name: &ServiceName, expected: usize) -> Result<SampleSender, ShmError> {
-        limits::require(0)?;
-        let (service, limits) = service::open(&self.node(), name)?;
-        SampleSender::new(&service, limits, expected, self)
-    }
-
     /// A service that no end of SCL would create.
     #[cfg(test)]
-    pub(crate) fn foreign_service(&self, name: &ServiceName, settings: impl Fn(Builder) -> Builder) -> service::Port {
+    pub(crate) fn foreign_service(&self, name: &ServiceName, settings: impl Fn(Builder) -> Builder) -> Port {
         let builder = self.node().service_builder(&name.as_str().try_into().unwrap());
         settings(builder.publish_subscribe::<[u8]>()).create().unwrap()
     }
 
-    fn node(&self) -> MutexGuard<'_, Node<Engine>> {
+    /// Locks the node.
+    pub(crate) fn node(&self) -> MutexGuard<'_, Node<Engine>> {
         // It is there until this value is dropped.
         lock(self.node.as_ref().unwrap_or_else(|| unreachable!("the node is taken by `drop` only")))
     }

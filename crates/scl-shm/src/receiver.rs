@@ -1,10 +1,10 @@
 //! The receiving end of a connection.
 
 use crate::error::{ReceiveError, ShmError};
-use crate::limits::Limits;
+use crate::limits::{self, Limits};
 use crate::loaned::Counted;
 use crate::node::SharedMemory;
-use crate::service::Port;
+use crate::service::{self, Port, ServiceName};
 use bytes::Bytes;
 use iceoryx2::port::subscriber::Subscriber;
 use iceoryx2::sample::Sample;
@@ -36,8 +36,20 @@ impl AsRef<[u8]> for Received {
     }
 }
 
+impl SharedMemory {
+    /// Opens the receiving end of a connection, and with it the connection's service. The sending end is opened next.
+    ///
+    /// # Errors
+    /// [`ShmError`] if the service exists already or cannot be created.
+    pub fn receiver(self: &Arc<Self>, name: &ServiceName, limits: Limits) -> Result<SampleReceiver, ShmError> {
+        limits::require(0)?;
+        let service = service::create(&self.node(), name, &limits)?;
+        SampleReceiver::new(&service, limits, self)
+    }
+}
+
 impl SampleReceiver {
-    pub(crate) fn new(service: &Port, limits: Limits, memory: &Arc<SharedMemory>) -> Result<Self, ShmError> {
+    fn new(service: &Port, limits: Limits, memory: &Arc<SharedMemory>) -> Result<Self, ShmError> {
         let port = service
             .subscriber_builder()
             .create()

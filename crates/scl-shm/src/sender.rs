@@ -5,7 +5,7 @@ use crate::error::{LoanError, SendError, ShmError};
 use crate::limits::{self, Limits};
 use crate::loaned::{self, Counted, LoanedSample, Uninitialised};
 use crate::node::SharedMemory;
-use crate::service::Port;
+use crate::service::{self, Port, ServiceName};
 use iceoryx2::port::publisher::Publisher;
 use iceoryx2::port::{BackpressureAction, LoanError as EngineLoanError};
 use iceoryx2::prelude::{AllocationStrategy, BackpressureStrategy};
@@ -26,13 +26,21 @@ pub struct SampleSender {
     memory: Arc<SharedMemory>,
 }
 
+impl SharedMemory {
+    /// Opens the sending end of a connection whose receiving end is open. Messages of `expected` bytes need no second
+    /// segment.
+    ///
+    /// # Errors
+    /// [`ShmError`] if the service does not exist, or is not one that [`receiver`](Self::receiver) has created.
+    pub fn sender(self: &Arc<Self>, name: &ServiceName, expected: usize) -> Result<SampleSender, ShmError> {
+        limits::require(0)?;
+        let (service, limits) = service::open(&self.node(), name)?;
+        SampleSender::new(&service, limits, expected, self)
+    }
+}
+
 impl SampleSender {
-    pub(crate) fn new(
-        service: &Port,
-        limits: Limits,
-        expected: usize,
-        memory: &Arc<SharedMemory>,
-    ) -> Result<Self, ShmError> {
+    fn new(service: &Port, limits: Limits, expected: usize, memory: &Arc<SharedMemory>) -> Result<Self, ShmError> {
         let port = service
             .publisher_builder()
             .max_loaned_samples(limits.loans())

@@ -12,8 +12,6 @@ use std::hash::{BuildHasher, Hasher};
 
 /// Enough for any type, and a line of most caches.
 const ALIGNMENT: usize = 64;
-/// What the engine puts before the payload of a sample, at most.
-pub(crate) const HEADERS: usize = 256;
 
 pub(crate) type Port = PortFactory<Engine, [u8], ()>;
 

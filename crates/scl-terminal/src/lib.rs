@@ -6,13 +6,17 @@ mod duration;
 mod escape;
 mod print;
 mod problem;
+mod system_choice;
 mod table;
 mod timestamp;
 
 pub use amount::{age_text, bytes_text, three_digits};
 pub use duration::parse_duration;
 pub use escape::{escape, escape_bytes, escape_json};
-pub use print::{print_err, print_out};
+pub use print::{
+    finish_output, note_failure, output_is_closed, output_is_terminal, print_err, print_out, print_out_bytes,
+};
 pub use problem::{Problem, closest_name, quoted_list};
+pub use system_choice::{choose_system, named_system};
 pub use table::{Align, Table, output_width, shorten};
 pub use timestamp::timestamp;

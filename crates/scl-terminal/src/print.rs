@@ -1,14 +1,67 @@
-//! Text for the user. Unlike `println!`, it does not panic when the reader has gone (`scl check | head`).
+//! Text for the user: all output of the command line is written here, so that a failed write is noticed once and for all.
+//!
+//! A command prints without looking at errors, and its `main` ends with [`finish_output`], which reports the first one. A
+//! stream looks at [`output_is_closed`] after each message, because printing more would be in vain. Lints forbid other ways
+//! to standard output.
 
-use std::io::{self, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::process::ExitCode;
+use std::sync::OnceLock;
 
-/// Writes to standard output; the text brings its own line ends.
+/// Exit code: the result could not be written.
+const COULD_NOT_WRITE: u8 = 2;
+
+/// The first failed write to standard output.
+static FAILURE: OnceLock<io::Error> = OnceLock::new();
+
+/// Writes to standard output; the text brings its own line ends. After a failed write, nothing more is written.
 pub fn print_out(text: &str) {
-    // A reader that closes our output does not need an error.
-    let _ = io::stdout().lock().write_all(text.as_bytes());
+    print_out_bytes(text.as_bytes());
+}
+
+/// [`print_out`] for bytes that need not be UTF-8.
+pub fn print_out_bytes(bytes: &[u8]) {
+    if output_is_closed() {
+        return;
+    }
+    let mut out = io::stdout().lock();
+    // Flushed, because what remains in a buffer at the end of the process fails silently.
+    note_failure(out.write_all(bytes).and_then(|()| out.flush()));
+}
+
+/// Whether a write to standard output has failed: its reader has gone, or the disk is full.
+pub fn output_is_closed() -> bool {
+    FAILURE.get().is_some()
+}
+
+/// Whether standard output is a terminal.
+pub fn output_is_terminal() -> bool {
+    io::stdout().is_terminal()
+}
+
+/// Remembers a failed write of a library that writes to standard output by itself.
+pub fn note_failure(written: io::Result<()>) {
+    if let Err(error) = written {
+        // Only the first one matters.
+        let _known = FAILURE.set(error);
+    }
+}
+
+/// The exit code of a program that has done its work: `code`, unless its output could not be written, which is reported.
+/// If a reader has closed the output (`scl check | head`), that is no error.
+pub fn finish_output(code: ExitCode) -> ExitCode {
+    match FAILURE.get() {
+        None => code,
+        Some(error) if error.kind() == ErrorKind::BrokenPipe => code,
+        Some(error) => {
+            print_err(&format!("error: cannot write to standard output: {error}\n"));
+            ExitCode::from(COULD_NOT_WRITE)
+        }
+    }
 }
 
 /// Writes to standard error; the text brings its own line ends.
 pub fn print_err(text: &str) {
-    let _ = io::stderr().lock().write_all(text.as_bytes());
+    // There is no place left to report a failure to.
+    let _failed = io::stderr().lock().write_all(text.as_bytes());
 }

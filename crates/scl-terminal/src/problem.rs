@@ -17,6 +17,11 @@ impl Problem {
         Self { message: message.into(), place: None, helps: Vec::new(), notes: Vec::new() }
     }
 
+    /// The headline.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
     /// Says where: `launch.yaml:3:5`.
     pub fn at(mut self, place: impl Into<String>) -> Self {
         self.place = Some(place.into());

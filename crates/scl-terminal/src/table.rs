@@ -1,11 +1,9 @@
 //! Tables of text: aligned columns, no wider than the terminal.
 
 use crate::escape;
-use std::io::{IsTerminal, stdout};
+use crate::print::output_is_terminal;
+use std::io::stdout;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
-
-/// The width of output that does not go to a terminal.
-const PIPE_WIDTH: usize = 80;
 
 /// Between two columns.
 const GAP: &str = "  ";
@@ -118,11 +116,11 @@ impl Table {
     }
 }
 
-/// The width of the terminal, or 80 if standard output is none.
+/// The width of the terminal; without limit if standard output is none, so that programs and files get everything.
 pub fn output_width() -> usize {
-    let terminal = stdout().is_terminal().then(|| rustix::termios::tcgetwinsize(stdout()).ok()).flatten();
+    let terminal = output_is_terminal().then(|| rustix::termios::tcgetwinsize(stdout()).ok()).flatten();
     // A terminal that does not know its size says 0.
-    terminal.map(|size| usize::from(size.ws_col)).filter(|&width| width > 0).unwrap_or(PIPE_WIDTH)
+    terminal.map(|size| usize::from(size.ws_col)).filter(|&width| width > 0).unwrap_or(usize::MAX)
 }
 
 /// Cuts a text to this width, with `…` at its end if something is missing.

@@ -7,15 +7,19 @@ mod component;
 mod connection;
 mod control;
 mod extension;
+mod field;
 mod fields;
 mod gate;
 mod name;
-pub(crate) mod option;
+mod option;
 mod pitfall;
+mod repair;
 mod sections;
 mod shape;
+mod syntax_error;
 #[cfg(test)]
 mod testing;
+mod words;
 
 pub(crate) use pitfall::look_alike::{LETTER, RULE as LOOK_ALIKE};
 pub(crate) use pitfall::{MISREAD, RULES as PITFALLS};
@@ -47,7 +51,9 @@ pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Mod
     let source = sources.file(file);
     let text = pitfall::check_text(source, file, problems);
     let tree = yaml::read(&text.text, file);
-    pitfall::check_tree(&tree, &text, source, file, problems);
+    let place = pitfall::Place::new(source, file);
+    pitfall::check_tree(&tree, &place, problems);
+    problems.extend(syntax_error::explain(&tree, &text, &place));
     let mut reader = Reader::new(source, file);
     reader.read_root(&tree);
     reader.read_controls(tree.root.as_ref());

@@ -1,14 +1,18 @@
 //! Conditions on messages: `speed > 1.5 and mode == 'AUTO'`.
 
+mod check;
 mod parse;
 #[cfg(test)]
 mod tests;
 
-use crate::message_type::MessageType;
-use crate::path::{FieldPath, UnknownField};
-use crate::value::Value;
+use crate::field_kind::FieldKind;
+use crate::path::FieldPath;
+use crate::value::{Value, to_json};
+pub use check::ConditionMismatch;
+use check::not_boolean;
 use scl_terminal::Problem;
 use std::cmp::Ordering;
+use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
@@ -16,7 +20,7 @@ use thiserror::Error;
 ///
 /// Comparisons are `==`, `!=`, `<`, `<=`, `>`, `>=` between fields, numbers, texts in quotes, `true`, `false` and
 /// `null`, and `contains` for texts, lists and the keys of maps. They are combined with `not`, `and`, `or` and
-/// parentheses. A field alone is true if its value is.
+/// parentheses. A field alone must be a boolean.
 ///
 /// A comparison of a field that the message does not have is false, and so is one of values that cannot be compared,
 /// such as a text with a number, except `!=`.
@@ -42,7 +46,7 @@ enum Node {
     Not(Box<Node>),
     Compare(Operand, Operator, Operand),
     /// A field that is a boolean.
-    True(Operand),
+    True(FieldPath),
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -64,23 +68,12 @@ enum Operator {
 
 impl Condition {
     /// Whether a message meets the condition.
-    pub fn holds(&self, message: &Value) -> bool {
-        self.root.holds(message)
-    }
-
-    /// The fields that the condition looks at.
-    pub fn fields(&self) -> Vec<&FieldPath> {
-        let mut fields = Vec::new();
-        self.root.add_fields(&mut fields);
-        fields
-    }
-
-    /// Checks that the messages of a type may have all fields of the condition.
     ///
     /// # Errors
-    /// The type has no such field.
-    pub fn check(&self, messages: &MessageType) -> Result<(), UnknownField> {
-        self.fields().into_iter().try_for_each(|path| messages.check_field(path))
+    /// A field alone is not a boolean in this message. [`check`](Self::check) finds that without a message if the type is
+    /// known.
+    pub fn holds(&self, message: &Value) -> Result<bool, ConditionMismatch> {
+        self.root.holds(message)
     }
 }
 
@@ -105,30 +98,42 @@ impl From<ConditionError> for Problem {
 }
 
 impl Node {
-    fn holds(&self, message: &Value) -> bool {
-        match self {
-            Node::Or(nodes) => nodes.iter().any(|node| node.holds(message)),
-            Node::And(nodes) => nodes.iter().all(|node| node.holds(message)),
-            Node::Not(node) => !node.holds(message),
+    fn holds(&self, message: &Value) -> Result<bool, ConditionMismatch> {
+        Ok(match self {
+            Node::Or(nodes) => is_one(nodes, message, true)?,
+            Node::And(nodes) => !is_one(nodes, message, false)?,
+            Node::Not(node) => !node.holds(message)?,
             Node::Compare(left, operator, right) => {
                 let (left, right) = (left.find(message), right.find(message));
                 left.zip(right).is_some_and(|(left, right)| operator.holds(left, right))
             }
-            Node::True(operand) => operand.find(message) == Some(&Value::Bool(true)),
+            Node::True(path) => match path.find(message) {
+                Some(Value::Bool(value)) => *value,
+                None | Some(Value::Null | Value::Opaque(_)) => false,
+                Some(value) => return Err(not_boolean(path, &FieldKind::of(value))),
+            },
+        })
+    }
+}
+
+/// Whether one of the nodes holds, or does not hold.
+fn is_one(nodes: &[Node], message: &Value, expected: bool) -> Result<bool, ConditionMismatch> {
+    for node in nodes {
+        if node.holds(message)? == expected {
+            return Ok(true);
         }
     }
+    Ok(false)
+}
 
-    fn add_fields<'n>(&'n self, fields: &mut Vec<&'n FieldPath>) {
-        let operands = match self {
-            Node::Or(nodes) | Node::And(nodes) => return nodes.iter().for_each(|node| node.add_fields(fields)),
-            Node::Not(node) => return node.add_fields(fields),
-            Node::Compare(left, _, right) => vec![left, right],
-            Node::True(operand) => vec![operand],
-        };
-        fields.extend(operands.into_iter().filter_map(|operand| match operand {
-            Operand::Field(path) => Some(path),
-            Operand::Constant(_) => None,
-        }));
+/// For messages: `` `speed` ``.
+impl fmt::Display for Operand {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Operand::Field(path) => write!(f, "`{path}`"),
+            Operand::Constant(Value::Text(text)) => write!(f, "`'{text}'`"),
+            Operand::Constant(value) => write!(f, "`{}`", to_json(value)),
+        }
     }
 }
 

@@ -14,14 +14,16 @@
 //! let speed: FieldPath = "speed".parse()?;
 //! assert_eq!(speed.find(&value), Some(&1.5.into()));
 //! let fast: Condition = "speed > 1.0 and unit == 'm/s'".parse()?;
-//! assert!(fast.holds(&value));
+//! assert!(fast.holds(&value)?);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod base64;
 mod condition;
 mod error;
+mod field_kind;
 mod limits;
 mod message_type;
 mod path;
@@ -32,9 +34,9 @@ mod testing;
 mod text;
 mod value;
 
-pub use condition::{Condition, ConditionError};
+pub use condition::{Condition, ConditionError, ConditionMismatch};
 pub use error::{DecodeError, EncodeError, TypeError};
 pub use message_type::MessageType;
 pub use path::{FieldPath, PathError, UnknownField};
-pub use text::{Documents, ReadError, Table, read_yaml, to_json, to_yaml};
-pub use value::{Opaque, Value};
+pub use text::{Documents, ReadError, Table, read_yaml, to_yaml};
+pub use value::{Opaque, Value, to_json};

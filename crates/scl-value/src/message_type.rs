@@ -4,6 +4,7 @@
 mod tests;
 
 use crate::error::{DecodeError, EncodeError, TypeError};
+use crate::field_kind::FieldKind;
 use crate::path::{FieldPath, UnknownField};
 use crate::protobuf::{self, Unknown};
 use crate::self_describing::{read_cbor, read_json, read_msgpack, write_cbor, write_json, write_msgpack};
@@ -157,7 +158,12 @@ impl MessageType {
     /// # Errors
     /// The type has no such field; it says which it has.
     pub fn check_field(&self, path: &FieldPath) -> Result<(), UnknownField> {
-        self.descriptor().map_or(Ok(()), |message| protobuf::check_field(message, path))
+        self.kind_of(path).map(drop)
+    }
+
+    /// What the value at a path may be.
+    pub(crate) fn kind_of(&self, path: &FieldPath) -> Result<FieldKind, UnknownField> {
+        self.descriptor().map_or(Ok(FieldKind::Unknown), |message| protobuf::kind_of(message, path))
     }
 
     fn descriptor(&self) -> Option<&MessageDescriptor> {

@@ -8,7 +8,7 @@ mod to_value;
 mod well_known;
 
 pub(crate) use check::Fault;
-pub(crate) use fields::{check_field, columns};
+pub(crate) use fields::{columns, kind_of};
 pub(crate) use from_value::{Unknown, from_value};
 pub(crate) use template::template;
 

@@ -1,8 +1,9 @@
 //! JSON, CBOR and MessagePack without a type: bytes that say themselves what they are.
 
+use crate::base64::from_base64;
 use crate::error::EncodeError;
 use crate::limits::{Budget, deeper};
-use crate::value::{Value, widen};
+use crate::value::{Value, to_json, widen};
 use bytes::Bytes;
 use cbor4ii::core::dec::Read;
 use cbor4ii::core::utils::{BufWriter, SliceReader};
@@ -86,7 +87,7 @@ pub(crate) fn read_msgpack(bytes: &[u8]) -> Result<Value, Wrong> {
 
 /// Writes JSON; bytes as base64, NaN and infinities as texts, as in protobuf's JSON.
 pub(crate) fn write_json(value: &Value) -> Bytes {
-    crate::to_json(value).into_bytes().into()
+    to_json(value).into_bytes().into()
 }
 
 /// Writes one CBOR item.
@@ -206,9 +207,7 @@ impl<'de> Visitor<'de> for AnyValue<'_> {
         let below = self.below().map_err(A::Error::custom)?;
         let (tag, content) = tagged.variant::<String>()?;
         match (tag.trim_start_matches('!'), content.newtype_variant_seed(below)?) {
-            ("binary", Value::Text(text)) => {
-                crate::text::from_base64(&text).map(Value::Bytes).map_err(A::Error::custom)
-            }
+            ("binary", Value::Text(text)) => from_base64(&text).map(Value::Bytes).map_err(A::Error::custom),
             (_, value) => Ok(value),
         }
     }

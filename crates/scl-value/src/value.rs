@@ -1,5 +1,9 @@
 //! A message as a value that has no type of its own.
 
+mod json;
+
+pub use json::to_json;
+
 /// A decoded message or a part of it.
 ///
 /// Numbers are [`Int`](Value::Int) whenever they fit, so that equal numbers are equal values.
@@ -105,7 +109,7 @@ pub(crate) fn key_text(key: &Value) -> String {
         Value::Int(number) => number.to_string(),
         Value::Uint(number) => number.to_string(),
         Value::Bool(flag) => flag.to_string(),
-        other => crate::to_json(other),
+        other => to_json(other),
     }
 }
 

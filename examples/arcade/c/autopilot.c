@@ -7,21 +7,27 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PATH_SIZE = 1024 };
+enum { PATH_SIZE = 1024, NAME_SIZE = 256 };
 
-/* In the runtime folder of SCL, which belongs to this user alone and is in memory on most systems. */
+/*
+ * In the runtime folder of SCL, which belongs to this user alone and is in memory on most systems. Another vehicle, which
+ * runs under another name of the system, has a file of its own.
+ */
 static bool state_path(char path[PATH_SIZE]) {
     const char *runtime = getenv("SCL_RUNTIME_DIR"), *session = getenv("XDG_RUNTIME_DIR");
-    const char *temporary = getenv("TMPDIR");
-    static const char NAME[] = "arcade-autopilot.state";
-    int length;
+    const char *temporary = getenv("TMPDIR"), *system = getenv("SCL_SYSTEM");
+    char name[NAME_SIZE];
+    int length = snprintf(name, NAME_SIZE, "%s-autopilot.state", system != NULL && *system != '\0' ? system : "arcade");
+    if (length >= NAME_SIZE) {
+        return false;
+    }
     if (runtime != NULL && *runtime != '\0') {
-        length = snprintf(path, PATH_SIZE, "%s/%s", runtime, NAME);
+        length = snprintf(path, PATH_SIZE, "%s/%s", runtime, name);
     } else if (session != NULL && *session != '\0') {
-        length = snprintf(path, PATH_SIZE, "%s/scl/%s", session, NAME);
+        length = snprintf(path, PATH_SIZE, "%s/scl/%s", session, name);
     } else {
         const char *folder = temporary != NULL && *temporary != '\0' ? temporary : "/tmp";
-        length = snprintf(path, PATH_SIZE, "%s/scl-%u/%s", folder, (unsigned)getuid(), NAME);
+        length = snprintf(path, PATH_SIZE, "%s/scl-%u/%s", folder, (unsigned)getuid(), name);
     }
     return length < PATH_SIZE;
 }

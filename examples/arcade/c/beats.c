@@ -17,13 +17,9 @@ void autopilot_begin(autopilot *self) {
     self->last_reading_ns = clock_ns();
 }
 
-/* A message that cannot be decoded is reported and passed over. Returns true for failures that end the program. */
+/* Returns true for failures that end the program. */
 static bool is_fatal(scl_status status) {
-    if (status == SCL_DECODE) {
-        fprintf(stderr, "warning: %s\n", scl_error());
-    }
-    return status != SCL_OK && status != SCL_NOTHING && status != SCL_FULL && status != SCL_DECODE &&
-           status != SCL_REQUESTER_GONE;
+    return status != SCL_OK && status != SCL_NOTHING && status != SCL_FULL && status != SCL_REQUESTER_GONE;
 }
 
 /* Takes all that other gates have received, without waiting. */

@@ -2,7 +2,8 @@
  * Control: position P, velocity PI with feed-forward, attitude P on quaternions, rates PID, as PX4's multicopter
  * controllers; the attitude law is that of Brescianini, Hehn and D'Andrea, Nonlinear Quadrocopter Attitude Control,
  * 2013. Integrators stop where an actuator has reached its limit (Astrom and Hagglund, PID Controllers, 1995, section
- * 3.5).
+ * 3.5), each axis for itself and in that direction only, as the saturation flags of PX4's rate controller have it: with
+ * the yaw at its limit, roll and pitch are still trimmed.
  */
 #include "control.h"
 
@@ -87,17 +88,18 @@ static vector wanted_rates(quaternion wanted, quaternion attitude, const paramet
     };
 }
 
-demand control_rates(rate_controller *self, const thrust *thrust, quaternion attitude, vector rates, bool saturated,
+/* Grows the integral of an axis unless that would push further in the direction in which the motors could not follow. */
+static double integrate_rate(double integral, double error, double cut, double gain) {
+    double grown = cut * error < 0.0 ? integral : integral + error * gain;
+    return limit(grown, MAX_TORQUE_INTEGRAL);
+}
+
+demand control_rates(rate_controller *self, const thrust *thrust, quaternion attitude, vector rates, vector cut,
                      const parameters *parameters, double elapsed) {
     vector error = vector_subtract(wanted_rates(thrust->attitude, attitude, parameters), rates);
-    if (!saturated) {
-        self->integral.x += error.x * (parameters->rate_i * elapsed);
-        self->integral.y += error.y * (parameters->rate_i * elapsed);
-        self->integral.z += error.z * (parameters->yaw_rate_i * elapsed);
-        self->integral.x = limit(self->integral.x, MAX_TORQUE_INTEGRAL);
-        self->integral.y = limit(self->integral.y, MAX_TORQUE_INTEGRAL);
-        self->integral.z = limit(self->integral.z, MAX_TORQUE_INTEGRAL);
-    }
+    self->integral.x = integrate_rate(self->integral.x, error.x, cut.x, parameters->rate_i * elapsed);
+    self->integral.y = integrate_rate(self->integral.y, error.y, cut.y, parameters->rate_i * elapsed);
+    self->integral.z = integrate_rate(self->integral.z, error.z, cut.z, parameters->yaw_rate_i * elapsed);
     vector slope = vector_scale(vector_subtract(rates, self->rates), 1.0 / elapsed);
     vector change = vector_scale(vector_subtract(slope, self->derivative), elapsed / (DERIVATIVE_TIME + elapsed));
     self->derivative = vector_add(self->derivative, change);

@@ -29,8 +29,8 @@ typedef struct rate_controller {
     vector derivative; /* filtered, rad/s^2 */
 } rate_controller;
 
-/* `saturated`: the motors could not give what was asked of them in the last beat. */
-demand control_rates(rate_controller *self, const thrust *thrust, quaternion attitude, vector rates, bool saturated,
+/* `cut`: by how much the motors missed roll, pitch and yaw of the last beat, see `mixed`. */
+demand control_rates(rate_controller *self, const thrust *thrust, quaternion attitude, vector rates, vector cut,
                      const parameters *parameters, double elapsed);
 
 #endif

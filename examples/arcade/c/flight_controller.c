@@ -97,7 +97,7 @@ static void begin_commands(flight_controller *self, const estimate *estimate) {
 static void rest(flight_controller *self, double motors[4], double set_point) {
     self->velocity_controller = (velocity_controller){0};
     self->rate_controller = (rate_controller){.rates = self->attitude.rates};
-    self->saturated = false;
+    self->cut = (vector){0};
     for (int motor = 0; motor < 4; motor++) {
         motors[motor] = set_point;
     }
@@ -108,9 +108,9 @@ static void fly(flight_controller *self, double motors[4], bool level, double el
     thrust thrust = control_velocity(&self->velocity_controller, &self->navigator.set_point, self->position.position,
                                      self->position.velocity, level, parameters, elapsed);
     demand demand = control_rates(&self->rate_controller, &thrust, self->attitude.attitude, self->attitude.rates,
-                                  self->saturated, parameters, elapsed);
+                                  self->cut, parameters, elapsed);
     mixed mixed = mixer_mix(&demand);
-    self->saturated = mixed.saturated;
+    self->cut = mixed.cut;
     memcpy(motors, mixed.motors, sizeof mixed.motors);
 }
 

@@ -23,7 +23,7 @@ typedef struct flight_controller {
     velocity_controller velocity_controller;
     rate_controller rate_controller;
     double thrust;     /* the mean set-point of the motors at the last beat */
-    bool saturated;    /* torques were reduced at the last beat */
+    vector cut;        /* by how much the motors missed roll, pitch and yaw at the last beat */
     uint32_t restarts; /* how often the autopilot was started again in the air */
     pending heights, fixes, commands;
     bool has_new_parameters;

@@ -4,8 +4,6 @@
  */
 #include "mixer.h"
 
-#include "vector.h"
-
 /* Left motors roll to positive roll; rear motors lower the nose, which is positive pitch. */
 static const double ROLL[4] = {1.0, -1.0, 1.0, -1.0};
 static const double PITCH[4] = {-1.0, -1.0, 1.0, 1.0};
@@ -42,6 +40,10 @@ mixed mixer_mix(const demand *demand) {
     for (int motor = 0; motor < 4; motor++) {
         result.motors[motor] = clamp(thrust + tilt[motor] * kept + YAW[motor] * yaw, 0.0, 1.0);
     }
-    result.saturated = kept < 1.0 || yaw != demand->yaw;
+    result.cut = (vector){
+        .x = demand->roll * kept - demand->roll,
+        .y = demand->pitch * kept - demand->pitch,
+        .z = yaw - demand->yaw,
+    };
     return result;
 }

@@ -2,7 +2,7 @@
 #ifndef MIXER_H
 #define MIXER_H
 
-#include <stdbool.h>
+#include "vector.h"
 
 /* What the controllers ask for. Roll, pitch and yaw are differences of motor set-points. */
 typedef struct demand {
@@ -13,7 +13,7 @@ typedef struct demand {
 /* Set-points of the motors in the order of the message: front left, front right, rear left, rear right. */
 typedef struct mixed {
     double motors[4];
-    bool saturated; /* torques were reduced: integrators must not grow */
+    vector cut; /* roll, pitch and yaw that were given less those that were asked for; 0 unless an axis was reduced */
 } mixed;
 
 /* Mixes a demand for motors of the X configuration. */

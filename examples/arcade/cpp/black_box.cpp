@@ -17,16 +17,8 @@ std::string line_of(const char* gate, const google::protobuf::Message& message) 
 }
 
 template <typename Gate, typename Take> void drain_gate(Gate& gate, Take take) {
-    for (;;) {
-        try {
-            auto message = gate.try_recv();
-            if (!message) {
-                return;
-            }
-            take(*message);
-        } catch (const scl::DecodeError& error) {
-            std::fprintf(stderr, "%s\n", error.what());
-        }
+    while (auto message = gate.try_recv()) {
+        take(*message);
     }
 }
 

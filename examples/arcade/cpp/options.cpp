@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 static const char USAGE[] = "usage: blackbox [--folder PATH] [--size SIZE]\n"
-                            "  --folder PATH   where the two files of the log are (default: blackbox)\n"
+                            "  --folder PATH   where the two files of the log are, in a folder with the name of the system (default: blackbox)\n"
                             "  --size SIZE     of each of them, such as 512KiB (default: 4MiB)\n";
 
 std::optional<std::uint64_t> parse_size(const std::string& text) {
@@ -18,6 +18,12 @@ std::optional<std::uint64_t> parse_size(const std::string& text) {
     }
     std::uint64_t bytes = number << (unit == 'K' ? 10 : 20);
     return bytes >= 4096 && bytes <= 1 << 30 ? std::optional(bytes) : std::nullopt;
+}
+
+/// The name that the system runs under: another vehicle has another one.
+static std::string system_name() {
+    const char* name = std::getenv("SCL_SYSTEM");
+    return name != nullptr && *name != '\0' ? name : "arcade";
 }
 
 BlackBoxOptions read_options(int count, char** arguments) {
@@ -44,5 +50,6 @@ BlackBoxOptions read_options(int count, char** arguments) {
             std::exit(2);
         }
     }
+    options.folder /= system_name();
     return options;
 }

@@ -12,7 +12,6 @@ from typing import cast
 import scl
 
 from arcade_scl import Action, Command, Communication, ParameterChange
-from gates import newest
 from ground_link import GoHome, LandHere, SetParameter, Vehicle, next_id, understand
 
 Answer = Callable[[str], None]  # takes the answer to a command
@@ -39,10 +38,10 @@ class Link:
 
     def look(self) -> None:
         now, vehicle, c = time.monotonic(), self.vehicle, self.c
-        vehicle.flight.keep(newest(c.flight), now)
-        vehicle.fix.keep(newest(c.fix), now)
-        vehicle.power.keep(newest(c.power), now)
-        vehicle.arbitration.keep(newest(c.arbitration), now)
+        vehicle.flight.keep(c.flight.latest(), now)
+        vehicle.fix.keep(c.fix.latest(), now)
+        vehicle.power.keep(c.power.latest(), now)
+        vehicle.arbitration.keep(c.arbitration.latest(), now)
 
     def take(self, text: str, answer: Answer) -> None:
         """Queues a command. The link does not grow without end when nobody answers."""
@@ -70,7 +69,7 @@ class Link:
                     return f"{name} is {value:g}" if result.accepted else f"refused: {result.reason}"
                 case problem:
                     return f"error: {problem}"
-        except (scl.Timeout, scl.PeerLost, scl.DecodeError) as error:
+        except (scl.Timeout, scl.PeerLost, scl.Refused, scl.DecodeError) as error:
             return f"error: no answer: {error}"
 
     async def command(self, action: Action) -> str:

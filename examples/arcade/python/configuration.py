@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-import time
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -12,8 +11,6 @@ import scl
 import parameter_file
 import parameters
 from arcade_scl import Configuration, Parameter, ParameterChange, ParameterResult, Parameters
-
-PERIOD = 0.5  # s, between two publications
 
 
 class Store:
@@ -43,22 +40,16 @@ class Store:
 def run(component: Configuration, store: Store) -> None:
     changed = sum(value != parameters.DEFAULTS[name] for name, value in store.values.items())
     print(f"{len(store.values)} parameters, {changed} differ from their defaults")
-    next_publication = time.monotonic()
+    # The gate is latched: components that start later get it, too.
+    component.parameters.send(store.message())
     while True:
-        now = time.monotonic()
-        if now >= next_publication:
-            component.parameters.send(store.message())
-            # After a pause of the program the missed publications are not made up for.
-            next_publication = max(next_publication + PERIOD, now)
-        elif component.wait(component.control, timeout=next_publication - now):
-            answer(component, store)
+        answer(component, store)
 
 
 def answer(component: Configuration, store: Store) -> None:
-    try:
-        request = component.control.recv()
-    except scl.DecodeError as error:
-        print(f"configuration: {error}", file=sys.stderr)
+    request = component.control.try_recv()
+    if request is None:
+        # What had arrived could not be decoded.
         return
     change: ParameterChange = request.message
     refused = store.change(change.name, change.value)

@@ -8,7 +8,6 @@ from contextlib import suppress
 from pathlib import Path
 
 from arcade_scl import GpsSensor
-from gates import newest
 from nmea import Receiver
 from serial_source import BAUD, Source, open_source
 
@@ -34,9 +33,9 @@ class Reader:
             self.open()
         files = self.source.files() if self.source else []
         select.select([self.component.fileno(), *files], [], [], RETRY)
-        if world := newest(self.component.world):
+        if world := self.component.world.latest():
             self.time_us = world.time_us
-        newest(self.component.parameters)  # a real receiver has its own rate
+        self.component.parameters.latest()  # a real receiver has its own rate
         if self.source:
             self.read(self.source)
         if time.monotonic() - self.reported >= REPORT:

@@ -14,7 +14,6 @@ from arbiter_events import Answered, Ask, Event, FlightSeen, ParametersSeen, Pow
 from arbiter_logic import Arbiter
 from arcade_scl import Arbitration, Authority, Command, CommandResult, MissionArbiter
 from black_box import BlackBox
-from gates import messages, requests
 
 T = TypeVar("T")
 PERIOD = 0.1  # s, between two publications
@@ -45,11 +44,11 @@ class Program:
         )
 
     async def listen(self, gate: scl.Sub[T], event: Callable[[T], Event]) -> None:
-        async for message in messages(gate):
+        async for message in gate:
             self.take(event(message))
 
     async def serve(self, gate: scl.Rep[Command, CommandResult], source: Authority) -> None:
-        async for request in requests(gate):
+        async for request in gate:
             number = next(self.numbers)
             self.requests[number] = request
             self.take(Requested(source, number, request.message))
@@ -65,7 +64,7 @@ class Program:
             ask = await self.asks.get()
             try:
                 answered = Answered(await self.component.autopilot.call_async(ask.command, ask.timeout))
-            except (scl.Timeout, scl.PeerLost, scl.DecodeError) as error:
+            except (scl.Timeout, scl.PeerLost, scl.Refused, scl.DecodeError) as error:
                 answered = Answered(None, str(error))
             self.take(answered)
 

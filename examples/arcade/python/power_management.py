@@ -7,7 +7,7 @@ from contextlib import suppress
 import parameters
 from arcade_scl import PowerManagement
 from black_box import BlackBox
-from gates import newest, next_within
+from gates import next_within
 from power_monitor import Monitor
 
 PERIOD = 0.1  # s: the battery is read ten times a second
@@ -19,7 +19,7 @@ def run(component: PowerManagement) -> None:
     while True:
         # Readings set the pace; without them, `power` goes on a little slower.
         reading = next_within(component.battery, 1.5 * PERIOD)
-        if message := newest(component.parameters):
+        if message := component.parameters.latest():
             monitor.values = parameters.values_of(message)
         for event in monitor.update(time.monotonic(), reading):
             black_box.note(event.text, event.value)

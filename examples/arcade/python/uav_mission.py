@@ -10,7 +10,7 @@ import scl
 import parameters
 from arcade_scl import Arbitration, Command, CommandResult, UavMission
 from black_box import BlackBox
-from gates import newest, next_within
+from gates import next_within
 from mission_plan import Leg, outside, plan, too_long
 from mission_progress import Decision, Progress
 from mission_script import Mission, ScriptError, read
@@ -35,7 +35,7 @@ def run(component: UavMission, mission: Mission) -> int:
                 black_box.note(f"error: {problem}")
             if problems:
                 return 1
-        arbitration = newest(component.arbitration) or arbitration
+        arbitration = component.arbitration.latest() or arbitration
         decision = progress.update(flight, arbitration)
         say(black_box, decision)
         if decision.exit_code is not None:
@@ -65,7 +65,7 @@ def ask(component: UavMission, command: Command) -> CommandResult:
     """The arbiter's answer. One that does not answer is like one that refuses: the command is repeated."""
     try:
         return component.arbiter.call(command)
-    except (scl.Timeout, scl.PeerLost, scl.DecodeError):
+    except (scl.Timeout, scl.PeerLost, scl.Refused, scl.DecodeError):
         return CommandResult(accepted=False, reason="the arbiter does not answer")
 
 

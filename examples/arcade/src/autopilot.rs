@@ -59,8 +59,8 @@ pub struct FlightController {
     pub rate_controller: RateController,
     /// The mean set-point of the motors at the last beat.
     pub thrust: f64,
-    /// Torques were reduced at the last beat.
-    pub saturated: bool,
+    /// By how much the motors missed roll, pitch and yaw at the last beat.
+    pub cut: Vec3,
     /// How often the autopilot was started again in the air.
     pub restarts: u32,
     heights: Pending<Height>,
@@ -163,7 +163,7 @@ impl FlightController {
             Drive::Off | Drive::Idle => {
                 self.velocity_controller = VelocityController::default();
                 self.rate_controller = RateController { rates: self.attitude.rates, ..RateController::default() };
-                self.saturated = false;
+                self.cut = Vec3::ZERO;
                 [if drive == Drive::Off { 0.0 } else { self.parameters.thrust_minimum }; 4]
             }
             Drive::Fly | Drive::FlyLevel => {
@@ -179,12 +179,12 @@ impl FlightController {
                     &thrust,
                     self.attitude.attitude,
                     self.attitude.rates,
-                    self.saturated,
+                    self.cut,
                     &self.parameters,
                     elapsed,
                 );
                 let mixed = mixer::mix(&demand);
-                self.saturated = mixed.saturated;
+                self.cut = mixed.cut;
                 mixed.motors
             }
         };

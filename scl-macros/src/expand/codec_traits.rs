@@ -5,10 +5,11 @@
 //! many gates have it. The text of the report is `#[diagnostic::on_unimplemented]` of the trait. The implementation is
 //! `#[diagnostic::do_not_recommend]`: without that, rustc reports the unsatisfied bound of the implementation instead.
 
+use super::codec_type::codec_type;
 use super::context::Context;
+use super::found_types::expand_stand_in_codecs;
 use super::kinds::{gate_struct, opener_method};
 use super::rustc_notes::{escape_braces, note_with_excerpt};
-use super::types::expand_stand_in_codecs;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use scl_topology::topology::{Codec, Gate, GateId, GateKind, Payload, Topology, TypeName};
@@ -98,7 +99,7 @@ impl CodecTrait<'_> {
     fn expand(&self, context: &Context<'_>, topology: &Topology) -> TokenStream {
         let private = &context.private;
         let name = &self.name;
-        let codec = codec_path(context, self.codec);
+        let codec = codec_type(context, self.codec);
         let report = self.expand_report(context, topology);
         let (reply, reply_bound) = match self.payload {
             Payload::Exchange { .. } => {
@@ -189,30 +190,4 @@ fn remedy(codec: &Codec) -> String {
         Some(row) => row.remedy.to_owned(),
         None => format!("implement `scl::codec::Codec<..>` for `{}`", codec.word()),
     }
-}
-
-/// The codec's Rust type.
-pub(super) fn codec_path(context: &Context<'_>, codec: &Codec) -> TokenStream {
-    let private = &context.private;
-    let Some(row) = codec.row() else { return user_codec(codec.word(), context.span) };
-    let name = format_ident!("{}", row.rust);
-    quote!(#private::codecs::#name)
-}
-
-fn user_codec(path: &str, span: Span) -> TokenStream {
-    match syn::parse_str::<syn::Path>(path) {
-        Ok(path) => respanned(quote!(#path), span),
-        Err(_) => {
-            let problem = format!("[SCL0407] the codec `{path}` is not a path of a Rust type");
-            quote_spanned!(span => ::core::compile_error!(#problem))
-        }
-    }
-}
-
-fn respanned(tokens: TokenStream, span: Span) -> TokenStream {
-    let respan = |mut token: proc_macro2::TokenTree| {
-        token.set_span(span);
-        token
-    };
-    tokens.into_iter().map(respan).collect()
 }

@@ -3,11 +3,14 @@
 use super::assemble::{Side, expand_methods};
 use super::codec_traits::CodecTraits;
 use super::context::Context;
+use super::docs::{self, GateDoc};
+use super::found_types::Requirements;
 use super::gate_types::gate_type;
 use super::names::{counterpart_name, field_name, struct_name};
 use super::schemas::EmbeddedSchemas;
-use super::types::Requirements;
-use super::{counterpart, docs, spec, type_agreement};
+use super::structs::{GateField, expand_struct};
+use super::unopened::expand_unopened;
+use super::{counterpart, spec, type_agreement};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use scl_plan::Plan;
@@ -15,12 +18,18 @@ use scl_topology::topology::{Component, Topology};
 
 /// All generated components, with the checks that only rustc can make.
 pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> TokenStream {
-    let included = topology.components().filter(|(_, component)| context.includes(component.name()));
+    let included = || topology.components().filter(|(_, component)| context.includes(component.name()));
+    let structs = included().map(|(_, component)| expand_structs(context, topology, component));
+    if context.for_editor {
+        let methods = included().map(|(_, component)| {
+            expand_unopened(context, &struct_name(component), Some(&counterpart_name(component)))
+        });
+        return quote!(#(#structs)* #(#methods)*);
+    }
     let location = |span| context.location(span);
     let components: Vec<(&Component, Plan)> =
-        included.map(|(id, component)| (component, context.loaded.plan(topology, id, &location))).collect();
+        included().map(|(id, component)| (component, context.loaded.plan(topology, id, &location))).collect();
     let codec_traits = CodecTraits::collect(context, topology);
-    let structs = components.iter().map(|(component, _)| expand_struct(context, topology, component));
     let traits = codec_traits.expand(context, topology);
     let requirements = Requirements::collect(context, topology);
     let found_types = requirements.expand(context);
@@ -49,25 +58,16 @@ pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> T
 
 /// The structs of the component and of its counterpart. They stand outside of the `const` block so that users can name
 /// them.
-fn expand_struct(context: &Context<'_>, topology: &Topology, component: &Component) -> TokenStream {
-    let name = struct_name(component);
-    let doc = docs::of_component(context, topology, component);
+fn expand_structs(context: &Context<'_>, topology: &Topology, component: &Component) -> TokenStream {
     let fields = component.gates().iter().map(|&id| {
         let gate = topology.gate(id);
-        let field = field_name(gate);
-        let doc = docs::of_gate(context, topology, id);
-        let gate_type = gate_type(context, gate, gate.kind());
-        quote! { #[doc = #doc] pub #field: #gate_type, }
+        let doc = GateDoc::new(context, topology, id).text();
+        GateField { name: field_name(gate), doc, gate_type: gate_type(context, gate, gate.kind()) }
     });
+    let (name, doc) = (struct_name(component), docs::of_component(context, topology, component));
+    let expanded = expand_struct(context, &name, &doc, &fields.collect::<Vec<_>>());
     let counterpart = counterpart::expand_struct(context, topology, component);
-    let private = &context.private;
-    // `__scl` is the last field: fields are dropped in order, and the gates go first.
-    quote! {
-        #[doc = #doc]
-        #[allow(dead_code, non_camel_case_types, non_snake_case, private_interfaces)]
-        pub struct #name { #(#fields)* __scl: #private::ComponentHandle }
-        #counterpart
-    }
+    quote!(#expanded #counterpart)
 }
 
 fn expand_implementation(
@@ -91,6 +91,7 @@ fn expand_implementation(
             #methods
         }
         #private::component_methods!(#name #bounds);
+        #private::component_main_functions!(#name #bounds);
         #counterpart
         #for_tests
         #private::component_test_methods!(#name, #peer #bounds);

@@ -22,6 +22,8 @@ pub(super) struct Context<'a> {
     pub(super) only: Option<&'a [Ident]>,
     /// `#[cfg(test)]`, or nothing if other crates are to test the components.
     pub(super) for_tests: TokenStream,
+    /// Whether the code is shown in an editor, and not compiled.
+    pub(super) for_editor: bool,
     /// The loaded topology file, with its schemas and diagnostics.
     pub(super) loaded: &'a Loaded,
     /// The crates that the program can name, if they are known.
@@ -41,7 +43,8 @@ impl<'a> Context<'a> {
         let lookups = |types| Lookups::new(&name, &private, extern_crates, types);
         let types = MessageTypes::of(loaded, |component| includes(only, component), lookups);
         let for_tests = if arguments.testable == Some(true) { quote!() } else { quote!(#[cfg(test)]) };
-        Self { private, for_tests, span: arguments.path.span(), path, only, loaded, extern_crates, types }
+        let (span, for_editor) = (arguments.path.span(), surroundings.for_editor);
+        Self { private, for_tests, for_editor, span, path, only, loaded, extern_crates, types }
     }
 
     /// Returns true if a component is to be generated.

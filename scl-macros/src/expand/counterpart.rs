@@ -6,10 +6,12 @@
 use super::assemble::{Side, expand_methods};
 use super::codec_traits::CodecTraits;
 use super::context::Context;
+use super::docs;
 use super::gate_types::gate_type;
 use super::names::{counterpart_name, field_name};
 use super::schemas::EmbeddedSchemas;
 use super::spec::expand_spec;
+use super::structs::{self, GateField};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use scl_plan::Plan;
@@ -17,22 +19,15 @@ use scl_topology::topology::{Component, Topology};
 
 /// The struct. It is expanded apart from the implementation, outside of the `const` block, so that users can name it.
 pub(super) fn expand_struct(context: &Context<'_>, topology: &Topology, component: &Component) -> TokenStream {
-    let (private, for_tests) = (&context.private, &context.for_tests);
-    let name = counterpart_name(component);
-    let doc = format!("The other ends of all gates of `{}`, for its unit tests.", component.name());
+    let for_tests = &context.for_tests;
     let fields = component.gates().iter().map(|&id| {
         let gate = topology.gate(id);
-        let field = field_name(gate);
         let gate_type = gate_type(context, gate, Side::Counterpart.kind(gate.kind()));
-        let doc = format!("The other end of `{}`.", topology.gate_path(id));
-        quote! { #[doc = #doc] pub #field: #gate_type, }
+        GateField { name: field_name(gate), doc: docs::of_other_end(&topology.gate_path(id)), gate_type }
     });
-    quote! {
-        #for_tests
-        #[doc = #doc]
-        #[allow(dead_code, non_camel_case_types, non_snake_case, private_interfaces)]
-        pub struct #name { #(#fields)* __scl: #private::ComponentHandle }
-    }
+    let (name, doc) = (counterpart_name(component), docs::of_counterpart(component.name()));
+    let peer = structs::expand_struct(context, &name, &doc, &fields.collect::<Vec<_>>());
+    quote!(#for_tests #peer)
 }
 
 /// The implementation of `scl::Component`.

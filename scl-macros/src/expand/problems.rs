@@ -4,7 +4,7 @@ use super::context::{Context, names_component};
 use super::file_spans::FileSpans;
 use super::names::identifier;
 use proc_macro2::{Span, TokenStream};
-use quote::{format_ident, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
 use scl_topology::check::UNKNOWN_COMPONENT;
 use scl_topology::diagnostic::{Diagnostic, Severity, limit, render_headless};
 use scl_topology::source::Sources;
@@ -21,7 +21,7 @@ pub(super) fn expand_problems(context: &Context<'_>) -> TokenStream {
     let spans = FileSpans::of(context);
     let text = |problem: &&Diagnostic| render_headless(problem, &context.loaded.sources);
     let mut errors = errors.iter().map(|problem| compile_error(&text(problem), spans.span(context, problem)));
-    let first = errors.next().map(|first| expand_unknown_type(context, first));
+    let first = errors.next().map(|first| expand_unknown_as(context, first));
     let warnings = warnings.iter().map(|problem| warning(&text(problem), spans.span(context, problem)));
     quote! { #first #(#errors)* #(#warnings)* }
 }
@@ -38,9 +38,21 @@ pub(super) fn unknown_type_name(context: &Context<'_>) -> Ident {
     identifier(&name, context.span).unwrap_or_else(|| format_ident!("__scl_unknown"))
 }
 
+/// The type of what cannot be read from a broken file. For an editor it is a placeholder, which it does not know either, so
+/// that it offers no name.
+pub(super) fn expand_unknown_type(context: &Context<'_>) -> TokenStream {
+    if context.for_editor {
+        return quote!(_);
+    }
+    unknown_type_name(context).to_token_stream()
+}
+
 /// Reports the first error from inside the unknown type, as the length of an array. The type is then erroneous in a way
 /// that rustc has already reported, so using a gate of that type causes no further errors.
-fn expand_unknown_type(context: &Context<'_>, first: TokenStream) -> TokenStream {
+fn expand_unknown_as(context: &Context<'_>, first: TokenStream) -> TokenStream {
+    if context.for_editor {
+        return first;
+    }
     let name = unknown_type_name(context);
     quote_spanned! { context.span =>
         #[doc(hidden)]

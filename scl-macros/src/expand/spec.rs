@@ -1,4 +1,4 @@
-//! The constants that the runtime needs, from the plan of a component: `ComponentSpec`, `GateSpec`, `LinkSpec`.
+//! The constants that the runtime needs, from the plan of a component: `ComponentSpec`, `GateSpec`, `ConnectionSpec`.
 
 use super::context::Context;
 use super::schemas::EmbeddedSchemas;
@@ -28,12 +28,12 @@ fn expand_gate(private: &TokenStream, gate: &GatePlan) -> TokenStream {
     let payload = gate.payload.to_string();
     let [endpoint, tap] = [&gate.endpoint, &gate.tap].map(|name| name.as_deref().unwrap_or_default());
     let options = expand_options(private, &gate.options);
-    let links = gate.connections.iter().map(|connection| expand_link(private, connection));
+    let connections = gate.connections.iter().map(|connection| expand_connection(private, connection));
     quote! {
         #private::GateSpec {
             name: #name, kind: #private::GateKind::#kind, payload: #payload, codec: #codec, declared_at: #declared_at,
             endpoint: #endpoint, tap: #tap, contract: #contract, options: #options,
-            links: &[#(#links),*],
+            connections: &[#(#connections),*],
         }
     }
 }
@@ -59,15 +59,19 @@ fn expand_option(private: &TokenStream, mut options: GateOptions, place: Place) 
             let policy = variant(policy(&mut options));
             quote!(#private::WhenFull::#policy)
         }
+        Place::Undecodable(choice) => {
+            let choice = variant(choice(&mut options));
+            quote!(#private::Undecodable::#choice)
+        }
     }
 }
 
-fn expand_link(private: &TokenStream, connection: &ConnectionPlan) -> TokenStream {
+fn expand_connection(private: &TokenStream, connection: &ConnectionPlan) -> TokenStream {
     let ConnectionPlan { peer_component, peer_gate, endpoint, contract, required, queue, when_full, max_size } =
         connection;
     let when_full = variant(when_full);
     quote! {
-        #private::LinkSpec {
+        #private::ConnectionSpec {
             peer_component: #peer_component, peer_gate: #peer_gate, endpoint: #endpoint, contract: #contract,
             required: #required, queue: #queue, when_full: #private::WhenFull::#when_full, max_size: #max_size,
         }

@@ -4,7 +4,7 @@ mod lookup;
 #[cfg(feature = "protobuf")]
 mod rust_paths;
 
-pub(super) use lookup::{Lookups, Requirements, expand_lookups, expand_stand_in_codecs};
+pub(super) use lookup::{Lookup, Lookups, Start};
 
 use super::names::identifier;
 use proc_macro2::{Span, TokenStream};
@@ -101,13 +101,13 @@ fn named_types(loaded: &Loaded, includes: impl Fn(&str) -> bool) -> BTreeSet<Str
 }
 
 /// `a::b::C`, or `None` if a segment is not an identifier.
-fn path<'a>(segments: impl IntoIterator<Item = &'a str>, span: Span) -> Option<TokenStream> {
+pub(super) fn path<'a>(segments: impl IntoIterator<Item = &'a str>, span: Span) -> Option<TokenStream> {
     let segments: Vec<Ident> = segments.into_iter().map(|name| segment(name, span)).collect::<Option<_>>()?;
     Some(quote!(#(#segments)::*))
 }
 
 /// `crate`, `self` and `super` are not identifiers, but a path may start with them.
-fn segment(name: &str, span: Span) -> Option<Ident> {
+pub(super) fn segment(name: &str, span: Span) -> Option<Ident> {
     match name {
         "crate" | "self" | "super" => Some(Ident::new(name, span)),
         _ => identifier(name, span),

@@ -105,5 +105,5 @@ fn messages_without_a_package_stand_beside_the_components() {
     let tokens = expand_with(&[("t.yaml", &yaml), ("a.proto", &PROTO.replace("package a.b;", ""))], "");
     assert_eq!(errors(&tokens), 0, "{tokens}");
     parsed(&tokens);
-    assert!(tokens.to_string().contains("pub use __scl_messages_t_yaml :: *"), "{tokens}");
+    assert!(tokens.to_string().contains("pub use messages_of_t_yaml :: *"), "{tokens}");
 }

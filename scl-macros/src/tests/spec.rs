@@ -54,7 +54,7 @@ connections:
         system : "t" , name : "sensor" , declared_at : "t.yaml:2:11" , gates : & [scl :: private :: GateSpec {
         name : "measurements" , kind : scl :: private :: GateKind :: Pub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "sensor.measurements.tap" , contract : "hl75aqsl" , options : scl :: private :: GateOptions {
         .. scl :: private :: GateOptions :: DEFAULT }
-        , links : & [scl :: private :: LinkSpec {
+        , connections : & [scl :: private :: ConnectionSpec {
         peer_component : "controller" , peer_gate : "sensor" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 1u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : 67108864u64 , }] , }] , schema : :: core :: option :: Option :: None , }
         ;
         fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
@@ -66,12 +66,13 @@ connections:
         & self . __scl }
         }
         scl :: private :: component_methods ! (Sensor where for < '__any > (< __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type ,) : TypeIsFound_0) ;
+        scl :: private :: component_main_functions ! (Sensor where for < '__any > (< __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type ,) : TypeIsFound_0) ;
         # [cfg (test)] impl scl :: private :: Component for SensorPeer {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
         system : "t" , name : "sensor's peers" , declared_at : "" , gates : & [scl :: private :: GateSpec {
         name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "" , contract : "hl75aqsl" , options : scl :: private :: GateOptions {
-        max_size : 18446744073709551615u64 , queue : 4294967295u32 , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: new (10u64 , 0u32) , .. scl :: private :: GateOptions :: DEFAULT }
-        , links : & [scl :: private :: LinkSpec {
+        max_size : 18446744073709551615u64 , queue : 4294967295u32 , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: new (10u64 , 0u32) , in_flight : 64u32 , undecodable : scl :: private :: Undecodable :: Fail , .. scl :: private :: GateOptions :: DEFAULT }
+        , connections : & [scl :: private :: ConnectionSpec {
         peer_component : "sensor" , peer_gate : "measurements" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : 18446744073709551615u64 , }] , }] , schema : :: core :: option :: Option :: None , }
         ;
         fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
@@ -149,7 +150,7 @@ connections:
     "#]].assert_eq(&specs);
 }
 
-/// Sockets and sizes in the specification of a gate and its links, as one line.
+/// Sockets and sizes in the specification of a gate and its connections, as one line.
 fn described(spec: &str) -> String {
     let values = |key: &str| {
         let key = format!(" {key} : ");

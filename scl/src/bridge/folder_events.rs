@@ -13,9 +13,9 @@ pub(super) struct FolderEvents {
 
 /// What has happened in the folder.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Happened {
+pub(super) enum FolderChange {
     /// Something about these components; of some, a file was removed.
-    To(BTreeMap<String, bool>),
+    Components(BTreeMap<String, bool>),
     /// The folder is gone, or events were lost: look at everything, and watch anew.
     Unknown,
 }
@@ -34,22 +34,22 @@ impl FolderEvents {
     }
 
     /// Waits for events about components.
-    pub(super) async fn next(&self) -> Happened {
+    pub(super) async fn next(&self) -> FolderChange {
         loop {
-            let mut happened = Happened::To(BTreeMap::new());
+            let mut happened = FolderChange::Components(BTreeMap::new());
             if self.inotify.read(|event| happened.add(event)).await.is_err() {
-                return Happened::Unknown;
+                return FolderChange::Unknown;
             }
-            if !matches!(&happened, Happened::To(components) if components.is_empty()) {
+            if !matches!(&happened, FolderChange::Components(components) if components.is_empty()) {
                 return happened;
             }
         }
     }
 }
 
-impl Happened {
+impl FolderChange {
     fn add(&mut self, event: &Event<'_>) {
-        let Self::To(components) = self else { return };
+        let Self::Components(components) = self else { return };
         let gone = ReadFlags::DELETE_SELF | ReadFlags::MOVE_SELF | ReadFlags::IGNORED | ReadFlags::QUEUE_OVERFLOW;
         if event.events().intersects(gone) {
             *self = Self::Unknown;

@@ -4,8 +4,8 @@ use super::{Profile, ProfileError};
 use crate::error::OpenError;
 use crate::registration::Registration;
 use crate::registry::Registered;
-use crate::runtime_dir::{Announcement, Holder, RuntimeDirError, SystemDir};
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::runtime_dir::{Announcement, ComponentProcess, RuntimeDirError, SystemDir};
+use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport::{Endpoint, Window};
 use crate::untyped::intern;
 
@@ -48,7 +48,7 @@ pub enum MirrorError {
         /// The other host.
         host: String,
         /// Who runs it here.
-        holder: Holder,
+        holder: ComponentProcess,
     },
     /// The runtime folder cannot be used.
     #[error(transparent)]
@@ -109,9 +109,9 @@ impl Mirror {
     /// # Errors
     /// [`MirrorError::NoConnection`].
     pub fn subscribing(&self, gate: &str, peer: (&str, &str), window: Window) -> Result<Endpoint, MirrorError> {
-        let (gate, link) = self.link(gate, peer)?;
-        let check = self.registration.peer_check(gate, link);
-        Ok(Endpoint { check, deferred: Some(window), ..self.endpoint(gate, link.endpoint) })
+        let (gate, connection) = self.connection(gate, peer)?;
+        let check = self.registration.peer_check(gate, connection);
+        Ok(Endpoint { check, deferred: Some(window), ..self.endpoint(gate, connection.endpoint) })
     }
 
     /// The endpoint at which this component's `pub` gate listens for a subscriber.
@@ -119,9 +119,9 @@ impl Mirror {
     /// # Errors
     /// [`MirrorError::NoConnection`].
     pub fn publishing(&self, gate: &str, peer: (&str, &str)) -> Result<Endpoint, MirrorError> {
-        let (gate, link) = self.link(gate, peer)?;
-        let lossless = gate.options.waits_for(link.when_full);
-        Ok(Endpoint { lossless, ..self.endpoint(gate, link.endpoint) })
+        let (gate, connection) = self.connection(gate, peer)?;
+        let lossless = gate.options.waits_for(connection.when_full);
+        Ok(Endpoint { lossless, latched: gate.options.latched, ..self.endpoint(gate, connection.endpoint) })
     }
 
     /// The endpoint at which this component's `pull` gate listens for pushers. What it receives is acknowledged by the
@@ -152,11 +152,16 @@ impl Mirror {
         gate.ok_or_else(|| self.missing(format!("gate `{name}`")))
     }
 
-    fn link(&self, gate: &str, peer: (&str, &str)) -> Result<(&'static GateSpec, &'static LinkSpec), MirrorError> {
+    fn connection(
+        &self,
+        gate: &str,
+        peer: (&str, &str),
+    ) -> Result<(&'static GateSpec, &'static ConnectionSpec), MirrorError> {
         let gate = self.gate(gate)?;
-        let link = gate.links.iter().find(|link| (link.peer_component, link.peer_gate) == peer);
+        let connection =
+            gate.connections.iter().find(|connection| (connection.peer_component, connection.peer_gate) == peer);
         let missing = || self.missing(format!("a connection of `{}` to `{}.{}`", gate.name, peer.0, peer.1));
-        link.map(|link| (gate, link)).ok_or_else(missing)
+        connection.map(|connection| (gate, connection)).ok_or_else(missing)
     }
 
     fn missing(&self, what: String) -> MirrorError {

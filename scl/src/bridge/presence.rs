@@ -1,7 +1,7 @@
 //! Which components run on this host: learned from events in the folder of the system, not by looking again and again.
 
 use super::Profile;
-use super::folder_events::{FolderEvents, Happened};
+use super::folder_events::{FolderChange, FolderEvents};
 use crate::runtime_dir::{ComponentLock, QUIET, SystemDir};
 use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::error::Error;
@@ -75,13 +75,13 @@ impl Presence {
                 None => events.next().await,
             };
             match happened {
-                Happened::To(names) => {
+                FolderChange::Components(names) => {
                     names.keys().for_each(|name| self.look(name));
                     if names.iter().any(|(name, removed)| *removed && !self.components.contains(name)) {
                         self.removed = Some(Instant::now());
                     }
                 }
-                Happened::Unknown => {
+                FolderChange::Unknown => {
                     self.events = None;
                     tokio::time::sleep(QUIET).await;
                 }

@@ -5,6 +5,9 @@
 //! for announced elements on each level: a few bytes per level would take 128 MiB. So each serde interface is wrapped,
 //! each wrapper wraps the values that it passes on, and the calls that enter a level or move to the next element are
 //! counted.
+//!
+//! An element of one byte can also be a struct of thousands, all of whose fields have their default. The wrappers know the
+//! types of what is decoded, and count their sizes.
 
 use serde::de::{
     Deserialize, DeserializeSeed, Deserializer, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor,
@@ -16,26 +19,31 @@ use std::fmt;
 const LEVELS: usize = 128;
 /// Maximum number of elements that occupy no bytes. Every other element occupies at least one byte of the frame.
 const EMPTY_ELEMENTS: usize = 4096;
+/// Depth up to which memory is allocated for announced elements.
+const ALLOCATING_LEVELS: usize = 16;
+/// How much memory lists, maps and structs may take, in multiples of the frame's length.
+const FACTOR: usize = 64;
+/// Short frames may take this much, in bytes.
+const LEAST_MEMORY: usize = 16 << 20;
+/// A list that grows has room for up to twice what it holds. A map has, too, beside its smaller predecessor.
+const LIST_ROOM: usize = 2;
+const MAP_ROOM: usize = 5;
 
 /// Decodes a value from a frame of `length` bytes.
-pub(super) fn decode<'de, T: Deserialize<'de>, D: Deserializer<'de>>(input: D, length: usize) -> Result<T, D::Error> {
-    decode_with(input, length, Floats::OfTheirWidth)
-}
-
-/// [`decode`] with a choice for floats.
-pub(super) fn decode_with<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+pub(super) fn decode<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
     input: D,
     length: usize,
     floats: Floats,
 ) -> Result<T, D::Error> {
     let elements = length.saturating_add(EMPTY_ELEMENTS);
-    let [elements, allocatable] = [elements, length].map(Cell::new);
-    let bounds = Bounds { levels: Cell::new(LEVELS), elements, allocatable, floats };
-    T::deserialize(Bounded { inner: input, bounds: &bounds })
+    let memory = length.saturating_mul(FACTOR).max(LEAST_MEMORY);
+    let [levels, elements, memory, allocatable] = [LEVELS, elements, memory, length].map(Cell::new);
+    T::deserialize(Bounded { inner: input, bounds: &Bounds { levels, elements, memory, allocatable, floats } })
 }
 
 /// How floats are decoded.
 #[derive(Clone, Copy, PartialEq)]
+#[allow(dead_code, reason = "each format uses one of them, and formats can be left out")]
 pub(super) enum Floats {
     /// As the format's library does it.
     OfTheirWidth,
@@ -48,16 +56,30 @@ pub(super) enum Floats {
 struct Bounds {
     levels: Cell<usize>,
     elements: Cell<usize>,
+    memory: Cell<usize>,
     /// The number of elements for which memory may still be allocated in advance; the total is the frame's length.
     allocatable: Cell<usize>,
     floats: Floats,
 }
 
 impl Bounds {
-    fn enter<E: Error>(&self) -> Result<Level<'_>, E> {
+    /// Enters a level, for a value of type `T` that may be in a box.
+    fn enter<T, E: Error>(&self) -> Result<Level<'_>, E> {
+        self.count_memory(size_of::<T>())?;
         let left = self.levels.get().checked_sub(1);
         self.levels.set(left.ok_or_else(|| E::custom(format_args!("nested deeper than {LEVELS} levels")))?);
         Ok(Level(&self.levels))
+    }
+
+    fn count_memory<E: Error>(&self, bytes: usize) -> Result<(), E> {
+        let left = self.memory.get().checked_sub(bytes);
+        let limit = LEAST_MEMORY >> 20;
+        self.memory.set(left.ok_or_else(|| {
+            E::custom(format_args!(
+                "takes more memory than {FACTOR} times the frame and {limit} MiB; send smaller messages"
+            ))
+        })?);
+        Ok(())
     }
 
     fn count_element<E: Error>(&self) -> Result<(), E> {
@@ -67,6 +89,10 @@ impl Bounds {
     }
 
     fn allocate(&self, announced: usize) -> usize {
+        // serde allocates up to 1 MiB for each list that is open.
+        if LEVELS - self.levels.get() > ALLOCATING_LEVELS {
+            return 0;
+        }
         let allocated = announced.min(self.allocatable.get());
         self.allocatable.set(self.allocatable.get() - allocated);
         allocated
@@ -177,29 +203,33 @@ impl<'de, V: Visitor<'de>> Visitor<'de> for Counted<'_, V> {
     }
 
     fn visit_some<D: Deserializer<'de>>(self, content: D) -> Result<V::Value, D::Error> {
-        let _level = self.bounds.enter()?;
+        let _level = self.bounds.enter::<(), _>()?;
         self.inner.visit_some(Bounded { inner: content, bounds: self.bounds })
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, elements: A) -> Result<V::Value, A::Error> {
-        let _level = self.bounds.enter()?;
+        let _level = self.bounds.enter::<V::Value, _>()?;
         self.inner.visit_seq(Counted { inner: elements, bounds: self.bounds, announced: self.announced })
     }
 
     fn visit_map<A: MapAccess<'de>>(self, entries: A) -> Result<V::Value, A::Error> {
-        let _level = self.bounds.enter()?;
+        let _level = self.bounds.enter::<V::Value, _>()?;
         self.inner.visit_map(Counted { inner: entries, bounds: self.bounds, announced: self.announced })
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, variant: A) -> Result<V::Value, A::Error> {
-        let _level = self.bounds.enter()?;
+        let _level = self.bounds.enter::<V::Value, _>()?;
         self.inner.visit_enum(Bounded { inner: variant, bounds: self.bounds })
     }
 }
 
 impl<I> Counted<'_, I> {
-    fn count<E: Error>(&self) -> Result<(), E> {
-        if self.announced { self.bounds.count_element() } else { Ok(()) }
+    fn count<E: Error>(&self, memory: usize) -> Result<(), E> {
+        if !self.announced {
+            return Ok(());
+        }
+        self.bounds.count_element()?;
+        self.bounds.count_memory(memory)
     }
 
     fn allocated(&self, hint: Option<usize>) -> Option<usize> {
@@ -212,7 +242,7 @@ impl<'de, A: SeqAccess<'de>> SeqAccess<'de> for Counted<'_, A> {
 
     fn next_element_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>, A::Error> {
         let element = self.inner.next_element_seed(Bounded { inner: seed, bounds: self.bounds })?;
-        self.count()?;
+        self.count(LIST_ROOM * size_of::<S::Value>())?;
         Ok(element)
     }
 
@@ -226,11 +256,14 @@ impl<'de, A: MapAccess<'de>> MapAccess<'de> for Counted<'_, A> {
 
     fn next_key_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>, A::Error> {
         let key = self.inner.next_key_seed(Bounded { inner: seed, bounds: self.bounds })?;
-        self.count()?;
+        self.count(MAP_ROOM * size_of::<S::Value>())?;
         Ok(key)
     }
 
     fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, A::Error> {
+        if self.announced {
+            self.bounds.count_memory(MAP_ROOM * size_of::<S::Value>())?;
+        }
         self.inner.next_value_seed(Bounded { inner: seed, bounds: self.bounds })
     }
 

@@ -34,7 +34,7 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Cbor {
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
         let refused = |reason| DecodeError::new(<Self as Codec<T>>::NAME, reason);
         let mut input = Deserializer::new(SliceReader::new(&bytes));
-        let message = bounded::decode_with(&mut input, bytes.len(), Floats::OfAnyNumber).map_err(|error| {
+        let message = bounded::decode(&mut input, bytes.len(), Floats::OfAnyNumber).map_err(|error| {
             refused(format!("this {}-byte frame is not a CBOR item of the expected type", bytes.len())).caused_by(error)
         })?;
         match input.into_inner().fill(1) {

@@ -4,6 +4,7 @@
 //! field, and well-known types, `NaN`, unknown enum values and presence are as in every other implementation
 //! (<https://protobuf.dev/programming-guides/json>).
 
+use super::enum_names;
 use prost::Message;
 use prost_reflect::{DescriptorPool, DeserializeOptions, DynamicMessage, MessageDescriptor, SerializeOptions};
 use serde::de::{Deserializer, Error as _};
@@ -52,10 +53,11 @@ impl MessageType {
     }
 
     /// Deserializes a message of this type. Unknown fields are skipped, as in every other codec: a newer program may
-    /// send them.
+    /// send them. Unknown names of enum values are refused, because skipping them would change what the message says.
     pub fn deserialize<'de, M: Message + Default, D: Deserializer<'de>>(&self, deserializer: D) -> Result<M, D::Error> {
         let options = DeserializeOptions::new().deny_unknown_fields(false);
         let descriptor = self.descriptor().map_err(D::Error::custom)?;
+        let deserializer = enum_names::checked(&descriptor, deserializer);
         let described = DynamicMessage::deserialize_with_options(descriptor, deserializer, &options)?;
         M::decode(described.encode_to_vec().as_slice()).map_err(D::Error::custom)
     }
@@ -63,33 +65,4 @@ impl MessageType {
     fn descriptor(&self) -> Result<MessageDescriptor, String> {
         self.found.get_or_init(|| self.pool.find(self.name)).clone()
     }
-}
-
-/// Implements serde's traits for the messages of a topology's schemas.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! __message_json {
-    ($descriptors:literal $($message:ty = $name:literal)*) => {
-        static POOL: $crate::private::MessagePool = $crate::private::MessagePool::new($descriptors);
-        $(
-            const _: () = {
-                static TYPE: $crate::private::MessageType = $crate::private::MessageType::new(&POOL, $name);
-                impl $crate::private::serde::Serialize for $message {
-                    fn serialize<S: $crate::private::serde::Serializer>(
-                        &self,
-                        serializer: S,
-                    ) -> ::core::result::Result<S::Ok, S::Error> {
-                        TYPE.serialize(self, serializer)
-                    }
-                }
-                impl<'de> $crate::private::serde::Deserialize<'de> for $message {
-                    fn deserialize<D: $crate::private::serde::Deserializer<'de>>(
-                        deserializer: D,
-                    ) -> ::core::result::Result<Self, D::Error> {
-                        TYPE.deserialize(deserializer)
-                    }
-                }
-            };
-        )*
-    };
 }

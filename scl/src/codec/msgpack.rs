@@ -1,6 +1,7 @@
 //! MessagePack, for any serde type.
 
-use super::{Codec, DecodeError, EncodeError, bounded};
+use super::bounded::{self, Floats};
+use super::{Codec, DecodeError, EncodeError};
 use bytes::{BufMut, Bytes, BytesMut};
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -29,10 +30,11 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Msgpack {
         let refused = |reason| DecodeError::new(<Self as Codec<T>>::NAME, reason);
         let mut rest = std::io::Cursor::new(&bytes[..]);
         // The library limits the depth of arrays and maps, but not of enums.
-        let message = bounded::decode(&mut rmp_serde::Deserializer::new(&mut rest), bytes.len()).map_err(|error| {
-            refused(format!("this {}-byte frame is not a MessagePack value of the expected type", bytes.len()))
-                .caused_by(error)
-        })?;
+        let message = bounded::decode(&mut rmp_serde::Deserializer::new(&mut rest), bytes.len(), Floats::OfTheirWidth)
+            .map_err(|error| {
+                refused(format!("this {}-byte frame is not a MessagePack value of the expected type", bytes.len()))
+                    .caused_by(error)
+            })?;
         match rest.position() {
             end if end == bytes.len() as u64 => Ok(message),
             end => Err(refused(format!("the value ends after {end} of {} bytes", bytes.len()))),

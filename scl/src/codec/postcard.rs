@@ -1,6 +1,7 @@
 //! Postcard, for any serde type.
 
-use super::{Codec, DecodeError, EncodeError, bounded};
+use super::bounded::{self, Floats};
+use super::{Codec, DecodeError, EncodeError};
 use bytes::{BufMut, Bytes, BytesMut};
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -31,7 +32,7 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Postcard {
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
         let refused = |reason| DecodeError::new(<Self as Codec<T>>::NAME, reason);
         let mut input = postcard::Deserializer::from_bytes(&bytes);
-        let message = bounded::decode(&mut input, bytes.len());
+        let message = bounded::decode(&mut input, bytes.len(), Floats::OfTheirWidth);
         let read = message.and_then(|message| Ok((message, input.finalize()?)));
         let (message, rest) = read.map_err(|error| {
             refused(format!("this {}-byte frame is not a postcard value of the expected type", bytes.len()))

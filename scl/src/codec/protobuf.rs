@@ -8,6 +8,7 @@ use prost::Message;
 ///
 /// As protobuf requires, unknown fields are skipped and missing fields have their default, so an empty frame is a valid
 /// message. Fields of type `Bytes` share the received buffer. Messages nested deeper than 100 levels are refused.
+/// How much memory a message may take, the gate limits for messages of `schemas:` only.
 #[derive(Debug)]
 pub struct Protobuf;
 

@@ -97,7 +97,16 @@ macro_rules! __component_methods {
             pub fn close_blocking(self, timeout: ::core::time::Duration) -> $crate::Result<()> {
                 $crate::private::close_blocking(self, timeout)
             }
+        }
+    };
+}
 
+/// What `#[scl::main]` calls. It has only the component's name, and cannot know what the program calls the crate `scl`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __component_main_functions {
+    ($component:ident $($bounds:tt)*) => {
+        impl $component {
             #[doc(hidden)]
             pub fn __scl_main_async<F: ::core::future::Future<Output = $crate::Result<()>>>(
                 main: fn(Self) -> F,

@@ -13,10 +13,10 @@ pub(super) fn check(spec: &'static ComponentSpec, transports: &Transports) -> Re
         .flat_map(|gate| {
             let lacks = |(guarantee, option)| {
                 let offered = |transport: &dyn Transport| transport.guarantees().contains(guarantee);
-                let offered = if gate.links.is_empty() || !gate.endpoint.is_empty() {
+                let offered = if gate.connections.is_empty() || !gate.endpoint.is_empty() {
                     offered(transports.of_gate(gate))
                 } else {
-                    gate.links.iter().all(|link| offered(transports.of_link(gate, link)))
+                    gate.connections.iter().all(|connection| offered(transports.of_connection(gate, connection)))
                 };
                 (!offered).then(|| MissingGuarantee { gate: GateName::new(spec.name, gate.name), option, guarantee })
             };
@@ -37,7 +37,9 @@ fn needs(gate: &GateSpec) -> Vec<(Guarantee, &'static str)> {
         }
         GateKind::Sub | GateKind::Pull if gate.newest_only() => vec![(Guarantee::Freshness, "queue: 1")],
         // A gate that waits rather than drop must also know, when its program ends, that everything was taken.
-        GateKind::Pub | GateKind::Push if gate.links.iter().any(|link| options.waits_for(link.when_full)) => {
+        GateKind::Pub | GateKind::Push
+            if gate.connections.iter().any(|connection| options.waits_for(connection.when_full)) =>
+        {
             vec![(Guarantee::Waiting, "backpressure: true"), (Guarantee::Acknowledgement, "backpressure: true")]
         }
         _ => Vec::new(),

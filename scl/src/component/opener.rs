@@ -1,7 +1,7 @@
 //! Opening a component: its registration, then its gates one by one.
 
 use super::transports::Transports;
-use super::{ComponentHandle, needs};
+use super::{ComponentHandle, expected, needs};
 use crate::codec::Codec;
 use crate::error::{GateName, OpenError};
 use crate::figures::FigureSource;
@@ -10,7 +10,7 @@ use crate::options::OpenOptions;
 use crate::registration::{Registration, StatsWriter};
 use crate::registry::{Registered, Unregistered};
 use crate::runtime_dir::{ComponentStats, RuntimeDir};
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::state::{ComponentState, OwnedRuntime, Owner, stats_period};
 use crate::time::Watchdog;
 use crate::transport::{Endpoint, Sender, Transport, TransportError};
@@ -57,7 +57,7 @@ impl Opener {
         let spec = self.gate(index);
         let connections = self.connections::<T, C>(spec, |transport, endpoint| transport.push(endpoint))?;
         // The puller has the tap.
-        let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, GateTap::new(None));
+        let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, GateTap::new(None, false));
         self.follow(index, gate.fanout.figures());
         Ok(Push::new(gate))
     }
@@ -65,10 +65,10 @@ impl Opener {
     /// Opens the `sub` gate at an index of the component's list.
     pub fn subscriber<T, C: Codec<T>>(&mut self, index: usize) -> Result<Sub<T>, OpenError> {
         let spec = self.gate(index);
-        let subscribe = |link| self.transports.of_link(spec, link).subscribe(&self.connecting(spec, link));
+        let subscribe = |link| self.transports.of_connection(spec, link).subscribe(&self.connecting(spec, link));
         let links = self.links(spec).iter().map(subscribe).collect::<Result<_, _>>();
         let links = links.map_err(|source| self.refused(spec, source))?;
-        let gate = Incoming::new::<C>(self.state.clone(), spec, links, GateTap::new(None));
+        let gate = Incoming::new::<C>(self.state.clone(), spec, links, GateTap::new(None, false));
         self.follow(index, gate.figures());
         Ok(Sub::new(gate))
     }
@@ -89,11 +89,16 @@ impl Opener {
     /// Opens the `req` gate at an index of the component's list.
     pub fn requester<A, B, C: Codec<A> + Codec<B>>(&mut self, index: usize) -> Result<Req<A, B>, OpenError> {
         let spec = self.gate(index);
-        let request = |link| self.transports.of_link(spec, link).request(&self.connecting(spec, link));
-        let link = spec.links.first().map(request).transpose();
+        let in_flight = spec.options.in_flight as usize;
+        let request = |link| {
+            let endpoint = Endpoint { in_flight, ..self.connecting(spec, link) };
+            self.transports.of_connection(spec, link).request(&endpoint)
+        };
+        let link = spec.connections.first().map(request).transpose();
         let link = link.map_err(|source| self.refused(spec, source))?;
-        let watchdog = Watchdog::new().map_err(|source| OpenError::Timer { gate: self.name(spec), source })?;
-        let gate = Req::new::<C>(self.state.clone(), spec, link, watchdog);
+        let watchdogs = (0..in_flight).map(|_| Watchdog::new()).collect::<Result<_, _>>();
+        let watchdogs = watchdogs.map_err(|source| OpenError::Timer { gate: self.name(spec), source })?;
+        let gate = Req::new::<C>(self.state.clone(), spec, link, watchdogs);
         self.follow(index, gate.figures());
         Ok(gate)
     }
@@ -127,34 +132,37 @@ impl Opener {
         spec: &'static GateSpec,
         open: impl Fn(&dyn Transport, &Endpoint) -> Result<Box<dyn Sender>, TransportError>,
     ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
-        let connect = |link: &'static LinkSpec| {
+        let connect = |link: &'static ConnectionSpec| {
             let lossless = spec.options.waits_for(link.when_full);
+            let latched = spec.options.latched;
             let endpoint = self.connecting(spec, link);
             let longest = longest::<T, C>(link.max_size);
-            let sender = open(self.transports.of_link(spec, link), &Endpoint { lossless, longest, ..endpoint });
+            let sender =
+                open(self.transports.of_connection(spec, link), &Endpoint { lossless, latched, longest, ..endpoint });
             let sender = sender.map_err(|source| self.refused(spec, source))?;
-            let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes());
+            let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes())
+                .with_end_check(self.state.registration().end_check(link.peer_component));
             Ok(self.state.drive(connection))
         };
         self.links(spec).iter().map(connect).collect()
     }
 
     /// The connections of a gate: all, or in a unit test that to its counterpart.
-    fn links(&self, spec: &'static GateSpec) -> &'static [LinkSpec] {
-        let first = spec.links.len().min(1);
-        if self.state.is_test() { &spec.links[..first] } else { spec.links }
+    fn links(&self, spec: &'static GateSpec) -> &'static [ConnectionSpec] {
+        let first = spec.connections.len().min(1);
+        if self.state.is_test() { &spec.connections[..first] } else { spec.connections }
     }
 
     fn tap(&self, spec: &'static GateSpec) -> Result<GateTap, OpenError> {
         if spec.tap.is_empty() {
-            return Ok(GateTap::new(None));
+            return Ok(GateTap::new(None, false));
         }
         let tap = self.transports.of_tap(spec).tap(&Endpoint::new(spec.tap));
-        tap.map(GateTap::new).map_err(|source| self.refused(spec, source))
+        tap.map(|tap| GateTap::new(tap, spec.options.latched)).map_err(|source| self.refused(spec, source))
     }
 
     /// The endpoint of one connection, whose connecting end checks its peer first.
-    fn connecting(&self, spec: &'static GateSpec, link: &'static LinkSpec) -> Endpoint {
+    fn connecting(&self, spec: &'static GateSpec, link: &'static ConnectionSpec) -> Endpoint {
         let check = self.state.registration().peer_check(spec, link);
         Endpoint { check, queue: link.queue as usize, ..endpoint(link.endpoint, spec) }
     }
@@ -187,14 +195,15 @@ fn join(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Joined, O
 
 /// Takes the component's name in the runtime folder.
 fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Joined, Transports), OpenError> {
-    let (system, media) = (options.system_name(spec.system)?, options.chosen_media()?);
+    expected::check(spec, &|name| options.variable(name))?;
+    let (system, choice) = (options.system_name(spec.system)?, options.chosen_transports()?);
     let stats = stats_period(&|name| options.variable(name))?;
     let failed = |source| OpenError::RuntimeDir { component: spec.name, source };
     let runtime_dir = RuntimeDir::locate(&|name| options.variable(name)).map_err(failed)?;
     let dir = runtime_dir.system(&system).map_err(failed)?;
-    let transports = Transports::in_folder(spec, &dir, media.clone())?;
+    let transports = Transports::in_folder(spec, &dir, choice.clone())?;
     needs::check(spec, &transports)?;
-    let registration = Registration::in_folder(spec, dir, stats, &media).map_err(failed)?;
+    let registration = Registration::in_folder(spec, dir, stats, &choice).map_err(failed)?;
     let stats = registration.stats();
     Ok((Joined { registration: Box::new(registration), stats }, transports))
 }

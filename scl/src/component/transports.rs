@@ -1,11 +1,11 @@
 //! The transport of each connection of a component.
 
 use crate::error::OpenError;
-use crate::medium::Medium;
-use crate::medium_choice::MediumChoice;
 use crate::runtime_dir::SystemDir;
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport::Transport;
+use crate::transport_choice::TransportChoice;
+use crate::transport_kind::TransportKind;
 use std::sync::Arc;
 
 /// The transports of a component's connections.
@@ -13,41 +13,45 @@ pub(super) enum Transports {
     /// One of the user's, for all connections.
     Own(Arc<dyn Transport>),
     /// Those of the runtime folder.
-    Files(ByMedium),
+    Files(ByKind),
 }
 
-/// One transport for each medium that a component listens on.
-pub(super) struct ByMedium {
+/// One transport for each transport that a component listens on.
+pub(super) struct ByKind {
     spec: &'static ComponentSpec,
-    choice: MediumChoice,
+    choice: TransportChoice,
     /// The first is for the default.
-    transports: Vec<(Medium, Arc<dyn Transport>)>,
+    transports: Vec<(TransportKind, Arc<dyn Transport>)>,
 }
 
 impl Transports {
     /// The transports of a component whose ends meet in a system's folder.
     ///
     /// # Errors
-    /// [`OpenError`] if a medium is chosen for a gate that the component does not have, or one that this crate was built
+    /// [`OpenError`] if a transport is chosen for a gate that the component does not have, or one that this crate was built
     /// without.
     pub(super) fn in_folder(
         spec: &'static ComponentSpec,
         dir: &SystemDir,
-        choice: MediumChoice,
+        choice: TransportChoice,
     ) -> Result<Self, OpenError> {
-        choice.check(spec)?;
-        let mut transports: Vec<(Medium, Arc<dyn Transport>)> = Vec::new();
-        for medium in [choice.default_medium()].into_iter().chain(listening(spec, &choice)) {
-            if !transports.iter().any(|(known, _)| *known == medium) {
-                transports.push((medium, transport(spec, dir, medium)?));
+        if let Some((gate, kind)) = choice.unknown_gate(spec) {
+            let nearest = scl_plan::nearest(gate, spec.gates.iter().map(|gate| gate.name)).map(str::to_owned);
+            let (component, gate, transport) = (spec.name, gate.to_owned(), kind.word());
+            return Err(OpenError::NoSuchGate { component, gate, transport, nearest });
+        }
+        let mut transports: Vec<(TransportKind, Arc<dyn Transport>)> = Vec::new();
+        for kind in [choice.default_kind()].into_iter().chain(listening(spec, &choice)) {
+            if !transports.iter().any(|(known, _)| *known == kind) {
+                transports.push((kind, transport(spec, dir, kind)?));
             }
         }
-        Ok(Self::Files(ByMedium { spec, choice, transports }))
+        Ok(Self::Files(ByKind { spec, choice, transports }))
     }
 
     /// For a connection with endpoints of its own.
-    pub(super) fn of_link(&self, gate: &GateSpec, link: &LinkSpec) -> &dyn Transport {
-        self.of(|by| by.choice.of_link(by.spec, gate, link))
+    pub(super) fn of_connection(&self, gate: &GateSpec, connection: &ConnectionSpec) -> &dyn Transport {
+        self.of(|by| by.choice.of_connection(by.spec, gate, connection))
     }
 
     /// For a gate that listens once for all peers.
@@ -60,39 +64,41 @@ impl Transports {
         self.of(|by| by.choice.of_tap(by.spec, gate))
     }
 
-    fn of(&self, medium: impl Fn(&ByMedium) -> Medium) -> &dyn Transport {
+    fn of(&self, kind: impl Fn(&ByKind) -> TransportKind) -> &dyn Transport {
         match self {
             Self::Own(transport) => &**transport,
             Self::Files(by) => {
-                let chosen = medium(by);
-                // An end that only connects finds any medium, so the default's transport will do.
-                let found = by.transports.iter().find(|(medium, _)| *medium == chosen).unwrap_or(&by.transports[0]);
+                let chosen = kind(by);
+                // An end that only connects finds any transport, so the default's transport will do.
+                let found = by.transports.iter().find(|(kind, _)| *kind == chosen).unwrap_or(&by.transports[0]);
                 &*found.1
             }
         }
     }
 }
 
-/// The media of a component's listening ends.
-fn listening(spec: &'static ComponentSpec, choice: &MediumChoice) -> impl Iterator<Item = Medium> {
+/// The transports of a component's listening ends.
+fn listening(spec: &'static ComponentSpec, choice: &TransportChoice) -> impl Iterator<Item = TransportKind> {
     let gates = spec.gates.iter().filter(|gate| !gate.tap.is_empty());
     gates.flat_map(move |gate| {
         let taps = [choice.of_tap(spec, gate)];
         let whole = (!gate.endpoint.is_empty()).then(|| choice.of_gate(spec, gate));
-        let links = gate.links.iter().filter(|_| gate.endpoint.is_empty());
-        taps.into_iter().chain(whole).chain(links.map(move |link| choice.of_link(spec, gate, link)))
+        let connections = gate.connections.iter().filter(|_| gate.endpoint.is_empty());
+        taps.into_iter()
+            .chain(whole)
+            .chain(connections.map(move |connection| choice.of_connection(spec, gate, connection)))
     })
 }
 
 #[cfg(feature = "zeromq")]
-fn transport(spec: &ComponentSpec, dir: &SystemDir, medium: Medium) -> Result<Arc<dyn Transport>, OpenError> {
-    if medium == Medium::Shm && !cfg!(feature = "iceoryx2") {
+fn transport(spec: &ComponentSpec, dir: &SystemDir, kind: TransportKind) -> Result<Arc<dyn Transport>, OpenError> {
+    if kind == TransportKind::Shm && !cfg!(feature = "shm") {
         return Err(OpenError::NoSharedMemory { component: spec.name });
     }
-    Ok(Arc::new(crate::transport::zeromq::ZeroMq::new(dir.clone(), medium)))
+    Ok(Arc::new(crate::transport::zeromq::ZeroMq::new(dir.clone(), kind)))
 }
 
 #[cfg(not(feature = "zeromq"))]
-fn transport(spec: &ComponentSpec, _dir: &SystemDir, _medium: Medium) -> Result<Arc<dyn Transport>, OpenError> {
+fn transport(spec: &ComponentSpec, _dir: &SystemDir, _medium: TransportKind) -> Result<Arc<dyn Transport>, OpenError> {
     Err(OpenError::NoTransport { component: spec.name })
 }

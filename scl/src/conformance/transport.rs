@@ -28,7 +28,7 @@ mod requests;
 mod threads;
 mod watched;
 
-pub use declared::{counts_what_was_not_taken, declares, tells_who_waits};
+pub use declared::{counts_what_was_not_taken, declares, tells_what_was_received, tells_who_waits};
 pub use delivery::{
     carries_every_size, delivers_what_was_written, keeps_order, never_delivers_an_oversized_message,
     serves_every_pusher,

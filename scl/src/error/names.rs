@@ -1,6 +1,6 @@
 //! Gates and peers, as errors and logs name them.
 
-use crate::spec::{GateSpec, LinkSpec};
+use crate::spec::{ConnectionSpec, GateSpec};
 use std::fmt;
 
 /// The full name of a gate, for messages: `controller.sensor`.
@@ -30,8 +30,8 @@ pub struct PeerName {
 }
 
 impl PeerName {
-    pub(crate) fn of(link: &LinkSpec) -> Self {
-        Self { component: link.peer_component, gate: link.peer_gate }
+    pub(crate) fn of(connection: &ConnectionSpec) -> Self {
+        Self { component: connection.peer_component, gate: connection.peer_gate }
     }
 
     /// The component.
@@ -53,12 +53,12 @@ impl fmt::Display for PeerName {
 
 /// The other end of a connection, or the possible ones, for messages.
 #[derive(Debug, Clone, Copy)]
-pub struct Peers(pub(crate) &'static [LinkSpec]);
+pub struct Peers(pub(crate) &'static [ConnectionSpec]);
 
 impl Peers {
     /// All peers of a gate.
     pub(crate) fn of(gate: &GateSpec) -> Self {
-        Self(gate.links)
+        Self(gate.connections)
     }
 }
 
@@ -67,9 +67,9 @@ impl fmt::Display for Peers {
         if self.0.is_empty() {
             return f.write_str("any peer, because it is not connected to one in the topology");
         }
-        for (index, link) in self.0.iter().enumerate() {
+        for (index, connection) in self.0.iter().enumerate() {
             let separator = if index == 0 { "" } else { " or " };
-            write!(f, "{separator}{}", PeerName::of(link))?;
+            write!(f, "{separator}{}", PeerName::of(connection))?;
         }
         Ok(())
     }
@@ -78,7 +78,7 @@ impl fmt::Display for Peers {
 /// A peer that is not connected.
 #[derive(Debug, Clone)]
 pub struct Missing {
-    pub(crate) link: &'static LinkSpec,
+    pub(crate) connection: &'static ConnectionSpec,
     /// Why this end does not connect to it, if it refuses to.
     pub(crate) refusal: Option<String>,
 }

@@ -1,11 +1,13 @@
 //! One connection at its sending end: the link to the peer, and the queue of what the peer has not taken.
 
-use super::foreign::ForeignPeer;
+use super::foreign::{ForeignCounts, ForeignPeer};
+use super::latch::Latch;
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::stats::{Activity, PeerStats};
 use crate::error::{GateName, Missing, PeerName, Unflushed};
+use crate::registry::EndCheck;
 use crate::runtime_dir::{ConnectionFigures, GateFigures};
-use crate::spec::{GateKind, GateSpec, LinkSpec, WhenFull};
+use crate::spec::{ConnectionSpec, GateKind, GateSpec, WhenFull};
 use crate::state::{Changes, SendingEnd};
 use crate::transport::{Frame, Link, Loan, Peer, PeerKind, Sender};
 use std::collections::VecDeque;
@@ -20,8 +22,8 @@ pub(crate) struct Connection {
     queue: Queue<Frame>,
     /// Plain ZeroMQ subscribers beside it or in its place.
     foreign: Vec<ForeignPeer>,
-    /// Messages sent to and dropped for plain ZeroMQ subscribers that have left.
-    foreign_left: (u64, u64),
+    /// What plain ZeroMQ subscribers that have left have counted.
+    foreign_left: ForeignCounts,
     /// Wakes the connection's task; senders pass it to the link too, so that the task continues what they leave behind.
     task: Waker,
     waiting_sender: Option<Waker>,
@@ -33,13 +35,16 @@ pub(crate) struct Connection {
     /// Who was connected when that was last reported: the peer, and the number of others.
     reported: (bool, usize),
     account: Account,
+    /// The last message, if the gate has `latched: true`.
+    latch: Option<Latch>,
     /// Whether the queue has been dropping messages since it was last empty.
     dropping: bool,
     detached: bool,
     gate: GateName,
     kind: GateKind,
-    link: &'static LinkSpec,
+    link: &'static ConnectionSpec,
     component_changes: Changes,
+    has_ended: Option<EndCheck>,
 }
 
 /// What became of the messages that left the queue.
@@ -47,8 +52,10 @@ pub(crate) struct Connection {
 pub(crate) struct Account {
     /// Messages handed to a link.
     handed: u64,
-    /// Messages that were on their way when their link broke, and were never acknowledged.
+    /// Messages that had not been received by the peer's program when their link broke.
     lost: u64,
+    /// Messages that were sent once more to a subscriber that has joined.
+    latched: u64,
     pub(crate) activity: Activity,
 }
 
@@ -57,7 +64,7 @@ impl Connection {
         sender: Box<dyn Sender>,
         gate: GateName,
         spec: &'static GateSpec,
-        link: &'static LinkSpec,
+        link: &'static ConnectionSpec,
         component_changes: Changes,
     ) -> Self {
         Self {
@@ -65,7 +72,7 @@ impl Connection {
             peer: None,
             queue: Queue::new(policy(spec, link)),
             foreign: Vec::new(),
-            foreign_left: (0, 0),
+            foreign_left: ForeignCounts::default(),
             task: Waker::noop().clone(),
             waiting_sender: None,
             waiting_flushes: Vec::new(),
@@ -73,13 +80,20 @@ impl Connection {
             changes: 0,
             reported: (false, 0),
             account: Account::default(),
+            latch: spec.options.latched.then(Latch::default),
             dropping: false,
             detached: false,
             gate,
             kind: spec.kind,
             link,
             component_changes,
+            has_ended: None,
         }
+    }
+
+    /// The same with what says whether the peer has ended in order.
+    pub(crate) fn with_end_check(self, has_ended: Option<EndCheck>) -> Self {
+        Self { has_ended, ..self }
     }
 
     /// Does background work; called by the connection's task whenever it is woken.
@@ -98,6 +112,9 @@ impl Connection {
 
     /// Takes a message without waiting; a full queue treats it as declared.
     pub(crate) fn send(&mut self, message: Frame) {
+        if let Some(latch) = &mut self.latch {
+            latch.keep(&message);
+        }
         let mut cx = Context::from_waker(&self.task);
         if !self.foreign.is_empty() {
             let shared = message.to_bytes();
@@ -134,7 +151,7 @@ impl Connection {
     /// The peer, if it is required and not connected.
     pub(crate) fn missing(&self) -> Option<Missing> {
         let is_missing = self.link.required && !self.is_connected();
-        is_missing.then(|| Missing { link: self.link, refusal: self.sender.refusal() })
+        is_missing.then(|| Missing { connection: self.link, refusal: self.sender.refusal() })
     }
 
     /// Ready when a message would find room, or would not have to wait for it.
@@ -189,47 +206,55 @@ impl Connection {
         &self.account
     }
 
-    /// Number of messages handed to plain ZeroMQ programs, and dropped because those read slowly.
-    pub(crate) fn foreign_counts(&self) -> (u64, u64) {
-        self.foreign.iter().fold(self.foreign_left, |(sent, dropped), one| (sent + one.sent(), dropped + one.dropped()))
+    /// What plain ZeroMQ programs have counted.
+    pub(crate) fn foreign_counts(&self) -> ForeignCounts {
+        self.foreign.iter().fold(self.foreign_left, |sum, one| sum.plus(one.counts()))
     }
 
     /// Adds what this connection has done to the figures of its gate, and returns its own.
-    pub(crate) fn add_to_figures(&self, gate: &mut GateFigures) -> ConnectionFigures {
-        let (dropped_oldest, dropped_newest) = (self.queue.dropped_oldest, self.queue.dropped_newest);
-        let (sent_to_foreign, dropped_for_foreign) = self.foreign_counts();
+    pub(crate) fn add_to_figures(&mut self, gate: &mut GateFigures) -> ConnectionFigures {
+        // At a slow gate, a peer acknowledges only when it is asked.
+        if let Some(link) = &mut self.peer {
+            link.request_acknowledgement(&mut Context::from_waker(&self.task));
+        }
+        let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
+        let (foreign, not_received) = (self.foreign_counts(), self.not_received());
         let figures = ConnectionFigures {
             connected: self.is_connected(),
             waiting: self.queue.len() as u64,
-            // What is not acknowledged yet counts, too: at a slow gate, a peer acknowledges only when it is asked.
-            taken: self.account.handed - self.account.lost,
+            taken: self.account.handed - self.account.lost - not_received,
             dropped: dropped_oldest + dropped_newest,
             lost: self.account.lost,
+            replaced,
+            in_flight: not_received,
+            latched: self.account.latched,
         };
         self.account.activity.add_to_figures(gate);
-        gate.sent += self.account.handed + sent_to_foreign;
+        gate.sent += self.account.handed + foreign.sent;
+        gate.replaced += replaced + foreign.replaced;
         gate.dropped_oldest += dropped_oldest;
         gate.dropped_newest += dropped_newest;
-        gate.dropped_for_observers += dropped_for_foreign;
+        gate.dropped_for_observers += foreign.dropped;
         gate.lost += figures.lost;
-        // Messages on their way do not wait in this program, and many may be until the peer acknowledges some of them.
         gate.waiting += self.queue.len() as u64;
         gate.peers += u64::from(figures.connected);
         figures
     }
 
     pub(crate) fn stats(&self) -> PeerStats {
-        let unacknowledged = self.unacknowledged();
-        let (dropped_oldest, dropped_newest) = (self.queue.dropped_oldest, self.queue.dropped_newest);
+        let not_received = self.not_received();
+        let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
         PeerStats {
             peer: format!("{}.{}", self.link.peer_component, self.link.peer_gate),
             connected: self.is_connected(),
-            published: self.account.handed + self.queue.len() as u64 + dropped_oldest + dropped_newest,
-            taken: self.account.handed - self.account.lost - unacknowledged,
+            published: self.account.handed + self.queue.len() as u64 + replaced + dropped_oldest + dropped_newest,
+            taken: self.account.handed - self.account.lost - not_received,
+            replaced,
             dropped_oldest,
             dropped_newest,
             lost: self.account.lost,
-            waiting: self.queue.len() as u64 + unacknowledged,
+            latched: self.account.latched,
+            waiting: self.queue.len() as u64 + not_received,
         }
     }
 
@@ -248,7 +273,7 @@ impl Connection {
         self.foreign.retain_mut(|peer| {
             let stays = peer.drive(cx).is_ok();
             if !stays {
-                *left = (left.0 + peer.sent(), left.1 + peer.dropped());
+                *left = left.plus(peer.counts());
             }
             stays
         });
@@ -262,21 +287,28 @@ impl Connection {
             let policy = self.queue.policy();
             // The component, when it comes, must find what waited for it; so a program in its place gets a copy.
             let copy = |frame: &mut Frame| Frame::from(frame.make_bytes().clone());
-            let waiting = match self.peer {
+            let mut waiting = match self.peer {
                 None => self.queue.items_mut().iter_mut().map(copy).collect(),
                 Some(_) => VecDeque::new(),
             };
-            self.foreign.push(ForeignPeer::new(link, policy, waiting));
+            self.latch.iter().for_each(|latch| latch.join_foreign(&mut waiting));
+            self.foreign.push(ForeignPeer::new(link, policy, waiting, self.latch.is_some()));
             return;
         }
         // A newer link replaces an older one: only one program at a time runs a component.
         self.disconnect();
+        if let Some(latch) = &mut self.latch {
+            let again = latch.join(&mut self.queue, link.resumed(), self.account.handed);
+            self.account.latched += u64::from(again);
+        }
         self.peer = Some(link);
     }
 
     fn disconnect(&mut self) {
-        if let Some(link) = self.peer.take() {
-            self.account.lost += link.unacknowledged();
+        if let Some(mut link) = self.peer.take() {
+            link.read_last();
+            self.account.lost += link.not_received();
+            self.latch.iter_mut().for_each(|latch| latch.leave(self.account.handed));
         }
     }
 
@@ -285,7 +317,19 @@ impl Connection {
         let mut cx = Context::from_waker(&self.task);
         if let Some(link) = &mut self.peer {
             let account = &mut self.account;
+            let joined = self.latch.as_ref().and_then(|latch| latch.take_joined(&mut self.queue));
             link.send_all(&mut cx, self.queue.items_mut(), &mut |length| account.hand(length));
+            if let (Some((message, age)), Some(latch)) = (joined, &mut self.latch) {
+                let length = message.len();
+                let sent = if self.queue.is_empty() { link.send_latched(&mut cx, message, age) } else { Err(message) };
+                match sent {
+                    Ok(()) => {
+                        account.hand(length);
+                        latch.note_sent();
+                    }
+                    Err(message) => self.queue.items_mut().push_back(message),
+                }
+            }
         }
         self.dropping &= !self.queue.is_empty();
         // A flush looks at acknowledgements as well, which arrive without a change of the queue.
@@ -300,19 +344,31 @@ impl Connection {
     fn keep(&mut self, message: Frame) {
         if self.peer.is_none() && !self.foreign.is_empty() {
             // A program in the component's place has it; older ones make room, and nothing is lost.
-            if self.queue.replace(message) != Pushed::Stored {
-                self.account.handed += 1;
-            }
-            return;
+            let pushed = self.queue.replace(message);
+            self.account.handed += u64::from(pushed != Pushed::Stored);
+            return self.note_queued(pushed);
         }
         let pushed = self.queue.push(message);
-        // Replacing the value in a queue of one is what was asked for, and no reason for a warning.
-        if pushed != Pushed::Stored && !self.dropping && self.queue.policy().capacity > 1 {
+        self.note_queued(pushed);
+        if pushed != Pushed::Stored && !self.dropping && !self.queue.policy().newest_only() {
             self.dropping = true;
             let (gate, queue) = (self.gate, self.queue.policy().capacity);
             let reason = if self.peer.is_some() { "it reads too slowly" } else { "it is not connected" };
-            tracing::warn!(%gate, queue, "queue of {} is full; dropping messages: {reason}", self.peer_name());
+            if self.has_completed() {
+                tracing::debug!(%gate, queue, "queue of {} is full; dropping messages: it has ended", self.peer_name());
+            } else {
+                tracing::warn!(%gate, queue, "queue of {} is full; dropping messages: {reason}", self.peer_name());
+            }
         }
+    }
+
+    /// Returns true if the peer was connected and has ended in order, so that nobody misses the messages.
+    fn has_completed(&self) -> bool {
+        self.peer.is_none() && self.changes > 0 && self.has_ended.as_ref().is_some_and(|has_ended| has_ended())
+    }
+
+    fn note_queued(&mut self, pushed: Pushed) {
+        self.latch.iter_mut().for_each(|latch| latch.note_queued(pushed));
     }
 
     /// Returns true if all connected peers were given everything.
@@ -323,6 +379,10 @@ impl Connection {
 
     fn unacknowledged(&self) -> u64 {
         self.peer.as_ref().map_or(0, |link| link.unacknowledged())
+    }
+
+    fn not_received(&self) -> u64 {
+        self.peer.as_ref().map_or(0, |link| link.not_received())
     }
 
     fn report_change(&mut self) {
@@ -336,7 +396,7 @@ impl Connection {
 }
 
 /// The receiving gate's queue. It makes the sender wait only if the sending gate allows that.
-fn policy(spec: &GateSpec, link: &LinkSpec) -> QueuePolicy {
+fn policy(spec: &GateSpec, link: &ConnectionSpec) -> QueuePolicy {
     let may_wait = spec.options.backpressure || link.when_full != WhenFull::Wait;
     let when_full = if may_wait { link.when_full } else { WhenFull::DropOldest };
     QueuePolicy { capacity: link.queue as usize, when_full }
@@ -376,7 +436,11 @@ impl SendingEnd for Connection {
     }
 
     fn waits_for_absent_peer(&self) -> Option<Unflushed> {
-        (!self.is_connected() && !self.queue.is_empty()).then(|| self.report(self.queue.len() as u64))
+        if self.is_connected() || self.queue.is_empty() {
+            return None;
+        }
+        let left = self.report(self.queue.len() as u64);
+        (left.lossless || !self.has_completed()).then_some(left)
     }
 
     fn leftover(&self, acknowledged: bool) -> Option<Unflushed> {

@@ -1,6 +1,6 @@
 //! The end of a `req` gate, shared by its calls and its background task.
 
-use super::io_waker::IoWaker;
+use super::call_wakers::CallWakers;
 use super::stats::{Activity, GateStats};
 use super::watch::Watch;
 use crate::error::{BlockingError, Missing};
@@ -14,23 +14,30 @@ use crate::transport::{Answer, Requester};
 use bytes::Bytes;
 use std::future::poll_fn;
 use std::pin::pin;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
+use tokio::sync::Semaphore;
 use tokio::time::Instant;
 
 pub(super) struct Exchange {
     end: Arc<Mutex<End>>,
-    io: Arc<IoWaker>,
+    calls: Arc<CallWakers>,
+    /// One for each call that may be in progress.
+    permits: Semaphore,
+    /// As many, except those that calls in progress have.
+    watchdogs: Mutex<Vec<Watchdog>>,
+    last_id: AtomicU64,
     _task: AbortOnDrop,
 }
 
 struct End {
     link: Box<dyn Requester>,
     waker: Waker,
-    /// Whether a call is under way, whose reply the task must not take.
-    in_call: bool,
-    /// Whether the link has just refused the request of the call.
+    /// The calls whose request was sent.
+    sent_calls: Vec<SentCall>,
+    /// Whether the link has just refused the request of a call.
     refused: bool,
     was_connected: bool,
     changes: Changes,
@@ -40,26 +47,35 @@ struct End {
     undecodable: u64,
     activity: Activity,
     in_wait: Arc<FiguresInWait>,
+    calls: Arc<CallWakers>,
+}
+
+struct SentCall {
+    id: u64,
+    /// Until the call takes it.
+    result: Option<Result<Bytes, ExchangeError>>,
 }
 
 /// Why a request got no reply.
 pub(super) enum ExchangeError {
     TimedOut,
     Lost,
+    /// The replier has refused the request.
+    Refused,
     /// The gate cannot be used any more.
-    Refused(BlockingError),
+    Unusable(BlockingError),
 }
 
 impl Exchange {
-    /// Starts to connect. Needs a tokio runtime.
-    pub(super) fn new(link: Box<dyn Requester>, state: &ComponentState) -> Self {
-        let (io, changes) = (Arc::new(IoWaker::default()), state.changes());
-        state.register_calls(Arc::downgrade(&io) as _);
-        let waker = Waker::from(Arc::clone(&io));
+    /// Starts to connect. As many calls can be in progress as there are watchdogs. Needs a tokio runtime.
+    pub(super) fn new(link: Box<dyn Requester>, watchdogs: Vec<Watchdog>, state: &ComponentState) -> Self {
+        let (calls, changes) = (Arc::new(CallWakers::default()), state.changes());
+        state.register_calls(Arc::downgrade(&calls) as _);
+        let waker = Waker::from(Arc::clone(&calls));
         let end = Arc::new(Mutex::new(End {
             link,
             waker,
-            in_call: false,
+            sent_calls: Vec::new(),
             refused: false,
             was_connected: false,
             changes,
@@ -68,29 +84,39 @@ impl Exchange {
             undecodable: 0,
             activity: Activity::default(),
             in_wait: Arc::new(FiguresInWait::new(1)),
+            calls: Arc::clone(&calls),
         }));
         // Weak, so that the end is gone with the gate, and not only when the runtime drops the task.
-        let (driven, task_io) = (Arc::downgrade(&end), Arc::clone(&io));
+        let (driven, task_calls) = (Arc::downgrade(&end), Arc::clone(&calls));
         let task = tokio::spawn(poll_fn(move |cx| {
-            task_io.set_task(cx.waker());
+            task_calls.set_task(cx.waker());
             let Some(end) = driven.upgrade() else { return Poll::Ready(()) };
-            lock(&end).drive();
-            task_io.wake_call();
+            if lock(&end).drive() {
+                task_calls.wake_call();
+            }
             Poll::Pending
         }));
-        Self { end, io, _task: AbortOnDrop(task.abort_handle()) }
+        let permits = Semaphore::new(watchdogs.len());
+        let (watchdogs, last_id) = (Mutex::new(watchdogs), AtomicU64::new(0));
+        Self { end, calls, permits, watchdogs, last_id, _task: AbortOnDrop(task.abort_handle()) }
     }
 
     /// Sends a request and waits for its reply.
     pub(super) async fn call(
         &self,
-        id: u64,
         body: Bytes,
-        watchdog: &mut Watchdog,
         deadline: Instant,
         state: &ComponentState,
     ) -> Result<Bytes, ExchangeError> {
-        let _in_call = InCall::begin(self);
+        let _permit = match self.permits.try_acquire() {
+            Ok(permit) => permit,
+            Err(_) => {
+                let permit = until(self.permits.acquire(), deadline, state).await?;
+                permit.unwrap_or_else(|_| unreachable!("the semaphore is never closed"))
+            }
+        };
+        let id = self.last_id.fetch_add(1, Ordering::Relaxed) + 1;
+        let mut in_call = InCall::begin(self, id);
         let mut unsent = Some(body);
         let mut direct_wait = state.direct_wait();
         poll_fn(|cx| {
@@ -103,35 +129,17 @@ impl Exchange {
                 return polled;
             }
             // After the waker was registered, so that no end of the calls is missed.
-            if let Err(refused) = state.check() {
-                return Poll::Ready(Err(ExchangeError::Refused(refused)));
+            if let Err(unusable) = state.check() {
+                return Poll::Ready(Err(ExchangeError::Unusable(unusable)));
             }
-            // Without its timer the call could wait forever, so a timer that fails ends it too.
-            watchdog.poll_past(cx, deadline).map(|_past| Err(ExchangeError::TimedOut))
+            in_call.poll_past(cx, deadline).map(|()| Err(ExchangeError::TimedOut))
         })
         .await
     }
 
     /// The call of a gate that is connected to nothing.
-    pub(super) async fn unconnected(
-        watchdog: &mut Watchdog,
-        deadline: Instant,
-        state: &ComponentState,
-    ) -> Result<Bytes, ExchangeError> {
-        let changes = state.changes();
-        loop {
-            let mut changed = pin!(changes.next());
-            // Before the check, so that no end of the calls is missed.
-            changed.as_mut().enable();
-            state.check().map_err(ExchangeError::Refused)?;
-            let past = poll_fn(|cx| match watchdog.poll_past(cx, deadline) {
-                Poll::Ready(_past) => Poll::Ready(true),
-                Poll::Pending => changed.as_mut().poll(cx).map(|()| false),
-            });
-            if past.await {
-                return Err(ExchangeError::TimedOut);
-            }
-        }
+    pub(super) async fn unconnected(deadline: Instant, state: &ComponentState) -> Result<Bytes, ExchangeError> {
+        until(std::future::pending(), deadline, state).await
     }
 
     fn poll(
@@ -147,12 +155,14 @@ impl Exchange {
         if unsent.is_none()
             && polled.is_pending()
             && let Some(within) = direct_wait.take()
+            // Waiting keeps the other calls from the end.
+            && self.calls.in_progress() == 1
             && end.wait(within.min(deadline.saturating_duration_since(Instant::now())))
         {
             polled = end.poll_call(id, unsent);
         }
         if polled.is_pending() {
-            self.io.wait(cx.waker(), false);
+            self.calls.wait(id, cx.waker());
             if std::mem::take(&mut end.refused) {
                 // Tried again after others had their turn.
                 cx.waker().wake_by_ref();
@@ -173,6 +183,7 @@ impl Exchange {
     pub(super) fn stats(&self) -> GateStats {
         let end = self.lock();
         let mut stats = GateStats { sent: end.sent, received: end.received, ..GateStats::default() };
+        stats.undecodable = end.undecodable;
         stats.rejected = end.undecodable;
         stats.peers = usize::from(end.link.is_connected());
         end.activity.add_to(&mut stats);
@@ -206,45 +217,87 @@ impl Exchange {
 }
 
 impl End {
-    /// Reconnects, and answers heartbeats, while no call does.
-    fn drive(&mut self) {
-        if !self.in_call {
-            let cx = &mut Context::from_waker(&self.waker);
-            let _connected = self.link.poll_connected(cx);
+    /// Reconnects, answers heartbeats, and hands replies to their calls. Returns true if a call that waits to be sent should
+    /// look at the connection.
+    fn drive(&mut self) -> bool {
+        if self.sent_calls.is_empty() && self.calls.in_progress() == 0 {
+            let waker = self.waker.clone();
+            let _connected = self.link.poll_connected(&mut Context::from_waker(&waker));
+        } else {
+            self.take_answers();
         }
         self.report_change();
+        self.sent_calls.len() < self.calls.in_progress()
     }
 
     fn poll_call(&mut self, id: u64, unsent: &mut Option<Bytes>) -> Poll<Result<Bytes, ExchangeError>> {
+        if let Some(body) = unsent.take() {
+            *unsent = self.request(id, body);
+        }
+        self.take_answers();
+        let Some(index) = self.sent_calls.iter().position(|call| call.id == id) else { return Poll::Pending };
+        match self.sent_calls[index].result.take() {
+            Some(result) => {
+                self.sent_calls.swap_remove(index);
+                Poll::Ready(result)
+            }
+            None => Poll::Pending,
+        }
+    }
+
+    /// Sends a request, or returns it if that is not possible now.
+    fn request(&mut self, id: u64, body: Bytes) -> Option<Bytes> {
         let waker = self.waker.clone();
         let cx = &mut Context::from_waker(&waker);
-        if let Some(body) = unsent.take() {
+        // This discards replies, so it is for the first call only: the others find the connection as that one left it.
+        if self.sent_calls.iter().all(|call| call.result.is_some()) {
             let connected = self.link.poll_connected(cx);
             self.report_change();
             if connected.is_pending() {
-                *unsent = Some(body);
-                return Poll::Pending;
+                return Some(body);
             }
-            if let Err(body) = self.link.request(cx, id, body) {
-                // The connection broke at this very moment; the next poll starts to reconnect.
-                *unsent = Some(body);
+        }
+        match self.link.request(cx, id, body) {
+            Ok(()) => {
+                self.sent += 1;
+                self.sent_calls.push(SentCall { id, result: None });
+                None
+            }
+            Err(body) => {
+                // The connection broke at this very moment, and the next poll starts to reconnect; or there is no room.
                 self.refused = true;
-                return Poll::Pending;
+                Some(body)
             }
-            self.sent += 1;
         }
-        loop {
+    }
+
+    /// Hands each reply that has arrived to its call, and wakes it. Requests of a broken connection get none.
+    fn take_answers(&mut self) {
+        let waker = self.waker.clone();
+        let cx = &mut Context::from_waker(&waker);
+        while self.sent_calls.iter().any(|call| call.result.is_none()) {
             match self.link.poll_answer(cx) {
-                Poll::Ready(Answer::Reply { id: replied, body }) if replied == id => {
-                    self.received += 1;
-                    self.activity.add(body.len());
-                    return Poll::Ready(Ok(body));
+                Poll::Ready(Answer::Reply { id, body }) => self.finish(id, Ok(body)),
+                Poll::Ready(Answer::Refused { id }) => self.finish(id, Err(ExchangeError::Refused)),
+                Poll::Ready(Answer::Lost) => {
+                    let lost: Vec<u64> = self.sent_calls.iter().map(|call| call.id).collect();
+                    lost.into_iter().for_each(|id| self.finish(id, Err(ExchangeError::Lost)));
                 }
-                Poll::Ready(Answer::Reply { .. }) => tracing::debug!("discarded the reply to an earlier call"),
-                Poll::Ready(Answer::Lost) => return Poll::Ready(Err(ExchangeError::Lost)),
-                Poll::Pending => return Poll::Pending,
+                Poll::Pending => return,
             }
         }
+    }
+
+    fn finish(&mut self, id: u64, result: Result<Bytes, ExchangeError>) {
+        let Some(call) = self.sent_calls.iter_mut().find(|call| call.id == id && call.result.is_none()) else {
+            return tracing::debug!("discarded the reply to an earlier call");
+        };
+        if let Ok(body) = &result {
+            self.received += 1;
+            self.activity.add(body.len());
+        }
+        call.result = Some(result);
+        self.calls.wake_one(id);
     }
 
     /// Waits for the reply on the calling thread.
@@ -256,15 +309,16 @@ impl End {
 
     fn read_figures(&self, figures: &mut GateFigures) {
         figures.clear();
-        (figures.sent, figures.received, figures.rejected) = (self.sent, self.received, self.undecodable);
-        figures.waiting = self.in_call.into();
+        (figures.sent, figures.received) = (self.sent, self.received);
+        (figures.rejected, figures.undecodable) = (self.undecodable, self.undecodable);
+        figures.waiting = self.calls.in_progress() as u64;
         let connected = self.link.is_connected();
         figures.peers = connected.into();
         self.activity.add_to_figures(figures);
         for connection in &mut figures.connections {
             *connection = ConnectionFigures {
                 connected,
-                waiting: self.in_call.into(),
+                waiting: self.calls.in_progress() as u64,
                 taken: self.received,
                 ..ConnectionFigures::default()
             };
@@ -275,8 +329,8 @@ impl End {
         if self.link.is_connected() {
             return Vec::new();
         }
-        let required = spec.links.iter().filter(|link| link.required);
-        required.map(|link| Missing { link, refusal: self.link.refusal() }).collect()
+        let required = spec.connections.iter().filter(|link| link.required);
+        required.map(|connection| Missing { connection, refusal: self.link.refusal() }).collect()
     }
 
     fn report_change(&mut self) {
@@ -287,22 +341,60 @@ impl End {
     }
 }
 
-/// Marks a call as under way, and hands the end back to the task when it ends in any way.
-struct InCall<'a>(&'a Exchange);
+/// Waits for a future, no longer than until the deadline.
+async fn until<F: Future>(future: F, deadline: Instant, state: &ComponentState) -> Result<F::Output, ExchangeError> {
+    // Without a timer this could wait forever.
+    let mut watchdog = Watchdog::new().map_err(|_no_timer| ExchangeError::TimedOut)?;
+    let mut future = pin!(future);
+    let changes = state.changes();
+    loop {
+        let mut changed = pin!(changes.next());
+        // Before the check, so that no end of the calls is missed.
+        changed.as_mut().enable();
+        state.check().map_err(ExchangeError::Unusable)?;
+        let ended = poll_fn(|cx| match future.as_mut().poll(cx) {
+            Poll::Ready(output) => Poll::Ready(Some(Ok(output))),
+            Poll::Pending => match watchdog.poll_past(cx, deadline) {
+                Poll::Ready(_past) => Poll::Ready(Some(Err(ExchangeError::TimedOut))),
+                Poll::Pending => changed.as_mut().poll(cx).map(|()| None),
+            },
+        });
+        if let Some(ended) = ended.await {
+            return ended;
+        }
+    }
+}
+
+/// A call in progress, which hands the end back to the task when it ends in any way.
+struct InCall<'a> {
+    exchange: &'a Exchange,
+    id: u64,
+    /// Taken from the exchange, and given back.
+    watchdog: Option<Watchdog>,
+}
 
 impl<'a> InCall<'a> {
-    fn begin(exchange: &'a Exchange) -> Self {
-        exchange.lock().in_call = true;
-        Self(exchange)
+    fn begin(exchange: &'a Exchange, id: u64) -> Self {
+        exchange.calls.begin(id);
+        Self { exchange, id, watchdog: lock(&exchange.watchdogs).pop() }
+    }
+
+    /// Ready when the deadline has passed. Without its timer a call could wait forever, so a timer that fails ends it too.
+    fn poll_past(&mut self, cx: &mut Context<'_>, deadline: Instant) -> Poll<()> {
+        self.watchdog.as_mut().map_or(Poll::Ready(()), |watchdog| watchdog.poll_past(cx, deadline).map(|_past| ()))
     }
 }
 
 impl Drop for InCall<'_> {
     fn drop(&mut self) {
-        let mut end = self.0.lock();
-        end.in_call = false;
-        self.0.io.forget_call();
-        // Polled once more, so that an event reported to the call is handled, and the next one wakes the task.
-        end.drive();
+        lock(&self.exchange.watchdogs).extend(self.watchdog.take());
+        let mut end = self.exchange.lock();
+        end.sent_calls.retain(|call| call.id != self.id);
+        self.exchange.calls.end(self.id);
+        // Polled once more, so that an event reported to the call is handled, and the next one wakes the task or another
+        // call.
+        if end.drive() {
+            self.exchange.calls.wake_call();
+        }
     }
 }

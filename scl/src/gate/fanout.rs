@@ -7,7 +7,7 @@ use super::watch::Watch;
 use crate::codec::EncodeError;
 use crate::error::{BlockingError, GateName, Missing, PeerName, SendError, SendTimeoutError, TrySendError};
 use crate::figures::FigureSource;
-use crate::spec::{GateKind, GateSpec, LinkSpec};
+use crate::spec::{ConnectionSpec, GateKind, GateSpec};
 use crate::state::{Owner, SendingEnd};
 use crate::sync::lock;
 use crate::transport::{HeapMemory, Loan};
@@ -21,7 +21,7 @@ use std::time::Duration;
 pub(crate) struct Fanout {
     pub(crate) spec: &'static GateSpec,
     pub(super) name: GateName,
-    /// One per peer, in the order of `spec.links`.
+    /// One per peer, in the order of `spec.connections`.
     connections: Vec<Arc<Mutex<Connection>>>,
     tap: GateTap,
     may_wait: bool,
@@ -30,7 +30,7 @@ pub(crate) struct Fanout {
     /// The connection whose turn it is, if the gate shares.
     turn: usize,
     /// The peer that accepts the shortest messages.
-    strictest: Option<&'static LinkSpec>,
+    strictest: Option<&'static ConnectionSpec>,
     /// Number of connects and disconnects reported by `peers_changed`.
     reported: u64,
     /// Counts the gate itself, whose connections may live longer.
@@ -61,10 +61,10 @@ impl Fanout {
         connections: Vec<Arc<Mutex<Connection>>>,
         tap: GateTap,
     ) -> Self {
-        let may_wait = spec.links.iter().any(|link| spec.options.waits_for(link.when_full));
+        let may_wait = spec.connections.iter().any(|connection| spec.options.waits_for(connection.when_full));
         let shares = spec.kind == GateKind::Push && connections.len() > 1;
         let name = GateName::new(state.spec().name, spec.name);
-        let strictest = spec.links.iter().min_by_key(|link| link.max_size);
+        let strictest = spec.connections.iter().min_by_key(|connection| connection.max_size);
         Self {
             spec,
             name,
@@ -192,8 +192,8 @@ impl Fanout {
 
     /// The limit that a message of this length exceeds.
     pub(super) fn too_long(&self, length: usize) -> Option<TooLong> {
-        let link = self.strictest.filter(|link| length as u64 > link.max_size)?;
-        Some(TooLong { peer: PeerName::of(link), size: length as u64, limit: link.max_size })
+        let connection = self.strictest.filter(|connection| length as u64 > connection.max_size)?;
+        Some(TooLong { peer: PeerName::of(connection), size: length as u64, limit: connection.max_size })
     }
 
     fn refused(&self) -> impl Fn(BlockingError) -> SendError + use<> {
@@ -305,12 +305,13 @@ impl Fanout {
         let mut stats = GateStats { dropped_for_observers: self.tap.dropped(), ..GateStats::default() };
         for connection in self.connections.iter().map(lock_connection) {
             let peer = connection.stats();
-            let (sent_to_foreign, dropped_for_foreign) = connection.foreign_counts();
+            let foreign = connection.foreign_counts();
             connection.account().activity.add_to(&mut stats);
-            stats.sent += connection.account().handed() + sent_to_foreign;
+            stats.sent += connection.account().handed() + foreign.sent;
+            stats.replaced += peer.replaced + foreign.replaced;
             stats.dropped_oldest += peer.dropped_oldest;
             stats.dropped_newest += peer.dropped_newest;
-            stats.dropped_for_observers += dropped_for_foreign;
+            stats.dropped_for_observers += foreign.dropped;
             stats.lost += peer.lost;
             stats.waiting += peer.waiting as usize;
             stats.peers += usize::from(peer.connected);

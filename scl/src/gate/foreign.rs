@@ -10,17 +10,45 @@ pub(super) struct ForeignPeer {
     link: Box<dyn Link>,
     queue: Queue<Frame>,
     sent: u64,
+    latches: bool,
+    /// The last message of a latched gate, while the subscriber has not subscribed to it.
+    unwanted: Option<Bytes>,
+}
+
+/// What became of the messages for plain ZeroMQ subscribers.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ForeignCounts {
+    /// Handed to them.
+    pub(crate) sent: u64,
+    /// Replaced by newer ones, because only the newest counts.
+    pub(crate) replaced: u64,
+    /// Dropped because they read slowly.
+    pub(crate) dropped: u64,
+}
+
+impl ForeignCounts {
+    pub(super) fn plus(self, other: Self) -> Self {
+        let Self { sent, replaced, dropped } = other;
+        Self { sent: self.sent + sent, replaced: self.replaced + replaced, dropped: self.dropped + dropped }
+    }
 }
 
 impl ForeignPeer {
-    /// A subscriber that is to receive `waiting` first.
-    pub(super) fn new(link: Box<dyn Link>, policy: QueuePolicy, waiting: VecDeque<Frame>) -> Self {
+    /// A subscriber that is to receive `waiting` first. `latches`: it gets the last message also if it subscribes to that later.
+    pub(super) fn new(link: Box<dyn Link>, policy: QueuePolicy, mut waiting: VecDeque<Frame>, latches: bool) -> Self {
+        let is_unwanted = |last: &mut Frame| latches && !link.wants(last.as_slice());
+        let unwanted = waiting.pop_back_if(is_unwanted).map(Frame::into_bytes);
         let mut queue = Queue::new(policy);
         *queue.items_mut() = waiting;
-        Self { link, queue, sent: 0 }
+        Self { link, queue, sent: 0, latches, unwanted }
     }
 
     pub(super) fn send(&mut self, cx: &mut Context<'_>, message: Bytes) {
+        if self.latches && !self.link.wants(&message) {
+            self.unwanted = Some(message);
+            return;
+        }
+        self.unwanted = None;
         if self.queue.is_full() {
             self.hand_over(cx);
         }
@@ -39,6 +67,9 @@ impl ForeignPeer {
 
     pub(super) fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Disconnected> {
         self.link.drive(cx)?;
+        if let Some(last) = self.unwanted.take_if(|last| self.link.wants(last)) {
+            self.queue.push(last.into());
+        }
         self.hand_over(cx);
         Ok(())
     }
@@ -51,12 +82,9 @@ impl ForeignPeer {
         self.queue.is_empty() && self.link.is_written()
     }
 
-    pub(super) fn sent(&self) -> u64 {
-        self.sent
-    }
-
-    pub(super) fn dropped(&self) -> u64 {
-        self.queue.dropped_oldest + self.queue.dropped_newest
+    pub(super) fn counts(&self) -> ForeignCounts {
+        let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
+        ForeignCounts { sent: self.sent, replaced, dropped: dropped_oldest + dropped_newest }
     }
 
     pub(super) fn detach(&mut self) {

@@ -1,18 +1,20 @@
 //! The ends of a receiving gate and its queue, shared by the calls of the program and the gate's background task.
 
 use super::io_waker::IoWaker;
-use super::queue::{Queue, QueuePolicy};
+use super::queue::{Pushed, Queue, QueuePolicy};
 use super::ready_set::{ReadySet, ReadySignals};
 use super::stats::Activity;
 use super::tap::{GateTap, Observed};
+use super::undecodable::UndecodableCount;
 use crate::error::Missing;
 use crate::figures::{FigureSource, FiguresInWait};
 use crate::runtime_dir::GateFigures;
-use crate::spec::GateSpec;
-use crate::state::{Changes, ComponentState, WakeCall};
+use crate::spec::{GateSpec, WhenFull};
+use crate::state::{Changes, ComponentState, ReceivingEnd, WakeCall};
 use crate::sync::{AbortOnDrop, lock, try_lock};
 use crate::transport::Receiver;
 use bytes::Bytes;
+use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker};
@@ -40,8 +42,12 @@ pub(super) struct Inbox {
     pub(super) received: u64,
     /// The same for each link.
     received_over: Vec<u64>,
+    /// Whether the sender of each link keeps its last message for those that join.
+    latched: Vec<bool>,
+    /// How many messages of each link wait in the queue.
+    waiting_of: Vec<u64>,
     /// Messages that the codec could not read.
-    pub(super) undecodable: u64,
+    pub(super) undecodable: UndecodableCount,
     pub(super) activity: Activity,
     in_wait: Arc<FiguresInWait>,
     tap: GateTap,
@@ -55,6 +61,8 @@ pub(super) struct Inbox {
 pub(super) struct Arrived {
     pub(super) link: usize,
     pub(super) frame: Bytes,
+    /// When it was sent, if that was before this gate had joined.
+    pub(super) latched: Option<Instant>,
 }
 
 /// The inbox, its waker, and the task that drives it.
@@ -71,6 +79,7 @@ impl SharedInbox {
         state.register_calls(Arc::downgrade(&io) as _);
         let waker = Waker::from(Arc::clone(&io));
         let inbox = Arc::new(Mutex::new(Inbox::new(spec, links, tap, state.changes(), waker)));
+        state.register_receiving(Arc::downgrade(&inbox) as _);
         // Weak, so that the ends are gone with the gate, and not only when the runtime drops the task.
         let (driven, task_io) = (Arc::downgrade(&inbox), Arc::clone(&io));
         let task = tokio::spawn(poll_fn(move |cx| {
@@ -139,6 +148,8 @@ impl Inbox {
         Self {
             connected: vec![0; links.len()],
             received_over: vec![0; links.len()],
+            latched: vec![false; links.len()],
+            waiting_of: vec![0; links.len()],
             links,
             next: 0,
             queue: Queue::new(policy),
@@ -147,8 +158,8 @@ impl Inbox {
             newest_only: spec.newest_only(),
             listens: !spec.endpoint.is_empty(),
             received: 0,
-            undecodable: 0,
-            in_wait: Arc::new(FiguresInWait::new(spec.links.len())),
+            undecodable: UndecodableCount::of_links(spec.connections.len()),
+            in_wait: Arc::new(FiguresInWait::new(spec.connections.len())),
             activity: Activity::default(),
             tap,
             waker,
@@ -179,7 +190,7 @@ impl Inbox {
         if self.newest_only && self.poll_caught_up().is_pending() {
             return Poll::Pending;
         }
-        let first = self.queue.pop();
+        let first = self.pop();
         self.was_empty = first.is_none();
         first.map_or(Poll::Pending, Poll::Ready)
     }
@@ -219,32 +230,35 @@ impl Inbox {
             self.catch_up();
             self.take_in();
         }
-        let next = self.queue.pop();
+        let next = self.pop();
         self.report_ready();
         next
     }
 
-    /// Returns the newest message that has arrived and discards the others.
-    pub(super) fn newest(&mut self) -> Option<Arrived> {
+    /// Moves what has arrived into `arrived`, which must be empty, so that its caller can choose the newest.
+    pub(super) fn take_all(&mut self, arrived: &mut VecDeque<Arrived>) {
         self.was_empty = false;
         self.catch_up();
         self.take_in();
         if !self.queue.waits() && self.is_lossless() {
             // The sender waits for each of its messages: at any time there is only one.
-            let next = self.queue.pop();
-            self.report_ready();
-            return next;
+            arrived.extend(self.pop());
+            return self.report_ready();
         }
-        let mut newest = self.queue.pop_newest();
+        std::mem::swap(self.queue.items_mut(), arrived);
+        self.waiting_of.fill(0);
+        self.note_waiting();
         if self.queue.waits() {
             // Such a gate takes in no more than its queue holds, but what is passed over keeps no publisher waiting.
             for _ in 0..TAKE_IN {
                 let Poll::Ready(newer) = self.poll_links() else { break };
-                newest = Some(newer);
+                if arrived.len() >= self.queue.policy().capacity {
+                    arrived.pop_front();
+                }
+                arrived.push_back(newer);
             }
         }
         self.report_ready();
-        newest
     }
 
     /// From now on reports to a set whether something can be received.
@@ -270,27 +284,69 @@ impl Inbox {
         self.ready.report(!self.queue.is_empty());
     }
 
-    /// Drains the links into the queue, as far as it makes its senders wait.
+    /// Drains the links into the queue, as far as it makes its senders wait, and notes what the program has received.
     fn take_in(&mut self) {
+        self.drain_links();
+        self.note_waiting();
+    }
+
+    fn drain_links(&mut self) {
         for _ in 0..TAKE_IN {
             if self.queue.is_full() && (self.queue.waits() || self.is_lossless()) {
                 return self.connect_links();
             }
             let Poll::Ready(arrived) = self.poll_links() else { return };
             self.was_empty = false;
-            self.queue.push(arrived);
+            self.keep(arrived);
         }
         // There is more: the task continues after others had their turn.
         self.waker.wake_by_ref();
+    }
+
+    fn keep(&mut self, arrived: Arrived) {
+        if arrived.latched.is_some() && self.queue.policy().when_full == WhenFull::DropNewest {
+            // It is the state that holds; those before it are not.
+            self.waiting_of[arrived.link] += 1;
+            if let Some(newest) = self.queue.push_over_newest(arrived) {
+                self.waiting_of[newest.link] -= 1;
+            }
+            return;
+        }
+        let (link, oldest) = (arrived.link, self.queue.front().map(|oldest| oldest.link));
+        match (self.queue.push(arrived), oldest) {
+            (Pushed::Dropped, _) => return self.links[link].note_dropped(),
+            (Pushed::ReplacedOldest, Some(oldest)) => self.waiting_of[oldest] -= 1,
+            _ => {}
+        }
+        self.waiting_of[link] += 1;
+    }
+
+    fn pop(&mut self) -> Option<Arrived> {
+        let arrived = self.queue.pop()?;
+        let (link, waiting) = (arrived.link, &mut self.waiting_of[arrived.link]);
+        *waiting -= 1;
+        if *waiting == 0 {
+            // The program may receive nothing for long, and its sender may wait for this.
+            self.links[link].note_waiting(0);
+        }
+        Some(arrived)
+    }
+
+    fn note_waiting(&mut self) {
+        for (link, waiting) in self.links.iter_mut().zip(&self.waiting_of) {
+            link.note_waiting(*waiting);
+        }
     }
 
     /// Without this, a component that takes nothing before all of its peers are there would wait forever, once the first
     /// of them has filled the queue.
     fn connect_links(&mut self) {
         let cx = &mut Context::from_waker(&self.waker);
-        for (link, connected) in self.links.iter_mut().zip(&mut self.connected) {
+        for ((link, connected), latched) in self.links.iter_mut().zip(&mut self.connected).zip(&mut self.latched) {
             link.connect(cx);
-            report_peers(&**link, connected, &self.changes);
+            if report_peers(&**link, connected, &self.changes) {
+                *latched = link.is_latched();
+            }
         }
     }
 
@@ -305,14 +361,17 @@ impl Inbox {
         for offset in 0..count {
             let link = (self.next + offset) % count;
             let polled = self.links[link].poll_recv(cx);
-            report_peers(&*self.links[link], &mut self.connected[link], &self.changes);
+            if report_peers(&*self.links[link], &mut self.connected[link], &self.changes) {
+                self.latched[link] = self.links[link].is_latched();
+            }
             if let Poll::Ready(frame) = polled {
                 self.next = (link + 1) % count;
                 self.received += 1;
                 self.received_over[link] += 1;
                 self.activity.add(frame.len());
                 self.tap.observe(Observed::Message, 0, &frame);
-                return Poll::Ready(Arrived { link, frame });
+                let latched = if self.latched[link] { self.links[link].take_latched() } else { None };
+                return Poll::Ready(Arrived { link, frame, latched });
             }
         }
         Poll::Pending
@@ -346,9 +405,9 @@ impl Inbox {
 
     /// The required peers that are not connected, of a gate with one link per peer.
     pub(super) fn missing(&self, spec: &'static GateSpec) -> Vec<Missing> {
-        let links = spec.links.iter().zip(&self.links);
+        let links = spec.connections.iter().zip(&self.links);
         let missing = links.filter(|(link, end)| link.required && end.peers() == 0);
-        missing.map(|(link, end)| Missing { link, refusal: end.refusal() }).collect()
+        missing.map(|(connection, end)| Missing { connection, refusal: end.refusal() }).collect()
     }
 
     /// Brings the figures of the gate up to date.
@@ -356,6 +415,8 @@ impl Inbox {
         figures.clear();
         figures.received = self.received;
         figures.rejected = self.rejected();
+        figures.undecodable = self.undecodable.total();
+        figures.replaced = self.queue.replaced;
         figures.dropped_oldest = self.queue.dropped_oldest;
         figures.dropped_newest = self.queue.dropped_newest;
         figures.tap_dropped = self.tap_dropped();
@@ -374,7 +435,7 @@ impl Inbox {
 
     /// Number of messages that could not be used.
     pub(super) fn rejected(&self) -> u64 {
-        self.undecodable + self.malformed()
+        self.undecodable.total() + self.malformed()
     }
 
     pub(super) fn queue(&self) -> &Queue<Arrived> {
@@ -396,10 +457,26 @@ impl Inbox {
     }
 }
 
+impl ReceivingEnd for Inbox {
+    fn acknowledge_last(&mut self) {
+        self.note_waiting();
+        self.links.iter_mut().for_each(|link| link.acknowledge_last());
+    }
+}
+
+impl Drop for Inbox {
+    fn drop(&mut self) {
+        self.acknowledge_last();
+    }
+}
+
 /// Called after every poll of a link: a waiting call is woken instead of the task, and completes the connection.
-fn report_peers(link: &dyn Receiver, connected: &mut usize, changes: &Changes) {
+/// Returns true if their number has changed.
+fn report_peers(link: &dyn Receiver, connected: &mut usize, changes: &Changes) -> bool {
     let peers = link.peers();
-    if std::mem::replace(connected, peers) != peers {
+    let has_changed = std::mem::replace(connected, peers) != peers;
+    if has_changed {
         changes.report();
     }
+    has_changed
 }

@@ -1,8 +1,10 @@
 //! What `sub` and `pull` share: receiving and decoding.
 
+use super::decoder::Decoder;
 use super::inbox::{Arrived, SharedInbox};
 use super::stats::GateStats;
 use super::tap::GateTap;
+use super::undecodable::{AT_ONCE, SkipLimit, Undecodable};
 #[cfg(feature = "raw")]
 use super::view::View;
 use super::watch::Watch;
@@ -15,11 +17,11 @@ use crate::spec::GateSpec;
 use crate::state::Owner;
 use crate::sync::lock;
 use crate::transport::Receiver;
-use bytes::Bytes;
 #[cfg(feature = "raw")]
 use std::any::TypeId;
+use std::collections::VecDeque;
 use std::sync::Arc;
-use std::task::{Context, Poll};
+use std::task::{Context, Poll, ready};
 use std::time::{Duration, Instant};
 #[cfg(feature = "raw")]
 use zerocopy::{FromBytes, Immutable, KnownLayout};
@@ -28,7 +30,13 @@ pub(crate) struct Incoming<T> {
     pub(crate) spec: &'static GateSpec,
     name: GateName,
     inbox: SharedInbox,
-    decode: fn(Bytes) -> Result<T, DecodeError>,
+    decoder: Decoder<T>,
+    /// The link of the last message.
+    last: usize,
+    /// Empty memory for the messages from which `latest` chooses.
+    arrived: VecDeque<Arrived>,
+    /// When the message given to the program last was sent, if that was before this gate had joined.
+    latched: Option<Instant>,
     #[cfg(feature = "raw")]
     codec: TypeId,
     /// Dropped after the ends, which are this component's only as long as it holds its lock.
@@ -48,31 +56,52 @@ impl<T> Incoming<T> {
             spec,
             name,
             inbox,
-            decode: C::decode,
+            decoder: Decoder::new::<C>(&state, spec),
+            last: 0,
+            arrived: VecDeque::new(),
+            latched: None,
             #[cfg(feature = "raw")]
             codec: TypeId::of::<C>(),
             state,
         }
     }
 
-    pub(crate) async fn recv(&mut self) -> Result<T, RecvError> {
-        let arrived = Recv { gate: self, is_waiting: false }.await?;
-        self.decode(arrived)
+    pub(crate) fn recv(&mut self) -> impl Future<Output = Result<T, RecvError>> {
+        self.next(Self::decode)
     }
 
     pub(crate) fn recv_blocking(&mut self) -> Result<T, RecvError> {
-        let arrived = self.next_blocking()?;
-        self.decode(arrived)
+        self.next_blocking(Self::decode)
     }
 
-    fn next_blocking(&mut self) -> Result<Arrived, RecvError> {
+    /// Waits for the next message that can be decoded. It is decoded here and not in [`Recv`], because a long message would be
+    /// moved, and take room on the stack, once more.
+    async fn next<R>(&mut self, decode: impl Decode<T, R>) -> Result<R, RecvError> {
+        loop {
+            for _ in 0..AT_ONCE {
+                let arrived = Recv { gate: self, is_waiting: false }.await?;
+                match decode(self, arrived) {
+                    Err(Undecodable::Skipped) => {}
+                    Err(Undecodable::Failed(error)) => return Err(error),
+                    Ok(message) => return Ok(message),
+                }
+            }
+            tokio::task::yield_now().await;
+        }
+    }
+
+    fn next_blocking<R>(&mut self, decode: impl Decode<T, R>) -> Result<R, RecvError> {
         let (state, gate) = (Arc::clone(&self.state), self.name);
         let blocking = |source| RecvError::Blocking { gate, source };
         state.may_block().map_err(blocking)?;
         if let Some(arrived) = self.wait_directly(Duration::MAX) {
-            return Ok(arrived);
+            match decode(self, arrived) {
+                Err(Undecodable::Skipped) => {}
+                Err(Undecodable::Failed(error)) => return Err(error),
+                Ok(message) => return Ok(message),
+            }
         }
-        state.block_on(Recv { gate: self, is_waiting: false }).map_err(blocking)?
+        state.block_on(self.next(decode)).map_err(blocking)?
     }
 
     pub(crate) fn recv_timeout(&mut self, timeout: Duration) -> Result<T, RecvTimeoutError> {
@@ -81,7 +110,11 @@ impl<T> Incoming<T> {
         state.may_block().map_err(blocking)?;
         let started = Instant::now();
         if let Some(arrived) = self.wait_directly(timeout) {
-            return Ok(self.decode(arrived)?);
+            match self.decode(arrived) {
+                Err(Undecodable::Skipped) => {}
+                Err(Undecodable::Failed(error)) => return Err(error.into()),
+                Ok(message) => return Ok(message),
+            }
         }
         let left = timeout.saturating_sub(started.elapsed());
         match state.block_on_for(left, self.recv()).map_err(blocking)? {
@@ -104,7 +137,16 @@ impl<T> Incoming<T> {
 
     /// The next item of a stream, which may be dropped without notice.
     pub(crate) fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<Result<T, RecvError>> {
-        self.poll_arrived(cx, true).map(|arrived| self.decode(arrived?))
+        for _ in 0..AT_ONCE {
+            let arrived = ready!(self.poll_arrived(cx, true))?;
+            match self.decode(arrived) {
+                Err(Undecodable::Skipped) => {}
+                Err(Undecodable::Failed(error)) => return Poll::Ready(Err(error)),
+                Ok(message) => return Poll::Ready(Ok(message)),
+            }
+        }
+        cx.waker().wake_by_ref();
+        Poll::Pending
     }
 
     fn poll_arrived(&mut self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Result<Arrived, RecvError>> {
@@ -138,17 +180,48 @@ impl<T> Incoming<T> {
     }
 
     pub(crate) fn try_recv(&mut self) -> Result<Option<T>, RecvError> {
-        self.look(|inbox| inbox.lock().try_next())?.map(|arrived| self.decode(arrived)).transpose()
+        self.try_next(Self::decode)
+    }
+
+    fn try_next<R>(&mut self, decode: impl Decode<T, R>) -> Result<Option<R>, RecvError> {
+        self.take_turn()?;
+        let mut limit = SkipLimit::default();
+        loop {
+            let Some(arrived) = self.inbox.lock().try_next() else { return Ok(None) };
+            match decode(self, arrived) {
+                Err(Undecodable::Skipped) if limit.is_over() => return Ok(None),
+                Err(Undecodable::Skipped) => {}
+                Err(Undecodable::Failed(error)) => return Err(error),
+                Ok(message) => return Ok(Some(message)),
+            }
+        }
     }
 
     pub(crate) fn latest(&mut self) -> Result<Option<T>, RecvError> {
-        self.look(|inbox| inbox.lock().newest())?.map(|arrived| self.decode(arrived)).transpose()
+        self.take_turn()?;
+        let mut arrived = std::mem::take(&mut self.arrived);
+        self.inbox.lock().take_all(&mut arrived);
+        let newest = self.newest_of(&mut arrived);
+        arrived.clear();
+        self.arrived = arrived;
+        newest
     }
 
-    fn look(&mut self, look: impl FnOnce(&SharedInbox) -> Option<Arrived>) -> Result<Option<Arrived>, RecvError> {
+    fn newest_of(&mut self, arrived: &mut VecDeque<Arrived>) -> Result<Option<T>, RecvError> {
+        while let Some(newest) = arrived.pop_back() {
+            match self.decode(newest) {
+                Err(Undecodable::Skipped) => {}
+                Err(Undecodable::Failed(error)) => return Err(error),
+                Ok(message) => return Ok(Some(message)),
+            }
+        }
+        Ok(None)
+    }
+
+    fn take_turn(&mut self) -> Result<(), RecvError> {
         self.state.may_proceed().map_err(|source| self.refused(source))?;
         self.state.take_turn();
-        Ok(look(&self.inbox))
+        Ok(())
     }
 
     #[cfg(feature = "raw")]
@@ -157,8 +230,7 @@ impl<T> Incoming<T> {
         T: FromBytes + KnownLayout + Immutable,
     {
         self.check_views()?;
-        let arrived = Recv { gate: self, is_waiting: false }.await?;
-        self.view(arrived)
+        self.next(Self::view).await
     }
 
     #[cfg(feature = "raw")]
@@ -167,8 +239,7 @@ impl<T> Incoming<T> {
         T: FromBytes + KnownLayout + Immutable,
     {
         self.check_views()?;
-        let arrived = self.next_blocking()?;
-        self.view(arrived)
+        self.next_blocking(Self::view)
     }
 
     #[cfg(feature = "raw")]
@@ -177,7 +248,7 @@ impl<T> Incoming<T> {
         T: FromBytes + KnownLayout + Immutable,
     {
         self.check_views()?;
-        self.look(|inbox| inbox.lock().try_next())?.map(|arrived| self.view(arrived)).transpose()
+        self.try_next(Self::view)
     }
 
     /// Fails before a message is taken.
@@ -190,10 +261,11 @@ impl<T> Incoming<T> {
     }
 
     #[cfg(feature = "raw")]
-    fn view(&mut self, Arrived { link, frame }: Arrived) -> Result<View<T>, RecvError>
+    fn view(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<View<T>, Undecodable>
     where
         T: FromBytes + KnownLayout + Immutable,
     {
+        self.latched = latched;
         let received = frame.len();
         View::new(frame).ok_or_else(|| self.undecodable(link, Raw::wrong_length::<T>(received)))
     }
@@ -202,25 +274,32 @@ impl<T> Incoming<T> {
         RecvError::Blocking { gate: self.name, source }
     }
 
-    fn decode(&mut self, Arrived { link, frame }: Arrived) -> Result<T, RecvError> {
-        (self.decode)(frame).map_err(|source| self.undecodable(link, source))
+    fn decode(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<T, Undecodable> {
+        (self.last, self.latched) = (link, latched);
+        self.decoder.decode(frame).map_err(|source| self.undecodable(link, source))
     }
 
-    fn undecodable(&self, link: usize, source: DecodeError) -> RecvError {
-        self.inbox.lock().undecodable += 1;
-        RecvError::Decode { gate: self.name, peers: self.senders(link), source }
+    #[cold]
+    fn undecodable(&self, link: usize, source: DecodeError) -> Undecodable {
+        let first = self.inbox.lock().undecodable.add(link);
+        let error = RecvError::Decode { gate: self.name, peers: self.senders(link), source };
+        Undecodable::report(self.spec.options.undecodable, error, first)
     }
 
-    /// Counts a message that the program itself could not decode.
-    pub(crate) fn reject(&mut self, source: DecodeError) -> RecvError {
-        self.inbox.lock().undecodable += 1;
-        RecvError::Decode { gate: self.name, peers: Peers::of(self.spec), source }
+    /// Reports the last message, which the program itself could not decode.
+    pub(crate) fn reject(&mut self, source: DecodeError) -> Result<(), RecvError> {
+        self.undecodable(self.last, source).into_result()
     }
 
     /// The possible senders of a message: a listening gate has one link for all its peers.
     fn senders(&self, link: usize) -> Peers {
-        let links = self.spec.links;
+        let links = self.spec.connections;
         if self.spec.endpoint.is_empty() { Peers(&links[link..=link]) } else { Peers(links) }
+    }
+
+    /// The age of the message given to the program last, if its publisher had sent it before this gate joined.
+    pub(crate) fn latched_age(&self) -> Option<Duration> {
+        self.latched.map(|sent| sent.elapsed())
     }
 
     /// Returns true if all required peers are connected, or, for a listening gate, at least one peer.
@@ -257,6 +336,8 @@ impl<T> Incoming<T> {
         let mut stats = GateStats {
             received: inbox.received,
             rejected: inbox.rejected(),
+            undecodable: inbox.undecodable.total(),
+            replaced: inbox.queue().replaced,
             dropped_oldest: inbox.queue().dropped_oldest,
             dropped_newest: inbox.queue().dropped_newest,
             dropped_for_observers: inbox.tap_dropped(),
@@ -278,6 +359,11 @@ impl<T> Drop for Incoming<T> {
         self.inbox.lock().stop_reporting();
     }
 }
+
+/// Decodes what has arrived.
+trait Decode<T, R>: Fn(&mut Incoming<T>, Arrived) -> Result<R, Undecodable> {}
+
+impl<T, R, D: Fn(&mut Incoming<T>, Arrived) -> Result<R, Undecodable>> Decode<T, R> for D {}
 
 /// A receiving call. Dropping it before it is ready hands the gate's I/O back to the background task.
 struct Recv<'a, T> {

@@ -43,11 +43,6 @@ impl IoWaker {
         }
     }
 
-    /// The call has ended, and has handled what was reported to it.
-    pub(crate) fn forget_call(&self) {
-        lock(&self.wakers).call = None;
-    }
-
     pub(crate) fn set_task(&self, task: &Waker) {
         let mut wakers = lock(&self.wakers);
         match &wakers.task {

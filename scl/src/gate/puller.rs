@@ -35,7 +35,8 @@ impl<T> Pull<T> {
     /// pause: a sender that may hold a newer one is asked for it.
     ///
     /// # Errors
-    /// [`RecvError::Decode`] if the codec cannot read a message; the next call returns the next message.
+    /// [`RecvError::Decode`] if the codec cannot read a message and the gate declares `undecodable: fail`; the next call
+    /// returns the next message. By default such a message is skipped.
     ///
     /// # Cancel safety
     /// Cancel safe: no message is lost if this is dropped before it is ready.
@@ -70,7 +71,7 @@ impl<T> Pull<T> {
         self.incoming.try_recv()
     }
 
-    /// Returns the newest message that has arrived, if any, and discards the older ones. It waits no longer than
+    /// Returns the newest message that has arrived and can be decoded, if any, and discards the older ones. It waits no longer than
     /// [`try_recv`](Self::try_recv).
     ///
     /// # Errors

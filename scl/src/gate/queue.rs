@@ -15,6 +15,8 @@ pub(crate) struct QueuePolicy {
 pub(crate) struct Queue<T> {
     items: VecDeque<T>,
     policy: QueuePolicy,
+    /// Values that a newer one has replaced where only the newest counts: no drops.
+    pub(crate) replaced: u64,
     pub(crate) dropped_oldest: u64,
     pub(crate) dropped_newest: u64,
 }
@@ -29,22 +31,30 @@ pub(crate) enum Pushed {
     Dropped,
 }
 
+impl QueuePolicy {
+    /// Returns true if only the newest message counts: a queue of one, in which each message replaces the one before.
+    pub(crate) fn newest_only(self) -> bool {
+        self.capacity == 1 && self.when_full == WhenFull::DropOldest
+    }
+}
+
 impl<T> Queue<T> {
     pub(crate) fn new(policy: QueuePolicy) -> Self {
-        Self { items: VecDeque::new(), policy, dropped_oldest: 0, dropped_newest: 0 }
+        Self { items: VecDeque::new(), policy, replaced: 0, dropped_oldest: 0, dropped_newest: 0 }
     }
 
     pub(crate) fn push(&mut self, item: T) -> Pushed {
         let pushed = self.replace(item);
         match pushed {
             Pushed::Stored => {}
+            Pushed::ReplacedOldest if self.policy.newest_only() => self.replaced += 1,
             Pushed::ReplacedOldest => self.dropped_oldest += 1,
             Pushed::Dropped => self.dropped_newest += 1,
         }
         pushed
     }
 
-    /// Like [`push`](Self::push), but counts no drop: somebody else has taken the message.
+    /// Like [`push`](Self::push), but counts nothing: somebody else has taken the message.
     pub(crate) fn replace(&mut self, item: T) -> Pushed {
         if !self.is_full() {
             self.items.push_back(item);
@@ -58,15 +68,20 @@ impl<T> Queue<T> {
         Pushed::ReplacedOldest
     }
 
+    /// Stores a message that a full queue must not drop; there the newest of the others gives way, and is returned.
+    pub(crate) fn push_over_newest(&mut self, item: T) -> Option<T> {
+        let newest = if self.is_full() { self.items.pop_back() } else { None };
+        self.dropped_newest += u64::from(newest.is_some());
+        self.items.push_back(item);
+        newest
+    }
+
     pub(crate) fn pop(&mut self) -> Option<T> {
         self.items.pop_front()
     }
 
-    /// Returns the newest message and discards the others, which its caller has passed over.
-    pub(crate) fn pop_newest(&mut self) -> Option<T> {
-        let newest = self.items.pop_back();
-        self.items.clear();
-        newest
+    pub(crate) fn front(&self) -> Option<&T> {
+        self.items.front()
     }
 
     /// The messages themselves, for a link that takes several at once.
@@ -117,10 +132,24 @@ mod tests {
     }
 
     #[test]
-    fn what_somebody_else_has_taken_is_not_counted_as_dropped() {
+    fn a_queue_for_the_newest_value_replaces_and_drops_nothing() {
         let mut queue = Queue::new(QueuePolicy { capacity: 1, when_full: WhenFull::DropOldest });
-        queue.replace(1);
-        assert_eq!(queue.replace(2), Pushed::ReplacedOldest);
-        assert_eq!((queue.items_mut()[0], queue.dropped_oldest), (2, 0));
+        assert_eq!([queue.push(1), queue.push(2)], [Pushed::Stored, Pushed::ReplacedOldest]);
+        assert_eq!((queue.replaced, queue.dropped_oldest), (1, 0));
+        // A sender that may not wait for an absent peer drops what it was to keep.
+        let mut queue = Queue::new(QueuePolicy { capacity: 1, when_full: WhenFull::Wait });
+        assert_eq!([queue.push(1), queue.push(2)], [Pushed::Stored, Pushed::ReplacedOldest]);
+        assert_eq!((queue.replaced, queue.dropped_oldest), (0, 1));
+    }
+
+    #[test]
+    fn what_somebody_else_has_taken_is_not_counted_as_dropped() {
+        for capacity in [1, 2] {
+            let mut queue = Queue::new(QueuePolicy { capacity, when_full: WhenFull::DropOldest });
+            (0..capacity).for_each(|item| assert_eq!(queue.replace(item), Pushed::Stored));
+            assert_eq!(queue.replace(7), Pushed::ReplacedOldest);
+            assert_eq!(queue.items_mut().back(), Some(&7));
+            assert_eq!((queue.dropped_oldest, queue.replaced), (0, 0));
+        }
     }
 }

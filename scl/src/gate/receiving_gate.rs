@@ -12,8 +12,8 @@ macro_rules! receiving_gate {
         use std::task::{Context, Poll};
 
         impl<T> $gate<T> {
-            /// Counts a message that the program itself could not decode.
-            pub(crate) fn reject(&mut self, source: crate::codec::DecodeError) -> RecvError {
+            /// Reports the last message, which the program itself could not decode.
+            pub(crate) fn reject(&mut self, source: crate::codec::DecodeError) -> Result<(), RecvError> {
                 self.incoming.reject(source)
             }
         }

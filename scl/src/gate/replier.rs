@@ -1,15 +1,17 @@
 //! The `rep` gate.
 
+use super::decoder::Decoder;
 use super::encoding::Encoding;
 use super::reply_end::{Numbered, ReplyEnd};
 use super::stats::GateStats;
 use super::tap::{GateTap, Observed};
+use super::undecodable::{AT_ONCE, SkipLimit, Undecodable};
 use super::watch::Watch;
 use super::{AnyGate, ReceivingGate};
 use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, GateName, Missing, PeerName, Peers, RecvError, RecvTimeoutError, ReplyError};
 use crate::figures::FigureSource;
-use crate::spec::{GateSpec, LinkSpec};
+use crate::spec::{ConnectionSpec, GateSpec};
 use crate::state::Owner;
 use crate::sync::lock;
 use crate::transport::{IncomingRequest, Replier, ReplyPath};
@@ -40,7 +42,7 @@ use std::time::Duration;
 pub struct Rep<A, B> {
     spec: &'static GateSpec,
     end: Arc<ReplyEnd>,
-    decode: fn(Bytes) -> Result<A, DecodeError>,
+    decoder: Decoder<A>,
     replies: Arc<Replies<B>>,
 }
 
@@ -50,7 +52,7 @@ struct Replies<B> {
     encoding: Mutex<Encoding<B>>,
     tap: GateTap,
     /// The requester that accepts the shortest replies.
-    strictest: Option<&'static LinkSpec>,
+    strictest: Option<&'static ConnectionSpec>,
     /// Dropped after the end, which is this component's only as long as it holds its lock.
     state: Owner,
 }
@@ -63,19 +65,20 @@ impl<A, B> Rep<A, B> {
         tap: GateTap,
     ) -> Self {
         let gate = GateName::new(state.spec().name, spec.name);
+        let decoder = Decoder::new::<C>(&state, spec);
         let end = ReplyEnd::open(link, &state);
         let encoding = Mutex::new(Encoding::with::<C>());
-        let strictest = spec.links.iter().min_by_key(|link| link.max_size);
+        let strictest = spec.connections.iter().min_by_key(|connection| connection.max_size);
         let replies = Arc::new(Replies { gate, encoding, tap, strictest, state });
-        let decode = <C as Codec<A>>::decode;
-        Self { spec, end, decode, replies }
+        Self { spec, end, decoder, replies }
     }
 
     /// Waits for the next request.
     ///
     /// # Errors
-    /// [`RecvError::Decode`] if the codec cannot read a request; its sender gets no reply, and the next call returns the
-    /// next request.
+    /// [`RecvError::Decode`] if the codec cannot read a request and the gate declares `undecodable: fail`; by default it is
+    /// skipped. Either way the sender's call fails with [`CallError::Refused`](crate::CallError::Refused), except that of a
+    /// plain ZeroMQ program, which has no reply to wait for until its own timeout.
     ///
     /// # Cancel safety
     /// Cancel safe: no request is lost if this is dropped before it is ready.
@@ -113,9 +116,15 @@ impl<A, B> Rep<A, B> {
     pub fn try_recv(&mut self) -> Result<Option<Request<A, B>>, RecvError> {
         self.replies.state.may_proceed().map_err(|source| self.refused(source))?;
         self.replies.state.take_turn();
-        match self.end.try_next() {
-            Some(request) => self.decode(request).map(Some),
-            None => Ok(None),
+        let mut limit = SkipLimit::default();
+        loop {
+            let Some(request) = self.end.try_next() else { return Ok(None) };
+            match self.decode(request) {
+                Err(Undecodable::Skipped) if limit.is_over() => return Ok(None),
+                Err(Undecodable::Skipped) => {}
+                Err(Undecodable::Failed(error)) => return Err(error),
+                Ok(request) => return Ok(Some(request)),
+            }
         }
     }
 
@@ -129,6 +138,7 @@ impl<A, B> Rep<A, B> {
         let counts = self.end.counts();
         let mut stats = GateStats { received: counts.received, ..GateStats::default() };
         counts.activity.add_to(&mut stats);
+        stats.undecodable = counts.undecodable;
         stats.rejected = counts.undecodable + self.end.malformed();
         stats.peers = self.end.peers();
         stats.dropped_for_observers = self.replies.tap.dropped();
@@ -147,10 +157,16 @@ impl<A, B> Rep<A, B> {
         if self.replies.state.is_stopped() {
             return Poll::Pending;
         }
-        match self.end.poll_next(cx, may_vanish) {
-            Poll::Ready(request) => Poll::Ready(self.decode(request)),
-            Poll::Pending => self.poll_ended().map(Err),
+        for _ in 0..AT_ONCE {
+            let Poll::Ready(request) = self.end.poll_next(cx, may_vanish) else { return self.poll_ended().map(Err) };
+            match self.decode(request) {
+                Err(Undecodable::Skipped) => {}
+                Err(Undecodable::Failed(error)) => return Poll::Ready(Err(error)),
+                Ok(request) => return Poll::Ready(Ok(request)),
+            }
         }
+        cx.waker().wake_by_ref();
+        Poll::Pending
     }
 
     /// Ready if the calls were ended before a call could register its waker.
@@ -162,19 +178,28 @@ impl<A, B> Rep<A, B> {
         RecvError::Blocking { gate: self.replies.gate, source }
     }
 
-    /// Counts a request that the program itself could not decode.
-    pub(crate) fn reject(&mut self, source: DecodeError) -> RecvError {
-        self.end.count_undecodable();
-        RecvError::Decode { gate: self.replies.gate, peers: Peers::of(self.spec), source }
+    /// Refuses a request that the program itself could not decode, and reports it.
+    pub(crate) fn reject(&mut self, request: Request<A, B>, source: DecodeError) -> Result<(), RecvError> {
+        self.undecodable(&request.envelope, &*request.path, source).into_result()
     }
 
-    fn decode(&mut self, (id, IncomingRequest { body, envelope, path }): Numbered) -> Result<Request<A, B>, RecvError> {
+    fn decode(
+        &mut self,
+        (id, IncomingRequest { body, envelope, path }): Numbered,
+    ) -> Result<Request<A, B>, Undecodable> {
         self.replies.tap.observe(Observed::Request, id, &body);
-        let decoded = (self.decode)(body).map_err(|source| {
-            self.end.count_undecodable();
-            RecvError::Decode { gate: self.replies.gate, peers: Peers::of(self.spec), source }
-        });
-        Ok(Request { message: decoded?, id, envelope, path, replies: Arc::clone(&self.replies) })
+        match self.decoder.decode(body) {
+            Ok(message) => Ok(Request { message, id, envelope, path, replies: Arc::clone(&self.replies) }),
+            Err(source) => Err(self.undecodable(&envelope, &*path, source)),
+        }
+    }
+
+    #[cold]
+    fn undecodable(&self, envelope: &Bytes, path: &dyn ReplyPath, source: DecodeError) -> Undecodable {
+        path.refuse(envelope);
+        let first = self.end.count_undecodable();
+        let error = RecvError::Decode { gate: self.replies.gate, peers: Peers::of(self.spec), source };
+        Undecodable::report(self.spec.options.undecodable, error, first)
     }
 }
 
@@ -242,9 +267,9 @@ impl<A, B> Request<A, B> {
         let gate = *gate;
         state.check().map_err(|source| ReplyError::Blocking { gate, source })?;
         let body = lock(encoding).encode(reply).map_err(|source| ReplyError::Encode { gate, source })?;
-        if let Some(link) = strictest.filter(|link| body.len() as u64 > link.max_size) {
-            let (size, limit) = (body.len() as u64, link.max_size);
-            return Err(ReplyError::TooLong { gate, peer: PeerName::of(link), size, limit });
+        if let Some(connection) = strictest.filter(|connection| body.len() as u64 > connection.max_size) {
+            let (size, limit) = (body.len() as u64, connection.max_size);
+            return Err(ReplyError::TooLong { gate, peer: PeerName::of(connection), size, limit });
         }
         tap.observe(Observed::Reply, self.id, &body);
         self.path.reply(&self.envelope, body).map_err(|_gone| ReplyError::RequesterGone { gate })

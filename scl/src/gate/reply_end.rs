@@ -142,8 +142,11 @@ impl ReplyEnd {
         lock(&self.link).counts.clone()
     }
 
-    pub(super) fn count_undecodable(&self) {
-        lock(&self.link).counts.undecodable += 1;
+    /// Returns true for the first one.
+    pub(super) fn count_undecodable(&self) -> bool {
+        let counts = &mut lock(&self.link).counts;
+        counts.undecodable += 1;
+        counts.undecodable == 1
     }
 
     pub(super) fn figures(self: &Arc<Self>, tap: &GateTap) -> FigureSource {
@@ -180,6 +183,7 @@ impl Link {
     fn read_figures(&self, figures: &mut GateFigures) {
         figures.clear();
         figures.received = self.counts.received;
+        figures.undecodable = self.counts.undecodable;
         figures.rejected = self.counts.undecodable + self.replier.malformed();
         figures.peers = self.replier.peers() as u64;
         figures.waiting = self.next.is_some().into();

@@ -1,6 +1,7 @@
 //! The `req` gate.
 
 use super::AnyGate;
+use super::decoder::Decoder;
 use super::encoding::Encoding;
 use super::exchange::{Exchange, ExchangeError};
 use super::stats::GateStats;
@@ -10,17 +11,18 @@ use crate::error::{BlockingError, CallError, GateName, Missing, PeerName, Peers}
 use crate::figures::FigureSource;
 use crate::spec::GateSpec;
 use crate::state::Owner;
+use crate::sync::lock;
 use crate::time::Watchdog;
 use crate::transport::Requester;
 use bytes::Bytes;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::time::Instant;
 
 /// A timeout that never ends: 30 years.
 const LONGEST: Duration = Duration::from_secs(30 * 365 * 86_400);
 
-/// Sends requests to the `rep` gate that this gate is connected to, one at a time.
+/// Sends requests to the `rep` gate that this gate is connected to.
 ///
 /// ```no_run
 /// scl::topology!("doc/rover.yaml");
@@ -32,48 +34,68 @@ const LONGEST: Duration = Duration::from_secs(30 * 365 * 86_400);
 ///     Ok(())
 /// }
 /// ```
+///
+/// # Several calls at once
+///
+/// A clone is a handle to the same gate, for another task or thread. As many calls as the gate's `in_flight` says are in
+/// progress at once, by default one; the others wait in order, within their timeouts. Each reply is matched with its request,
+/// in whatever order the replier answers.
+///
+/// ```no_run
+/// scl::topology!("doc/rover.yaml");
+///
+/// #[scl::main]
+/// async fn main(ui: UserInterface) -> scl::Result<()> {
+///     let calls = [0.5, 1.0].map(|target_speed| {
+///         let mut commands = ui.commands.clone();
+///         tokio::spawn(async move { commands.call(&rover::Command { target_speed }).await })
+///     });
+///     for call in calls {
+///         println!("{}", if call.await??.accepted { "accepted" } else { "refused" });
+///     }
+///     Ok(())
+/// }
+/// ```
 pub struct Req<A, B> {
+    shared: Arc<Shared<A, B>>,
+}
+
+struct Shared<A, B> {
     spec: &'static GateSpec,
     name: GateName,
     /// `None` for a gate that is meant to be unconnected.
     exchange: Option<Exchange>,
-    watchdog: Watchdog,
-    encoding: Encoding<A>,
-    decode: fn(Bytes) -> Result<B, DecodeError>,
-    last_id: u64,
+    encoding: Mutex<Encoding<A>>,
+    decoder: Decoder<B>,
     /// Dropped after the end, which is this component's only as long as it holds its lock.
     state: Owner,
 }
 
 impl<A, B> Req<A, B> {
+    /// As many calls can be in progress as there are watchdogs.
     pub(crate) fn new<C: Codec<A> + Codec<B>>(
         state: Owner,
         spec: &'static GateSpec,
         link: Option<Box<dyn Requester>>,
-        watchdog: Watchdog,
+        watchdogs: Vec<Watchdog>,
     ) -> Self {
         let name = GateName::new(state.spec().name, spec.name);
-        let exchange = link.map(|link| Exchange::new(link, &state));
-        Self {
-            spec,
-            name,
-            exchange,
-            watchdog,
-            encoding: Encoding::with::<C>(),
-            decode: <C as Codec<B>>::decode,
-            last_id: 0,
-            state,
-        }
+        let exchange = link.map(|link| Exchange::new(link, watchdogs, &state));
+        let encoding = Mutex::new(Encoding::with::<C>());
+        let decoder = Decoder::new::<C>(&state, spec);
+        Self { shared: Arc::new(Shared { spec, name, exchange, encoding, decoder, state }) }
     }
 
     /// Sends a request and waits for the reply, together no longer than the gate's `timeout`.
     ///
-    /// A replier that is not connected yet, or that restarts, is waited for within that time.
+    /// A replier that is not connected yet, or that restarts, is waited for within that time, and so is the end of another
+    /// call while as many are in progress as the gate's `in_flight` allows.
     ///
     /// # Errors
     /// [`CallError::Timeout`] if no reply arrived in time, [`CallError::PeerLost`] if the replier disconnected after the
-    /// request was sent. Either way the next call starts afresh and never receives the reply to this one.
-    /// [`CallError::TooLong`] if the replier does not accept a request of this length; nothing was sent.
+    /// request was sent, [`CallError::Refused`] if it could not decode the request. In all cases the next call starts afresh
+    /// and never receives the reply to this one. [`CallError::TooLong`] if the replier does not accept a request of this
+    /// length; nothing was sent.
     ///
     /// # Cancel safety
     /// Cancel safe. A call that is dropped may still be answered; its reply is discarded.
@@ -89,22 +111,27 @@ impl<A, B> Req<A, B> {
     /// # Cancel safety
     /// As `call`.
     pub async fn call_within(&mut self, request: &A, timeout: Duration) -> Result<B, CallError> {
+        self.exchange(request, timeout).await
+    }
+
+    async fn exchange(&self, request: &A, timeout: Duration) -> Result<B, CallError> {
+        let Shared { spec, name: gate, exchange, state, .. } = &*self.shared;
         let body = self.encode(request)?;
         let started = Instant::now();
-        self.last_id += 1;
         let deadline = started.checked_add(timeout).unwrap_or_else(|| started + LONGEST);
-        let exchanged = match &self.exchange {
-            Some(exchange) => exchange.call(self.last_id, body, &mut self.watchdog, deadline, &self.state).await,
-            None => Exchange::unconnected(&mut self.watchdog, deadline, &self.state).await,
+        let exchanged = match exchange {
+            Some(exchange) => exchange.call(body, deadline, state).await,
+            None => Exchange::unconnected(deadline, state).await,
         };
-        let (gate, peers) = (self.name, Peers::of(self.spec));
+        let (gate, peers) = (*gate, Peers::of(spec));
         match exchanged {
             Ok(body) => self.decode(body),
-            Err(ExchangeError::Refused(source)) => Err(CallError::Blocking { gate, source }),
+            Err(ExchangeError::Unusable(source)) => Err(CallError::Blocking { gate, source }),
             Err(ExchangeError::Lost) => Err(CallError::PeerLost { gate, peers }),
+            Err(ExchangeError::Refused) => Err(CallError::Refused { gate, peers }),
             Err(ExchangeError::TimedOut) => {
                 let (connected, waited) = (self.is_connected(), started.elapsed());
-                let reason = self.state.why_missing(self.spec, &self.missing());
+                let reason = state.why_missing(spec, &self.missing());
                 Err(CallError::Timeout { gate, peers, waited, connected, reason })
             }
         }
@@ -123,13 +150,13 @@ impl<A, B> Req<A, B> {
     /// # Errors
     /// Those of `call_blocking`.
     pub fn call_timeout(&mut self, request: &A, timeout: Duration) -> Result<B, CallError> {
-        let (state, gate) = (Arc::clone(&self.state), self.name);
-        state.block_on(self.call_within(request, timeout)).map_err(|source| CallError::Blocking { gate, source })?
+        let (state, gate) = (&self.shared.state, self.shared.name);
+        state.block_on(self.exchange(request, timeout)).map_err(|source| CallError::Blocking { gate, source })?
     }
 
     /// The gate's `timeout`.
     pub fn timeout(&self) -> Duration {
-        self.spec.options.timeout
+        self.shared.spec.options.timeout
     }
 
     /// Returns true if the replier is connected.
@@ -139,21 +166,22 @@ impl<A, B> Req<A, B> {
 
     /// Returns the gate's counts; `sent` counts requests, `received` replies.
     pub fn stats(&self) -> GateStats {
-        self.exchange.as_ref().map(Exchange::stats).unwrap_or_default()
+        self.shared.exchange.as_ref().map(Exchange::stats).unwrap_or_default()
     }
 
     pub(crate) fn figures(&self) -> FigureSource {
-        match &self.exchange {
+        match &self.shared.exchange {
             Some(exchange) => exchange.figures(),
             None => Box::new(|_| true),
         }
     }
 
-    fn encode(&mut self, request: &A) -> Result<Bytes, CallError> {
-        let gate = self.name;
-        self.state.check().map_err(|source: BlockingError| CallError::Blocking { gate, source })?;
-        let body = self.encoding.encode(request).map_err(|source| CallError::Encode { gate, source })?;
-        match self.spec.links.first() {
+    fn encode(&self, request: &A) -> Result<Bytes, CallError> {
+        let Shared { spec, name: gate, encoding, state, .. } = &*self.shared;
+        let gate = *gate;
+        state.check().map_err(|source: BlockingError| CallError::Blocking { gate, source })?;
+        let body = lock(encoding).encode(request).map_err(|source| CallError::Encode { gate, source })?;
+        match spec.connections.first() {
             Some(link) if body.len() as u64 > link.max_size => Err(CallError::TooLong {
                 gate,
                 peer: PeerName::of(link),
@@ -165,24 +193,29 @@ impl<A, B> Req<A, B> {
     }
 
     /// Counts a reply that the program itself could not decode.
-    pub(crate) fn reject(&mut self, source: DecodeError) -> CallError {
-        self.exchange.iter().for_each(Exchange::count_undecodable);
-        CallError::Decode { gate: self.name, peers: Peers::of(self.spec), source }
+    pub(crate) fn reject(&self, source: DecodeError) -> CallError {
+        self.shared.exchange.iter().for_each(Exchange::count_undecodable);
+        CallError::Decode { gate: self.shared.name, peers: Peers::of(self.shared.spec), source }
     }
 
-    fn decode(&mut self, body: Bytes) -> Result<B, CallError> {
-        (self.decode)(body).map_err(|source| {
-            self.exchange.iter().for_each(Exchange::count_undecodable);
-            CallError::Decode { gate: self.name, peers: Peers::of(self.spec), source }
-        })
+    fn decode(&self, body: Bytes) -> Result<B, CallError> {
+        self.shared.decoder.decode(body).map_err(|source| self.reject(source))
     }
 
     fn missing(&self) -> Vec<Missing> {
-        self.exchange.as_ref().map(|exchange| exchange.missing(self.spec)).unwrap_or_default()
+        let Shared { spec, exchange, .. } = &*self.shared;
+        exchange.as_ref().map(|exchange| exchange.missing(spec)).unwrap_or_default()
     }
 }
 
-impl<A, B> Drop for Req<A, B> {
+/// Both are the same gate: its connection, its limit of calls in progress and its counts are shared.
+impl<A, B> Clone for Req<A, B> {
+    fn clone(&self) -> Self {
+        Self { shared: Arc::clone(&self.shared) }
+    }
+}
+
+impl<A, B> Drop for Shared<A, B> {
     fn drop(&mut self) {
         if self.state.is_inherited() {
             self.exchange.iter().for_each(Exchange::leak);
@@ -194,7 +227,7 @@ impl<A, B> super::sealed::Sealed for Req<A, B> {}
 
 impl<A, B> AnyGate for Req<A, B> {
     fn spec(&self) -> &'static GateSpec {
-        self.spec
+        self.shared.spec
     }
 
     fn missing(&self) -> Vec<Missing> {
@@ -202,15 +235,15 @@ impl<A, B> AnyGate for Req<A, B> {
     }
 
     fn watch(&self) -> Watch {
-        match &self.exchange {
-            Some(exchange) => exchange.watch(self.spec),
-            None => Watch::new(self.spec, Vec::new),
+        match &self.shared.exchange {
+            Some(exchange) => exchange.watch(self.shared.spec),
+            None => Watch::new(self.shared.spec, Vec::new),
         }
     }
 }
 
 impl<A, B> std::fmt::Debug for Req<A, B> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_tuple("Req").field(&self.spec.name).finish()
+        f.debug_tuple("Req").field(&self.shared.spec.name).finish()
     }
 }

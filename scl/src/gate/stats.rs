@@ -12,16 +12,20 @@ pub struct GateStats {
     pub sent: u64,
     /// Messages received.
     pub received: u64,
+    /// Messages that a newer one has replaced in a queue of one with `drop_oldest`, as `queue: 1` asks for: no drops.
+    pub replaced: u64,
     /// Messages dropped because a queue was full and `drop_oldest` was declared.
     pub dropped_oldest: u64,
     /// Messages dropped because a queue was full and `drop_newest` was declared.
     pub dropped_newest: u64,
     /// Messages dropped for plain ZeroMQ subscribers and for observers at the gate's tap, which never delay a gate.
     pub dropped_for_observers: u64,
-    /// Messages that were on their way when their connection broke.
+    /// Messages that were on their way, or waited in the peer's gate, when their connection broke.
     pub lost: u64,
     /// Messages received that could not be used: several frames, or not what the codec reads.
     pub rejected: u64,
+    /// Those of them that the codec could not read; see the option `undecodable`.
+    pub undecodable: u64,
     /// Bytes of the messages sent or received.
     pub bytes: u64,
     /// Messages that wait in this program for a peer or for a receiving call.
@@ -34,7 +38,8 @@ pub struct GateStats {
 
 /// What became of the messages of one connection, at its sending end.
 ///
-/// At any time `published = taken + dropped_oldest + dropped_newest + lost + waiting`.
+/// At any time `published = taken + replaced + dropped_oldest + dropped_newest + lost + waiting`. Of these, only `waiting`
+/// ever falls.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub struct PeerStats {
@@ -42,17 +47,24 @@ pub struct PeerStats {
     pub peer: String,
     /// Whether the peer is connected.
     pub connected: bool,
-    /// Messages sent by this gate.
+    /// Messages sent by this gate, and those among them that were sent once more ([`latched`](Self::latched)).
     pub published: u64,
-    /// Messages that the peer's program has taken. For a plain ZeroMQ program, those that were handed to its socket.
+    /// How often the last message of a gate with `latched: true` was sent once more, to a subscriber that joined.
+    pub latched: u64,
+    /// Messages that the peer's program has received, or passed over, or that its gate has dropped and counted there, as far
+    /// as the peer has said: when half of a window is on its way, twice a second if figures are written (`SCL_STATS`), and
+    /// when it ends. For a plain ZeroMQ program, those that were handed to its socket.
     pub taken: u64,
+    /// Messages that a newer one has replaced in a queue of one with `drop_oldest`: no drops.
+    pub replaced: u64,
     /// Messages dropped because the queue was full and `drop_oldest` was declared.
     pub dropped_oldest: u64,
     /// Messages dropped because the queue was full and `drop_newest` was declared.
     pub dropped_newest: u64,
-    /// Messages that were on their way when the connection broke; the peer may have taken some of them.
+    /// Messages that were on their way, or waited in the peer's gate, when the connection broke. A program that was killed
+    /// may have received some of them; one that ended in order has received none.
     pub lost: u64,
-    /// Messages that wait in the queue, or are on their way.
+    /// Messages that wait in the queue, are on their way, or wait in the peer's gate.
     pub waiting: u64,
 }
 

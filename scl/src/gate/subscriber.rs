@@ -37,7 +37,8 @@ impl<T> Sub<T> {
     /// pause: a sender that may hold a newer one is asked for it.
     ///
     /// # Errors
-    /// [`RecvError::Decode`] if the codec cannot read a message; the next call returns the next message.
+    /// [`RecvError::Decode`] if the codec cannot read a message and the gate declares `undecodable: fail`; the next call
+    /// returns the next message. By default such a message is skipped.
     ///
     /// # Cancel safety
     /// Cancel safe: no message is lost if this is dropped before it is ready.
@@ -72,13 +73,21 @@ impl<T> Sub<T> {
         self.incoming.try_recv()
     }
 
-    /// Returns the newest message that has arrived, if any, and discards the older ones. It waits no longer than
+    /// Returns the newest message that has arrived and can be decoded, if any, and discards the older ones. It waits no longer than
     /// [`try_recv`](Self::try_recv).
     ///
     /// # Errors
     /// Those of `try_recv`.
     pub fn latest(&mut self) -> Result<Option<T>, RecvError> {
         self.incoming.latest()
+    }
+
+    /// How long ago the message was sent that the last call returned, if its publisher has `latched: true` and sent it before
+    /// this gate was connected to it. `None` for every message that arrived while connected, and before the first one.
+    ///
+    /// It goes on growing until the next message is received.
+    pub fn latched_age(&self) -> Option<Duration> {
+        self.incoming.latched_age()
     }
 
     /// Returns true if all required peers are connected.

@@ -12,6 +12,9 @@ use std::task::{Context, Poll, Waker};
 /// Length of the second frame of a message at a tap, in bytes.
 const META: usize = 32;
 
+/// Where the second frame says that the message was sent before its observer joined.
+const LATCHED: usize = 25;
+
 /// What a message at a tap is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Observed {
@@ -30,6 +33,8 @@ struct Shared {
     end: Mutex<End>,
     /// Whether anybody observes; without, a message costs no more than a look at this and its number.
     observed: AtomicBool,
+    /// Whether observers that join get the last message.
+    latches: bool,
     sequence: AtomicU64,
     /// Copied from the end, which may be locked while a long message is encoded.
     dropped: AtomicU64,
@@ -41,13 +46,14 @@ struct End {
 }
 
 impl GateTap {
-    /// Opens the tap; a transport without taps gives `None`.
-    pub(crate) fn new(tap: Option<Box<dyn Tap>>) -> Self {
+    /// Opens the tap; a transport without taps gives `None`. `latches`: observers that join get the last message.
+    pub(crate) fn new(tap: Option<Box<dyn Tap>>, latches: bool) -> Self {
         let Some(tap) = tap else { return Self { shared: None, _task: None } };
         let end = Mutex::new(End { tap, task: Waker::noop().clone() });
         let shared = Arc::new(Shared {
             end,
             observed: AtomicBool::new(false),
+            latches,
             sequence: AtomicU64::new(0),
             dropped: AtomicU64::new(0),
         });
@@ -107,18 +113,23 @@ impl Shared {
     fn observe(&self, what: Observed, call_id: u64, payload: impl FnOnce() -> Bytes) {
         // Counted also while nobody observes, so that an observer can tell a gap from its own absence.
         let sequence = self.sequence.fetch_add(1, Ordering::Relaxed);
-        if !self.observed.load(Ordering::Acquire) {
+        if !self.latches && !self.observed.load(Ordering::Acquire) {
             return;
         }
         let payload = payload();
+        let mut meta = meta(sequence, now_ns(), call_id, what);
         let mut end = lock(&self.end);
         let End { tap, task } = &mut *end;
-        tap.observe(&mut Context::from_waker(task), &payload, &meta(sequence, now_ns(), call_id, what));
+        tap.observe(&mut Context::from_waker(task), &payload, &meta);
+        if self.latches {
+            meta[LATCHED] = 1;
+            tap.latch(&payload, &meta);
+        }
         self.dropped.store(tap.dropped(), Ordering::Relaxed);
     }
 }
 
-/// Sequence, time of sending, call id (each u64), kind (u8) and 7 zero bytes, little endian.
+/// Sequence, time of sending, call id (each u64), kind (u8), latched (u8) and 6 zero bytes, little endian.
 fn meta(sequence: u64, sent_ns: u64, call_id: u64, what: Observed) -> [u8; META] {
     let mut meta = [0; META];
     for (place, value) in [sequence, sent_ns, call_id].into_iter().enumerate() {

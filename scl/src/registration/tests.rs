@@ -32,7 +32,7 @@ impl Stage {
             &SENSOR,
             system(root.path()),
             Some(Duration::from_millis(500)),
-            &MediumChoice::default(),
+            &TransportChoice::default(),
         )
         .unwrap();
         let keeping = tokio::spawn(registration.keep());
@@ -52,7 +52,7 @@ impl Stage {
 
     fn assert_in_place(&self, what: &str) {
         let dir = self.registration.dir();
-        assert_eq!(ComponentLock::holder(dir, "sensor"), Some(Holder::ThisProcess), "{what}");
+        assert_eq!(ComponentLock::holder(dir, "sensor"), Some(ComponentProcess::ThisProcess), "{what}");
         assert!(ComponentLock::take(dir, "sensor").is_err(), "{what}");
         assert_eq!(Announcement::read(dir, "sensor").map(|found| found.pid), Some(std::process::id()), "{what}");
         assert_eq!(fs::read(self.folder().join("1111.schema")).unwrap(), b"descriptors", "{what}");
@@ -104,7 +104,7 @@ async fn what_is_removed_before_it_is_watched_is_created_again() {
         &SENSOR,
         system(root.path()),
         Some(Duration::from_millis(500)),
-        &MediumChoice::default(),
+        &TransportChoice::default(),
     )
     .unwrap();
     fs::remove_dir_all(root.path().join("run")).unwrap();
@@ -169,7 +169,7 @@ async fn what_a_killed_process_left_behind_is_removed() {
     let dir = system(root.path());
     let old = dir.folder().join("sensor.measurements.old.tcp");
     fs::write(&old, "127.0.0.1:80").unwrap();
-    let _registration = Registration::in_folder(&SENSOR, dir, None, &MediumChoice::default()).unwrap();
+    let _registration = Registration::in_folder(&SENSOR, dir, None, &TransportChoice::default()).unwrap();
     assert!(!old.exists());
 }
 
@@ -177,7 +177,7 @@ async fn what_a_killed_process_left_behind_is_removed() {
 async fn a_forked_child_removes_and_restores_nothing() {
     let root = tempfile::tempdir().unwrap();
     let dir = system(root.path());
-    let mut registration = Registration::in_folder(&SENSOR, dir.clone(), None, &MediumChoice::default()).unwrap();
+    let mut registration = Registration::in_folder(&SENSOR, dir.clone(), None, &TransportChoice::default()).unwrap();
     Arc::get_mut(&mut registration.files).unwrap().process = ProcessMark::inherited();
     let keeping = tokio::spawn(registration.keep());
     yield_now().await;

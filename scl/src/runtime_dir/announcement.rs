@@ -4,9 +4,9 @@ use super::SystemDir;
 use super::error::RuntimeDirError;
 use super::owned_path::OwnedPath;
 use super::small_file::{read_file, write_temp};
-use crate::medium::Medium;
-use crate::medium_choice::MediumChoice;
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
+use crate::transport_choice::TransportChoice;
+use crate::transport_kind::TransportKind;
 use scl_plan::Plan;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -68,7 +68,7 @@ pub struct AnnouncedEndpoint {
     /// The gates that it connects to, as `<component>.<gate>`.
     pub peers: Vec<String>,
     /// What it listens on: `ipc`, `tcp` or `shm`. Empty for an end that only connects, and if the writer is older.
-    pub medium: String,
+    pub transport: String,
 }
 
 impl Announcement {
@@ -88,10 +88,10 @@ impl Announcement {
     }
 
     /// An announcement of this process, opened now, with the endpoints of a component.
-    pub(crate) fn of(spec: &ComponentSpec, media: &MediumChoice) -> Self {
+    pub(crate) fn of(spec: &ComponentSpec, choice: &TransportChoice) -> Self {
         Self {
             schema: spec.schema.map(|schema| schema.hash.to_owned()),
-            endpoints: spec.gates.iter().flat_map(|gate| endpoints(spec, gate, media)).collect(),
+            endpoints: spec.gates.iter().flat_map(|gate| endpoints(spec, gate, choice)).collect(),
             plan: Some(spec.plan()),
             ..Self::of_this_process(spec.name)
         }
@@ -161,7 +161,7 @@ impl AnnouncedEndpoint {
             "payload": self.payload,
             "codec": self.codec,
             "peers": self.peers,
-            "medium": self.medium,
+            "transport": self.transport,
         })
     }
 
@@ -176,15 +176,16 @@ impl AnnouncedEndpoint {
             payload: text(json, "payload")?,
             codec: text(json, "codec")?,
             peers: peers.filter_map(|peer| Some(peer.as_str()?.to_owned())).collect(),
-            medium: text(json, "medium").unwrap_or_default(),
+            transport: text(json, "transport").or_else(|| text(json, "medium")).unwrap_or_default(),
         })
     }
 }
 
-fn endpoints(spec: &ComponentSpec, gate: &GateSpec, media: &MediumChoice) -> Vec<AnnouncedEndpoint> {
+fn endpoints(spec: &ComponentSpec, gate: &GateSpec, choice: &TransportChoice) -> Vec<AnnouncedEndpoint> {
     let listens = !gate.tap.is_empty();
-    let word = |medium: Medium| if listens { medium.word().to_owned() } else { String::new() };
-    let peers = || gate.links.iter().map(|link| format!("{}.{}", link.peer_component, link.peer_gate));
+    let word = |kind: TransportKind| if listens { kind.word().to_owned() } else { String::new() };
+    let peers =
+        || gate.connections.iter().map(|connection| format!("{}.{}", connection.peer_component, connection.peer_gate));
     let endpoint = |name: &str, contract: &str, peers: Vec<String>| AnnouncedEndpoint {
         gate: gate.name.to_owned(),
         kind: gate.kind.word().to_owned(),
@@ -194,22 +195,22 @@ fn endpoints(spec: &ComponentSpec, gate: &GateSpec, media: &MediumChoice) -> Vec
         payload: gate.payload.to_owned(),
         codec: gate.codec.to_owned(),
         peers,
-        medium: String::new(),
+        transport: String::new(),
     };
     let mut endpoints = if gate.endpoint.is_empty() {
-        let links = gate.links.iter().zip(peers());
-        let announced = |(link, peer): (&LinkSpec, String)| AnnouncedEndpoint {
-            medium: word(media.of_link(spec, gate, link)),
-            ..endpoint(link.endpoint, link.contract, vec![peer])
+        let connections = gate.connections.iter().zip(peers());
+        let announced = |(connection, peer): (&ConnectionSpec, String)| AnnouncedEndpoint {
+            transport: word(choice.of_connection(spec, gate, connection)),
+            ..endpoint(connection.endpoint, connection.contract, vec![peer])
         };
-        links.map(announced).collect()
+        connections.map(announced).collect()
     } else {
-        let medium = word(media.of_gate(spec, gate));
-        vec![AnnouncedEndpoint { medium, ..endpoint(gate.endpoint, gate.contract, peers().collect()) }]
+        let transport = word(choice.of_gate(spec, gate));
+        vec![AnnouncedEndpoint { transport, ..endpoint(gate.endpoint, gate.contract, peers().collect()) }]
     };
     if !gate.tap.is_empty() {
-        let medium = word(media.of_tap(spec, gate));
-        endpoints.push(AnnouncedEndpoint { tap: true, medium, ..endpoint(gate.tap, gate.contract, Vec::new()) });
+        let transport = word(choice.of_tap(spec, gate));
+        endpoints.push(AnnouncedEndpoint { tap: true, transport, ..endpoint(gate.tap, gate.contract, Vec::new()) });
     }
     endpoints
 }
@@ -229,8 +230,8 @@ mod tests {
     use crate::spec::{GateKind, GateOptions, Schema, WhenFull};
     use scl_plan::{ConnectionPlan, GatePlan, Payload};
 
-    const fn link(peer_component: &'static str, endpoint: &'static str) -> LinkSpec {
-        LinkSpec {
+    const fn connection(peer_component: &'static str, endpoint: &'static str) -> ConnectionSpec {
+        ConnectionSpec {
             peer_component,
             peer_gate: "peer",
             endpoint,
@@ -242,7 +243,12 @@ mod tests {
         }
     }
 
-    const fn gate(kind: GateKind, endpoint: &'static str, tap: &'static str, links: &'static [LinkSpec]) -> GateSpec {
+    const fn gate(
+        kind: GateKind,
+        endpoint: &'static str,
+        tap: &'static str,
+        connections: &'static [ConnectionSpec],
+    ) -> GateSpec {
         GateSpec {
             name: "gate",
             kind,
@@ -253,7 +259,7 @@ mod tests {
             tap,
             contract: "aaaa",
             options: GateOptions::DEFAULT,
-            links,
+            connections,
         }
     }
 
@@ -275,7 +281,7 @@ mod tests {
                 tap: Some("gps.position.tap".to_owned()),
                 contract: "aaaabbbb".to_owned(),
                 options: GateOptions::DEFAULT,
-                connections: names().map(|peer| connection(&peer)).collect(),
+                connections: names().map(|peer| connection_plan(&peer)).collect(),
             }],
         };
         let endpoint = |peer: String| AnnouncedEndpoint {
@@ -297,7 +303,7 @@ mod tests {
         assert_eq!((read.plan, read.endpoints), (Some(plan), announcement.endpoints));
     }
 
-    fn connection(peer: &str) -> ConnectionPlan {
+    fn connection_plan(peer: &str) -> ConnectionPlan {
         ConnectionPlan {
             peer_component: peer.to_owned(),
             peer_gate: "position".to_owned(),
@@ -312,9 +318,10 @@ mod tests {
 
     #[test]
     fn all_endpoints_of_a_component_are_announced() {
-        static PUB: [LinkSpec; 2] = [link("one", "gps.gate--one.peer.aaaa"), link("two", "gps.gate--two.peer.aaaa")];
-        static REP: [LinkSpec; 2] = [link("one", "gps.gate.aaaa"), link("two", "gps.gate.aaaa")];
-        static REQ: [LinkSpec; 1] = [link("map", "map.peer.aaaa")];
+        static PUB: [ConnectionSpec; 2] =
+            [connection("one", "gps.gate--one.peer.aaaa"), connection("two", "gps.gate--two.peer.aaaa")];
+        static REP: [ConnectionSpec; 2] = [connection("one", "gps.gate.aaaa"), connection("two", "gps.gate.aaaa")];
+        static REQ: [ConnectionSpec; 1] = [connection("map", "map.peer.aaaa")];
         static GATES: [GateSpec; 3] = [
             gate(GateKind::Pub, "", "gps.gate.tap", &PUB),
             gate(GateKind::Rep, "gps.gate.aaaa", "gps.gate.tap", &REP),
@@ -328,7 +335,7 @@ mod tests {
         let said = announcement.endpoints.iter().map(|found| {
             assert_eq!((&*found.gate, &*found.contract), ("gate", "aaaa"));
             assert_eq!((&*found.payload, &*found.codec), ("nav.Position", "protobuf"));
-            format!("{} {} {} [{}] {}", found.kind, found.tap, found.endpoint, found.peers.join(" "), found.medium)
+            format!("{} {} {} [{}] {}", found.kind, found.tap, found.endpoint, found.peers.join(" "), found.transport)
         });
         let said: Vec<_> = said.collect();
         assert_eq!(

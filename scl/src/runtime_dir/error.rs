@@ -117,7 +117,7 @@ pub enum RuntimeDirError {
         /// The component.
         component: String,
         /// The process that runs it.
-        holder: Holder,
+        holder: ComponentProcess,
         /// The lock file.
         lock: PathBuf,
     },
@@ -137,7 +137,7 @@ pub enum RuntimeDirError {
 /// The process that runs a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Holder {
+pub enum ComponentProcess {
     /// This process.
     ThisProcess,
     /// The process with this id.
@@ -146,7 +146,7 @@ pub enum Holder {
     Unknown,
 }
 
-impl fmt::Display for Holder {
+impl fmt::Display for ComponentProcess {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::ThisProcess => write!(f, "this process"),
@@ -163,16 +163,16 @@ impl RuntimeDirError {
 }
 
 /// For texts: ``component `imu` is running as process 20739``.
-pub(super) fn running(holder: Holder) -> String {
+pub(super) fn running(holder: ComponentProcess) -> String {
     match holder {
-        Holder::ThisProcess => "running in this process".to_owned(),
+        ComponentProcess::ThisProcess => "running in this process".to_owned(),
         holder => format!("running as {holder}"),
     }
 }
 
-fn stop(holder: Holder) -> &'static str {
+fn stop(holder: ComponentProcess) -> &'static str {
     match holder {
-        Holder::ThisProcess => "close or drop it before opening it again",
+        ComponentProcess::ThisProcess => "close or drop it before opening it again",
         _ => "stop that process first, or run this program in another system with `SCL_SYSTEM`",
     }
 }
@@ -237,9 +237,12 @@ mod tests {
     #[test]
     fn each_holder_is_named_with_the_way_out() {
         let cases = [
-            (Holder::Process(42), "running as process 42\nhelp: stop that process first, or run this program in"),
-            (Holder::ThisProcess, "running in this process\nhelp: close or drop it before opening it again"),
-            (Holder::Unknown, "running as a process of another container\nhelp: stop that process first"),
+            (
+                ComponentProcess::Process(42),
+                "running as process 42\nhelp: stop that process first, or run this program in",
+            ),
+            (ComponentProcess::ThisProcess, "running in this process\nhelp: close or drop it before opening it again"),
+            (ComponentProcess::Unknown, "running as a process of another container\nhelp: stop that process first"),
         ];
         for (holder, expected) in cases {
             let (component, lock) = ("imu".to_owned(), PathBuf::from("/run/scl/rover/imu.lock"));

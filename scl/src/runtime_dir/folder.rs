@@ -4,7 +4,7 @@ use super::SOCKET_PATH_LIMIT;
 #[cfg(feature = "protobuf")]
 use super::compared::Compared;
 use super::error::RuntimeDirError;
-use super::restored::{Restored, Seen};
+use super::event_count::{EventCount, Seen};
 use super::temp_entry::{NAME_BYTES, remove_stale_entries};
 use std::ffi::OsString;
 use std::fs::{self, DirBuilder};
@@ -13,6 +13,7 @@ use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::{DirBuilderExt, MetadataExt};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::task::{Context, Poll};
 use std::time::SystemTime;
 
@@ -112,7 +113,9 @@ impl RuntimeDir {
         let path = self.path.join(plain("a system", name)?);
         let shared = Shared {
             runtime_dir: self.clone(),
-            restored: Restored::default(),
+            restored: EventCount::default(),
+            arrived: EventCount::default(),
+            watches: AtomicUsize::new(0),
             #[cfg(feature = "protobuf")]
             compared: Compared::default(),
         };
@@ -135,7 +138,10 @@ pub struct SystemDir {
 #[derive(Debug)]
 struct Shared {
     runtime_dir: RuntimeDir,
-    restored: Restored,
+    restored: EventCount,
+    arrived: EventCount,
+    /// Number of watches of the folder that report what arrives.
+    watches: AtomicUsize,
     #[cfg(feature = "protobuf")]
     compared: Compared,
 }
@@ -192,6 +198,34 @@ impl SystemDir {
     /// Wakes those who wait in [`poll_restored`](Self::poll_restored) at any clone of this value.
     pub(crate) fn mark_restored(&self) {
         self.shared.restored.mark();
+    }
+
+    /// Ready when a file has arrived in the folder since `seen`, which is updated then. Otherwise registers the task's
+    /// waker. Reported only while [`reports_arrivals`](Self::reports_arrivals).
+    #[cfg_attr(not(feature = "zeromq"), expect(dead_code, reason = "only that transport has sockets"))]
+    pub(crate) fn poll_arrived(&self, seen: &mut Seen, cx: &mut Context<'_>) -> Poll<()> {
+        self.shared.arrived.poll(seen, cx)
+    }
+
+    /// Whether the folder is watched for files that arrive.
+    #[cfg_attr(not(feature = "zeromq"), expect(dead_code, reason = "only that transport has sockets"))]
+    pub(crate) fn reports_arrivals(&self) -> bool {
+        self.shared.watches.load(Ordering::SeqCst) > 0
+    }
+
+    /// Wakes those who wait in [`poll_arrived`](Self::poll_arrived) at any clone of this value.
+    pub(crate) fn mark_arrived(&self) {
+        self.shared.arrived.mark();
+    }
+
+    /// Counts a watch that begins or ends. Files that arrived unnoticed before count as arrived now.
+    pub(crate) fn count_watch(&self, begins: bool) {
+        if begins {
+            self.shared.watches.fetch_add(1, Ordering::SeqCst);
+        } else {
+            self.shared.watches.fetch_sub(1, Ordering::SeqCst);
+        }
+        self.mark_arrived();
     }
 
     /// The comparisons of messages made so far.

@@ -1,4 +1,5 @@
-//! Noticing that a component's files in the folder of its system, or the folder itself, were removed.
+//! Noticing that a component's files in the folder of its system, or the folder itself, were removed, and that files of
+//! other components have arrived there.
 
 use super::error::RuntimeDirError;
 use super::{Inotify, SystemDir};
@@ -13,15 +14,19 @@ use tokio::time::{Instant, timeout};
 /// no file was removed for this long.
 pub(crate) const QUIET: Duration = Duration::from_millis(100);
 
+/// Components rename their files into the folder; plain ZeroMQ programs create their sockets there.
+const ARRIVED: WatchFlags = WatchFlags::MOVED_TO.union(WatchFlags::CREATE);
+
 /// Maximum time to wait for quiet.
 const LONGEST_UNREST: Duration = Duration::from_secs(2);
 
 /// Watches the files of one component with inotify.
 ///
-/// The task is woken only when something in the folder is removed.
+/// The task is woken only when something in the folder is removed or arrives there, not when a file is written.
 #[derive(Debug)]
 pub(crate) struct FolderWatch {
     inotify: Inotify,
+    arrivals: Arrivals,
     runtime_folder: i32,
     /// The name of the folder.
     system: OsString,
@@ -41,7 +46,7 @@ impl FolderWatch {
             let inotify = Inotify::new()?;
             let removed = WatchFlags::DELETE | WatchFlags::DELETE_SELF | WatchFlags::MOVE_SELF;
             let runtime_folder = inotify.watch(dir.runtime_folder(), removed)?;
-            inotify.watch(dir.folder(), removed)?;
+            inotify.watch(dir.folder(), removed | ARRIVED)?;
             // Replacing a file by another one changes the number of its links, which is one of its attributes.
             inotify.watch(&lock_file, WatchFlags::ATTRIB | WatchFlags::MOVE_SELF)?;
             Ok((inotify, runtime_folder))
@@ -50,6 +55,7 @@ impl FolderWatch {
         let (inotify, runtime_folder) = start().map_err(failed)?;
         Ok(Self {
             inotify,
+            arrivals: Arrivals::begin(dir),
             runtime_folder,
             system: dir.folder().file_name().unwrap_or_default().to_owned(),
             prefix: format!("{component}."),
@@ -66,11 +72,24 @@ impl FolderWatch {
         Ok(())
     }
 
-    /// Waits for events. Returns true if at least one of them is about this component.
+    /// Waits for removals, and reports arrivals meanwhile. Returns true if at least one removal is about this component.
     async fn next_events(&self) -> io::Result<bool> {
-        let mut concerned = false;
-        self.inotify.read(|event| concerned |= self.is_about_component(event)).await?;
-        Ok(concerned)
+        loop {
+            let (mut arrived, mut removed, mut concerned) = (false, false, false);
+            let handle = |event: &Event<'_>| {
+                let is_arrival = event.events().intersects(ReadFlags::MOVED_TO | ReadFlags::CREATE);
+                arrived |= is_arrival && !is_temporary(event);
+                removed |= !is_arrival;
+                concerned |= !is_arrival && self.is_about_component(event);
+            };
+            self.inotify.read(handle).await?;
+            if arrived {
+                self.arrivals.0.mark_arrived();
+            }
+            if removed {
+                return Ok(concerned);
+            }
+        }
     }
 
     fn is_about_component(&self, event: &Event<'_>) -> bool {
@@ -83,6 +102,28 @@ impl FolderWatch {
             return name == self.system.as_bytes();
         }
         name.starts_with(self.prefix.as_bytes()) || self.schema.as_ref().is_some_and(|file| name == file.as_bytes())
+    }
+}
+
+/// Whether an event is about a file that will be renamed.
+fn is_temporary(event: &Event<'_>) -> bool {
+    event.file_name().is_some_and(|name| name.to_bytes().starts_with(b"."))
+}
+
+/// Says at the folder that arrivals are reported, as long as they are.
+#[derive(Debug)]
+struct Arrivals(SystemDir);
+
+impl Arrivals {
+    fn begin(dir: &SystemDir) -> Self {
+        dir.count_watch(true);
+        Self(dir.clone())
+    }
+}
+
+impl Drop for Arrivals {
+    fn drop(&mut self) {
+        self.0.count_watch(false);
     }
 }
 
@@ -112,13 +153,14 @@ mod tests {
         ];
         for (name, concerned) in cases {
             let path = dir.folder().join(name);
-            // Creating and replacing files causes no events.
+            // Creating and replacing files causes no removals.
             for _ in 0..2 {
                 fs::write(dir.folder().join("new"), "").unwrap();
                 fs::rename(dir.folder().join("new"), &path).unwrap();
             }
             if name != "sensor.lock" {
-                assert!(watch.inotify.read_now(|_| ()).is_err(), "{name}");
+                let not_removed = |event: &Event<'_>| assert!(!event.events().contains(ReadFlags::DELETE), "{name}");
+                watch.inotify.read_now(not_removed).unwrap();
             }
             fs::remove_file(&path).unwrap();
             assert_eq!(watch.next_events().await.unwrap(), concerned, "{name}");

@@ -5,6 +5,10 @@
 //! not exclude a second lock by the same process, so the process keeps a list of the locks it holds. And closing *any*
 //! descriptor of the file releases the lock, so a file on the list is never opened again. Other code in the process
 //! must not open it either; there is nothing to read in it.
+//!
+//! A process may contain several copies of this library, for example in two plugins, and each has a list of its own. The
+//! operating system tells which descriptor a lock was taken through: the second lock on a file leaves the first as it is. A
+//! copy that finds the file locked through another's descriptor keeps its own open, so that the lock stays.
 
 use crate::process_mark::ProcessMark;
 use crate::sync::lock;
@@ -13,6 +17,7 @@ use rustix::io::Errno;
 use rustix::process::{Flock, FlockType, fcntl_getlk};
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io;
+use std::os::fd::{AsRawFd, RawFd};
 use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
 use std::path::Path;
 use std::sync::Mutex;
@@ -20,14 +25,35 @@ use std::sync::Mutex;
 /// Attempts to lock a file that is removed or unlocked just at that moment.
 const ATTEMPTS: usize = 100;
 
-/// The locks of this process. In a forked child they are those of its parent, and must stay open: closing one would
-/// release a lock that the child itself has taken on the same file since.
-static HELD: Mutex<Vec<HeldLock>> = Mutex::new(Vec::new());
+/// The files that must not be closed now. In a forked child they are those of its parent, and must stay open: closing one
+/// would release a lock that the child itself has taken on the same file since.
+static OPEN: Mutex<Vec<OpenFile>> = Mutex::new(Vec::new());
 
-struct HeldLock {
+struct OpenFile {
     id: FileId,
     process: ProcessMark,
-    _file: File,
+    file: File,
+    /// Another descriptor of it that must stay open as well.
+    read_only: Option<File>,
+    /// Whether it is locked by this copy of the library, and not by another one in the process.
+    locked: bool,
+}
+
+/// Links are not followed, and pipes not waited for.
+const FLAGS: OFlags = OFlags::NOFOLLOW.union(OFlags::NONBLOCK);
+
+impl OpenFile {
+    /// Opens a file that stays open for writing, which locking it later takes.
+    fn make_writable(&mut self, path: &Path) {
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).custom_flags(FLAGS.bits().cast_signed());
+        if self.read_only.is_some() || !FileId::at(path).is_ok_and(|id| id == self.id) {
+            return;
+        }
+        if let Ok(file) = options.open(path) {
+            self.read_only = Some(std::mem::replace(&mut self.file, file));
+        }
+    }
 }
 
 /// Identifies a file, also after it was renamed or removed, for as long as it is open.
@@ -70,15 +96,24 @@ pub(super) fn try_lock(path: &Path) -> io::Result<Attempt> {
 
 /// Releases a lock of this process. Does nothing in a forked child.
 pub(super) fn unlock(id: FileId) {
-    lock(&HELD).retain(|held| held.id != id || !held.process.is_own());
+    lock(&OPEN).retain(|open| open.id != id || !open.locked || !open.process.is_own());
 }
 
 /// Who holds the lock on the file at `path`, if any process does.
 pub(super) fn lock_holder(path: &Path) -> Option<LockHolder> {
-    match open(path, OpenOptions::new().read(true), &lock(&HELD), &mut |_| {}).ok()? {
-        Opened::Other(file) => other_holder(&file).ok()?,
-        Opened::HeldHere => Some(LockHolder::ThisProcess),
+    let mut open = lock(&OPEN);
+    // Not for writing: who follows which components run takes the closing of a writable descriptor for the end of one.
+    let index = match open_once(path, OpenOptions::new().read(true), &mut open, &mut |_| {}).ok()? {
+        Opened::At(index) => index,
+        Opened::LockedHere => return Some(LockHolder::ThisProcess),
+    };
+    let holder = other_holder(&open[index].file).ok().flatten();
+    if holder.is_none() && is_locked_by_another_copy(open[index].id) {
+        open[index].make_writable(path);
+        return Some(LockHolder::ThisProcess);
     }
+    open.swap_remove(index);
+    holder
 }
 
 /// Steps of [`try_lock`] between which tests intervene.
@@ -89,58 +124,93 @@ enum Step {
 }
 
 fn try_lock_with(path: &Path, step: &mut dyn FnMut(Step)) -> io::Result<Attempt> {
-    let mut held = lock(&HELD);
+    let mut open = lock(&OPEN);
     for _ in 0..ATTEMPTS {
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false).mode(0o600);
-        let Opened::Other(file) = open(path, &mut options, &held, step)? else {
+        let Opened::At(index) = open_once(path, &mut options, &mut open, step)? else {
             return Ok(Attempt::Held(LockHolder::ThisProcess));
         };
-        let found = file.metadata()?;
-        if !found.is_file() {
+        let OpenFile { id, file, .. } = &open[index];
+        let id = *id;
+        if !file.metadata()?.is_file() {
+            open.swap_remove(index);
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
         }
-        let id = FileId::of(&found);
         step(Step::Opened);
-        match rustix::fs::fcntl_lock(&file, FlockOperation::NonBlockingLockExclusive) {
+        match rustix::fs::fcntl_lock(file, FlockOperation::NonBlockingLockExclusive) {
             // A file that was removed or replaced in the meantime excludes nobody.
             Ok(()) if FileId::at(path).is_ok_and(|now| now == id) => {
-                held.push(HeldLock { id, process: ProcessMark::new(), _file: file });
+                if !has_lock(file.as_raw_fd()) && is_locked_by_another_copy(id) {
+                    return Ok(Attempt::Held(LockHolder::ThisProcess));
+                }
+                open[index].locked = true;
                 return Ok(Attempt::Locked(id));
             }
             Ok(()) => {}
             Err(Errno::AGAIN | Errno::ACCESS) => {
                 // None if it was unlocked in the meantime.
-                if let Some(holder) = other_holder(&file)? {
+                if let Some(holder) = other_holder(file)? {
+                    open.swap_remove(index);
                     return Ok(Attempt::Held(holder));
                 }
             }
-            Err(error) => return Err(error.into()),
+            Err(error) => {
+                open.swap_remove(index);
+                return Err(error.into());
+            }
         }
+        open.swap_remove(index);
     }
     Err(io::Error::other("the file is replaced again and again"))
 }
 
 enum Opened {
-    /// A file that this process has not locked.
-    Other(File),
-    HeldHere,
+    /// A file of the list that this copy has not locked. To be removed from it unless another copy has.
+    At(usize),
+    LockedHere,
 }
 
-/// Opens a file unless this process has locked it. Does not follow links, and does not wait at pipes.
-fn open(path: &Path, options: &mut OpenOptions, held: &[HeldLock], step: &mut dyn FnMut(Step)) -> io::Result<Opened> {
-    let is_held = |id| held.iter().any(|held| held.id == id && held.process.is_own());
-    if FileId::at(path).is_ok_and(is_held) {
-        return Ok(Opened::HeldHere);
+/// Opens a file unless it is open. Does not follow links, and does not wait at pipes.
+fn open_once(
+    path: &Path,
+    options: &mut OpenOptions,
+    open: &mut Vec<OpenFile>,
+    step: &mut dyn FnMut(Step),
+) -> io::Result<Opened> {
+    if let Some(found) = FileId::at(path).ok().and_then(|id| find(open, id)) {
+        return Ok(found);
     }
     step(Step::Examined);
-    let file = options.custom_flags((OFlags::NOFOLLOW | OFlags::NONBLOCK).bits().cast_signed()).open(path)?;
-    if is_held(FileId::of(&file.metadata()?)) {
+    let file = options.custom_flags(FLAGS.bits().cast_signed()).open(path)?;
+    let id = FileId::of(&file.metadata()?);
+    if let Some(found) = find(open, id) {
         // It was renamed to `path` just now. Closing it would release the lock.
         std::mem::forget(file);
-        return Ok(Opened::HeldHere);
+        return Ok(found);
     }
-    Ok(Opened::Other(file))
+    open.push(OpenFile { id, process: ProcessMark::new(), file, read_only: None, locked: false });
+    Ok(Opened::At(open.len() - 1))
+}
+
+fn find(open: &[OpenFile], id: FileId) -> Option<Opened> {
+    let index = open.iter().position(|open| open.id == id && open.process.is_own())?;
+    Some(if open[index].locked { Opened::LockedHere } else { Opened::At(index) })
+}
+
+/// Returns true if this process holds the lock on a file through a descriptor that this copy of the library has not locked.
+fn is_locked_by_another_copy(id: FileId) -> bool {
+    let Ok(descriptors) = fs::read_dir("/proc/thread-self/fd") else { return false };
+    descriptors.flatten().any(|descriptor| {
+        let number = descriptor.file_name().to_str().and_then(|name| name.parse().ok());
+        fs::metadata(descriptor.path()).is_ok_and(|found| FileId::of(&found) == id) && number.is_some_and(has_lock)
+    })
+}
+
+/// Returns true if this process has locked a file through this descriptor.
+fn has_lock(descriptor: RawFd) -> bool {
+    let about = fs::read_to_string(format!("/proc/thread-self/fdinfo/{descriptor}")).unwrap_or_default();
+    about.lines().any(|line| line.starts_with("lock:") && line.contains("POSIX"))
 }
 
 fn other_holder(file: &File) -> io::Result<Option<LockHolder>> {
@@ -231,6 +301,38 @@ mod tests {
         let open = open.filter(|descriptor| fs::read_link(descriptor.path()).is_ok_and(|file| file == path));
         assert_eq!(open.count(), 1);
         unlock(id);
+    }
+
+    #[test]
+    fn a_lock_of_another_copy_of_the_library_is_respected() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sensor.lock");
+        let id = |file: &File| FileId::of(&file.metadata().unwrap());
+        // Each copy has its own list, so a lock that is on no list is that of another copy.
+        let other = File::create(&path).unwrap();
+        rustix::fs::fcntl_lock(&other, FlockOperation::NonBlockingLockExclusive).unwrap();
+        for _ in 0..3 {
+            assert_eq!(lock_holder(&path), Some(LockHolder::ThisProcess));
+            assert_eq!(try_lock(&path).unwrap(), Attempt::Held(LockHolder::ThisProcess));
+            assert!(is_locked(id(&other)), "looking at it does not release it");
+        }
+        drop(other);
+        assert_eq!(lock_holder(&path), None);
+        let Attempt::Locked(id) = try_lock(&path).unwrap() else { panic!("the lock is free") };
+        assert!(is_locked(id));
+        unlock(id);
+        assert!(!is_locked(id));
+    }
+
+    #[tokio::test]
+    async fn looking_at_a_lock_is_not_taken_for_the_end_of_a_component() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sensor.lock");
+        File::create(&path).unwrap();
+        let inotify = crate::runtime_dir::Inotify::new().unwrap();
+        inotify.watch(folder.path(), rustix::fs::inotify::WatchFlags::CLOSE_WRITE).unwrap();
+        assert_eq!(lock_holder(&path), None);
+        assert!(inotify.read_now(|_| ()).is_err(), "the descriptor was writable");
     }
 
     /// Whether the operating system knows of a lock on a file.

@@ -1,7 +1,7 @@
 //! The lock of a component: it is run by one process at a time.
 
 use super::SystemDir;
-use super::error::{Holder, RuntimeDirError};
+use super::error::{ComponentProcess, RuntimeDirError};
 use super::held_locks::{Attempt, FileId, LockHolder, lock_holder, try_lock, unlock};
 use crate::process_mark::ProcessMark;
 use std::fs;
@@ -45,8 +45,8 @@ impl ComponentLock {
     }
 
     /// Who runs a component, if anybody does.
-    pub fn holder(dir: &SystemDir, component: &str) -> Option<Holder> {
-        lock_holder(&dir.file_of(component, ".lock").ok()?).map(Holder::from)
+    pub fn holder(dir: &SystemDir, component: &str) -> Option<ComponentProcess> {
+        lock_holder(&dir.file_of(component, ".lock").ok()?).map(ComponentProcess::from)
     }
 
     /// Returns true unless the lock's file was removed or replaced, so that it no longer excludes other processes.
@@ -91,7 +91,7 @@ impl Drop for ComponentLock {
     }
 }
 
-impl From<LockHolder> for Holder {
+impl From<LockHolder> for ComponentProcess {
     fn from(holder: LockHolder) -> Self {
         match holder {
             LockHolder::ThisProcess => Self::ThisProcess,
@@ -114,6 +114,6 @@ mod tests {
         let mut inherited = ComponentLock::take(&dir, "sensor").unwrap();
         inherited.process = ProcessMark::inherited();
         drop(inherited);
-        assert_eq!(ComponentLock::holder(&dir, "sensor"), Some(Holder::ThisProcess));
+        assert_eq!(ComponentLock::holder(&dir, "sensor"), Some(ComponentProcess::ThisProcess));
     }
 }

@@ -1,6 +1,6 @@
 //! Looking at what runs, for tools: nothing here creates, changes or removes a file.
 
-use super::error::{Holder, RuntimeDirError};
+use super::error::{ComponentProcess, RuntimeDirError};
 use super::folder::{RuntimeDir, SystemDir, is_plain};
 use super::lock::ComponentLock;
 use super::schema::SCHEMA_LIMIT;
@@ -14,7 +14,7 @@ use std::io;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ComponentState {
     /// A process runs it: it holds the component's lock.
-    Running(Holder),
+    Running(ComponentProcess),
     /// No process runs it, and the last one left its announcement behind: it was killed or has crashed.
     Dead,
     /// No process runs it; the last one, if there was one, has closed it.
@@ -31,6 +31,22 @@ impl RuntimeDir {
     pub fn systems(&self) -> io::Result<Vec<String>> {
         // Not through a link, whose target may belong to anybody.
         names(fs::read_dir(self.path())?, |entry, name| is_folder(entry).then(|| name.to_owned()))
+    }
+
+    /// The names of the systems of which a component runs, sorted.
+    ///
+    /// # Errors
+    ///
+    /// The folder cannot be read.
+    pub fn running_systems(&self) -> io::Result<Vec<String>> {
+        let mut systems = self.systems()?;
+        systems.retain(|name| {
+            // Folders that are not safe, or disappear meanwhile, are no systems that could be observed.
+            let Ok(Some(dir)) = self.existing_system(name) else { return false };
+            let components = dir.components().unwrap_or_default();
+            components.iter().any(|component| matches!(dir.state(component), ComponentState::Running(_)))
+        });
+        Ok(systems)
     }
 
     /// The folder of a system, verified as [`system`](Self::system) does, or `None` if there is none. Creates nothing and
@@ -62,14 +78,17 @@ impl SystemDir {
     /// A component that hangs is running: what it has done lately is in its [`ComponentStats`](super::ComponentStats).
     pub fn state(&self, component: &str) -> ComponentState {
         let holder = || ComponentLock::holder(self, component).map(ComponentState::Running);
-        let left_announcement = || {
-            let path = self.file_of(component, ".json").ok()?;
-            fs::symlink_metadata(path).is_ok_and(|found| found.is_file()).then_some(ComponentState::Dead)
-        };
-        holder().unwrap_or_else(|| {
+        holder().unwrap_or_else(|| match self.has_announcement(component) {
             // A component that starts at this moment takes its lock before it announces itself.
-            left_announcement().map_or(ComponentState::Stopped, |dead| holder().unwrap_or(dead))
+            true => holder().unwrap_or(ComponentState::Dead),
+            false => ComponentState::Stopped,
         })
+    }
+
+    /// Returns true if a component has announced itself and has not closed since: it runs, or was killed or has crashed.
+    pub(crate) fn has_announcement(&self, component: &str) -> bool {
+        let path = self.file_of(component, ".json");
+        path.is_ok_and(|path| fs::symlink_metadata(path).is_ok_and(|found| found.is_file()))
     }
 
     /// The protobuf messages that a program was built with, by the hash in its

@@ -2,12 +2,12 @@
 
 use super::SystemDir;
 use super::announcement::{AnnouncedEndpoint, Announcement};
-use super::error::{Holder, running};
+use super::error::{ComponentProcess, running};
 use super::foreign_text::shown;
 use super::lock::ComponentLock;
 #[cfg(feature = "protobuf")]
 use super::messages::compare_messages;
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
+use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 
 /// Checks what a running peer announces against what this program was built for. Connecting ends call this before they
 /// connect.
@@ -17,26 +17,33 @@ use crate::spec::{ComponentSpec, GateSpec, LinkSpec};
 ///
 /// # Errors
 /// What differs between the two programs.
-pub fn check_peer(dir: &SystemDir, own: &ComponentSpec, gate: &GateSpec, link: &LinkSpec) -> Result<(), String> {
-    let Some(holder) = ComponentLock::holder(dir, link.peer_component) else { return Ok(()) };
-    let announcement = Announcement::read(dir, link.peer_component);
-    let peer = format!("`{}` ({})", link.peer_component, whereabouts(announcement.as_ref(), holder));
-    find_mismatch(dir, own, gate, link, announcement.as_ref(), &peer).map_err(|mismatch| match mismatch {
+pub fn check_peer(
+    dir: &SystemDir,
+    own: &ComponentSpec,
+    gate: &GateSpec,
+    connection: &ConnectionSpec,
+) -> Result<(), String> {
+    let Some(holder) = ComponentLock::holder(dir, connection.peer_component) else { return Ok(()) };
+    let announcement = Announcement::read(dir, connection.peer_component);
+    let peer = format!("`{}` ({})", connection.peer_component, whereabouts(announcement.as_ref(), holder));
+    find_mismatch(dir, own, gate, connection, announcement.as_ref(), &peer).map_err(|mismatch| match mismatch {
         Mismatch::Connection(text) => format!("{peer} {text}"),
         Mismatch::Messages(text) => text,
     })
 }
 
 /// Why a peer is not connected: the end of a sentence that starts with the name of the peer or its gate.
-pub fn explain_missing(dir: &SystemDir, own: &ComponentSpec, gate: &GateSpec, link: &LinkSpec) -> String {
-    let Some(holder) = ComponentLock::holder(dir, link.peer_component) else { return "is not running".to_owned() };
-    let announcement = Announcement::read(dir, link.peer_component);
-    let peer = format!("`{}` ({})", link.peer_component, whereabouts(announcement.as_ref(), holder));
+pub fn explain_missing(dir: &SystemDir, own: &ComponentSpec, gate: &GateSpec, connection: &ConnectionSpec) -> String {
+    let Some(holder) = ComponentLock::holder(dir, connection.peer_component) else {
+        return "is not running".to_owned();
+    };
+    let announcement = Announcement::read(dir, connection.peer_component);
+    let peer = format!("`{}` ({})", connection.peer_component, whereabouts(announcement.as_ref(), holder));
     let running = match announcement.as_ref().and_then(|announcement| announcement.host.as_deref()) {
         Some(host) => format!("running on host `{}`", shown(host)),
         None => running(holder),
     };
-    match find_mismatch(dir, own, gate, link, announcement.as_ref(), &peer) {
+    match find_mismatch(dir, own, gate, connection, announcement.as_ref(), &peer) {
         Ok(()) => format!("is {running} but not connected"),
         Err(Mismatch::Connection(text)) => format!("is {running} but {text}"),
         Err(Mismatch::Messages(text)) => format!("is incompatible: {text}"),
@@ -44,7 +51,7 @@ pub fn explain_missing(dir: &SystemDir, own: &ComponentSpec, gate: &GateSpec, li
 }
 
 /// Which process runs a peer, or on which other host it runs.
-fn whereabouts(announcement: Option<&Announcement>, holder: Holder) -> String {
+fn whereabouts(announcement: Option<&Announcement>, holder: ComponentProcess) -> String {
     let host = announcement.and_then(|announcement| announcement.host.as_deref());
     host.map_or_else(|| holder.to_string(), |host| format!("host `{}`", shown(host)))
 }
@@ -60,12 +67,12 @@ fn find_mismatch(
     dir: &SystemDir,
     own: &ComponentSpec,
     gate: &GateSpec,
-    link: &LinkSpec,
+    connection: &ConnectionSpec,
     announcement: Option<&Announcement>,
     peer: &str,
 ) -> Result<(), Mismatch> {
     let Some(announcement) = announcement else { return Ok(()) };
-    compare_connection(announcement, own, gate, link).map_err(Mismatch::Connection)?;
+    compare_connection(announcement, own, gate, connection).map_err(Mismatch::Connection)?;
     compare_messages(dir, own, gate, announcement.schema.as_deref(), peer).map_err(Mismatch::Messages)
 }
 
@@ -73,21 +80,23 @@ fn compare_connection(
     announcement: &Announcement,
     own: &ComponentSpec,
     gate: &GateSpec,
-    link: &LinkSpec,
+    connection: &ConnectionSpec,
 ) -> Result<(), String> {
     let own_name = format!("{}.{}", own.name, gate.name);
     let is_same_connection = |theirs: &&AnnouncedEndpoint| {
         // An announcement of an older format names no peers.
-        theirs.gate == link.peer_gate && !theirs.tap && (theirs.peers.is_empty() || theirs.peers.contains(&own_name))
+        theirs.gate == connection.peer_gate
+            && !theirs.tap
+            && (theirs.peers.is_empty() || theirs.peers.contains(&own_name))
     };
     let mut candidates = announcement.endpoints.iter().filter(is_same_connection).peekable();
     let Some(theirs) = candidates.peek().copied() else {
         return Err(format!(
             "was built without a connection between `{own_name}` and `{}.{}`; build both from the same topology",
-            link.peer_component, link.peer_gate
+            connection.peer_component, connection.peer_gate
         ));
     };
-    if candidates.any(|theirs| theirs.contract == link.contract) {
+    if candidates.any(|theirs| theirs.contract == connection.contract) {
         return Ok(());
     }
     let (type_and_codec, own_type_and_codec) = ((&*theirs.payload, &*theirs.codec), (gate.payload, gate.codec));
@@ -95,7 +104,7 @@ fn compare_connection(
         format!(
             "was built with `{}` as a `{}` gate, which does not fit the `{}` gate of this program; \
              build both from the same topology",
-            link.peer_gate,
+            connection.peer_gate,
             shown(&theirs.kind),
             gate.kind.word()
         )

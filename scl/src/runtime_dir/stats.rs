@@ -44,6 +44,8 @@ pub struct GateFigures {
     pub sent: u64,
     /// Messages received.
     pub received: u64,
+    /// Messages that a newer one has replaced in a queue of one with `drop_oldest`: no drops.
+    pub replaced: u64,
     /// Messages dropped because a queue was full and `drop_oldest` was declared.
     pub dropped_oldest: u64,
     /// Messages dropped because a queue was full and `drop_newest` was declared.
@@ -52,10 +54,12 @@ pub struct GateFigures {
     pub dropped_for_observers: u64,
     /// Those of them that were dropped for observers at the gate's tap, each observer counted.
     pub tap_dropped: u64,
-    /// Messages that were on their way when their connection broke.
+    /// Messages that were on their way, or waited in the peer's gate, when their connection broke.
     pub lost: u64,
     /// Messages received that could not be used.
     pub rejected: u64,
+    /// Those of them that the codec could not read.
+    pub undecodable: u64,
     /// Bytes of the messages sent or received.
     pub bytes: u64,
     /// Messages that wait in the program's queues.
@@ -70,7 +74,8 @@ pub struct GateFigures {
 
 /// One connection of a gate.
 ///
-/// At a `pub` or `push` gate, the number of messages sent is `taken + waiting + dropped + lost`.
+/// At a `pub` or `push` gate, the number of messages sent is [`published`](Self::published). Only `waiting` and
+/// `in_flight` ever fall.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ConnectionFigures {
@@ -80,19 +85,33 @@ pub struct ConnectionFigures {
     /// Messages that wait for the peer in the queue; at a `req` gate, a call that is under way. 0 at a gate that receives,
     /// whose messages wait in one queue.
     pub waiting: u64,
-    /// Messages that were given to the peer, the last of which may still be on their way. At a gate that receives:
-    /// messages received from this peer, or 0 if that is not known because several peers share an endpoint.
+    /// Messages that the peer's program has received, as far as it has said, which it does twice a second and when it ends.
+    /// At a `req` gate: replies. At a gate that receives: messages received from this peer, or 0 if that is not known because several peers share an endpoint.
     pub taken: u64,
     /// Messages dropped because the queue was full.
     pub dropped: u64,
-    /// Messages that were on their way when the connection broke.
+    /// Messages that were on their way, or waited in the peer's gate, when the connection broke.
     pub lost: u64,
+    /// Messages that a newer one has replaced in a queue of one with `drop_oldest`: no drops.
+    pub replaced: u64,
+    /// Messages that are on their way, wait in the peer's gate, or have been received and not been acknowledged yet.
+    pub in_flight: u64,
+    /// How often the last message of a gate with `latched: true` was sent once more, to a subscriber that joined.
+    pub latched: u64,
+}
+
+impl ConnectionFigures {
+    /// Number of messages that a `pub` or `push` gate has sent to this peer, with those that were sent once more.
+    pub fn published(&self) -> u64 {
+        let Self { waiting, taken, dropped, lost, replaced, in_flight, .. } = self;
+        taken + in_flight + waiting + replaced + dropped + lost
+    }
 }
 
 impl ComponentStats {
     /// The figures of a component that has done nothing yet.
     pub(crate) fn initial(spec: &ComponentSpec, pid: u32, started: SystemTime, period: Duration) -> Self {
-        let gates = spec.gates.iter().map(|gate| GateFigures::of_connections(gate.links.len())).collect();
+        let gates = spec.gates.iter().map(|gate| GateFigures::of_connections(gate.connections.len())).collect();
         Self { written: started, period, pid, started, ready: false, gates }
     }
 

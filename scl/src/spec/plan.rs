@@ -1,6 +1,6 @@
 //! From the constants of a program back to the plan that they were made from.
 
-use super::{ComponentSpec, GateSpec, LinkSpec};
+use super::{ComponentSpec, ConnectionSpec, GateSpec};
 use scl_plan::{ConnectionPlan, GatePlan, Payload, Plan};
 
 impl ComponentSpec {
@@ -27,29 +27,29 @@ fn gate_plan(gate: &GateSpec) -> GatePlan {
         tap: if_any(gate.tap),
         contract: gate.contract.to_owned(),
         options: gate.options.clone(),
-        connections: gate.links.iter().map(connection_plan).collect(),
+        connections: gate.connections.iter().map(connection_plan).collect(),
     }
 }
 
 /// Reads what `Payload` displays.
 fn payload(gate: &GateSpec) -> Payload {
-    match gate.payload.split_once(" -> ").filter(|_| gate.kind.exchanges()) {
+    match gate.exchanged() {
         Some((request, reply)) => Payload::Exchange { request: request.to_owned(), reply: reply.to_owned() },
         None if gate.payload == "bytes" => Payload::Bytes,
         None => Payload::Message(gate.payload.to_owned()),
     }
 }
 
-fn connection_plan(link: &LinkSpec) -> ConnectionPlan {
+fn connection_plan(connection: &ConnectionSpec) -> ConnectionPlan {
     ConnectionPlan {
-        peer_component: link.peer_component.to_owned(),
-        peer_gate: link.peer_gate.to_owned(),
-        endpoint: link.endpoint.to_owned(),
-        contract: link.contract.to_owned(),
-        required: link.required,
-        queue: link.queue,
-        when_full: link.when_full,
-        max_size: link.max_size,
+        peer_component: connection.peer_component.to_owned(),
+        peer_gate: connection.peer_gate.to_owned(),
+        endpoint: connection.endpoint.to_owned(),
+        contract: connection.contract.to_owned(),
+        required: connection.required,
+        queue: connection.queue,
+        when_full: connection.when_full,
+        max_size: connection.max_size,
     }
 }
 

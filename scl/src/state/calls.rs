@@ -73,24 +73,32 @@ impl ComponentState {
         crate::stop::gates_stopped()
     }
 
-    /// Fails if a call that does not wait must not be made any more.
+    /// Fails if a call that does not wait must not be made any more. A stop request comes before the end of the component,
+    /// which often follows it: programs treat the first as an orderly end, and may handle the second as an error.
     pub(crate) fn may_proceed(&self) -> Result<(), BlockingError> {
-        self.check()?;
-        if self.is_stopped() { Err(BlockingError::Stopped) } else { Ok(()) }
+        match self.check() {
+            Err(BlockingError::Forked) => Err(BlockingError::Forked),
+            _ if self.is_stopped() => Err(BlockingError::Stopped),
+            usable => usable,
+        }
     }
 
-    /// Fails if the component cannot be closed here and now by a call that blocks the thread. Also after a stop request.
+    /// Fails if the component cannot be closed here and now by a call that blocks the thread. Also after a stop request,
+    /// and on a thread that is ending.
     pub(crate) fn may_close(&self) -> Result<(), BlockingError> {
         if self.is_inherited() {
             return Err(BlockingError::Forked);
         }
-        runtime::refuse_inside_async()
+        match runtime::refuse_to_wait() {
+            Err(BlockingError::ThreadEnding) => Ok(()),
+            result => result,
+        }
     }
 
     /// Fails if a call that may block the thread must not be made here and now.
     pub(crate) fn may_block(&self) -> Result<(), BlockingError> {
         self.may_proceed()?;
-        runtime::refuse_inside_async()
+        runtime::refuse_to_wait()
     }
 
     /// Waits for a future from a plain thread, or until the program is told to stop.

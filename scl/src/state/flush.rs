@@ -55,6 +55,12 @@ pub(crate) trait SendingEnd: Send {
     }
 }
 
+/// The ends of a gate that receives.
+pub(crate) trait ReceivingEnd: Send {
+    /// Tells the senders what the program has received, because it is about to end.
+    fn acknowledge_last(&mut self);
+}
+
 type Ends = [Arc<Mutex<dyn SendingEnd>>];
 
 /// Waits until peers have taken everything, at most for a given time. Returns what they did not take, and what waits for

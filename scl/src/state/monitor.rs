@@ -5,7 +5,7 @@ use crate::error::OpenError;
 use crate::figures::FigureSource;
 use crate::registration::StatsWriter;
 use crate::runtime_dir::ComponentStats;
-use crate::spec::{ComponentSpec, LinkSpec};
+use crate::spec::{ComponentSpec, ConnectionSpec};
 use crate::sync::{AbortOnDrop, lock};
 use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, SystemTime};
@@ -62,7 +62,11 @@ impl Monitor {
     pub(crate) fn missing(&self) -> Option<Vec<String>> {
         self.refresh(|_| {});
         let followed = lock(&self.followed);
-        let names = || followed.missing(self.spec).map(|link| format!("{}.{}", link.peer_component, link.peer_gate));
+        let names = || {
+            followed
+                .missing(self.spec)
+                .map(|connection| format!("{}.{}", connection.peer_component, connection.peer_gate))
+        };
         followed.all_opened().then(|| names().collect())
     }
 }
@@ -74,12 +78,14 @@ impl Followed {
 
     /// The required peers that are not connected. Gates that listen for any number of peers have none, and those that
     /// were dropped wait for nobody.
-    fn missing(&self, spec: &'static ComponentSpec) -> impl Iterator<Item = &'static LinkSpec> {
+    fn missing(&self, spec: &'static ComponentSpec) -> impl Iterator<Item = &'static ConnectionSpec> {
         let gates = spec.gates.iter().zip(&self.open).zip(&self.stats.gates);
         let waiting = gates.filter(|((gate, open), _)| gate.endpoint.is_empty() && **open);
         waiting.flat_map(|((gate, _), figures)| {
-            let links = gate.links.iter().zip(&figures.connections);
-            links.filter(|(link, found)| link.required && !found.connected).map(|(link, _)| link)
+            let connections = gate.connections.iter().zip(&figures.connections);
+            connections
+                .filter(|(connection, found)| connection.required && !found.connected)
+                .map(|(connection, _)| connection)
         })
     }
 }

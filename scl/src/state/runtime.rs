@@ -7,7 +7,7 @@
 //! the runtime a turn now and then, or late peers would never be accepted.
 
 use crate::error::{BlockingError, OpenError};
-use crate::sync::lock;
+use crate::sync::{is_thread_ending, lock};
 use std::future::poll_fn;
 use std::io;
 use std::pin::pin;
@@ -44,8 +44,8 @@ struct Shared {
     wanted: Notify,
     ended: AtomicBool,
     opened: Instant,
-    last_call: Moment,
-    last_turn: Moment,
+    last_call: AtomicDuration,
+    last_turn: AtomicDuration,
     /// What the idle thread rests on, and whether the end of a call must wake it.
     rest: Mutex<()>,
     awaits_end: AtomicBool,
@@ -69,9 +69,9 @@ impl Drop for SharedRuntime {
 
 /// A time since the component was opened.
 #[derive(Debug, Default)]
-struct Moment(AtomicU64);
+struct AtomicDuration(AtomicU64);
 
-impl Moment {
+impl AtomicDuration {
     fn set(&self, since_opened: Duration) {
         self.0.store(since_opened.as_nanos() as u64, Ordering::SeqCst);
     }
@@ -84,6 +84,11 @@ impl Moment {
 impl OwnedRuntime {
     pub(crate) fn start(component: &'static str) -> Result<Arc<Self>, OpenError> {
         let failed = |source| OpenError::Runtime { component, source };
+        if is_thread_ending() {
+            return Err(failed(io::Error::other(BlockingError::ThreadEnding)));
+        }
+        // A program that keeps its component in a thread-local value closes it there.
+        prepare_thread();
         let runtime = Builder::new_current_thread().enable_all().build().map_err(failed)?;
         let handle = runtime.handle().clone();
         let driver = waker_of_driver(&runtime).map_err(failed)?;
@@ -95,8 +100,8 @@ impl OwnedRuntime {
             wanted: Notify::new(),
             ended: AtomicBool::new(false),
             opened: Instant::now(),
-            last_call: Moment::default(),
-            last_turn: Moment::default(),
+            last_call: AtomicDuration::default(),
+            last_turn: AtomicDuration::default(),
             rest: Mutex::default(),
             awaits_end: AtomicBool::new(false),
             called: Condvar::new(),
@@ -113,7 +118,7 @@ impl OwnedRuntime {
 
     /// Drives the runtime until a future is ready.
     pub(super) fn block_on<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
-        refuse_inside_async()?;
+        refuse_to_wait()?;
         // Pinned here because tokio would allocate memory for a long future.
         let future = pin!(self.shared.with_a_turn(future));
         Ok(self.shared.call(|runtime| runtime.block_on(future)))
@@ -134,7 +139,7 @@ impl OwnedRuntime {
     /// Gives the runtime a turn if one is due. Inside async code, where it cannot be driven, the idle thread does that a
     /// little later.
     pub(super) fn take_turn(&self) {
-        if !self.is_driven() && self.shared.is_turn_due() && refuse_inside_async().is_ok() {
+        if !self.is_driven() && self.shared.is_turn_due() && refuse_to_wait().is_ok() {
             self.shared.call(|runtime| runtime.block_on(self.shared.with_a_turn(async {})));
         }
     }
@@ -218,6 +223,9 @@ impl Shared {
     }
 
     fn drive_while_idle(&self) {
+        // Now, because a thread that makes its first thread-local value waits while `dlclose` runs a destructor, which may be
+        // waiting for this one.
+        prepare_thread();
         while !self.ended.load(Ordering::SeqCst) {
             self.wait_until_idle();
             self.idle_drives.store(true, Ordering::SeqCst);
@@ -337,9 +345,26 @@ fn unparks_this_thread() -> Waker {
     Arc::new(Unpark(thread::current())).into()
 }
 
-pub(super) fn refuse_inside_async() -> Result<(), BlockingError> {
-    // A thread that only entered a runtime, as opening does, could wait; but nothing waits then.
-    if Handle::try_current().is_ok() { Err(BlockingError::InsideAsync) } else { Ok(()) }
+/// Makes the thread-local values that tokio needs in calls of this thread. A value that the thread makes after that is
+/// destroyed before them.
+pub(crate) fn prepare_thread() {
+    if refuse_to_wait().is_ok()
+        && let Ok(runtime) = Builder::new_current_thread().build()
+    {
+        // Through the handle it waits as a call does while another one has the runtime, which makes one value more.
+        runtime.handle().block_on(async {});
+    }
+}
+
+/// Fails on a thread that must not wait: inside async code, and while its thread-local values are destroyed.
+pub(super) fn refuse_to_wait() -> Result<(), BlockingError> {
+    match Handle::try_current() {
+        // A thread that only entered a runtime, as opening does, could wait; but nothing waits then.
+        Ok(_) => Err(BlockingError::InsideAsync),
+        // tokio panics if such a thread drives a runtime or makes a timer.
+        Err(_) if is_thread_ending() => Err(BlockingError::ThreadEnding),
+        Err(_) => Ok(()),
+    }
 }
 
 #[cfg(test)]

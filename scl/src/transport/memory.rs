@@ -27,7 +27,7 @@ mod tests;
 
 use super::{Endpoint, Guarantees, Receiver, Replier, Requester, Sender, Transport, TransportError};
 use bytes::Bytes;
-use pipe::{PipeReader, PipeWriter};
+use pipe::{PipeReader, PipeWriter, WriterTerms};
 use request_reply::{ToReplier, ToRequester};
 use std::sync::Arc;
 use switchboard::{EndTerms, Switchboard};
@@ -103,7 +103,7 @@ fn message_pipe(
     in_flight_newest: usize,
 ) -> (PipeWriter<Bytes>, PipeReader<Bytes>) {
     let capacity = if receiving.newest_only { in_flight_newest } else { IN_FLIGHT };
-    pipe::pipe_of(capacity, sending.lossless)
+    pipe::pipe_of(capacity, WriterTerms { lossless: sending.lossless, latched: sending.latched })
 }
 
 impl Default for Memory {

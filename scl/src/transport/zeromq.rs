@@ -14,18 +14,20 @@
 //! see none of that. `docs/zeromq.md` describes it exactly.
 
 mod acceptor;
-mod connection;
 mod credit;
 mod dialler;
 mod inbound;
 mod link;
 mod link_count;
 mod listener;
+mod memory_format;
 mod publish;
 mod pull;
 mod push;
+mod refusals;
 mod reply;
 mod request;
+mod session;
 mod shared_memory;
 mod stream;
 mod subscribe;
@@ -36,6 +38,7 @@ mod tcp_user;
 mod tests;
 mod timer;
 mod topics;
+mod unread_limit;
 mod zmtp;
 
 use super::{Endpoint, Guarantees, Receiver, Replier, Requester, Sender, Tap, Transport, TransportError};
@@ -45,19 +48,19 @@ use std::sync::Arc;
 #[doc(hidden)]
 pub use zmtp::decode_for_fuzzing;
 
-pub use crate::medium::Medium;
+pub use crate::transport_kind::TransportKind;
 pub(crate) use tap_reader::TapReader;
 
 /// The transport between programs.
 pub struct ZeroMq {
     dir: Arc<SystemDir>,
-    medium: Medium,
+    kind: TransportKind,
 }
 
 impl ZeroMq {
     /// A transport whose ends meet in a system's folder.
-    pub fn new(dir: SystemDir, medium: Medium) -> Self {
-        Self { dir: Arc::new(dir), medium }
+    pub fn new(dir: SystemDir, kind: TransportKind) -> Self {
+        Self { dir: Arc::new(dir), kind }
     }
 }
 
@@ -68,7 +71,7 @@ impl Transport for ZeroMq {
     }
 
     fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
-        Ok(Box::new(publish::Publisher::open(&self.dir, self.medium, endpoint)?))
+        Ok(Box::new(publish::Publisher::open(&self.dir, self.kind, endpoint)?))
     }
 
     fn subscribe(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
@@ -80,7 +83,7 @@ impl Transport for ZeroMq {
     }
 
     fn pull(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
-        Ok(Box::new(pull::Puller::open(&self.dir, self.medium, endpoint)?))
+        Ok(Box::new(pull::Puller::open(&self.dir, self.kind, endpoint)?))
     }
 
     fn request(&self, endpoint: &Endpoint) -> Result<Box<dyn Requester>, TransportError> {
@@ -88,10 +91,10 @@ impl Transport for ZeroMq {
     }
 
     fn reply(&self, endpoint: &Endpoint) -> Result<Box<dyn Replier>, TransportError> {
-        Ok(Box::new(reply::Answerer::open(&self.dir, self.medium, endpoint)?))
+        Ok(Box::new(reply::ReplyingEnd::open(&self.dir, self.kind, endpoint)?))
     }
 
     fn tap(&self, endpoint: &Endpoint) -> Result<Option<Box<dyn Tap>>, TransportError> {
-        Ok(Some(Box::new(tap::Tap::open(&self.dir, self.medium, endpoint)?)))
+        Ok(Some(Box::new(tap::Tap::open(&self.dir, self.kind, endpoint)?)))
     }
 }

@@ -3,9 +3,10 @@
 use crate::codec::DecodeError;
 use crate::component::Opener;
 use crate::error::{Error, OpenError};
-use crate::gate::{AnyGate, GateStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Sub};
+use crate::gate::{AnyGate, GateStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
 use crate::spec::{GateKind, GateSpec};
 use bytes::Bytes;
+use std::time::Duration;
 
 /// A gate whose messages are the bytes that travel: what the codec of a typed gate would write and read.
 #[derive(Debug)]
@@ -60,19 +61,34 @@ impl Gate {
         }
     }
 
-    /// Counts a received message, request or reply that the program could not decode, as a gate with a codec does
-    /// ([`GateStats::rejected`]), and returns the error of such a gate, which names the possible senders.
+    /// Reports that the program could not decode the message or reply that this gate received last, and does what a gate with
+    /// a codec does then: it is counted ([`GateStats::undecodable`]). `Ok` if the gate skips such messages, so that the
+    /// program receives the next one; they are logged once for each peer. `Ok` also for `pub` and `push`, which receive
+    /// nothing, and for `rep`, see [`reject_request`](Self::reject_request).
     ///
-    /// `reason` says why, after "cannot decode this message: "; by convention it starts in lower case and has no full
-    /// stop. `None` for `pub` and `push`, which receive nothing.
-    pub fn reject(&mut self, reason: impl Into<String>) -> Option<Error> {
+    /// `reason` says why, after "cannot decode this message: "; by convention it starts in lower case and has no full stop.
+    ///
+    /// # Errors
+    /// That of a gate with `undecodable: fail` or of a call, which names the possible senders.
+    pub fn reject(&mut self, reason: impl Into<String>) -> Result<(), Error> {
         let source = DecodeError::new(self.spec().codec, reason);
         match self {
-            Gate::Sub(gate) => Some(gate.reject(source).into()),
-            Gate::Pull(gate) => Some(gate.reject(source).into()),
-            Gate::Rep(gate) => Some(gate.reject(source).into()),
-            Gate::Req(gate) => Some(gate.reject(source).into()),
-            Gate::Pub(_) | Gate::Push(_) => None,
+            Gate::Sub(gate) => Ok(gate.reject(source)?),
+            Gate::Pull(gate) => Ok(gate.reject(source)?),
+            Gate::Req(gate) => Err(gate.reject(source).into()),
+            Gate::Rep(_) | Gate::Pub(_) | Gate::Push(_) => Ok(()),
+        }
+    }
+
+    /// The same for a request. Its sender is told, so its call fails at once.
+    ///
+    /// # Errors
+    /// Those of [`reject`](Self::reject).
+    pub fn reject_request(&mut self, request: Request<Bytes, Bytes>, reason: impl Into<String>) -> Result<(), Error> {
+        let source = DecodeError::new(self.spec().codec, reason);
+        match self {
+            Gate::Rep(gate) => Ok(gate.reject(request, source)?),
+            _ => Ok(()),
         }
     }
 
@@ -90,6 +106,15 @@ impl Gate {
             Gate::Rep(gate) => gate.is_connected(),
             Gate::Push(gate) => gate.is_connected(),
             Gate::Pull(gate) => gate.is_connected(),
+        }
+    }
+
+    /// How old the message is that a `sub` gate returned last, if its publisher had sent it before this gate was connected to it:
+    /// see [`Sub::latched_age`]. `None` for other kinds.
+    pub fn latched_age(&self) -> Option<Duration> {
+        match self {
+            Gate::Sub(gate) => gate.latched_age(),
+            _ => None,
         }
     }
 
@@ -111,18 +136,31 @@ mod tests {
     use crate::OpenOptions;
     use crate::transport::memory::Memory;
     use crate::untyped::Component;
-    use scl_plan::SystemPlan;
+    use scl_plan::{SystemPlan, Undecodable};
 
     #[test]
-    fn what_the_program_cannot_decode_counts_as_rejected() {
-        let system = SystemPlan::from_json(include_str!("../../doc/rover.json")).unwrap();
+    fn what_the_program_cannot_decode_is_counted_and_skipped_or_an_error() {
+        for (declared, is_error) in [(Undecodable::Skip, false), (Undecodable::Fail, true)] {
+            check(declared, is_error);
+        }
+    }
+
+    fn check(declared: Undecodable, is_error: bool) {
+        let mut system = SystemPlan::from_json(include_str!("../../doc/rover.json")).unwrap();
+        let gates = system.components.iter_mut().flat_map(|component| &mut component.gates);
+        gates.for_each(|gate| gate.options.undecodable = declared);
         let mut recorder = Component::open_blocking_with(
             system.component("recorder").unwrap(),
             OpenOptions::new().transport(Memory::default()),
         );
         let mut gate = recorder.as_mut().unwrap().gate("log").unwrap();
-        let error = gate.reject("it is not a `rover.Line`").unwrap();
-        assert_eq!(error.to_string(), "gate `recorder.log` received an undecodable message from `sensor.log`");
-        assert_eq!(gate.stats().rejected, 1);
+        match gate.reject("it is not a `rover.Line`") {
+            Ok(()) => assert!(!is_error),
+            Err(error) => {
+                assert!(is_error);
+                assert_eq!(error.to_string(), "gate `recorder.log` received an undecodable message from `sensor.log`");
+            }
+        }
+        assert_eq!((gate.stats().rejected, gate.stats().undecodable), (1, 1));
     }
 }

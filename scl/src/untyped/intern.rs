@@ -5,7 +5,7 @@
 //! the process ends: once for each different plan, however often it is opened, and up to [`LIMIT`].
 
 use crate::error::OpenError;
-use crate::spec::{ComponentSpec, GateSpec, LinkSpec, Schema};
+use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec, Schema};
 use crate::sync::lock;
 use scl_plan::{ConnectionPlan, GatePlan, Plan};
 use std::collections::HashMap;
@@ -77,12 +77,12 @@ fn gate_spec(gate: &GatePlan) -> GateSpec {
         tap: keep(gate.tap.as_deref().unwrap_or_default()),
         contract: keep(&gate.contract),
         options: gate.options.clone(),
-        links: gate.connections.iter().map(link_spec).collect::<Vec<_>>().leak(),
+        connections: gate.connections.iter().map(link_spec).collect::<Vec<_>>().leak(),
     }
 }
 
-fn link_spec(connection: &ConnectionPlan) -> LinkSpec {
-    LinkSpec {
+fn link_spec(connection: &ConnectionPlan) -> ConnectionSpec {
+    ConnectionSpec {
         peer_component: keep(&connection.peer_component),
         peer_gate: keep(&connection.peer_gate),
         endpoint: keep(&connection.endpoint),

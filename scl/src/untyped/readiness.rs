@@ -16,7 +16,8 @@ use std::task::Waker;
 /// It is readable
 /// - while one of its gates has a message or a request (level-triggered: until all were taken with `try_recv`);
 /// - while a stop is requested, until [`acknowledge_stop`](Self::acknowledge_stop);
-/// - after one of its [`waker`](Self::waker)s was woken, until [`acknowledge`](Self::acknowledge).
+/// - after one of its [`waker`](Self::waker)s was woken, or the grace period of a stop request is over, until
+///   [`acknowledge`](Self::acknowledge).
 ///
 /// The descriptor belongs to this value: wait for it to become readable, but do not read from it or close it. While a
 /// `Readiness` exists, a thread of the component does the component's I/O, so that no call has to be under way.
@@ -73,6 +74,11 @@ impl Readiness {
         let stop = state.spawn(async move {
             stop::requested().await;
             stopping.upgrade().into_iter().for_each(|set| set.request_stop());
+            // A program that handles the request has acknowledged it; the end of its grace period ends the calls that wait.
+            if !stop::gates_stopped() {
+                stop::until_gates_stopped().await;
+                stopping.upgrade().into_iter().for_each(|set| set.set_woken(true));
+            }
             let _ended = ended;
             std::future::pending::<()>().await;
         });

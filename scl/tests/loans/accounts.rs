@@ -1,13 +1,13 @@
 //! Queues of loans: who waits, what is dropped, and what the counts say.
 
-use super::{Camera, Detector, Image, LONG, Viewer, on_each_medium, on_each_medium_async, send};
+use super::{Camera, Detector, Image, LONG, Viewer, on_each_transport, on_each_transport_async, send};
 use scl::transport::memory::Memory;
 use scl::{OpenOptions, PeerStats, SendTimeoutError, TrySendError};
 use std::time::Duration;
 
 fn assert_adds_up(stats: &PeerStats) {
-    let PeerStats { published, taken, dropped_oldest, dropped_newest, lost, waiting, .. } = stats;
-    assert_eq!(*published, taken + dropped_oldest + dropped_newest + lost + waiting, "{stats:?}");
+    let PeerStats { published, taken, replaced, dropped_oldest, dropped_newest, lost, waiting, .. } = stats;
+    assert_eq!(*published, taken + replaced + dropped_oldest + dropped_newest + lost + waiting, "{stats:?}");
 }
 
 #[tokio::test]
@@ -39,7 +39,7 @@ async fn what_waits_for_a_slow_reader_is_dropped_as_declared() {
 
 #[test]
 fn loans_wait_for_a_reader_that_makes_its_sender_wait() {
-    on_each_medium_async(async |options| {
+    on_each_transport_async(async |options| {
         let mut camera = Camera::open_with(options.clone()).await.unwrap();
         // The detector is required, so its queue of two makes the camera wait before it is there.
         for number in 0..2 {
@@ -74,7 +74,7 @@ fn loans_wait_for_a_reader_that_makes_its_sender_wait() {
 
 #[test]
 fn a_time_limit_ends_the_wait_and_the_message() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let mut camera = Camera::open_blocking_with(options.clone()).unwrap();
         for number in 0..2 {
             let mut image = camera.images.loan().unwrap();
@@ -117,7 +117,7 @@ async fn loans_that_wait_in_a_queue_reach_the_next_connection() {
 
 #[test]
 fn loans_are_handed_over_when_their_gate_is_dropped() {
-    on_each_medium_async(async |options| {
+    on_each_transport_async(async |options| {
         let mut camera = Camera::open_with(options.clone()).await.unwrap();
         let mut viewer = Viewer::open_with(options.clone()).await.unwrap();
         let mut detector = Detector::open_with(options).await.unwrap();

@@ -1,16 +1,16 @@
 //! Observers and plain programs see what was written in place.
 
-use super::{Camera, Detector, LONG, on_each_medium_async, send};
+use super::{Camera, Detector, LONG, on_each_transport_async, send};
 use scl::runtime_dir::RuntimeDir;
 use scl::tap::{Observer, TapEvent};
-use scl::{Medium, OpenOptions};
+use scl::{OpenOptions, TransportKind};
 use zerocopy::IntoBytes;
 
 #[test]
 fn an_observer_sees_loans() {
-    for medium in [Medium::Ipc, Medium::Tcp] {
+    for kind in [TransportKind::Ipc, TransportKind::Tcp] {
         let root = tempfile::tempdir().unwrap();
-        let options = OpenOptions::new().runtime_dir(root.path()).medium(medium);
+        let options = OpenOptions::new().runtime_dir(root.path()).transport_kind(kind);
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
         runtime.block_on(async {
             let variable = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| root.path().into());
@@ -33,7 +33,7 @@ fn an_observer_sees_loans() {
 
 #[test]
 fn nobody_observes_what_was_dropped() {
-    on_each_medium_async(async |options| {
+    on_each_transport_async(async |options| {
         let mut camera = Camera::open_with(options).await.unwrap();
         drop(camera.images.loan().unwrap());
         assert_eq!(camera.images.stats().dropped_for_observers, 0);

@@ -1,6 +1,6 @@
 //! The async and the non-waiting calls.
 
-use super::{LONG, bytes, on_each_medium_async, plan};
+use super::{LONG, bytes, on_each_transport_async, plan};
 use futures_core::Stream;
 use futures_sink::Sink;
 use scl::untyped::Component;
@@ -17,7 +17,7 @@ async fn open(options: OpenOptions) -> (Component, Component) {
 
 #[test]
 fn messages_are_published_and_received() {
-    on_each_medium_async(|options| async {
+    on_each_transport_async(|options| async {
         let (mut sensor, mut controller) = open(options).await;
         let (mut sends, mut receives) =
             (sensor.publisher("measurements").unwrap(), controller.subscriber("sensor").unwrap());
@@ -48,7 +48,7 @@ fn messages_are_published_and_received() {
 
 #[test]
 fn the_newest_message_is_found() {
-    on_each_medium_async(|options| async {
+    on_each_transport_async(|options| async {
         let (mut sensor, mut controller) = open(options).await;
         let mut sends = sensor.publisher("raw").unwrap();
         let mut receives = controller.subscriber("raw").unwrap();
@@ -67,7 +67,7 @@ fn the_newest_message_is_found() {
 
 #[test]
 fn a_full_queue_stops_a_call_that_does_not_wait() {
-    on_each_medium_async(|options| async {
+    on_each_transport_async(|options| async {
         let (mut sensor, mut controller) = open(options).await;
         let mut sends = sensor.publisher("measurements").unwrap();
         let mut receives = controller.subscriber("sensor").unwrap();
@@ -88,7 +88,7 @@ fn a_full_queue_stops_a_call_that_does_not_wait() {
 
 #[test]
 fn work_is_pushed_and_pulled() {
-    on_each_medium_async(|options| async {
+    on_each_transport_async(|options| async {
         let (mut sensor, mut controller) = open(options).await;
         let mut pushes = sensor.pusher("work").unwrap();
         let mut pulls = controller.puller("work").unwrap();
@@ -104,7 +104,7 @@ fn work_is_pushed_and_pulled() {
 
 #[test]
 fn requests_are_answered() {
-    on_each_medium_async(|options| async {
+    on_each_transport_async(|options| async {
         let (mut sensor, mut controller) = open(options).await;
         let mut asks = controller.requester("calibrate").unwrap();
         let mut answers = sensor.replier("calibrate").unwrap();
@@ -128,7 +128,7 @@ fn requests_are_answered() {
 /// Closing waits for the messages of gates that were taken, and the component is open as long as one of them exists.
 #[test]
 fn a_taken_gate_keeps_its_component_open() {
-    on_each_medium_async(|options| async {
+    on_each_transport_async(|options| async {
         let (mut sensor, mut controller) = open(options.clone()).await;
         let mut pushes = sensor.pusher("work").unwrap();
         let mut pulls = controller.puller("work").unwrap();
@@ -151,7 +151,7 @@ fn a_taken_gate_keeps_its_component_open() {
 
 #[test]
 fn closing_names_who_did_not_take_everything() {
-    on_each_medium_async(|options| async {
+    on_each_transport_async(|options| async {
         let (mut sensor, controller) = open(options).await;
         let mut sends = sensor.publisher("measurements").unwrap();
         sensor.ready(LONG).await.unwrap();
@@ -165,7 +165,7 @@ fn closing_names_who_did_not_take_everything() {
 
 #[test]
 fn gates_are_taken_without_a_kind() {
-    on_each_medium_async(|options| async {
+    on_each_transport_async(|options| async {
         let (mut sensor, controller) = open(options).await;
         sensor.ready(LONG).await.unwrap();
         controller.ready(LONG).await.unwrap();

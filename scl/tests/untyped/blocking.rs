@@ -1,13 +1,13 @@
 //! The calls without async.
 
-use super::{LONG, bytes, on_each_medium, plan};
+use super::{LONG, bytes, on_each_transport, plan};
 use scl::RecvTimeoutError;
 use scl::untyped::Component;
 use std::time::Duration;
 
 #[test]
 fn components_of_two_threads_exchange_everything() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let for_sensor = options.clone();
         let sensor = std::thread::spawn(move || {
             let mut sensor = Component::open_blocking_with(&plan("sensor"), for_sensor).unwrap();
@@ -44,7 +44,7 @@ fn components_of_two_threads_exchange_everything() {
 
 #[test]
 fn nobody_there_is_told_by_name() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let mut controller = Component::open_blocking_with(&plan("controller"), options).unwrap();
         let error = controller.ready_blocking(Duration::from_millis(1)).unwrap_err().to_string();
         for name in ["component `controller`", "`sensor.measurements`", "`sensor.raw`", "`sensor.calibrate`"] {

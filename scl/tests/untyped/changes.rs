@@ -1,6 +1,6 @@
 //! Whether peers are connected is noticed at once, also if a call of the program found it out and not a background task.
 
-use super::{LONG, bytes, on_each_medium, on_each_medium_async, plan};
+use super::{LONG, bytes, on_each_transport, on_each_transport_async, plan};
 use scl::untyped::Component;
 use std::future::poll_fn;
 use std::pin::pin;
@@ -15,7 +15,7 @@ const FOREVER: Duration = Duration::MAX;
 
 #[test]
 fn a_component_is_ready_when_its_waiting_call_has_connected() {
-    on_each_medium_async(|options| async move {
+    on_each_transport_async(|options| async move {
         let mut logger = Component::open_with(&plan("logger"), options.clone()).await.unwrap();
         let mut raw = logger.subscriber("raw").unwrap();
         let mut received = pin!(raw.recv());
@@ -36,7 +36,7 @@ fn a_component_is_ready_when_its_waiting_call_has_connected() {
 
 #[test]
 fn a_component_without_async_is_ready_while_all_its_gates_wait_in_threads() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let mut controller = Component::open_blocking_with(&plan("controller"), options.clone()).unwrap();
         let (mut sub, mut raw) = (controller.subscriber("sensor").unwrap(), controller.subscriber("raw").unwrap());
         let (mut req, mut pull) = (controller.requester("calibrate").unwrap(), controller.puller("work").unwrap());
@@ -58,7 +58,7 @@ fn a_component_without_async_is_ready_while_all_its_gates_wait_in_threads() {
 
 #[test]
 fn a_peer_that_a_sending_call_has_found_gone_is_reported() {
-    on_each_medium_async(|options| async move {
+    on_each_transport_async(|options| async move {
         let mut sensor = Component::open_with(&plan("sensor"), options.clone()).await.unwrap();
         let controller = Component::open_with(&plan("controller"), options).await.unwrap();
         let mut raw = sensor.publisher("raw").unwrap();

@@ -1,6 +1,6 @@
 //! Calls that wait in other threads end when the component is to be closed.
 
-use super::{LONG, bytes, on_each_medium, plan};
+use super::{LONG, bytes, on_each_transport, plan};
 use scl::untyped::Component;
 use scl::{BlockingError, OpenOptions, ReceivingGate};
 use std::error::Error;
@@ -54,7 +54,7 @@ fn every_call(controller: &mut Component, sensor: &mut Component) -> Vec<JoinHan
 #[test]
 fn every_waiting_call_ends() {
     for round in 0..50 {
-        on_each_medium(|options| {
+        on_each_transport(|options| {
             // Nobody else opens these two: the folders differ.
             let other = tempfile::tempdir().unwrap();
             let mut controller = open("controller", &options);
@@ -78,7 +78,7 @@ fn every_waiting_call_ends() {
 
 #[test]
 fn waits_for_the_whole_component_end() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let mut controller = open("controller", &options);
         let (mut sub, mut pull) = (controller.subscriber("sensor").unwrap(), controller.puller("work").unwrap());
         let closer = controller.closer();
@@ -97,7 +97,7 @@ fn waits_for_the_whole_component_end() {
 
 #[test]
 fn what_was_sent_before_is_still_handed_over() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = (open("sensor", &options), open("controller", &options));
         let mut receives = controller.subscriber("sensor").unwrap();
         let mut sends = sensor.publisher("measurements").unwrap();
@@ -124,7 +124,7 @@ fn futures_end_and_their_wakers_are_woken() {
             self.0.store(true, std::sync::atomic::Ordering::SeqCst);
         }
     }
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let mut controller = open("controller", &options);
         let mut sub = controller.subscriber("sensor").unwrap();
         let mut pull = controller.puller("work").unwrap();

@@ -1,6 +1,6 @@
 //! Waiting for several gates, and the descriptor for event loops.
 
-use super::{LONG, bytes, on_each_medium, plan};
+use super::{LONG, bytes, on_each_transport, plan};
 use rustix::event::{PollFd, PollFlags, poll};
 use scl::untyped::{Component, Readiness, WaitError};
 use scl::{OpenOptions, ReceivingGate};
@@ -34,7 +34,7 @@ fn wait(readiness: &Readiness) {
 
 #[test]
 fn the_gates_that_have_something_are_told() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let (mut sub, mut pull) = (controller.subscriber("sensor").unwrap(), controller.puller("work").unwrap());
         let mut req = controller.requester("calibrate").unwrap();
@@ -67,7 +67,7 @@ fn the_gates_that_have_something_are_told() {
 
 #[test]
 fn the_descriptor_is_readable_as_long_as_a_gate_has_something() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let (mut sub, mut pull) = (controller.subscriber("sensor").unwrap(), controller.puller("work").unwrap());
         let (mut push, mut publish) = (sensor.pusher("work").unwrap(), sensor.publisher("measurements").unwrap());
@@ -98,7 +98,7 @@ fn the_descriptor_is_readable_as_long_as_a_gate_has_something() {
 /// More messages than the gate's queue takes in: the others wait in the connection and in the publisher.
 #[test]
 fn the_descriptor_stays_readable_while_messages_wait_outside_the_queue() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let (mut sub, mut publish) =
             (controller.subscriber("sensor").unwrap(), sensor.publisher("measurements").unwrap());
@@ -117,7 +117,7 @@ fn the_descriptor_stays_readable_while_messages_wait_outside_the_queue() {
 
 #[test]
 fn requests_make_the_descriptor_readable() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let mut rep = sensor.replier("calibrate").unwrap();
         let mut req = controller.requester("calibrate").unwrap();
@@ -141,22 +141,23 @@ fn requests_make_the_descriptor_readable() {
 
 #[test]
 fn a_replier_that_is_gone_has_no_request() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let rep = sensor.replier("calibrate").unwrap();
         let mut req = controller.requester("calibrate").unwrap();
         let readiness = sensor.readiness().unwrap();
-        let asking = thread::spawn(move || req.call_timeout(&bytes("7"), Duration::from_millis(50)).unwrap_err());
+        let asking = thread::spawn(move || req.call_timeout(&bytes("7"), LONG));
         wait(&readiness);
         drop(rep);
         assert!(!is_readable(&readiness));
-        asking.join().unwrap();
+        controller.closer().end_calls();
+        asking.join().unwrap().unwrap_err();
     });
 }
 
 #[test]
 fn only_chosen_gates_count_and_none_that_is_gone() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let pull = controller.puller("work").unwrap();
         let (all, none) = (controller.readiness().unwrap(), controller.readiness_of(&[]).unwrap());
@@ -178,7 +179,7 @@ fn only_chosen_gates_count_and_none_that_is_gone() {
 /// Each message is sent only after the one before was taken, so a lost wake-up leaves both sides waiting.
 #[test]
 fn no_wake_up_is_lost_by_a_program_that_waits_for_the_descriptor() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let (mut push, mut pull) = (sensor.pusher("work").unwrap(), controller.puller("work").unwrap());
         let readiness = controller.readiness().unwrap();
@@ -205,7 +206,7 @@ fn no_wake_up_is_lost_by_a_program_that_waits_for_the_descriptor() {
 
 #[test]
 fn no_wake_up_is_lost_by_a_program_that_polls_futures() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let (mut push, mut pull) = (sensor.pusher("work").unwrap(), controller.puller("work").unwrap());
         let (mut req, mut rep) = (controller.requester("calibrate").unwrap(), sensor.replier("calibrate").unwrap());
@@ -250,7 +251,7 @@ fn no_wake_up_is_lost_by_a_program_that_polls_futures() {
 /// Blocking calls at other gates share the runtime with the thread that works for the descriptor.
 #[test]
 fn blocking_calls_and_a_descriptor_work_side_by_side() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let (mut push, mut pull) = (sensor.pusher("work").unwrap(), controller.puller("work").unwrap());
         let (mut req, mut rep) = (controller.requester("calibrate").unwrap(), sensor.replier("calibrate").unwrap());
@@ -279,7 +280,7 @@ fn blocking_calls_and_a_descriptor_work_side_by_side() {
 
 #[test]
 fn a_peer_that_comes_later_makes_the_descriptor_readable() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let mut controller = Component::open_blocking_with(&plan("controller"), options.clone()).unwrap();
         let mut pull = controller.puller("work").unwrap();
         let readiness = controller.readiness().unwrap();

@@ -1,6 +1,6 @@
 //! Calls with a time limit: what timed out has happened not at all.
 
-use super::{LONG, bytes, on_each_medium, plan};
+use super::{LONG, bytes, on_each_transport, plan};
 use scl::untyped::Component;
 use scl::{CallError, OpenOptions, RecvTimeoutError, SendTimeoutError};
 use std::time::Duration;
@@ -17,7 +17,7 @@ fn open(options: OpenOptions) -> (Component, Component) {
 
 #[test]
 fn a_send_that_timed_out_sent_nothing() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let mut sends = sensor.publisher("measurements").unwrap();
         let mut receives = controller.subscriber("sensor").unwrap();
@@ -46,7 +46,7 @@ fn a_send_that_timed_out_sent_nothing() {
 
 #[test]
 fn a_send_with_a_time_limit_waits_for_room() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let mut sends = sensor.publisher("measurements").unwrap();
         let mut receives = controller.subscriber("sensor").unwrap();
@@ -59,7 +59,7 @@ fn a_send_with_a_time_limit_waits_for_room() {
 
 #[test]
 fn the_reply_to_a_call_that_timed_out_is_never_taken() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, mut controller) = open(options);
         let mut asks = controller.requester("calibrate").unwrap();
         let mut answers = sensor.replier("calibrate").unwrap();
@@ -79,7 +79,7 @@ fn the_reply_to_a_call_that_timed_out_is_never_taken() {
 
 #[test]
 fn a_replier_waits_for_a_limited_time() {
-    on_each_medium(|options| {
+    on_each_transport(|options| {
         let (mut sensor, _controller) = open(options);
         let mut answers = sensor.replier("calibrate").unwrap();
         let timed_out = answers.recv_timeout(SHORT).unwrap_err();

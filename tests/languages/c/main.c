@@ -90,6 +90,8 @@ static scl_status send_one(matrix_left *left, const command *given, uint64_t num
         return matrix_left_push_json_send(left, json, json_of(number, json), FOREVER);
     } else if (is(given, 1, "pub_bytes")) {
         return matrix_left_pub_bytes_send(left, text, strlen(text), FOREVER);
+    } else if (is(given, 1, "pub_latched_bytes")) {
+        return matrix_left_pub_latched_bytes_send(left, text, strlen(text), FOREVER);
     }
     return matrix_left_push_bytes_send(left, text, strlen(text), FOREVER);
 }
@@ -163,6 +165,8 @@ static scl_status take_one(matrix_right *right, const command *given, ranges *fo
         status = matrix_right_pull_json_recv(right, &message, FOREVER);
     } else if (is(given, 1, "sub_bytes")) {
         status = matrix_right_sub_bytes_recv(right, &message, FOREVER);
+    } else if (is(given, 1, "sub_latched_bytes")) {
+        status = matrix_right_sub_latched_bytes_recv(right, &message, FOREVER);
     } else {
         status = matrix_right_pull_bytes_recv(right, &message, FOREVER);
     }
@@ -208,6 +212,12 @@ static scl_status serve_one(matrix_right *right, const command *given, ranges *f
     return matrix_right_rep_bytes_reply(&request, text, text_of(number + REPLY, text));
 }
 
+/* Whether the last message is latched. Its age is an hour at most, in the right unit. */
+static void say_age(const scl_gate *gate) {
+    int64_t age = scl_latched_age(gate);
+    say(age == -1 ? "new" : 0 < age && age < 3600 * SECOND ? "latched" : "wrong age");
+}
+
 static int play_right(void) {
     matrix_right right;
     check(matrix_right_open(&right, NULL), NULL);
@@ -227,6 +237,8 @@ static int play_right(void) {
                 }
             }
             say_ranges(&found);
+        } else if (is(&given, 0, "age")) {
+            say_age(scl_gate_by_name(right.component, given.words[1]));
         } else {
             say_account(scl_gate_by_name(right.component, given.words[1]));
         }

@@ -121,6 +121,7 @@ static void play_left() {
             WITH(left, pub_protobuf, send)
             WITH(left, pub_json, send)
             WITH(left, pub_bytes, send)
+            WITH(left, pub_latched_bytes, send)
             WITH(left, push_protobuf, send)
             WITH(left, push_json, send)
             WITH(left, push_bytes, send)
@@ -132,6 +133,7 @@ static void play_left() {
             WITH(left, pub_protobuf, other)
             WITH(left, pub_json, other)
             WITH(left, pub_bytes, other)
+            WITH(left, pub_latched_bytes, other)
             WITH(left, push_protobuf, other)
             WITH(left, push_json, other)
             WITH(left, push_bytes, other)
@@ -170,6 +172,12 @@ static void play_right() {
         };
         auto serve_samples = [&](auto& gate) { serve(gate, Sample()); };
         auto serve_bytes = [&](auto& gate) { serve(gate, std::string()); };
+        // Whether the last message is latched. Its age is an hour at most, in the right unit.
+        auto age = [&](auto& gate) {
+            auto age = gate.latched_age();
+            bool is_right = age && age->count() > 0 && *age < std::chrono::hours(1);
+            say(!age ? "new" : is_right ? "latched" : "wrong age");
+        };
         auto account = [&](auto& gate) { say_account(gate); };
         if (given[0] == "ready") {
             say_ready(right, given[1]);
@@ -177,6 +185,7 @@ static void play_right() {
             WITH(right, sub_protobuf, take)
             WITH(right, sub_json, take)
             WITH(right, sub_bytes, take)
+            WITH(right, sub_latched_bytes, take)
             WITH(right, pull_protobuf, take)
             WITH(right, pull_json, take)
             WITH(right, pull_bytes, take)
@@ -184,6 +193,8 @@ static void play_right() {
             WITH(right, rep_protobuf, serve_samples)
             WITH(right, rep_json, serve_samples)
             WITH(right, rep_bytes, serve_bytes)
+        } else if (given[0] == "age") {
+            WITH(right, sub_latched_bytes, age)
         } else {
             WITH(right, sub_protobuf, account)
             WITH(right, sub_json, account)

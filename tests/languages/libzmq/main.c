@@ -6,7 +6,7 @@
 
 #include <zmq.h>
 
-enum { GATES = 9 };
+enum { GATES = 10 };
 
 typedef struct {
     const char *name;

@@ -50,6 +50,14 @@ def account(gate: scl.Gate) -> str:
     return f"{stats['sent']} {stats['received']} {stats['rejected']}"
 
 
+def age_of(gate: Any) -> str:
+    """Whether the last message is latched. Its age is an hour at most, in the right unit."""
+    age = gate.latched_age
+    if age is None:
+        return "new"
+    return "latched" if 0 < age < 3600 else f"{age} s old"
+
+
 def ready(component: scl.Component, millis: str) -> str:
     try:
         component.ready(timeout=int(millis) / 1000)
@@ -90,6 +98,8 @@ def follow(component: scl.Component, command: str, name: str = "", *words: str) 
         case "take" | "serve":
             taken = [take(gate, command == "serve") for _ in range(numbers[0])]
             return ranges([number for number in taken if number is not None])
+        case "age":
+            return age_of(gate)
         case _:
             return account(gate)
 

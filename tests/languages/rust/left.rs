@@ -16,7 +16,7 @@ pub(crate) fn main(mut left: Left) -> scl::Result<()> {
             },
             "send" => {
                 with_gate!(
-                    left.gate: [pub_protobuf, pub_json, pub_bytes, push_protobuf, push_json, push_bytes],
+                    left.gate: [pub_protobuf, pub_json, pub_bytes, pub_latched_bytes, push_protobuf, push_json, push_bytes],
                     gate => for number in range { gate.send_blocking(&Message::of(number))?; }
                 );
                 say("sent");
@@ -33,14 +33,14 @@ pub(crate) fn main(mut left: Left) -> scl::Result<()> {
             }
             "gone" => {
                 with_gate!(
-                    left.gate: [pub_protobuf, pub_json, pub_bytes, push_protobuf, push_json, push_bytes, req_protobuf,
+                    left.gate: [pub_protobuf, pub_json, pub_bytes, pub_latched_bytes, push_protobuf, push_json, push_bytes, req_protobuf,
                         req_json, req_bytes],
                     gate => wait_until("the peer has gone", || !gate.is_connected())
                 );
                 say("gone");
             }
             _ => with_gate!(
-                left.gate: [pub_protobuf, pub_json, pub_bytes, push_protobuf, push_json, push_bytes, req_protobuf,
+                left.gate: [pub_protobuf, pub_json, pub_bytes, pub_latched_bytes, push_protobuf, push_json, push_bytes, req_protobuf,
                     req_json, req_bytes],
                 gate => say_account(&gate.stats())
             ),

@@ -1,8 +1,9 @@
-//! The component `right`: `ready MS`, `take GATE COUNT`, `serve GATE COUNT`, `account GATE`.
+//! The component `right`: `ready MS`, `take GATE COUNT`, `serve GATE COUNT`, `age GATE`, `account GATE`.
 
 use crate::{Message, Right, commands, millis, number, say_account, with_gate};
 use scl::RecvError;
 use scl_tests::{ranges, say, say_error};
+use std::time::Duration;
 
 /// What `left` adds to find out that a reply is one.
 const REPLY: u64 = 1000;
@@ -18,7 +19,7 @@ pub(crate) fn main(mut right: Right) -> scl::Result<()> {
                 Err(error) => say_error(error),
             },
             "take" => with_gate!(
-                right.gate: [sub_protobuf, sub_json, sub_bytes, pull_protobuf, pull_json, pull_bytes],
+                right.gate: [sub_protobuf, sub_json, sub_bytes, sub_latched_bytes, pull_protobuf, pull_json, pull_bytes],
                 gate => {
                     let mut numbers = Vec::new();
                     for _ in 0..count {
@@ -49,12 +50,22 @@ pub(crate) fn main(mut right: Right) -> scl::Result<()> {
                     say(ranges(&numbers));
                 }
             ),
+            "age" => with_gate!(right.gate: [sub_latched_bytes], gate => say_age(gate.latched_age())),
             _ => with_gate!(
-                right.gate: [sub_protobuf, sub_json, sub_bytes, pull_protobuf, pull_json, pull_bytes, rep_protobuf,
+                right.gate: [sub_protobuf, sub_json, sub_bytes, sub_latched_bytes, pull_protobuf, pull_json, pull_bytes, rep_protobuf,
                     rep_json, rep_bytes],
                 gate => say_account(&gate.stats())
             ),
         }
         Ok(())
     })
+}
+
+/// Whether the last message is latched. Its age is an hour at most, in the right unit.
+fn say_age(age: Option<Duration>) {
+    match age {
+        None => say("new"),
+        Some(age) if Duration::ZERO < age && age < Duration::from_secs(3600) => say("latched"),
+        Some(age) => say(format!("{age:?} old")),
+    }
 }

@@ -1,5 +1,5 @@
-//! A program of another user on the same machine, with plain sockets: `stranger connect PORT SOCKET_TYPE` or
-//! `stranger listen PORT SOCKET_TYPE`.
+//! A program of another user on the same machine, with plain sockets: `stranger connect PORT SOCKET_TYPE`,
+//! `stranger listen PORT SOCKET_TYPE` or `stranger flood PORT CONNECTIONS`.
 
 use scl_tests::zmtp::{greeting, message, ready, subscribe};
 use scl_tests::{Address, RawListener, RawPeer, say};
@@ -7,10 +7,14 @@ use std::net::{Ipv4Addr, TcpListener};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [what, port, socket_type] = &arguments[..] else { return say("usage: stranger connect|listen PORT TYPE") };
+    let [what, port, socket_type] = &arguments[..] else {
+        return say("usage: stranger connect|listen|flood PORT WORD");
+    };
     let address = (Ipv4Addr::LOCALHOST, port.parse().expect("a port"));
     if what == "connect" {
         connect(&Address::Tcp(address.into()), socket_type);
+    } else if what == "flood" {
+        flood(&Address::Tcp(address.into()), socket_type.parse().expect("a number"));
     } else {
         listen(&TcpListener::bind(address).expect("the port is free"), socket_type);
     }
@@ -29,6 +33,14 @@ fn connect(address: &Address, socket_type: &str) {
         let _closed = peer.send(&bytes);
     }
     say(format!("heard {} bytes", peer.wait_until_closed().len()));
+}
+
+/// Connects again and again, each time until it is disconnected.
+fn flood(address: &Address, connections: usize) {
+    for _ in 0..connections {
+        RawPeer::connect(address).wait_until_closed();
+    }
+    say("refused");
 }
 
 /// Greets every peer that connects, and reports what it sends.

@@ -111,6 +111,7 @@ impl End {
                     *waits = id != REQUEST;
                     id == REQUEST && body == MESSAGE
                 }
+                Poll::Ready(Answer::Refused { .. }) => false,
                 Poll::Ready(Answer::Lost) => {
                     *waits = false;
                     false

@@ -5,7 +5,7 @@ use super::zmtp::stream;
 use arbitrary::{Result, Unstructured};
 use scl::runtime_dir::internals::bind_ipc;
 use scl::runtime_dir::{RuntimeDir, SystemDir};
-use scl::transport::zeromq::{Medium, ZeroMq, decode_for_fuzzing};
+use scl::transport::zeromq::{TransportKind, ZeroMq, decode_for_fuzzing};
 use std::cell::Cell;
 use std::rc::Rc;
 use tempfile::TempDir;
@@ -53,7 +53,7 @@ impl Stage {
         let folder = TempDir::with_prefix("scl").expect("a folder");
         let variable = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| folder.path().into());
         let dir = RuntimeDir::locate(&variable).and_then(|dir| dir.system("fuzz")).expect("a system's folder");
-        Self { _folder: folder, transport: ZeroMq::new(dir.clone(), Medium::Ipc), dir }
+        Self { _folder: folder, transport: ZeroMq::new(dir.clone(), TransportKind::Ipc), dir }
     }
 
     async fn play(&self, bytes: &mut Unstructured<'_>) -> Result<()> {

@@ -130,7 +130,9 @@ impl Scene {
             let _any = (Announcement::read(dir, component), ComponentLock::holder(dir, component));
             let _any = (ComponentStats::read(dir, component), dir.state(component), dir.schema(component));
         }
-        for (gate, link) in Sink::SPEC.gates.iter().flat_map(|gate| gate.links.iter().map(move |link| (gate, link))) {
+        for (gate, link) in
+            Sink::SPEC.gates.iter().flat_map(|gate| gate.connections.iter().map(move |link| (gate, link)))
+        {
             let _peer = ComponentLock::take(dir, link.peer_component);
             let _any = check_peer(dir, Sink::SPEC, gate, link);
             assert!(!explain_missing(dir, Sink::SPEC, gate, link).is_empty());
@@ -140,7 +142,8 @@ impl Scene {
     /// The whole component: it opens and is announced, or says what is in its way.
     fn open(&self) {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
-        let options = OpenOptions::new().runtime_dir(&self.runtime_dir).system("six").medium(scl::Medium::Ipc);
+        let options =
+            OpenOptions::new().runtime_dir(&self.runtime_dir).system("six").transport_kind(scl::TransportKind::Ipc);
         let opened = runtime.block_on(Sink::open_with(options));
         let announced = self.system.join("sink.json");
         match opened {
@@ -201,7 +204,7 @@ impl Scene {
 
 /// Where the sink's gates meet others.
 fn endpoints() -> Vec<&'static str> {
-    let links = Sink::SPEC.gates.iter().flat_map(|gate| gate.links.iter().map(|link| link.endpoint));
+    let links = Sink::SPEC.gates.iter().flat_map(|gate| gate.connections.iter().map(|link| link.endpoint));
     let own = Sink::SPEC.gates.iter().map(|gate| gate.endpoint).filter(|endpoint| !endpoint.is_empty());
     links.chain(own).collect()
 }

@@ -38,7 +38,7 @@ impl End {
 
     fn of_gate(system: &System, gate: &GateSpec) -> Vec<Self> {
         let name = gate.name.to_owned();
-        let link = gate.links[0].endpoint;
+        let link = gate.connections[0].endpoint;
         let connect = |endpoint: &str| Access::Connect(system.address("twins", endpoint));
         let accept = || Access::Accept(system.path("twins", link), OnceCell::new());
         let tap =

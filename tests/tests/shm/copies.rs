@@ -2,7 +2,7 @@
 
 use super::stage::{Account, IMAGE, QUEUE, Stage};
 use crate::programs::{IMAGES, open_with};
-use scl::Medium;
+use scl::TransportKind;
 use scl_tests::System;
 
 #[test]
@@ -55,8 +55,8 @@ fn long_messages_are_in_shared_memory_and_short_ones_are_not() {
 /// The same programs on sockets: the memory is from the heap.
 #[test]
 fn the_same_programs_run_without_shared_memory() {
-    for medium in [Medium::Ipc, Medium::Tcp] {
-        let system = System::with_medium(medium);
+    for kind in [TransportKind::Ipc, TransportKind::Tcp] {
+        let system = System::over(kind);
         let (mut camera, mut viewer) = (open_with(&system, IMAGES, "camera"), open_with(&system, IMAGES, "viewer"));
         camera.ask("viewer here", "viewer");
         camera.ask(&format!("lend 0 {QUEUE} {IMAGE}"), "0 shared");
@@ -75,7 +75,7 @@ fn single_connections_can_use_shared_memory() {
         ("shm,viewer.frames=ipc", 0, 1),
         ("camera.frames=shm,viewer.frames=tcp", 0, 0),
     ] {
-        let system = System::with_medium(Medium::Shm);
+        let system = System::over(TransportKind::Shm);
         // What the listening end reads counts.
         let mut camera = system.start_with(IMAGES, &["camera"], &[("SCL_TRANSPORT", choice)]);
         camera.expect("open");

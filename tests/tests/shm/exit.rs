@@ -1,6 +1,6 @@
 //! Programs that end: what they sent arrives, and stays readable.
 
-use super::stage::{IMAGE, QUEUE, Stage, share};
+use super::stage::{Account, IMAGE, QUEUE, Stage, share};
 
 #[test]
 fn a_camera_that_publishes_and_exits_loses_nothing() {
@@ -20,6 +20,26 @@ fn a_camera_that_publishes_and_exits_loses_nothing() {
         }
         stage.end([viewer]);
     }
+}
+
+/// The promise: what the viewer has received stays taken when it ends; what waited in its gate is lost.
+#[test]
+fn what_a_viewer_received_stays_taken_when_it_ends() {
+    let stage = Stage::new();
+    let mut camera = stage.open("camera");
+    for round in 1..4 {
+        let mut viewer = stage.open("viewer");
+        share(&mut camera);
+        camera.ask(&format!("lend 0 {QUEUE} {IMAGE}"), "4 shared");
+        viewer.ask("receive 3", "0..3, 3 shared");
+        let exit = viewer.wait_for_exit();
+        assert!(exit.status.success(), "{exit:?}");
+        camera.ask("viewer gone", "viewer");
+        let found = Account::of(&mut camera, "frames");
+        let expected = Account { published: round * QUEUE, taken: round * 3, dropped: 0, lost: round, waiting: 0 };
+        assert_eq!(found, expected);
+    }
+    stage.end([camera]);
 }
 
 #[test]

@@ -1,18 +1,17 @@
 //! Another user of the machine can neither read nor disturb what is in shared memory.
 //!
-//! A second user exists only if the test runs as root: it then starts programs as the user 65534.
+//! Only root can start programs as another user, here 65534.
 
 use super::stage::{IMAGE, Stage};
+use scl_needs::needs;
 use std::os::unix::process::CommandExt;
 use std::process::{Command, Output};
 
 const NOBODY: u32 = 65534;
 
+#[needs("root")]
 #[test]
 fn another_user_cannot_open_or_remove_anything() {
-    if is_skipped() {
-        return;
-    }
     let stage = Stage::new();
     let (mut camera, mut viewer) = stage.camera_and_viewer();
     camera.ask(&format!("lend 0 2 {IMAGE}"), "2 shared");
@@ -36,11 +35,9 @@ fn another_user_cannot_open_or_remove_anything() {
 }
 
 /// `/dev/shm` belongs to everybody, so another user can create files with our names first.
+#[needs("root")]
 #[test]
 fn files_of_another_user_are_refused_by_name() {
-    if is_skipped() {
-        return;
-    }
     let stage = Stage::new();
     let foreign = format!("/dev/shm/{}foreign", stage.system.shared_prefix("images"));
     assert!(as_nobody(&["sh", "-c", "echo foreign > \"$0\"", &foreign]).status.success());
@@ -52,14 +49,6 @@ fn files_of_another_user_are_refused_by_name() {
     let (mut camera, mut viewer) = stage.camera_and_viewer();
     stage.assert_good(&mut camera, &mut viewer, 0);
     stage.end([camera, viewer]);
-}
-
-fn is_skipped() -> bool {
-    let skipped = !rustix::process::geteuid().is_root();
-    if skipped {
-        println!("skipped: needs root to start a program as another user");
-    }
-    skipped
 }
 
 fn as_nobody(command: &[&str]) -> Output {

@@ -4,6 +4,7 @@
 
 use super::stage::{IMAGE, Stage, share};
 use crate::programs::IMAGES;
+use scl_needs::needs;
 use scl_tests::{Process, System};
 use std::process::Command;
 
@@ -16,18 +17,13 @@ struct SmallMemory {
 }
 
 impl SmallMemory {
-    /// Returns `None`, and prints why, if it cannot be mounted here.
-    fn mount(mebibytes: u32) -> Option<Self> {
+    fn mount(mebibytes: u32) -> Self {
         let script = format!("mount -t tmpfs -o size={mebibytes}m small /dev/shm && echo mounted && read -r _end");
         let mut command = Command::new("unshare");
-        command.args(["--mount", "sh", "-c", &format!("{script} || echo failed")]);
+        command.args(["--mount", "sh", "-c", &script]);
         let mut maker = Process::spawn(command);
-        let line = maker.next_line();
-        if line == "mounted" {
-            return Some(Self { maker });
-        }
-        println!("skipped: a small /dev/shm cannot be mounted here, which needs root");
-        None
+        maker.expect("mounted");
+        Self { maker }
     }
 
     fn start(&self, system: &System, program: &str, arguments: &[&str]) -> Process {
@@ -42,9 +38,10 @@ impl SmallMemory {
     }
 }
 
+#[needs("the right to mount")]
 #[test]
 fn a_camera_is_refused_with_sizes() {
-    let Some(memory) = SmallMemory::mount(32) else { return };
+    let memory = SmallMemory::mount(32);
     let stage = Stage::new();
     let mut camera = memory.start(&stage.system, IMAGES, &["camera"]);
     let error = camera.next_line();
@@ -57,9 +54,10 @@ fn a_camera_is_refused_with_sizes() {
 }
 
 /// Memory that others take later: messages go through the socket, and nobody is killed by SIGBUS.
+#[needs("the right to mount")]
 #[test]
 fn memory_that_runs_out_later_costs_speed_only() {
-    let Some(memory) = SmallMemory::mount(256) else { return };
+    let memory = SmallMemory::mount(256);
     let stage = Stage::new();
     let mut camera = memory.start(&stage.system, IMAGES, &["camera"]);
     camera.expect("open");

@@ -11,19 +11,19 @@ wires::topology!("rover.yaml");
 fn specifications_tell_the_wiring() {
     let gates: Vec<&str> = Controller::SPEC.gates.iter().map(|gate| gate.name).collect();
     assert_eq!(gates, ["sensor", "axis", "bytes", "commands", "work"]);
-    let link = &Controller::SPEC.gates[0].links[0];
-    assert_eq!((link.peer_component, link.peer_gate, link.queue), ("sensor", "measurements", 1));
+    let connection = &Controller::SPEC.gates[0].connections[0];
+    assert_eq!((connection.peer_component, connection.peer_gate, connection.queue), ("sensor", "measurements", 1));
     assert_eq!(UserInterface::SPEC.gates[0].options.timeout.as_millis(), 500);
-    assert!(!Controller::SPEC.gates[3].links[0].required, "an optional component is not waited for");
+    assert!(!Controller::SPEC.gates[3].connections[0].required, "an optional component is not waited for");
     assert!(Logger::SPEC.gates.is_empty());
 }
 
 #[test]
 fn both_ends_of_a_connection_know_how_large_a_message_may_be() {
     let (asking, answering) = (&UserInterface::SPEC.gates[0], &Controller::SPEC.gates[3]);
-    assert_eq!((asking.options.max_size, asking.links[0].max_size), (512, 4096));
-    assert_eq!((answering.options.max_size, answering.links[0].max_size), (4096, 512));
-    assert_eq!(Sensor::SPEC.gates[0].links[0].max_size, 64 << 20);
+    assert_eq!((asking.options.max_size, asking.connections[0].max_size), (512, 4096));
+    assert_eq!((answering.options.max_size, answering.connections[0].max_size), (4096, 512));
+    assert_eq!(Sensor::SPEC.gates[0].connections[0].max_size, 64 << 20);
 }
 
 #[test]

@@ -6,20 +6,38 @@
 
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 
 namespace scl::detail {
 
+/// Memory of the thread for the next message, or nullptr while its thread-local objects are destroyed: static objects may
+/// send in their destructors.
+inline std::string* spare_memory() noexcept {
+    thread_local bool is_destroyed = false;
+    struct Memory {
+        std::string text;
+        ~Memory() { is_destroyed = true; }
+    };
+    if (is_destroyed) {
+        return nullptr;
+    }
+    thread_local Memory memory;
+    return &memory.text;
+}
+
 /// Encodes a message and passes its bytes to `use`. Their memory belongs to the thread and is reused, up to 1 MiB.
 template <class T, class Format, class Use>
 scl_status encode(const sent_t<T>& message, const std::string& gate, Use&& use) {
     constexpr std::size_t kept = 1 << 20;
-    thread_local std::string spare;
-    // Taken, because a codec may itself send through another gate.
-    std::string buffer = std::move(spare);
-    buffer.clear();
+    std::string buffer;
+    if (std::string* spare = spare_memory()) {
+        // Taken, because a codec may itself send through another gate.
+        buffer = std::move(*spare);
+        buffer.clear();
+    }
     BytesView bytes;
     try {
         bytes = Codec<T, Format>::encode(message, buffer);
@@ -29,31 +47,33 @@ scl_status encode(const sent_t<T>& message, const std::string& gate, Use&& use) 
         throw EncodeError("gate `" + gate + "` cannot encode this message: " + error.what());
     }
     scl_status status = use(bytes.data(), bytes.size());
-    if (buffer.capacity() <= kept) {
-        spare = std::move(buffer);
+    if (std::string* spare = spare_memory(); spare != nullptr && buffer.capacity() <= kept) {
+        *spare = std::move(buffer);
     }
     return status;
 }
 
-/// Decodes a message that a gate received, by `Codec<T, Format>::decode(bytes)`. If that fails, the gate counts it.
-template <class T, class Format, class Source> T decode(Source&& bytes, scl_gate* handle, const std::string& gate) {
+/// Decodes what a gate received, by `Codec<T, Format>::decode(bytes)`. If that fails, it is reported to the gate, with
+/// `request` if it is one. Returns nothing if it is to be skipped.
+template <class T, class Format, class Source>
+std::optional<T> decode(Source&& bytes, scl_gate* handle, scl_request* request = nullptr) {
     try {
         return Codec<T, Format>::decode(bytes());
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        // Its own text does not say what the codec found.
-        scl_undecodable(handle, "message");
-        throw DecodeError("gate `" + gate + "` received an undecodable message: " + error.what());
+        if (scl_undecodable(handle, request, error.what()) != SCL_OK) {
+            throw DecodeError(scl_error());
+        }
+        return std::nullopt;
     }
 }
 
-/// Makes a call that returns a status or throws an error of a codec, and stores either as a code. Returns whether there
+/// Makes a call that returns a status or throws an error of a codec, which may itself use gates, and stores either as a code. Returns whether there
 /// was none.
 template <class Call> bool attempt(std::error_code& error, Call&& call) {
     try {
         scl_status status = call();
-        own_error().clear();
         if (status == SCL_OK) {
             error.clear();
             return true;
@@ -61,7 +81,11 @@ template <class Call> bool attempt(std::error_code& error, Call&& call) {
         error = static_cast<Errc>(status);
     } catch (const Error& codec) {
         error = codec.code();
-        own_error() = codec.what();
+        // The C library keeps the texts of this thread.
+        scl_fail(error.value(), codec.what());
+    } catch (const Stopped& codec) {
+        error = codec.code();
+        scl_fail(error.value(), codec.what());
     }
     return false;
 }

@@ -66,11 +66,11 @@ class Component {
 
     /// Waits until all required peers are connected. Throws `Timeout` if one is missing after `limit`; its text says
     /// why.
-    void ready(TimeLimit limit = TimeLimit::none()) const { detail::check(scl_ready(handle_, limit.nanoseconds())); }
+    void ready(TimeLimit limit = TimeLimit::none()) const { detail::check(await_peers(limit)); }
 
     /// `ready` that reports errors as codes. Returns whether all are connected.
     bool ready(TimeLimit limit, std::error_code& error) const {
-        return detail::attempt(error, [&] { return scl_ready(handle_, limit.nanoseconds()); });
+        return detail::attempt(error, [&] { return await_peers(limit); });
     }
 
     /// Waits until every peer that is running has taken all messages, then closes. Throws `NotFlushed` with the peers
@@ -85,6 +85,7 @@ class Component {
     /// A file descriptor for `poll` and `epoll`, readable while a gate has something to receive or a stop is requested.
     /// It belongs to the component.
     int fd() const {
+        detail::check(require_open());
         int descriptor = scl_fd(handle_);
         if (descriptor < 0) {
             detail::raise(Errc::system, scl_error());
@@ -98,6 +99,15 @@ class Component {
   private:
     /// Not open yet. The other constructor may throw after this one, and then the destructor closes what it has opened.
     explicit Component(const std::string& name) : name_(name) {}
+
+    scl_status await_peers(TimeLimit limit) const {
+        scl_status status = require_open();
+        return status == SCL_OK ? detail::named(scl_ready(handle_, limit.nanoseconds()), "component", name_) : status;
+    }
+
+    scl_status require_open() const {
+        return handle_ == nullptr ? detail::named(SCL_HANDLE, "component", name_) : SCL_OK;
+    }
 
     scl_status finish(std::int64_t limit) noexcept {
         if (handle_ == nullptr) {

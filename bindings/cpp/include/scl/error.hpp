@@ -10,7 +10,8 @@
 
 namespace scl {
 
-/// The kinds of errors. `std::error_code` values of SCL compare equal to them: `if (error == scl::Errc::stopped)`.
+/// The kinds of errors. `std::error_code` values of SCL compare equal to them: `if (error == scl::Errc::stopped)`. Those that
+/// the operating system knows, too, also compare equal to `std::errc`: `if (error == std::errc::timed_out)`.
 enum class Errc : int {
     /// The queue of a peer with `when_full: wait` is full; nothing was sent.
     full = SCL_FULL,
@@ -20,6 +21,8 @@ enum class Errc : int {
     stopped = SCL_STOPPED,
     /// The peer disconnected after the request was sent; whether it acted on the request is unknown.
     peer_lost = SCL_PEER_LOST,
+    /// The replier could not decode the request, so it did not act on it.
+    refused = SCL_REFUSED,
     /// The peer that made a request no longer waits for the reply.
     requester_gone = SCL_REQUESTER_GONE,
     /// Another thread is using this gate.
@@ -72,7 +75,17 @@ template <> struct std::is_error_code_enum<scl::Errc> : std::true_type {};
 
 namespace scl {
 
-/// The base of all exceptions of SCL. `what()` names component, gate and peer, and says what to do.
+/// What an error is among those of the operating system, to which `std::errc` belongs.
+inline std::error_condition make_error_condition(Errc error) noexcept {
+    return make_error_code(error).default_error_condition();
+}
+
+inline bool operator==(Errc own, std::errc system) noexcept { return make_error_code(own) == system; }
+inline bool operator==(std::errc system, Errc own) noexcept { return own == system; }
+inline bool operator!=(Errc own, std::errc system) noexcept { return !(own == system); }
+inline bool operator!=(std::errc system, Errc own) noexcept { return !(own == system); }
+
+/// The base of all exceptions of SCL but `Stopped`. `what()` names component, gate and peer, and says what to do.
 class Error : public std::runtime_error {
   public:
     Error(Errc code, const std::string& text) : std::runtime_error(text), code_(code) {}
@@ -96,8 +109,20 @@ template <Errc kind> class ErrorOf : public Error {
 
 /// The program was asked to stop by SIGTERM or Ctrl-C. This is not a failure: if no `catch` handles it, the program
 /// ends with exit code 0.
-class Stopped : public detail::ErrorOf<Errc::stopped> {
-    using ErrorOf::ErrorOf;
+///
+/// It is neither an `Error` nor a `std::exception`, so that a loop that logs errors and continues does not swallow it.
+class Stopped {
+  public:
+    explicit Stopped(const std::string& text) : text_(text) {}
+
+    const char* what() const noexcept { return text_.what(); }
+
+    /// `Errc::stopped`.
+    std::error_code code() const noexcept { return Errc::stopped; }
+
+  private:
+    /// Copying a `std::string` may throw, which an exception must not.
+    std::runtime_error text_;
 };
 
 /// Peers are not ready, or have not replied, in time.
@@ -112,6 +137,11 @@ class Full : public detail::ErrorOf<Errc::full> {
 
 /// The replier disconnected after the request was sent; whether it acted on the request is unknown.
 class PeerLost : public detail::ErrorOf<Errc::peer_lost> {
+    using ErrorOf::ErrorOf;
+};
+
+/// The replier could not decode the request, so it did not act on it.
+class Refused : public detail::ErrorOf<Errc::refused> {
     using ErrorOf::ErrorOf;
 };
 
@@ -145,22 +175,9 @@ class NotFlushed : public detail::ErrorOf<Errc::not_flushed> {
     using ErrorOf::ErrorOf;
 };
 
-namespace detail {
-
-/// The text of this thread's last error if it came from a codec, else empty.
-inline std::string& own_error() noexcept {
-    thread_local std::string text;
-    return text;
-}
-
-} // namespace detail
-
 /// The text of this thread's last failed call, for calls that report errors as `std::error_code`, whose `message()`
-/// knows neither gate nor peer. Valid until the thread's next failure.
-inline const char* last_error() noexcept {
-    const std::string& own = detail::own_error();
-    return own.empty() ? scl_error() : own.c_str();
-}
+/// knows neither gate nor peer. It stays as it is until 16 more calls of the thread have failed or the thread ends.
+inline const char* last_error() noexcept { return scl_error(); }
 
 namespace detail {
 
@@ -201,6 +218,43 @@ class Category final : public std::error_category {
             return scl_status_name(code);
         }
     }
+
+    /// For programs that compare with `std::errc`, as they do with errors of the operating system.
+    std::error_condition default_error_condition(int code) const noexcept override {
+        switch (static_cast<Errc>(code)) {
+        case Errc::full:
+            return std::errc::resource_unavailable_try_again;
+        case Errc::timeout:
+            return std::errc::timed_out;
+        case Errc::stopped:
+            return std::errc::interrupted;
+        case Errc::peer_lost:
+            return std::errc::connection_reset;
+        case Errc::requester_gone:
+            return std::errc::broken_pipe;
+        case Errc::busy:
+            return std::errc::device_or_resource_busy;
+        case Errc::too_long:
+            return std::errc::message_size;
+        case Errc::decode:
+            return std::errc::bad_message;
+        case Errc::argument:
+        case Errc::encode:
+            return std::errc::invalid_argument;
+        case Errc::handle:
+            return std::errc::bad_file_descriptor;
+        case Errc::kind:
+            return std::errc::operation_not_supported;
+        case Errc::taken:
+            return std::errc::address_in_use;
+        case Errc::closed:
+            return std::errc::operation_canceled;
+        case Errc::forked:
+            return std::errc::operation_not_permitted;
+        default:
+            return {code, *this};
+        }
+    }
 };
 
 /// Throws the exception class of a kind.
@@ -214,6 +268,8 @@ class Category final : public std::error_category {
         throw Full(text);
     case Errc::peer_lost:
         throw PeerLost(text);
+    case Errc::refused:
+        throw Refused(text);
     case Errc::requester_gone:
         throw RequesterGone(text);
     case Errc::taken:
@@ -229,6 +285,16 @@ class Category final : public std::error_category {
     default:
         throw Error(kind, text);
     }
+}
+
+/// The status of a call to something of the program, with a text that names it where the C library knows a handle only.
+inline scl_status named(scl_status status, const char* what, const std::string& name) {
+    if (status != SCL_HANDLE && status != SCL_BUSY) {
+        return status;
+    }
+    const char* reason = status == SCL_HANDLE ? "` is closed"
+                                              : "` is in use by another thread; use each gate from one thread at a time";
+    return scl_fail(status, (std::string(what) + " `" + name + reason).c_str());
 }
 
 /// Throws the exception of a status unless it is `SCL_OK`.
@@ -250,8 +316,9 @@ inline void check_library() {
 } // namespace detail
 
 inline const std::error_category& error_category() noexcept {
-    static const detail::Category category;
-    return category;
+    // Never destroyed: static objects may compare errors in their destructors.
+    static const auto* category = new detail::Category;
+    return *category;
 }
 
 } // namespace scl

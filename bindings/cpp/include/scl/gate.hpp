@@ -47,7 +47,7 @@ class Gate : public detail::OtherKinds {
             // With some room for counts that grow meanwhile.
             json.resize(2 * length);
         }
-        require(status);
+        require(told(status));
         json.resize(length);
         return json;
     }
@@ -68,6 +68,9 @@ class Gate : public detail::OtherKinds {
     }
 
     ~Gate() = default;
+
+    /// The status of a call to this gate, with a text that names it.
+    scl_status told(scl_status status) const { return detail::named(status, "gate", name_); }
 
     /// Throws the exception of a status unless it is `SCL_OK`.
     void require(scl_status status) const {

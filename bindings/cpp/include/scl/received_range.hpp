@@ -10,7 +10,10 @@
 
 namespace scl::detail {
 
-/// The end of a range of received messages: a stop request.
+/// A base of all gates that messages or requests arrive at.
+struct Receives {};
+
+/// The end of a range of received messages: a stop request, or a closed component.
 struct ReceivedEnd {};
 
 /// An input iterator that holds one message at a time.
@@ -40,7 +43,7 @@ template <class Gate> class ReceivedIterator {
         // First, so that a request that was not answered is given up before the next one is awaited.
         message_.reset();
         scl_status status = gate_->receive(message_, TimeLimit::none());
-        if (status != SCL_STOPPED) {
+        if (status != SCL_STOPPED && status != SCL_CLOSED && status != SCL_HANDLE) {
             gate_->require(status);
         }
     }

@@ -4,11 +4,13 @@
 #include <scl/gate.hpp>
 #include <scl/received_range.hpp>
 
+#include <cstdint>
+
 namespace scl {
 
 namespace detail {
 
-template <class T, class Format> class ReceivingGate : public Gate {
+template <class T, class Format> class ReceivingGate : public Gate, public Receives {
   public:
     using Message = T;
 
@@ -16,8 +18,8 @@ template <class T, class Format> class ReceivingGate : public Gate {
 
     /// Waits for the next message. At a gate with `queue: 1` this is always the newest one.
     ///
-    /// Throws `Stopped` after a stop request, and `DecodeError` if the codec cannot read a message; the next call
-    /// returns the next message.
+    /// A message that the codec cannot read is counted and skipped; a gate with `undecodable: fail` throws `DecodeError`,
+    /// and the next call returns the next message. Throws `Stopped` after a stop request.
     T recv() {
         std::optional<T> message;
         require(receive(message, TimeLimit::none()));
@@ -34,7 +36,7 @@ template <class T, class Format> class ReceivingGate : public Gate {
     /// Returns the next message if one has arrived.
     std::optional<T> try_recv() { return recv(std::chrono::nanoseconds::zero()); }
 
-    /// Returns the newest message that has arrived, if any, and discards the older ones.
+    /// Returns the newest message that has arrived, if any and if the codec can read it, and discards the older ones.
     std::optional<T> latest() {
         std::optional<T> message;
         require(receive_latest(message));
@@ -59,7 +61,7 @@ template <class T, class Format> class ReceivingGate : public Gate {
         return message;
     }
 
-    /// All messages, until a stop is requested: `for (auto& message : gate)`.
+    /// All messages, until a stop is requested or the component is closed: `for (auto& message : gate)`.
     ReceivedIterator<ReceivingGate> begin() { return ReceivedIterator<ReceivingGate>(*this); }
     ReceivedEnd end() const noexcept { return {}; }
 
@@ -71,22 +73,33 @@ template <class T, class Format> class ReceivingGate : public Gate {
     using Received = T;
 
     scl_status receive(std::optional<T>& message, TimeLimit limit) const {
-        scl_message* received = nullptr;
-        scl_status status = scl_recv(handle(), limit.nanoseconds(), &received);
-        return take(message, status, received);
+        std::int64_t timeout = limit.nanoseconds();
+        scl_status status = SCL_OK;
+        while (status == SCL_OK && !message) {
+            scl_message* received = nullptr;
+            status = scl_recv(handle(), timeout, &received);
+            take(message, status, received);
+            timeout = SCL_REST;
+        }
+        return nothing_is_ok(status);
     }
 
     scl_status receive_latest(std::optional<T>& message) const {
         scl_message* received = nullptr;
         scl_status status = scl_latest(handle(), &received);
-        return take(message, status, received);
+        take(message, status, received);
+        return nothing_is_ok(status);
     }
 
-    scl_status take(std::optional<T>& message, scl_status status, scl_message* received) const {
+    /// Stores the message unless it is to be skipped.
+    void take(std::optional<T>& message, scl_status status, scl_message* received) const {
         if (status == SCL_OK) {
-            message.emplace(decode<T, Format>([&] { return Bytes(received); }, handle(), name()));
+            message = decode<T, Format>([&] { return Bytes(received); }, handle());
         }
-        return status == SCL_NOTHING || status == SCL_TIMEOUT ? SCL_OK : status;
+    }
+
+    scl_status nothing_is_ok(scl_status status) const {
+        return status == SCL_NOTHING || status == SCL_TIMEOUT ? SCL_OK : told(status);
     }
 };
 
@@ -102,6 +115,13 @@ template <class T, class Format = Native> class Sub : public detail::ReceivingGa
     /// Gives a gate of bytes a message type and a codec of the program's own.
     template <class Other, std::enable_if_t<std::is_same_v<Other, Bytes> && !std::is_same_v<T, Bytes>, int> = 0>
     explicit Sub(Sub<Other>&& bytes) noexcept : detail::ReceivingGate<T, Format>(static_cast<Gate&&>(bytes)) {}
+
+    /// How old the message is that the last call returned, if its publisher has `latched: true` and had sent it before this
+    /// gate was connected to it; nothing for every other message.
+    std::optional<std::chrono::nanoseconds> latched_age() const noexcept {
+        const std::int64_t age = scl_latched_age(this->handle());
+        return age < 0 ? std::nullopt : std::optional(std::chrono::nanoseconds(age));
+    }
 };
 
 /// Receives messages from any number of `push` gates, in order of arrival.

@@ -5,6 +5,7 @@
 #include <scl/log.hpp>
 #include <scl/received_range.hpp>
 
+#include <cstdint>
 #include <memory>
 
 namespace scl {
@@ -64,13 +65,26 @@ template <class A, class B, class Format = Native> class Request {
 
     using Handle = std::unique_ptr<scl_request, Free>;
 
-    Request(Handle handle, scl_gate* receiver, const std::string& gate)
-        : handle_(std::move(handle)), message_(decode(handle_.get(), receiver, gate)), gate_(gate) {}
+    Request(Handle handle, A message, const std::string& gate)
+        : handle_(std::move(handle)), message_(std::move(message)), gate_(gate) {}
 
-    static A decode(scl_request* request, scl_gate* receiver, const std::string& gate) {
+    /// Decodes a request. Returns nothing if it is to be skipped.
+    static std::optional<Request> decode(Handle handle, scl_gate* receiver, const std::string& gate) {
         std::size_t size = 0;
-        const void* data = scl_request_data(request, &size);
-        return detail::decode<A, Format>([&] { return Bytes::borrowed(data, size); }, receiver, gate);
+        const void* data = scl_request_data(handle.get(), &size);
+        std::optional<A> message;
+        try {
+            message = detail::decode<A, Format>([&] { return Bytes::borrowed(data, size); }, receiver, handle.get());
+        } catch (const DecodeError&) {
+            // It was freed when it was reported.
+            static_cast<void>(handle.release());
+            throw;
+        }
+        if (!message) {
+            static_cast<void>(handle.release());
+            return std::nullopt;
+        }
+        return Request(std::move(handle), std::move(*message), gate);
     }
 
     void require_unanswered() const {
@@ -92,7 +106,7 @@ template <class A, class B, class Format = Native> class Request {
 };
 
 /// Answers requests of type `A` from any number of `req` gates with replies of type `B`.
-template <class A, class B, class Format = Native> class Rep : public Gate {
+template <class A, class B, class Format = Native> class Rep : public Gate, public detail::Receives {
   public:
     using Request = scl::Request<A, B, Format>;
 
@@ -136,7 +150,7 @@ template <class A, class B, class Format = Native> class Rep : public Gate {
 
     std::optional<Request> try_recv(std::error_code& error) { return recv(std::chrono::nanoseconds::zero(), error); }
 
-    /// All requests, until a stop is requested: `for (auto& request : gate) { request.reply(...); }`.
+    /// All requests, until a stop is requested or the component is closed: `for (auto& request : gate) { request.reply(...); }`.
     detail::ReceivedIterator<Rep> begin() { return detail::ReceivedIterator<Rep>(*this); }
     detail::ReceivedEnd end() const noexcept { return {}; }
 
@@ -145,12 +159,17 @@ template <class A, class B, class Format = Native> class Rep : public Gate {
     using Received = Request;
 
     scl_status receive(std::optional<Request>& request, TimeLimit limit) const {
-        scl_request* taken = nullptr;
-        scl_status status = scl_take_request(handle(), limit.nanoseconds(), &taken);
-        if (status == SCL_OK) {
-            request = Request(typename Request::Handle(taken), handle(), name());
+        std::int64_t timeout = limit.nanoseconds();
+        scl_status status = SCL_OK;
+        while (status == SCL_OK && !request) {
+            scl_request* taken = nullptr;
+            status = scl_take_request(handle(), timeout, &taken);
+            if (status == SCL_OK) {
+                request = Request::decode(typename Request::Handle(taken), handle(), name());
+            }
+            timeout = SCL_REST;
         }
-        return status == SCL_NOTHING || status == SCL_TIMEOUT ? SCL_OK : status;
+        return status == SCL_NOTHING || status == SCL_TIMEOUT ? SCL_OK : told(status);
     }
 };
 

@@ -5,7 +5,8 @@
 
 namespace scl {
 
-/// Sends requests of type `A` to a `rep` gate and receives replies of type `B`, one at a time.
+/// Sends requests of type `A` to a `rep` gate and receives replies of type `B`, one at a time: a gate serves one thread,
+/// also with `in_flight`. For several calls at once, declare several gates.
 template <class A, class B, class Format = Native> class Req : public Gate {
   public:
     using Request = A;
@@ -22,8 +23,8 @@ template <class A, class B, class Format = Native> class Req : public Gate {
     /// Sends a request and waits for the reply, together no longer than the `timeout` of the gate in the topology file.
     /// A replier that is not connected yet, or that restarts, is waited for within that time.
     ///
-    /// Throws `Timeout`, `PeerLost` if the replier disconnected after the request was sent, `TooLong`, `EncodeError`,
-    /// `DecodeError`, and `Stopped` after a stop request. Whatever it throws, the next call starts afresh.
+    /// Throws `Timeout`, `PeerLost` if the replier disconnected after the request was sent, `Refused` if it could not
+    /// decode the request, `TooLong`, `EncodeError`, `DecodeError`, and `Stopped` after a stop request. Whatever it throws, the next call starts afresh.
     B call(const detail::sent_t<A>& request) { return call(request, TimeLimit::none()); }
 
     /// `call` with a shorter time limit.
@@ -58,9 +59,9 @@ template <class A, class B, class Format = Native> class Req : public Gate {
             return scl_call(handle(), data, size, limit.nanoseconds(), &received);
         });
         if (status == SCL_OK) {
-            reply.emplace(detail::decode<B, Format>([&] { return Bytes(received); }, handle(), name()));
+            reply = detail::decode<B, Format>([&] { return Bytes(received); }, handle());
         }
-        return status == SCL_NOTHING ? SCL_TIMEOUT : status;
+        return status == SCL_NOTHING ? SCL_TIMEOUT : told(status);
     }
 };
 

@@ -63,7 +63,7 @@ template <class T, class Format> class SendingGate : public Gate {
             return scl_send(handle(), data, size, limit.nanoseconds());
         });
         // With a limit the C library says that the time is over; the reason is the same.
-        return status == SCL_TIMEOUT ? SCL_FULL : status;
+        return status == SCL_TIMEOUT ? SCL_FULL : told(status);
     }
 };
 

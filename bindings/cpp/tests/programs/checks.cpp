@@ -102,12 +102,96 @@ static void a_closed_component_is_closed() {
         left.close();
         left.numbers.send(number(1));
     });
-    CHECK(error.code() == scl::Errc::handle);
+    CHECK(error.code() == scl::Errc::handle && contains(error.what(), {"gate `left.numbers` is closed"}));
     left.close();
-    thrown([&] { left.fd(); });
-    thrown([&] { left.ready(0s); });
+    CHECK(contains(thrown([&] { left.fd(); }).what(), {"component `left` is closed"}));
+    CHECK(contains(thrown([&] { left.ready(0s); }).what(), {"component `left` is closed"}));
     CHECK(!left.numbers.is_connected());
     Left again;
+}
+
+static void every_call_after_closing_names_its_gate() {
+    Both both;
+    both.left.close();
+    both.right.close();
+    auto names = [](const char* gate, auto&& call) {
+        auto error = thrown(call);
+        CHECK(error.code() == scl::Errc::handle && contains(error.what(), {gate}));
+    };
+    names("`left.numbers`", [&] { (void)both.left.numbers.try_send(number(1)); });
+    names("`left.numbers`", [&] { both.left.numbers.stats(); });
+    names("`left.ask`", [&] { both.left.ask.call(number(1)); });
+    names("`right.numbers`", [&] { both.right.numbers.recv(); });
+    names("`right.numbers`", [&] { both.right.numbers.latest(); });
+    names("`right.answer`", [&] { both.right.answer.try_recv(); });
+    names("`right.jobs`", [&] { scl::wait(1h, both.right.jobs, both.right.numbers); });
+    std::error_code error;
+    CHECK(!both.right.jobs.recv(error) && error == scl::Errc::handle && contains(scl::last_error(), {"`right.jobs`"}));
+}
+
+static void a_loop_ends_when_its_component_is_closed() {
+    Both both;
+    both.left.numbers.send(number(1));
+    int received = 0;
+    // In the body of the loop, and while it waits.
+    for (auto& message : both.right.numbers) {
+        received += static_cast<int>(message.value());
+        both.right.close();
+    }
+    CHECK(received == 1);
+    for (auto& message : both.right.jobs) {
+        (void)message;
+        ++received;
+    }
+    CHECK(received == 1);
+    Right right;
+    std::promise<void> waiting;
+    auto ended = std::async(std::launch::async, [&] {
+        waiting.set_value();
+        for (auto& request : right.answer) {
+            request.reply(Text());
+        }
+    });
+    waiting.get_future().wait();
+    right.close();
+    ended.get();
+}
+
+static void errors_compare_to_those_of_the_system() {
+    const std::pair<scl::Errc, std::errc> same[] = {
+        {scl::Errc::timeout, std::errc::timed_out},
+        {scl::Errc::full, std::errc::resource_unavailable_try_again},
+        {scl::Errc::stopped, std::errc::interrupted},
+        {scl::Errc::peer_lost, std::errc::connection_reset},
+        {scl::Errc::requester_gone, std::errc::broken_pipe},
+        {scl::Errc::busy, std::errc::device_or_resource_busy},
+        {scl::Errc::too_long, std::errc::message_size},
+        {scl::Errc::decode, std::errc::bad_message},
+        {scl::Errc::encode, std::errc::invalid_argument},
+        {scl::Errc::argument, std::errc::invalid_argument},
+        {scl::Errc::handle, std::errc::bad_file_descriptor},
+        {scl::Errc::kind, std::errc::operation_not_supported},
+        {scl::Errc::taken, std::errc::address_in_use},
+        {scl::Errc::closed, std::errc::operation_canceled},
+        {scl::Errc::forked, std::errc::operation_not_permitted},
+    };
+    for (auto [own, system] : same) {
+        std::error_code code = own;
+        CHECK(code == own && code == system && own == system);
+        CHECK(code != std::errc::io_error && code != scl::Errc::failed);
+    }
+    CHECK(std::error_code(scl::Errc::not_flushed) != std::errc::timed_out);
+}
+
+static void texts_of_errors_outlive_later_ones() {
+    Left left;
+    std::error_code error;
+    const char* first = (left.ready(1ns, error), scl::last_error());
+    std::string copy = first;
+    for (int count = 0; count < 15; ++count) {
+        CHECK(thrown([&] { scl::Pub<Number>(left, "number"); }).code() == scl::Errc::name);
+    }
+    CHECK(first == copy && first != scl::last_error());
 }
 
 static void closing_tells_what_was_not_taken() {
@@ -217,6 +301,9 @@ static void closing_ends_calls_of_other_threads() {
     CHECK(code == scl::Errc::closed || code == scl::Errc::handle);
 }
 
+// AddressSanitizer of GCC 12 does not protect the locks of its allocator when a process forks, so a child hangs in `malloc` if
+// another thread of the parent was in there.
+#ifndef __SANITIZE_ADDRESS__
 static void a_forked_child_is_refused() {
     Both both;
     pid_t child = ::fork();
@@ -232,6 +319,7 @@ static void a_forked_child_is_refused() {
     both.left.numbers.send(number(2));
     CHECK(both.right.numbers.recv().value() == 2);
 }
+#endif
 
 static void nothing_in_time_is_no_error() {
     Right right;
@@ -512,12 +600,18 @@ int main(int count, char** arguments) {
         NAMED(a_moved_component_goes_on),
         NAMED(a_gate_moves_to_another_thread),
         NAMED(a_closed_component_is_closed),
+        NAMED(every_call_after_closing_names_its_gate),
+        NAMED(a_loop_ends_when_its_component_is_closed),
+        NAMED(errors_compare_to_those_of_the_system),
+        NAMED(texts_of_errors_outlive_later_ones),
         NAMED(closing_tells_what_was_not_taken),
         NAMED(a_gate_serves_one_thread_at_a_time),
         NAMED(two_threads_send_over_one_gate_or_are_refused),
         NAMED(every_gate_has_a_thread_of_its_own),
         NAMED(closing_ends_calls_of_other_threads),
+#ifndef __SANITIZE_ADDRESS__
         NAMED(a_forked_child_is_refused),
+#endif
         NAMED(nothing_in_time_is_no_error),
         NAMED(a_missing_peer_is_a_timeout),
         NAMED(a_full_queue_is_told),

@@ -29,8 +29,6 @@ inline void say_error(const std::exception& error) {
 template <class Call> void answer(Call&& call) {
     try {
         say(call());
-    } catch (const scl::Stopped&) {
-        throw;
     } catch (const scl::Error& error) {
         say_error(error);
     }

@@ -9,6 +9,7 @@ controller.actuator.send(controller.actuator.type(throttle=0.5))
 """
 
 from scl import codec
+from scl._buffer import Buffer
 from scl._component import Component, DynamicComponent, Transport, open, open_plan
 from scl._errors import (
     Answered,
@@ -20,11 +21,13 @@ from scl._errors import (
     Forked,
     Full,
     InternalError,
+    NoneReceived,
     NotFlushed,
     NotReady,
     OpenError,
     PeerLost,
     PlanError,
+    Refused,
     RequesterGone,
     Stopped,
     Timeout,
@@ -44,6 +47,7 @@ from scl._testing import Counterpart, DynamicCounterpart, TestableComponent, tes
 
 __all__ = [
     "Answered",
+    "Buffer",
     "Busy",
     "Closed",
     "Component",
@@ -58,6 +62,7 @@ __all__ = [
     "Gate",
     "GeneratedComponent",
     "InternalError",
+    "NoneReceived",
     "NotFlushed",
     "NotReady",
     "OpenError",
@@ -66,6 +71,7 @@ __all__ = [
     "Pub",
     "Pull",
     "Push",
+    "Refused",
     "Rep",
     "Req",
     "Request",
@@ -89,3 +95,10 @@ __all__ = [
     "test",
     "until_stopped",
 ]
+
+# As programs name them: in tracebacks, `repr` and `help`.
+for _name in __all__:
+    _item = globals()[_name]
+    if getattr(_item, "__module__", "").startswith("scl._"):
+        _item.__module__ = "scl"
+del _name, _item

@@ -8,12 +8,13 @@ import time
 import warnings
 from collections.abc import Mapping
 from types import MappingProxyType, TracebackType
-from typing import TYPE_CHECKING, Any, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeAlias, TypeVar
 
 from scl import _native, _process, codec
 from scl._errors import NotReady, UnknownGate
 from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Sub
 from scl._loop import Loops
+from scl._suggest import did_you_mean
 
 # `ipc`, `tcp` or `shm`, or a list with others for single connections, like `ipc,camera.frames=shm`.
 Transport: TypeAlias = str
@@ -23,12 +24,22 @@ _KINDS: dict[str, type[Any]] = {"pub": Pub, "sub": Sub, "req": Req, "rep": Rep, 
 Facts = dict[str, tuple[str, list[codec.Codec]]]
 """The attribute and the codecs of each gate."""
 
+_FIELDS = frozenset({"_native", "_gates", "_attributes", "_readiness"})
+"""What a component keeps beside its gates."""
+
 _STEP = 0.2
 """How long a task that waits for peers keeps a thread after it was cancelled, in seconds."""
 
 
 class Component:
     """A component whose gates are attributes. Generated classes derive from it, and `open` returns one."""
+
+    _has_own_attributes: ClassVar[bool] = False
+    """Whether it is a class of the program, which may have any attributes."""
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls._has_own_attributes = cls.__module__.partition(".")[0] != "scl"
 
     def __init__(
         self,
@@ -95,12 +106,13 @@ class Component:
         """`ready` for asyncio."""
         import asyncio
 
-        ends = None if timeout is None else time.monotonic() + timeout
+        began = time.monotonic()
         while True:
             # In steps, so that little is left behind by a task that is cancelled.
-            left = _STEP if ends is None else max(0.0, ends - time.monotonic())
+            waited = time.monotonic() - began
+            left = _STEP if timeout is None else max(0.0, timeout - waited)
             try:
-                return await asyncio.to_thread(self._native.ready, min(left, _STEP))
+                return await asyncio.to_thread(self._native.ready, min(left, _STEP), waited)
             except NotReady:
                 if left < _STEP:
                     raise
@@ -155,13 +167,24 @@ class Component:
             gates = self.__dict__.get("_gates")
             if gates is None or name.startswith("__"):
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+            calls = [it for it in dir(type(self)) if it not in self._attributes]
+            if not did_you_mean(name, self._attributes) and (hint := did_you_mean(name, calls)):
+                raise UnknownGate(f"component `{self.name}` has no gate `{name}`{hint}", name=name, obj=self)
             raise UnknownGate(_native.unknown_gate(self._native.name, name, list(gates)), name=name, obj=self)
 
         def __setattr__(self, name: str, value: object) -> None:
-            # A misspelt gate would become an attribute of its own.
             if name in self.__dict__.get("_attributes", ()):
                 raise AttributeError(f"gate `{self._native.name}.{name}` cannot be replaced", name=name, obj=self)
+            # A misspelt gate would become an attribute of its own.
+            if not (self._has_own_attributes or name in _FIELDS or hasattr(type(self), name)):
+                hint = did_you_mean(name, dir(self))
+                raise AttributeError(f"component `{self.name}` has no attribute `{name}`{hint}", name=name, obj=self)
             object.__setattr__(self, name, value)
+
+        def __delattr__(self, name: str) -> None:
+            if name in self.__dict__.get("_attributes", ()):
+                raise AttributeError(f"gate `{self._native.name}.{name}` cannot be deleted", name=name, obj=self)
+            object.__delattr__(self, name)
 
     def __reduce__(self) -> Any:
         raise TypeError("a component cannot be pickled; open it in the process that uses it")
@@ -194,7 +217,7 @@ def open(
     plan, found = _native.Plan.of_file(os.fspath(topology))
     for warning in found:
         warnings.warn(f"\n{warning}", stacklevel=2)
-    return DynamicComponent(
+    return described(DynamicComponent, plan, component)(
         plan, component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
     )
 
@@ -209,9 +232,24 @@ def open_plan(
     signals: bool = True,
 ) -> DynamicComponent:
     """As `open`, with the plans that `scl plan` printed instead of the topology file."""
-    return DynamicComponent(
-        plan, component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
+    plans = _native.Plan(plan)
+    return described(DynamicComponent, plans, component)(
+        plans, component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
     )
+
+
+C = TypeVar("C", bound=Component)
+
+
+def described(base: type[C], plan: _native.Plan, component: str) -> type[C]:
+    """Returns a class for one component whose documentation lists its gates, for `help`."""
+    lines = [f"The component `{component}` of `{plan.system}`.", "", "Gates:"]
+    for name, snake_name, kind, codec_name, types, peers in plan.gates(component):
+        carried = " -> ".join(f"`{it}`" for it in types) or "bytes"
+        ends = ", ".join(f"`{peer}`" for peer in peers) or "no peer"
+        written = "" if codec_name == "protobuf" or not types else f" as {codec_name}"
+        lines.append(f"    {_attribute_of(snake_name)}: `{kind}` of {carried}{written}, connected to {ends}")
+    return type(base.__name__, (base,), {"__doc__": "\n".join(lines), "__module__": base.__module__})
 
 
 def _attribute_of(gate: str) -> str:

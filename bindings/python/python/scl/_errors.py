@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class Error(Exception):
-    """The base of all exceptions of this package."""
+    """The base of all exceptions of this package but `Stopped`."""
 
 
 class TopologyError(Error):
@@ -62,6 +62,17 @@ class EncodeError(Error, ValueError):
 class DecodeError(Error, ValueError):
     """A frame is not a message of the expected type. The next call returns the next message."""
 
+    reason: str = ""
+    """Why, without the names of the gate and its peers."""
+
+
+class Refused(Error, ValueError):
+    """The replier could not decode the request, so it did not act on it."""
+
+
+class NoneReceived(Error, ValueError):
+    """`try_recv` or `latest` took the message `None`, which they return for no message. Give them another value for that."""
+
 
 class PeerLost(Error, ConnectionError):
     """The replier disconnected after the request was sent; whether it acted on the request is unknown."""
@@ -87,13 +98,11 @@ class Forked(Error, RuntimeError):
     """The component belongs to the parent process."""
 
 
-class Stopped(Error, SystemExit):
-    """SIGTERM asked the program to stop. Where nothing catches it, the program ends with exit code 0."""
+class Stopped(BaseException):
+    """SIGTERM asked the program to stop. Where nothing catches it, the program ends with exit code 0.
 
-    def __init__(self, *args: object) -> None:
-        super().__init__(*args)
-        # `SystemExit` takes its exit code from the arguments.
-        self.code = 0
+    It is neither an `Error` nor an `Exception`, so that a loop that logs errors and continues does not swallow it.
+    """
 
 
 class InternalError(Error):

@@ -4,19 +4,30 @@ from __future__ import annotations
 
 import builtins
 from collections.abc import AsyncIterator, Callable, Iterator
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from time import monotonic
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NoReturn, TypeVar, overload
 
 from scl import _native
-from scl._errors import Busy, Closed, Stopped, WrongDirection
+from scl._errors import Busy, Closed, DecodeError, NoneReceived, Stopped, WrongDirection
 from scl._loop import Loops
+from scl._suggest import did_you_mean
 
 if TYPE_CHECKING:
+    from scl._native import Gate as NativeGate
+    from scl._native import Readiness
     from scl.codec import Codec
 
 T = TypeVar("T")
 A = TypeVar("A")
 B = TypeVar("B")
+D = TypeVar("D")
 R = TypeVar("R")
+
+_NOT_GIVEN: Any = object()
+"""Stands for a default that was not given: any other value may be one."""
+
+# How many seconds a call that does not wait may be held up by undecodable messages.
+_LONGEST_SKIP = 0.01
 
 _CALLS = ("send", "send_async", "recv", "recv_async", "try_recv", "latest", "call", "call_async")
 
@@ -27,11 +38,17 @@ class Gate:
     __slots__ = ("_awaited", "_loops", "_native")
 
     _can: ClassVar[str]
+    _awaited: bool
+    _loops: Loops
+    _native: NativeGate
 
-    def __init__(self, native: _native.Gate, loops: Loops) -> None:
-        self._native = native
-        self._loops = loops
-        self._awaited = False
+    def __init__(self, native: NativeGate, loops: Loops) -> None:
+        self._set(_native=native, _loops=loops, _awaited=False)
+
+    def _set(self, **attributes: object) -> None:
+        """Sets attributes, which a program cannot."""
+        for name, value in attributes.items():
+            object.__setattr__(self, name, value)
 
     @property
     def name(self) -> str:
@@ -56,7 +73,8 @@ class Gate:
 
         def __getattr__(self, name: str) -> Any:
             if name not in _CALLS:
-                raise AttributeError(f"{self!r} has no attribute `{name}`", name=name, obj=self)
+                hint = did_you_mean(name, dir(type(self)))
+                raise AttributeError(f"gate `{self.name}` has no attribute `{name}`{hint}", name=name, obj=self)
             raise WrongDirection(
                 f"gate `{self.name}` is a `{self.kind}` gate and has no `{name}`; it has {self._can} "
                 f"(declared at {self._native.declared_at})",
@@ -64,17 +82,23 @@ class Gate:
                 obj=self,
             )
 
+        def __setattr__(self, name: str, value: object) -> NoReturn:
+            if hasattr(type(self), name):
+                raise AttributeError(f"`{name}` of gate `{self.name}` cannot be replaced", name=name, obj=self)
+            hint = did_you_mean(name, dir(type(self)))
+            raise AttributeError(f"gate `{self.name}` has no attribute `{name}`{hint}", name=name, obj=self)
+
     async def _until(
-        self, poll: Callable[[_native.Readiness], R | None], timeout: float | None, last: Callable[[float], R]
+        self, poll: Callable[[Readiness], R | None], timeout: float | None, last: Callable[[float], R]
     ) -> R:
         """Waits as `Loops.until` does. One task at a time may do so."""
         if self._awaited:
             raise Busy(f"gate `{self.name}` is awaited by another task; one at a time may use a gate")
-        self._awaited = True
+        object.__setattr__(self, "_awaited", True)
         try:
             return await self._loops.until(poll, timeout, last)
         finally:
-            self._awaited = False
+            object.__setattr__(self, "_awaited", False)
 
     def __repr__(self) -> str:
         return repr(self._native)
@@ -86,14 +110,16 @@ class Gate:
 class _Sender(Gate, Generic[T]):
     __slots__ = ("_encode", "_send", "type")
 
-    _can = "`send`"
+    type: builtins.type[T]
+    """The class of the messages."""
 
-    def __init__(self, native: _native.Gate, loops: Loops, codec: Codec) -> None:
+    _can = "`send`"
+    _encode: Callable[[T], bytes]
+    _send: Callable[[bytes, float | None], object]
+
+    def __init__(self, native: NativeGate, loops: Loops, codec: Codec) -> None:
         super().__init__(native, loops)
-        self.type: builtins.type[T] = codec.type
-        """The class of the messages."""
-        self._encode = codec.encode
-        self._send = native.send
+        self._set(type=codec.type, _encode=codec.encode, _send=native.send)
 
     def send(self, message: T, timeout: float | None = None) -> None:
         """Sends a message.
@@ -114,39 +140,98 @@ class _Sender(Gate, Generic[T]):
 
 
 class _Receiver(Gate, Generic[T]):
-    __slots__ = ("_decode", "_owner", "_recv", "type")
+    __slots__ = ("_decode", "_recv", "type")
+
+    type: builtins.type[T]
+    """The class of the messages."""
 
     _can = "`recv`, `try_recv`, `latest` and iteration"
+    _decode: Callable[[bytes], T]
+    _recv: Callable[..., bytes]
 
-    def __init__(self, native: _native.Gate, loops: Loops, codec: Codec) -> None:
+    def __init__(self, native: NativeGate, loops: Loops, codec: Codec) -> None:
         super().__init__(native, loops)
-        self.type: builtins.type[T] = codec.type
-        """The class of the messages."""
-        self._decode = codec.decode
-        self._owner = codec.owner
-        self._recv = native.recv
+        self._set(type=codec.type, _decode=codec.decode, _recv=native.recv)
 
     def recv(self, timeout: float | None = None) -> T:
-        """Waits for the next message, no longer than `timeout` seconds, with 0 not at all. Raises `Timeout` then."""
-        message: T = self._decode(self._recv(timeout))
+        """Waits for the next message, no longer than `timeout` seconds, with 0 not at all. Raises `Timeout` then.
+
+        A frame that is not a message is counted and skipped; at a gate with `undecodable: fail` it raises `DecodeError`.
+        """
+        started, frame = monotonic(), self._recv(timeout)
+        while True:
+            try:
+                message: T = self._decode(frame)
+                return message
+            except DecodeError as error:
+                self._skip(error)
+            frame = self._recv(_rest(timeout, started), monotonic() - started)
+
+    @overload
+    def try_recv(self) -> T | None: ...
+    @overload
+    def try_recv(self, default: D) -> T | D: ...
+    def try_recv(self, default: Any = _NOT_GIVEN) -> Any:
+        """Returns the next message if one has arrived, else `default`, or `None`.
+
+        Raises `NoneReceived` without a `default` if the message itself is `None`, which only plain values can be.
+        """
+        started = 0.0
+        while (frame := self._native.try_recv()) is not None:
+            try:
+                message = self._decode(frame)
+            except DecodeError as error:
+                self._skip(error)
+                started = started or monotonic()
+                if monotonic() - started > _LONGEST_SKIP:
+                    break
+                continue
+            if message is None and default is _NOT_GIVEN:
+                raise self._none_received("try_recv")
+            return message
+        return None if default is _NOT_GIVEN else default
+
+    @overload
+    def latest(self) -> T | None: ...
+    @overload
+    def latest(self, default: D) -> T | D: ...
+    def latest(self, default: Any = _NOT_GIVEN) -> Any:
+        """Returns the newest message that has arrived and discards the older ones; as `try_recv`, if there is none."""
+        frame = self._native.latest()
+        if frame is None:
+            return None if default is _NOT_GIVEN else default
+        try:
+            message = self._decode(frame)
+        except DecodeError as error:
+            self._skip(error)
+            return None if default is _NOT_GIVEN else default
+        if message is None and default is _NOT_GIVEN:
+            raise self._none_received("latest")
         return message
 
-    def try_recv(self) -> T | None:
-        """Returns the next message if one has arrived, else `None`."""
-        frame = self._native.try_recv()
-        return None if frame is None else self._decode(frame)
-
-    def latest(self) -> T | None:
-        """Returns the newest message that has arrived and discards the older ones; `None` if there is none."""
-        frame = self._native.latest()
-        return None if frame is None else self._decode(frame)
+    def _none_received(self, call: str) -> NoneReceived:
+        return NoneReceived(
+            f"gate `{self.name}` received the message `None`, which `{call}()` returns for no message; give it another value "
+            f"for that: `{call}(default)`"
+        )
 
     async def recv_async(self, timeout: float | None = None) -> T:
         """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no message."""
-        message: T = self._decode(
-            await self._until(self._native.poll_recv, timeout, lambda waited: self._recv(0, waited))
-        )
-        return message
+        started, rest = monotonic(), timeout
+        while True:
+            frame = await self._until(self._native.poll_recv, rest, lambda _waited: self._recv(0, timeout))
+            try:
+                message: T = self._decode(frame)
+                return message
+            except DecodeError as error:
+                self._skip(error)
+            await _others_turn()
+            rest = _rest(timeout, started)
+
+    def _skip(self, error: DecodeError) -> None:
+        """Reports a frame that is not a message, and raises the error unless such frames are skipped."""
+        if not self._native.reject(error.reason):
+            raise error
 
     def __iter__(self) -> Iterator[T]:
         """Yields messages until the component is closed or SIGTERM asks the program to stop."""
@@ -166,10 +251,6 @@ class _Receiver(Gate, Generic[T]):
                 return
             yield message
 
-    def stats(self) -> dict[str, Any]:
-        """Returns the gate's counts."""
-        return _with_rejected(super().stats(), self._owner.rejected)
-
 
 class Pub(_Sender[T]):
     """Sends messages to every subscriber."""
@@ -188,6 +269,12 @@ class Sub(_Receiver[T]):
 
     __slots__ = ()
 
+    @property
+    def latched_age(self) -> float | None:
+        """The age in seconds of the message received last, if its publisher has `latched: true` and had sent it before this
+        gate was connected to it; `None` for every other message."""
+        return self._native.latched_age
+
 
 class Pull(_Receiver[T]):
     """Receives messages from any number of pushers."""
@@ -196,22 +283,28 @@ class Pull(_Receiver[T]):
 
 
 class Req(Gate, Generic[A, B]):
-    """Asks a replier, one request at a time."""
+    """Asks a replier.
 
-    __slots__ = ("_call", "_decode", "_encode", "_owner", "reply_type", "type")
+    Several tasks and threads may call at the same time. As many calls as the gate's `in_flight` says are in progress, by
+    default one; the others wait, within their timeouts. Each reply is matched with its request.
+    """
+
+    __slots__ = ("_call", "_decode", "_encode", "reply_type", "type")
+
+    type: builtins.type[A]
+    """The class of requests."""
+    reply_type: builtins.type[B]
+    """The class of replies."""
 
     _can = "`call`"
+    _encode: Callable[[A], bytes]
+    _decode: Callable[[bytes], B]
+    _call: Callable[..., bytes]
 
-    def __init__(self, native: _native.Gate, loops: Loops, request: Codec, reply: Codec) -> None:
+    def __init__(self, native: NativeGate, loops: Loops, request: Codec, reply: Codec) -> None:
         super().__init__(native, loops)
-        self.type: builtins.type[A] = request.type
-        """The class of requests."""
-        self.reply_type: builtins.type[B] = reply.type
-        """The class of replies."""
-        self._encode = request.encode
-        self._decode = reply.decode
-        self._owner = reply.owner
-        self._call = native.call
+        self._set(type=request.type, reply_type=reply.type)
+        self._set(_encode=request.encode, _decode=reply.decode, _call=native.call)
 
     @property
     def timeout(self) -> float:
@@ -221,25 +314,28 @@ class Req(Gate, Generic[A, B]):
     def call(self, request: A, timeout: float | None = None) -> B:
         """Sends a request and returns the reply.
 
-        Raises `Timeout` after `timeout` seconds, by default the gate's `timeout`, and `PeerLost` if the replier disconnects after it got the request.
+        Raises `Timeout` after `timeout` seconds, by default the gate's `timeout`, `PeerLost` if the replier
+        disconnects after it got the request, and `Refused` if it could not decode the request.
         """
-        reply: B = self._decode(self._call(self._encode(request), timeout))
-        return reply
+        return self._decoded(self._call(self._encode(request), timeout))
 
     async def call_async(self, request: A, timeout: float | None = None) -> B:
         """`call` for asyncio. The reply to a call that is cancelled is discarded."""
         call = self._native.start_call(self._encode(request), timeout)
         try:
             # The call has a time limit of its own.
-            reply = await self._until(call.poll_reply, None, lambda _waited: b"")
+            reply = await self._loops.until(call.poll_reply, None, lambda _waited: b"")
         finally:
             call.cancel()
-        decoded: B = self._decode(reply)
-        return decoded
+        return self._decoded(reply)
 
-    def stats(self) -> dict[str, Any]:
-        """Returns the gate's counts."""
-        return _with_rejected(super().stats(), self._owner.rejected)
+    def _decoded(self, frame: bytes) -> B:
+        try:
+            reply: B = self._decode(frame)
+            return reply
+        except DecodeError as error:
+            self._native.reject(error.reason)
+            raise
 
 
 class Request(Generic[A, B]):
@@ -266,32 +362,52 @@ class Rep(Gate, Generic[A, B]):
 
     __slots__ = ("_reply", "_request", "reply_type", "type")
 
-    _can = "`recv`, `try_recv` and iteration, which give requests with `reply`"
+    type: builtins.type[A]
+    """The class of requests."""
+    reply_type: builtins.type[B]
+    """The class of replies."""
 
-    def __init__(self, native: _native.Gate, loops: Loops, request: Codec, reply: Codec) -> None:
+    _can = "`recv`, `try_recv` and iteration, which give requests with `reply`"
+    _request: Codec
+    _reply: Codec
+
+    def __init__(self, native: NativeGate, loops: Loops, request: Codec, reply: Codec) -> None:
         super().__init__(native, loops)
-        self.type: builtins.type[A] = request.type
-        """The class of requests."""
-        self.reply_type: builtins.type[B] = reply.type
-        """The class of replies."""
-        self._request = request
-        self._reply = reply
+        self._set(type=request.type, reply_type=reply.type, _request=request, _reply=reply)
 
     def recv(self, timeout: float | None = None) -> Request[A, B]:
-        """Waits for the next request, no longer than `timeout` seconds, with 0 not at all. Raises `Timeout` then."""
-        return self._decoded(self._native.recv_request(timeout))
+        """Waits for the next request, no longer than `timeout` seconds, with 0 not at all. Raises `Timeout` then.
+
+        A frame that is not a request is counted and skipped; at a gate with `undecodable: fail` it raises `DecodeError`.
+        Either way the call of its sender raises `Refused`.
+        """
+        started, received = monotonic(), self._native.recv_request(timeout)
+        while (request := self._decoded(received)) is None:
+            received = self._native.recv_request(_rest(timeout, started), monotonic() - started)
+        return request
 
     def try_recv(self) -> Request[A, B] | None:
         """Returns the next request if one has arrived, else `None`."""
-        request = self._native.try_recv_request()
-        return None if request is None else self._decoded(request)
+        started = 0.0
+        while (received := self._native.try_recv_request()) is not None:
+            request = self._decoded(received)
+            started = started or monotonic()
+            if request is not None or monotonic() - started > _LONGEST_SKIP:
+                return request
+        return None
 
     async def recv_async(self, timeout: float | None = None) -> Request[A, B]:
         """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no request."""
-        native = self._native
-        return self._decoded(
-            await self._until(native.poll_recv_request, timeout, lambda waited: native.recv_request(0, waited))
-        )
+        native, started, rest = self._native, monotonic(), timeout
+        while True:
+            received = await self._until(
+                native.poll_recv_request, rest, lambda _waited: native.recv_request(0, timeout)
+            )
+            request = self._decoded(received)
+            if request is not None:
+                return request
+            await _others_turn()
+            rest = _rest(timeout, started)
 
     def __iter__(self) -> Iterator[Request[A, B]]:
         """Yields requests until the component is closed or SIGTERM asks the program to stop."""
@@ -311,15 +427,24 @@ class Rep(Gate, Generic[A, B]):
                 return
             yield request
 
-    def _decoded(self, request: _native.Request) -> Request[A, B]:
-        return Request(request, self._request.decode(request.data), self._reply)
+    def _decoded(self, request: _native.Request) -> Request[A, B] | None:
+        """Returns `None` for one that is to be skipped."""
+        try:
+            message: A = self._request.decode(request.data)
+        except DecodeError as error:
+            if not self._native.reject(error.reason, request):
+                raise
+            return None
+        return Request(request, message, self._reply)
 
-    def stats(self) -> dict[str, Any]:
-        """Returns the gate's counts."""
-        return _with_rejected(super().stats(), self._request.owner.rejected)
+
+def _rest(timeout: float | None, started: float) -> float | None:
+    """What is left of the timeout of a call that has skipped something."""
+    return None if timeout is None else max(0.0, timeout - (monotonic() - started))
 
 
-def _with_rejected(stats: dict[str, Any], undecodable: int) -> dict[str, Any]:
-    """Adds the frames that the package could not decode: for the native part they are bytes."""
-    stats["rejected"] += undecodable
-    return stats
+async def _others_turn() -> None:
+    """Lets other tasks run, so that a stream of undecodable frames keeps none of them from it."""
+    import asyncio
+
+    await asyncio.sleep(0)

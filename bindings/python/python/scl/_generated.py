@@ -20,6 +20,7 @@ class GeneratedComponent(Component):
         if plan is not None and component is not None:
             cls._plan_text = plan
             cls._component_name = component
+            cls._has_own_attributes = False
 
     def __init__(
         self,

@@ -12,7 +12,7 @@ import threading
 import traceback
 
 from scl import _native
-from scl._errors import OpenError
+from scl._errors import Closed, OpenError, Stopped
 
 _LEVELS = {"off": 255, "error": 40, "warn": 30, "info": 20, "debug": 10, "trace": 5}
 _REFRESH = 1.0
@@ -20,66 +20,73 @@ _REFRESH = 1.0
 
 _log = logging.getLogger("scl")
 _lock = threading.Lock()
-_handing_over = threading.Lock()
-_started = False
+_thread: threading.Thread | None = None
 
 
 def start() -> None:
     """Starts to forward records. Sets the level that `SCL_LOG` says, if it is set."""
-    global _started
+    global _thread
     _read_environment()
     if logging.getLevelName(_LEVELS["trace"]).startswith("Level"):
         logging.addLevelName(_LEVELS["trace"], "TRACE")
     with _lock:
         _native.log_level(_level())
-        if not _started:
+        if _thread is None:
             _native.log_start()
-            threading.Thread(target=_forward, name="scl-log", daemon=True).start()
-            _started = True
+            _thread = threading.Thread(target=_forward, name="scl-log", daemon=True)
+            _thread.start()
 
 
 def restart() -> None:
     """Forgets the thread, which a forked child does not have."""
-    global _handing_over, _lock, _started
-    _handing_over, _lock = threading.Lock(), threading.Lock()
-    _started = False
+    global _lock, _thread
+    _lock, _thread = threading.Lock(), None
+
+
+def end() -> None:
+    """Ends the thread, after it has forwarded what is there.
+
+    It must not be in a handler when the interpreter ends, which waits for the handlers' locks. A handler that does not return is
+    not waited for.
+    """
+    if _thread is not None:
+        _native.log_end()
+        _thread.join(_REFRESH)
 
 
 def drain() -> None:
-    """Forwards what is left, at the end of the program."""
-    if _started:
+    """Forwards what is left, at the end of the program, unless a handler has not returned to the thread."""
+    if _thread is not None and not _thread.is_alive():
         _hand_over()
 
 
 def _forward() -> None:
-    while True:
-        _native.log_wait(_REFRESH)
+    while _native.log_wait(_REFRESH):
         _hand_over()
         _native.log_level(_level())
+    _hand_over()
 
 
 def _hand_over() -> None:
-    # The end of the program waits for records that the thread has taken, but not for a handler that never returns.
-    locked = _handing_over.acquire(timeout=_REFRESH)
-    try:
-        _hand_over_now()
-    finally:
-        if locked:
-            _handing_over.release()
-
-
-def _hand_over_now() -> None:
     records, dropped = _native.log_take()
     for level, module, text in records:
-        logger = logging.getLogger(module.replace("::", "."))
-        if logger.isEnabledFor(level):
-            try:
-                logger.log(level, "%s", text)
-            except Exception:  # noqa: BLE001
-                # A handler of the program failed. Later records go on.
-                traceback.print_exc()
+        forward(level, logging.getLogger(module.replace("::", ".")), text)
     if dropped:
-        _log.warning("%d log records were dropped", dropped)
+        forward(logging.WARNING, _log, f"{dropped} log records were dropped")
+
+
+def forward(level: int, logger: logging.Logger, text: str) -> None:
+    """Logs a text, whatever the program's handlers raise."""
+    if not logger.isEnabledFor(level):
+        return
+    try:
+        logger.log(level, "%s", text)
+    except (Closed, Stopped):
+        # A handler that uses gates, when the program ends.
+        pass
+    except Exception:  # noqa: BLE001
+        # A handler of the program failed. Later records go on.
+        traceback.print_exc()
 
 
 def _level() -> int:

@@ -8,7 +8,7 @@ import logging
 import os
 import weakref
 
-from scl import _logging, _native, _signals
+from scl import _logging, _native, _signals, _stopping
 from scl._errors import NotFlushed
 
 _LINGER = 1.0
@@ -44,12 +44,16 @@ def close(component: _native.Component, *, quietly: bool) -> None:
             return
         if not (quietly or stopping):
             raise
-        _log.warning("%s", error)
+        _logging.forward(logging.WARNING, _log, str(error))
 
 
 @atexit.register
 def _at_exit() -> None:
-    # Threads that wait in a call are daemon threads; from now on they stay where they are.
+    # First, while handlers of log records can still use gates.
+    with contextlib.suppress(KeyboardInterrupt):
+        _logging.end()
+    # All threads but this one are daemon threads; from now on their calls end them.
+    _stopping.silence_asyncio()
     _native.exiting()
     for component in list(_open):
         with contextlib.suppress(KeyboardInterrupt):
@@ -57,5 +61,5 @@ def _at_exit() -> None:
     _logging.drain()
 
 
-os.register_at_fork(before=_native.log_hold, after_in_parent=_native.log_release, after_in_child=_native.log_release)
+os.register_at_fork(before=_native.log_hold, after_in_parent=_native.log_release, after_in_child=_native.forked)
 os.register_at_fork(after_in_child=_logging.restart)

@@ -6,7 +6,7 @@ import signal
 import threading
 from types import FrameType
 
-from scl import _native
+from scl import _native, _stopping
 
 
 def stop_requested() -> bool:
@@ -22,8 +22,10 @@ def stop_requested() -> bool:
 
 def watch() -> None:
     """Handles SIGTERM from now on, unless the program does, or this is not the main thread."""
-    _native.stop_check()
+    # Fails if it is not understood, before anything is opened.
+    _native.stop_within()
     if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
+        _stopping.handle_uncaught()
         signal.signal(signal.SIGTERM, _stop)
 
 

@@ -2,7 +2,6 @@
 
 import asyncio
 from collections.abc import Coroutine
-from contextlib import suppress
 from typing import Any
 
 from scl._errors import Stopped
@@ -12,8 +11,7 @@ async def until_stopped(*loops: Coroutine[Any, Any, object]) -> None:
     """Runs loops at the same time until one of them ends, fails or is stopped, then cancels the others.
 
     A stop request (SIGTERM) ends it without an exception: loops over gates end, and calls raise `Stopped`, which is an
-    orderly end here. With `asyncio.gather` or `TaskGroup`, `Stopped` would leave the event loop while the other tasks are
-    still running, because it is a `SystemExit`, and asyncio would print a traceback.
+    orderly end here. From `asyncio.gather` and `TaskGroup`, `Stopped` leaves `asyncio.run` and ends the program.
 
     Returns when all loops have ended. If loops fail, the exception of the first in the list is raised. Cancelling it
     cancels the loops.
@@ -33,5 +31,7 @@ async def until_stopped(*loops: Coroutine[Any, Any, object]) -> None:
 
 
 async def _stop_in_order(loop: Coroutine[Any, Any, object]) -> None:
-    with suppress(Stopped):
+    try:
         await loop
+    except* Stopped:
+        pass

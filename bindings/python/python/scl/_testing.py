@@ -7,7 +7,7 @@ import warnings
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, cast
 
 from scl import _native, _process
-from scl._component import Component, DynamicComponent, facts_of
+from scl._component import Component, DynamicComponent, described, facts_of
 from scl._generated import GeneratedComponent
 
 PEER = TypeVar("PEER", bound="Counterpart")
@@ -15,6 +15,11 @@ PEER = TypeVar("PEER", bound="Counterpart")
 
 class Counterpart(Component):
     """The other ends of a component's gates, for its unit tests. `test()` of the component returns it."""
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        # Generated classes are derived directly.
+        cls._has_own_attributes = cls._has_own_attributes and Counterpart not in cls.__bases__
 
     if not TYPE_CHECKING:
 
@@ -63,7 +68,13 @@ def test(topology: str | os.PathLike[str], component: str) -> tuple[DynamicCompo
     plan, found = _native.Plan.of_file(os.fspath(topology))
     for warning in found:
         warnings.warn(f"\n{warning}", stacklevel=2)
-    return _open(plan, component, DynamicComponent, DynamicCounterpart)
+    counterpart = plan.counterpart(component)
+    return _open(
+        plan,
+        component,
+        described(DynamicComponent, plan, component),
+        described(DynamicCounterpart, counterpart, counterpart.components[0]),
+    )
 
 
 # Otherwise pytest would collect it where it is imported by its name.

@@ -31,6 +31,8 @@ assert_type(controller.sensor.recv(timeout=1), Measurement)
 assert_type(controller.sensor.try_recv(), Measurement | None)
 assert_type(controller.sensor.latest(), Measurement | None)
 controller.sensor.latest().speed  # error: None speed
+assert_type(controller.sensor.try_recv(default=0), Measurement | int)
+assert_type(controller.sensor.latest(Measurement()), Measurement)
 controller.sensor.send(Measurement())  # error: send
 for event in user_interface.events:
     assert_type(event, Event)

@@ -1,5 +1,6 @@
 """Messages: fields of every sort."""
 
+from array import array
 from collections.abc import MutableSequence
 from typing import Any, assert_type
 
@@ -123,7 +124,14 @@ source.fix_postcard.send(b"")  # error: Never
 # Bytes, and plain values.
 sink = Sink()
 assert_type(sink.frames.recv(), bytes)
-source.frames.send("text")  # error: bytes
-assert_type(source.echo.call(b"?"), bytes)
+for buffer in (b"a", bytearray(b"a"), memoryview(b"a"), array("H", [1])):
+    source.frames.send(buffer)
+source.frames.send("text")  # error: Buffer
+source.frames.send([1])  # error: list Buffer
+assert_type(source.echo.call(bytearray(b"?")), bytes)
+for asked in sink.echo:
+    assert_type(asked.message, bytes)
+    asked.reply(memoryview(b"!"))
+    asked.reply("text")  # error: Buffer
 assert_type(sink.fix_cbor.recv(), Any)
 source.fix_json.send({"latitude": 50.7, "longitude": 10.9})

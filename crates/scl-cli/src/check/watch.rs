@@ -7,7 +7,7 @@ use super::checked::Checked;
 use super::report::report;
 use super::{COULD_NOT_RUN, CheckArguments, check_files, worst_code};
 use nix::sys::signal::{SigSet, Signal};
-use scl_terminal::print_err;
+use scl_terminal::{output_is_closed, print_err};
 use std::io;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -39,6 +39,9 @@ pub(super) fn watch(arguments: &CheckArguments) -> ExitCode {
         print_err(BEGIN);
         let (checked, before) = check_marked(arguments, marks);
         report(&checked, arguments.format);
+        if output_is_closed() {
+            return ExitCode::from(worst_code(&checked));
+        }
         print_err(END);
         match wait_for_change(before, &stop) {
             Some(now) => marks = now,

@@ -1,8 +1,8 @@
 //! The differences between two topologies, part by part.
 
 use super::Side;
+use super::connections::connections_of;
 use super::facts::{Fact, component_facts, connection_facts, gate_facts};
-use super::together::meetings;
 use std::collections::HashMap;
 
 /// One part that differs.
@@ -53,7 +53,7 @@ fn gates(side: &Side) -> Vec<Part> {
 }
 
 fn connections(side: &Side) -> Vec<Part> {
-    meetings(&side.plan).map(|it| (it.name(), connection_facts(it.connection))).collect()
+    connections_of(&side.plan).map(|it| (it.name(), connection_facts(it.plan))).collect()
 }
 
 fn compare(part: &'static str, old: &[Part], new: &[Part]) -> Vec<Change> {

@@ -3,8 +3,8 @@
 
 use super::Side;
 use super::change::{Change, How};
+use super::connections::{Connection, connections_of};
 use super::rebuild::Rebuild;
-use super::together::{Meeting, meetings};
 use scl_plan::{Schema, SystemPlan};
 use scl_shape::{Difference, Encoding, FileDescriptorSet, What};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -26,18 +26,18 @@ pub(super) fn find_message_changes(old: &Side, new: &Side) -> MessageChanges {
     let mut decoded = Decoded::default();
     let mut compared: HashMap<(String, &str, &str, &str), Vec<Difference>> = HashMap::new();
     let (old, new) = (Schemas::of(&old.plan), Schemas::of(&new.plan));
-    for meeting in meetings(new.plan) {
-        let Some(encoding) = Encoding::of_codec(&meeting.gate.codec) else { continue };
-        let (Some(before), Some(after)) = (old.of_sender(&meeting), new.of_sender(&meeting)) else { continue };
+    for connection in connections_of(new.plan) {
+        let Some(encoding) = Encoding::of_codec(&connection.gate.codec) else { continue };
+        let (Some(before), Some(after)) = (old.of_sender(&connection), new.of_sender(&connection)) else { continue };
         if before.hash == after.hash {
             continue;
         }
-        let payload = meeting.gate.payload.to_string();
-        let key = (payload.clone(), meeting.gate.codec.as_str(), before.hash.as_str(), after.hash.as_str());
+        let payload = connection.gate.payload.to_string();
+        let key = (payload.clone(), connection.gate.codec.as_str(), before.hash.as_str(), after.hash.as_str());
         let differences = compared
             .entry(key)
             .or_insert_with(|| scl_shape::differences(&payload, encoding, &decoded.of(before), &decoded.of(after)));
-        found.add(&meeting, differences);
+        found.add(&connection, differences);
     }
     found
 }
@@ -55,17 +55,17 @@ impl<'p> Schemas<'p> {
     }
 
     /// The schema of the sending component, which describes what both ends exchange.
-    fn of_sender(&self, meeting: &Meeting<'_>) -> Option<&'p Schema> {
-        self.by_component.get(meeting.component).copied()
+    fn of_sender(&self, connection: &Connection<'_>) -> Option<&'p Schema> {
+        self.by_component.get(connection.component).copied()
     }
 }
 
 impl MessageChanges {
-    fn add(&mut self, meeting: &Meeting<'_>, differences: &[Difference]) {
+    fn add(&mut self, connection: &Connection<'_>, differences: &[Difference]) {
         if differences.is_empty() {
             return;
         }
-        let (one, other) = meeting.components();
+        let (one, other) = connection.components();
         for difference in differences {
             for component in [&one, &other] {
                 let differing = format!("{} `{}`", part(&difference.what), difference.name);

@@ -1,7 +1,7 @@
 //! Which components must be rebuilt: those whose plans differ.
 
 use super::Side;
-use super::together::connection_name;
+use super::connections::connection_name;
 use scl_plan::{ConnectionPlan, GatePlan, Plan};
 use std::collections::HashMap;
 

@@ -1,8 +1,9 @@
 //! Which components must be rebuilt together, because their programs would not connect otherwise.
 
 use super::Side;
+use super::connections::connections_of;
 use super::rebuild::Rebuild;
-use scl_plan::{ConnectionPlan, GateKind, GatePlan, SystemPlan};
+use scl_plan::SystemPlan;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Components to rebuild; those of a group with several are of no use to each other until all are rebuilt.
@@ -36,48 +37,10 @@ pub(super) fn group(old: &Side, new: &Side, rebuilds: Vec<Rebuild>, pairs: &[(St
     groups
 }
 
-/// A connection, seen from its sending gate.
-pub(super) struct Meeting<'p> {
-    pub(super) component: &'p str,
-    pub(super) gate: &'p GatePlan,
-    pub(super) connection: &'p ConnectionPlan,
-}
-
-impl Meeting<'_> {
-    /// Two gates are connected at most once, so this is a name.
-    pub(super) fn name(&self) -> String {
-        connection_name(self.component, self.gate, self.connection)
-    }
-
-    pub(super) fn components(&self) -> (String, String) {
-        (self.component.to_owned(), self.connection.peer_component.clone())
-    }
-}
-
-/// All connections, in the order of their sending gates.
-pub(super) fn meetings(plan: &SystemPlan) -> impl Iterator<Item = Meeting<'_>> {
-    let gates = plan.components.iter().flat_map(|it| it.gates.iter().map(|gate| (it.component.as_str(), gate)));
-    let sending = gates.filter(|(_, gate)| sends(gate.kind));
-    sending.flat_map(|(component, gate)| {
-        gate.connections.iter().map(move |connection| Meeting { component, gate, connection })
-    })
-}
-
-/// `sensor.measurements -> controller.sensor`, from the gate at which messages start.
-pub(super) fn connection_name(component: &str, gate: &GatePlan, connection: &ConnectionPlan) -> String {
-    let own = format!("{component}.{}", gate.name);
-    let peer = format!("{}.{}", connection.peer_component, connection.peer_gate);
-    if sends(gate.kind) { format!("{own} -> {peer}") } else { format!("{peer} -> {own}") }
-}
-
-fn sends(kind: GateKind) -> bool {
-    matches!(kind, GateKind::Pub | GateKind::Push | GateKind::Req)
-}
-
 /// The components at both ends of each connection that is new, gone, or found under another name.
 fn parted(old: &SystemPlan, new: &SystemPlan) -> BTreeSet<(String, String)> {
     let found = |plan| -> BTreeSet<(String, String, (String, String))> {
-        meetings(plan).map(|it| (it.name(), it.connection.endpoint.clone(), it.components())).collect()
+        connections_of(plan).map(|it| (it.name(), it.plan.endpoint.clone(), it.components())).collect()
     };
     let (old, new) = (found(old), found(new));
     old.symmetric_difference(&new).map(|(_, _, components)| components.clone()).collect()

@@ -3,9 +3,8 @@
 use super::watched::Watched;
 use super::{MessageFormat, selected};
 use scl::tap::{Observation, ObservedKind};
-use scl_terminal::{escape, print_err, timestamp};
+use scl_terminal::{escape, output_is_terminal, print_err, print_out_bytes, timestamp};
 use scl_value::{FieldPath, Table, Value, to_json, to_yaml};
-use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, SystemTime};
 
 /// Prints messages in one of the formats.
@@ -16,6 +15,8 @@ pub(super) struct Output<'a> {
     several: bool,
     /// Whether there are requests and replies.
     exchanges: bool,
+    /// Number of types of messages.
+    types: usize,
     /// The columns of CSV that are known from the types of all gates.
     columns: Option<Vec<FieldPath>>,
     /// The columns, once the header is printed.
@@ -25,22 +26,35 @@ pub(super) struct Output<'a> {
 }
 
 impl<'a> Output<'a> {
-    pub(super) fn new(format: MessageFormat, fields: &'a [FieldPath], gates: &[Watched]) -> Self {
-        let exchanges = gates.iter().any(Watched::exchanges);
-        let columns = if fields.is_empty() { known_columns(gates) } else { Some(fields.to_vec()) };
-        Self { format, fields, several: gates.len() > 1, exchanges, columns, table: None, left_out: false }
+    pub(super) fn new(format: MessageFormat, fields: &'a [FieldPath], several: bool) -> Self {
+        let (exchanges, types, columns, table, left_out) = Default::default();
+        Self { format, fields, several, exchanges, types, columns, table, left_out }
     }
 
-    /// Prints a message. An error means that nobody reads the output any more.
-    pub(super) fn print(&mut self, gate: &Watched, seen: &Observation, message: &Value) -> io::Result<()> {
+    /// Takes note of all gates; called before the first message of each. Once the header of CSV is printed, its columns
+    /// stay.
+    pub(super) fn learn(&mut self, gates: &[Watched]) {
+        self.types = gates.iter().flat_map(Watched::types).count();
+        if self.table.is_none() {
+            self.several |= gates.len() > 1;
+            self.exchanges = gates.iter().any(Watched::exchanges);
+            self.columns = if self.fields.is_empty() { known_columns(gates) } else { Some(self.fields.to_vec()) };
+        }
+    }
+
+    /// Whether messages of several types are shown.
+    pub(super) fn shows_several_types(&self) -> bool {
+        self.types > 1
+    }
+
+    /// Prints a message.
+    pub(super) fn print(&mut self, gate: &Watched, seen: &Observation, message: &Value) {
         let text = match self.format {
             MessageFormat::Yaml => self.document(gate, seen, &selected(message, self.fields)).into_bytes(),
             MessageFormat::Json => line(gate, seen, &selected(message, self.fields)).into_bytes(),
-            MessageFormat::Csv => self.row(gate, seen, message)?,
+            MessageFormat::Csv => self.row(gate, seen, message),
         };
-        let mut out = io::stdout().lock();
-        out.write_all(&text)?;
-        out.flush()
+        print_out_bytes(&text);
     }
 
     fn document(&self, gate: &Watched, seen: &Observation, shown: &Value) -> String {
@@ -58,15 +72,15 @@ impl<'a> Output<'a> {
         format!("--- # {} {what}, {}\n{text}", gate.name(), timestamp(time_of(seen)))
     }
 
-    fn row(&mut self, gate: &Watched, seen: &Observation, message: &Value) -> io::Result<Vec<u8>> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
+    fn row(&mut self, gate: &Watched, seen: &Observation, message: &Value) -> Vec<u8> {
+        let mut rows = Vec::new();
         if self.table.is_none() {
             let table = self.columns.take().map_or_else(|| Table::of(message), Table::new);
             let cells = self.own_cells("@time", "@sequence", "@gate", "@kind", "@call");
-            writer.write_record(cells.into_iter().map(str::to_owned).chain(table.header()))?;
+            rows.extend(csv_row(cells.into_iter().map(str::to_owned).chain(table.header())));
             self.table = Some(table);
         }
-        let Some(table) = &self.table else { return Ok(Vec::new()) };
+        let Some(table) = &self.table else { return rows };
         if !self.left_out && self.fields.is_empty() && !table.has_all_of(message) {
             self.left_out = true;
             print_err(
@@ -77,12 +91,11 @@ impl<'a> Output<'a> {
         let (sequence, call) = (seen.sequence.to_string(), seen.call_id.to_string());
         let cells = self.own_cells(&time, &sequence, gate.name(), word(seen.kind), &call);
         let cells = cells.into_iter().map(str::to_owned).chain(table.row(message));
-        if io::stdout().is_terminal() {
-            writer.write_record(cells.map(|cell| escape(&cell).into_owned()))?;
-        } else {
-            writer.write_record(cells)?;
-        }
-        writer.into_inner().map_err(|error| io::Error::other(error.to_string()))
+        rows.extend(match output_is_terminal() {
+            true => csv_row(cells.map(|cell| escape(&cell).into_owned())),
+            false => csv_row(cells),
+        });
+        rows
     }
 
     /// The cells before those of the fields. Their headers begin with `@`, so that no field has the same name.
@@ -101,6 +114,13 @@ impl<'a> Output<'a> {
     }
 }
 
+fn csv_row(cells: impl Iterator<Item = String>) -> Vec<u8> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    // Writing one record into memory cannot fail.
+    let _written = writer.write_record(cells.map(String::into_bytes));
+    writer.into_inner().unwrap_or_default()
+}
+
 /// A message as JSON on one line.
 fn line(gate: &Watched, seen: &Observation, shown: &Value) -> String {
     let mut fields = vec![
@@ -111,6 +131,9 @@ fn line(gate: &Watched, seen: &Observation, shown: &Value) -> String {
     ];
     if seen.kind != ObservedKind::Message {
         fields.push(("call", seen.call_id.into()));
+    }
+    if seen.latched {
+        fields.push(("latched", true.into()));
     }
     fields.push(("message", shown.clone()));
     format!("{}\n", to_json(&Value::fields(fields)))

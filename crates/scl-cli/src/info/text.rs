@@ -103,9 +103,13 @@ impl Reading {
         facts.row([verb, &format!("{}{last}", message_count(kind, figures))]);
         facts.row(["waiting", &figures.waiting.to_string()]);
         facts.row(["dropped", &drops(figures).to_string()]);
-        for (label, count) in
-            [("lost", figures.lost), ("rejected", figures.rejected), ("tap drops", figures.tap_dropped)]
-        {
+        for (label, count) in [
+            ("replaced", figures.replaced),
+            ("lost", figures.lost),
+            ("rejected", figures.rejected),
+            ("undecodable", figures.undecodable),
+            ("tap drops", figures.tap_dropped),
+        ] {
             if count > 0 {
                 facts.row([label, &count.to_string()]);
             }
@@ -157,7 +161,8 @@ fn options(plan: &GatePlan) -> Vec<(&'static str, String)> {
 fn peer_table(peers: &[Peer<'_>]) -> String {
     let (left, right) = (Align::Left, Align::Right);
     let columns = [("PEER", left), ("CONNECTED", left), ("QUEUE", right), ("WAITING", right), ("TAKEN", right)];
-    let mut table = Table::new(columns.into_iter().chain([("DROPPED", right), ("LOST", right)])).indented(2);
+    let counts = [("REPLACED", right), ("DROPPED", right), ("LOST", right)];
+    let mut table = Table::new(columns.into_iter().chain(counts)).indented(2);
     for peer in peers {
         let connected = match peer.connected {
             Some(true) => "yes",
@@ -165,8 +170,9 @@ fn peer_table(peers: &[Peer<'_>]) -> String {
             Some(false) => "no (optional)",
             None => "?",
         };
-        let figures = peer.figures.map(|it| [it.waiting, it.taken, it.dropped, it.lost].map(|count| count.to_string()));
-        let figures = figures.unwrap_or_else(|| ["?"; 4].map(str::to_owned));
+        let counts = peer.figures.map(|it| [it.waiting, it.taken, it.replaced, it.dropped, it.lost]);
+        let figures =
+            counts.map_or_else(|| ["?"; 5].map(str::to_owned), |counts| counts.map(|count| count.to_string()));
         let start = [peer.name(), connected.to_owned(), peer.plan.queue.to_string()];
         table.row(start.into_iter().chain(figures));
     }

@@ -113,8 +113,11 @@ fn details_height(gate: &GateRow, height: u16) -> u16 {
 
 fn draw_details(frame: &mut Frame<'_>, area: Rect, gate: &GateRow, view: &View) {
     let bytes = gate.figures.as_ref().map_or("-".to_owned(), |it| bytes_text(it.bytes as f64));
-    let rejected = gate.figures.as_ref().map_or("-".to_owned(), |it| it.rejected.to_string());
-    let about = format!("{}  {}  {}  {bytes}  rejected {rejected}", gate.name(), gate.payload, gate.codec);
+    let counts = gate
+        .figures
+        .as_ref()
+        .map_or("rejected -".to_owned(), |it| format!("rejected {}  undecodable {}", it.rejected, it.undecodable));
+    let about = format!("{}  {}  {}  {bytes}  {counts}", gate.name(), gate.payload, gate.codec);
     let about = Line::styled(escape(&about).into_owned(), Modifier::BOLD);
     let connections = gate.connections.iter().enumerate().map(|(index, connection)| {
         let (word, colour) = match connection.connected {
@@ -124,7 +127,16 @@ fn draw_details(frame: &mut Frame<'_>, area: Rect, gate: &GateRow, view: &View) 
         };
         let figures = gate.figures.as_ref().and_then(|it| it.connections.get(index));
         let figures = figures.map_or(String::new(), |it| {
-            format!("  taken {}  not yet {}  dropped {}  lost {}", it.taken, it.waiting, it.dropped, it.lost)
+            let counts = [
+                ("taken", it.taken),
+                ("not yet", it.waiting),
+                ("replaced", it.replaced),
+                ("dropped", it.dropped),
+                ("lost", it.lost),
+            ];
+            // Only a connection with `queue: 1` replaces messages.
+            let shown = counts.into_iter().filter(|(word, count)| *word != "replaced" || *count > 0);
+            shown.map(|(word, count)| format!("  {word} {count}")).collect()
         });
         let peer = format!("  {}  ", escape(&connection.peer));
         Line::from(vec![Span::raw(peer), Span::styled(word, coloured(colour, view.colours)), Span::raw(figures)])
@@ -138,7 +150,7 @@ fn draw_details(frame: &mut Frame<'_>, area: Rect, gate: &GateRow, view: &View) 
 fn activity_style(activity: Activity, colours: bool) -> Style {
     match activity {
         Activity::Ready => coloured(Color::Green, colours),
-        Activity::NotReady => coloured(Color::Yellow, colours),
+        Activity::Waiting => coloured(Color::Yellow, colours),
         Activity::Hangs(_) | Activity::Dead => coloured(Color::Red, colours).add_modifier(Modifier::BOLD),
         Activity::Running => Style::new(),
         Activity::Stopped => Style::new().add_modifier(Modifier::DIM),

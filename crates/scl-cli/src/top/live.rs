@@ -6,9 +6,9 @@ use super::screen::Screen;
 use super::view::{Action, View};
 use nix::sys::signal::{self, Signal};
 use ratatui::crossterm::event::{self, Event};
-use scl_observe::Watch;
-use scl_terminal::Problem;
-use std::io::{self, IsTerminal, stdin, stdout};
+use scl_observe::{ComponentRow, GateRow, Snapshot, Watch};
+use scl_terminal::{Problem, output_is_terminal};
+use std::io::{self, IsTerminal, stdin};
 use std::process::ExitCode;
 use std::thread;
 use std::time::Duration;
@@ -18,23 +18,23 @@ use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 use tokio::time::{MissedTickBehavior, interval};
 
 /// Shows the system until the user ends it.
-pub(super) fn run(watch: Watch, period: Duration, order: Order) -> Result<ExitCode, Problem> {
-    if !stdout().is_terminal() || !stdin().is_terminal() {
+pub(super) fn run(watches: Vec<Watch>, period: Duration, order: Order) -> Result<ExitCode, Problem> {
+    if !output_is_terminal() || !stdin().is_terminal() {
         return Err(Problem::new("standard input and output are not a terminal").help("add `--once` for a table"));
     }
     let failed = |error: io::Error| Problem::new(format!("cannot use the terminal: {error}"));
     let runtime = Builder::new_current_thread().enable_all().build().map_err(failed)?;
-    runtime.block_on(show(watch, period, order)).map_err(failed)?;
+    runtime.block_on(show(watches, period, order)).map_err(failed)?;
     Ok(ExitCode::SUCCESS)
 }
 
-async fn show(mut watch: Watch, period: Duration, order: Order) -> io::Result<()> {
+async fn show(mut watches: Vec<Watch>, period: Duration, order: Order) -> io::Result<()> {
     let mut interrupt = unix::signal(SignalKind::interrupt())?;
     let mut terminate = unix::signal(SignalKind::terminate())?;
     let mut hang_up = unix::signal(SignalKind::hangup())?;
     let mut stop = unix::signal(SignalKind::from_raw(Signal::SIGTSTP as i32))?;
     let mut screen = Screen::enter()?;
-    let mut view = View::new(watch.look(), order, has_colours());
+    let mut view = View::new(look(&mut watches), order, has_colours());
     let mut events = read_events();
     let mut ticks = interval(period);
     ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
@@ -47,7 +47,7 @@ async fn show(mut watch: Watch, period: Duration, order: Order) -> io::Result<()
             _ = hang_up.recv() => Action::Quit,
             _ = stop.recv() => Action::Suspend,
             _ = ticks.tick() => {
-                view.update(watch.look());
+                view.update(look(&mut watches));
                 Action::Draw
             }
             event = events.recv() => match event {
@@ -67,6 +67,23 @@ async fn show(mut watch: Watch, period: Duration, order: Order) -> io::Result<()
             Action::Draw | Action::Nothing => {}
         }
     }
+}
+
+/// One snapshot of all systems; several put their names before those of their components.
+fn look(watches: &mut [Watch]) -> Snapshot {
+    let mut snapshots: Vec<Snapshot> = watches.iter_mut().map(Watch::look).collect();
+    if snapshots.len() == 1 {
+        return snapshots.remove(0);
+    }
+    let mut all = Snapshot::default();
+    let mut names = Vec::new();
+    for snapshot in snapshots {
+        let full = |component: &str| format!("{}/{component}", snapshot.system);
+        all.components.extend(snapshot.components.into_iter().map(|row| ComponentRow { name: full(&row.name), ..row }));
+        all.gates.extend(snapshot.gates.into_iter().map(|row| GateRow { component: full(&row.component), ..row }));
+        names.push(snapshot.system);
+    }
+    Snapshot { system: names.join(", "), ..all }
 }
 
 /// Reads keys and changes of the terminal's size on a thread of its own, which ends with the program.

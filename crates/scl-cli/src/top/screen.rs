@@ -1,4 +1,5 @@
 //! The terminal while it is taken over: it is given back on every way out.
+#![allow(clippy::disallowed_methods, reason = "the library that draws writes to the terminal")]
 
 use ratatui::backend::CrosstermBackend;
 use ratatui::crossterm::cursor::Show;

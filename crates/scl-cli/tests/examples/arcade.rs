@@ -9,8 +9,8 @@ mod periods;
 mod recording;
 mod replay;
 
+use crate::aircraft::arcade::{Arbitration, Authority};
 use crate::{built, lock_machine};
-use ::arcade::arcade::{Arbitration, Authority};
 use checks::waypoints;
 use flight::{Flight, Flown, Position};
 use periods::Periods;

@@ -10,6 +10,18 @@ mod ospecorr;
 mod system;
 mod units;
 
+/// The messages of the aircraft.
+#[allow(deprecated, reason = "a warning about the path, which matters for packages that are published")]
+mod aircraft {
+    scl::topology!("../../examples/arcade/topology.yaml");
+}
+
+/// The messages of the radio.
+#[allow(deprecated, reason = "a warning about the path, which matters for packages that are published")]
+mod radio {
+    scl::topology!("../../examples/ospecorr/topology.yaml");
+}
+
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -31,5 +43,5 @@ fn built(name: &str) -> PathBuf {
 }
 
 fn workspace() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().to_owned()
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().to_owned()
 }

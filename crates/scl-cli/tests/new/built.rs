@@ -1,7 +1,7 @@
 //! Projects that are built. It takes as long as a new user waits, less what the tests have already compiled.
 
 use crate::new::new;
-use crate::system::{System, build_folder, lock_programs};
+use crate::system::{BuildFolder, System};
 use std::process::Command;
 
 #[test]
@@ -27,16 +27,16 @@ fn the_control_template_is_built_tested_checked_and_run() {
 struct Project {
     system: System,
     name: &'static str,
-    _programs: std::sync::MutexGuard<'static, ()>,
+    build_folder: BuildFolder,
 }
 
 impl Project {
     fn new(name: &'static str, template: &str) -> Self {
-        let _programs = lock_programs();
+        let build_folder = BuildFolder::lock();
         let system = System::of_files(&[]);
         let output = new(&system, &[name, "--template", template]);
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-        Self { system, name, _programs }
+        Self { system, name, build_folder }
     }
 
     /// What the CI file of the project runs.
@@ -87,7 +87,7 @@ impl Project {
     }
 
     fn environment(&self, command: &mut Command) {
-        command.env("CARGO_NET_OFFLINE", "true").env("CARGO_TARGET_DIR", build_folder());
+        command.env("CARGO_NET_OFFLINE", "true").env("CARGO_TARGET_DIR", self.build_folder.path());
         command.env("SCL_RUNTIME_DIR", self.system.path("run"));
     }
 

@@ -2,9 +2,11 @@
 
 mod crash;
 mod disk;
+mod hostile;
+mod latched;
 mod messages;
 mod mistakes;
-mod python;
+mod moved;
 mod recorder;
 mod ring;
 mod source;

@@ -54,7 +54,16 @@ impl Source {
 
     /// With this many gates of bytes.
     pub(super) fn start_with(count: u32) -> Self {
-        let rover = Rover::of(&topology(count));
+        Self::start_of(&topology(count))
+    }
+
+    /// With one gate of bytes, which is latched.
+    pub(super) fn start_latched() -> Self {
+        Self::start_of(&topology(1).replace("g0: pub\n", "g0: {pub: , latched: true}\n"))
+    }
+
+    fn start_of(topology: &str) -> Self {
+        let rover = Rover::of(topology);
         let mut source = Self { rover, component: None, gates: BTreeMap::new(), sent: BTreeMap::new() };
         source.open();
         source

@@ -2,7 +2,7 @@
 
 use super::recorder::{Recorder, counts, figures, messages, sequences};
 use super::source::Source;
-use crate::rover::Rover;
+use crate::rover::{COMPONENTS, Rover};
 use scl_tests::wait_until;
 
 #[test]
@@ -38,6 +38,33 @@ fn a_component_that_starts_again_is_recorded_on() {
     assert_eq!(recorded + lost, first_run as u64 + source.sent("g0"));
     let second: Vec<u64> = messages(&file)[first_run..].iter().map(|message| message.sequence.into()).collect();
     assert_eq!(second, (lost..source.sent("g0")).collect::<Vec<_>>());
+}
+
+/// The topology file, if there is one, tells which gates there will be.
+#[test]
+fn a_system_that_has_never_run_is_waited_for() {
+    let mut rover = Rover::stopped();
+    let gates = ["sensor.measurements", "controller.commands"];
+    let arguments = ["record", "--system", "rover", "-o", "flight.mcap"];
+    let mut recorder = Recorder::spawn(rover.scl(&[&arguments[..], &gates].concat()));
+    recorder.wait_for("`sensor.measurements` is not running; recording it once it has started");
+    recorder.wait_for("waiting");
+    rover.play(&COMPONENTS, |_| {});
+    let file = rover.path("flight.mcap");
+    wait_until("both gates are recorded", || {
+        recorder.signal("-USR1");
+        counts(&file).len() == 3
+    });
+    recorder.stop();
+}
+
+#[test]
+fn names_of_a_system_that_does_not_run_are_checked() {
+    let rover = Rover::stopped();
+    let error = rover.error(&["record", "--system", "rover", "sensor.measurement"], 2);
+    assert!(error.contains("did you mean `measurements`?"), "{error}");
+    let error = rover.error(&["record", "--system", "rover", "senor"], 2);
+    assert!(error.contains("did you mean `sensor`?"), "{error}");
 }
 
 #[test]

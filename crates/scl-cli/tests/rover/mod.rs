@@ -170,7 +170,8 @@ impl Rover {
         command.args(["--exact", player::TEST, "--nocapture", "--test-threads=1"]);
         command.current_dir(self.path("")).stdin(Stdio::piped()).stdout(Stdio::piped());
         self.set_environment(&mut command);
-        command.env(PLAYS, component);
+        let plan = std::fs::read_to_string(self.path("plan.json")).unwrap();
+        command.env(PLAYS, component).env(player::PLAN, plan);
         prepare(&mut command);
         Playing { component: component.to_owned(), process: command.spawn().unwrap() }
     }

@@ -19,6 +19,9 @@ pub(super) const READY: &str = "component is ready";
 /// Set for a component that shall not wait for its peers.
 pub(super) const ALONE: &str = "SCL_TEST_ALONE";
 
+/// The plan of the system, as text: the file may have been replaced before the component reads it.
+pub(super) const PLAN: &str = "SCL_TEST_PLAN";
+
 /// 50 Hz.
 const PERIOD: Duration = Duration::from_millis(20);
 
@@ -42,8 +45,7 @@ fn components_start_and_stop() {
 
 /// Plays a component until standard input ends.
 fn play(name: &str) {
-    let plan = std::fs::read_to_string("plan.json").unwrap();
-    let plan = SystemPlan::from_json(&plan).unwrap();
+    let plan = SystemPlan::from_json(&std::env::var(PLAN).unwrap()).unwrap();
     let plan = plan.component(name).unwrap();
     let mut component = Component::open_blocking(plan).unwrap();
     let (closer, stop) = (component.closer(), Arc::new(AtomicBool::new(false)));

@@ -10,15 +10,25 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// A program that never ends by itself. (`tail` would notice the end of a pipe to which it writes.)
 pub(crate) const FOREVER: &str = "exec tail -f /dev/null >/dev/null";
 
-/// One test at a time builds programs called `sensor` and starts them: all build into the folder of these tests.
-pub(crate) fn lock_programs() -> MutexGuard<'static, ()> {
-    static PROGRAMS: Mutex<()> = Mutex::new(());
-    // A test that failed does not make others fail.
-    PROGRAMS.lock().unwrap_or_else(PoisonError::into_inner)
+/// The folder that the tests themselves were built into, so that little has to be built again, for one test at a time:
+/// several build programs called `sensor` there and start them.
+pub(crate) struct BuildFolder(#[expect(dead_code, reason = "is held")] MutexGuard<'static, ()>);
+
+impl BuildFolder {
+    /// Waits until no other test has it.
+    pub(crate) fn lock() -> Self {
+        static FOLDER: Mutex<()> = Mutex::new(());
+        // A test that failed does not make others fail.
+        Self(FOLDER.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    pub(crate) fn path(&self) -> PathBuf {
+        build_folder_without_programs()
+    }
 }
 
-/// The folder that the tests themselves were built into, so that little has to be built again.
-pub(crate) fn build_folder() -> PathBuf {
+/// The same folder, for what builds no programs in it.
+pub(crate) fn build_folder_without_programs() -> PathBuf {
     Path::new(env!("CARGO_BIN_EXE_scl")).ancestors().nth(2).unwrap().to_owned()
 }
 

@@ -1,19 +1,14 @@
 //! One component of this host: announced to the other hosts while it runs.
 
-use super::slot::Slot;
+use crate::slot::Slot;
 use crate::wire::{Announced, Wire};
 use scl::bridge::{Change, Profile};
 use std::sync::Arc;
 use tokio::sync::mpsc::UnboundedReceiver;
 
-/// A run of a component: as long as a route still carries what it has sent, it counts as running for other hosts.
-#[derive(Debug)]
-pub(crate) struct Run {
-    _announced: Announced,
-}
-
-/// Announces the runs of a component, one after the other.
-pub(crate) async fn announce(wire: Arc<Wire>, mut changes: UnboundedReceiver<Change>, mut run: Slot<Run>) {
+/// Announces the runs of a component, one after the other. As long as a route still carries what a run has sent, it holds the
+/// announcement, so the component counts as running for other hosts.
+pub(super) async fn announce(wire: Arc<Wire>, mut changes: UnboundedReceiver<Change>, mut run: Slot<Announced>) {
     while let Some(change) = changes.recv().await {
         match change {
             Change::Started { component, profile } => start(&wire, &component, &profile, &mut run).await,
@@ -26,8 +21,8 @@ pub(crate) async fn announce(wire: Arc<Wire>, mut changes: UnboundedReceiver<Cha
     }
 }
 
-async fn start(wire: &Wire, component: &str, profile: &Profile, run: &mut Slot<Run>) {
+async fn start(wire: &Wire, component: &str, profile: &Profile, run: &mut Slot<Announced>) {
     run.clear().await;
     tracing::info!("component `{component}` has started; announcing it to the other hosts");
-    run.put(Run { _announced: wire.announce(component, profile.to_bytes()) });
+    run.put(wire.announce(component, profile.to_bytes()));
 }

@@ -1,6 +1,6 @@
 //! One component of another host: shown in the runtime folder of this host while it runs there.
 
-use super::slot::Slot;
+use crate::slot::Slot;
 use bytes::Bytes;
 use scl::bridge::{Mirror, Profile};
 use scl::host::text_with_causes;

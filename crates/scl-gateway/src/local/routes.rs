@@ -1,9 +1,10 @@
 //! Starting the task of each route.
 
-use super::{GatewayOptions, Run, View};
+use super::GatewayOptions;
 use crate::pump::{Counts, Receiving, Replying, Requesting, Sending};
 use crate::route::{Pattern, Route, RouteEnd};
-use crate::wire::Wire;
+use crate::slot::View;
+use crate::wire::{Announced, Wire};
 use scl::bridge::Mirror;
 use scl::transport::zeromq::ZeroMq;
 use std::collections::HashMap;
@@ -18,11 +19,11 @@ type Views<T> = HashMap<String, View<T>>;
 pub(super) fn start(
     options: &GatewayOptions,
     wire: &Wire,
-    runs: &Views<Run>,
+    runs: &Views<Announced>,
     mirrors: &Views<Mirror>,
     stop: &watch::Receiver<bool>,
 ) -> (JoinSet<()>, Vec<(String, Arc<Counts>)>) {
-    let transport = Arc::new(ZeroMq::new(options.dir.clone(), options.medium));
+    let transport = Arc::new(ZeroMq::new(options.dir.clone(), options.kind));
     let (mut pumps, mut counted) = (JoinSet::new(), Vec::new());
     for route in &options.routes {
         let counts = Arc::new(Counts::default());
@@ -44,7 +45,7 @@ pub(super) fn start(
 
 struct Start<'a> {
     wire: &'a Wire,
-    runs: &'a Views<Run>,
+    runs: &'a Views<Announced>,
     mirrors: &'a Views<Mirror>,
     transport: &'a Arc<ZeroMq>,
     counts: Arc<Counts>,

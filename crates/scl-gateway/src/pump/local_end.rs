@@ -1,7 +1,7 @@
 //! What all pumps share: who they stand in for, opening ends again after a failure, and logging why not.
 
-use crate::local::View;
 use crate::route::Route;
+use crate::slot::View;
 use scl::bridge::MirrorError;
 use scl::host::text_with_causes;
 use scl::transport::{TransportError, Window};

@@ -2,9 +2,9 @@
 
 use super::Counts;
 use super::local_end::{Attempts, Timer, changed_if_any, names, window};
-use crate::local::{Held, Run, View};
 use crate::route::Route;
-use crate::wire::{ReceiverEvent, WireReceiver};
+use crate::slot::{Held, View};
+use crate::wire::{Announced, ReceiverEvent, WireReceiver};
 use scl::bridge::Mirror;
 use scl::transport::zeromq::ZeroMq;
 use scl::transport::{Endpoint, Frame, Link, PeerKind, Sender, Transport};
@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tokio::sync::watch;
 
 /// For how long the component here may take what has arrived, after the far one has ended.
@@ -29,7 +29,7 @@ pub(crate) struct Receiving {
     /// The publisher, in whose place the local end is opened; `None` for pushers, which are nobody in particular.
     pub(crate) mirror: Option<View<Mirror>>,
     /// The receiving component here.
-    pub(crate) component: View<Run>,
+    pub(crate) component: View<Announced>,
     pub(crate) transport: Arc<ZeroMq>,
     pub(crate) counts: Arc<Counts>,
     pub(crate) state: State,
@@ -45,6 +45,8 @@ pub(crate) struct State {
     attempts: Attempts,
     /// Messages that the component has not taken from this gateway.
     queue: VecDeque<Frame>,
+    /// Which messages since this side was opened had been sent before that, and when.
+    latched: VecDeque<(u64, Instant)>,
     /// Messages given to links since this side was opened, and those among them that the component has taken.
     handed: u64,
     confirmed: u64,
@@ -95,6 +97,10 @@ impl Receiving {
             match event {
                 ReceiverEvent::Matched => self.state.matched = true,
                 ReceiverEvent::Unmatched => self.state.matched = false,
+                ReceiverEvent::Latched(sent) => {
+                    let number = self.state.handed + self.state.queue.len() as u64 + 1;
+                    self.state.latched.push_back((number, sent));
+                }
                 // Never more than a window, because none is acknowledged earlier.
                 ReceiverEvent::Message(message) => self.state.queue.push_back(message.into()),
                 ReceiverEvent::AcknowledgementRequested => self.state.flush = true,
@@ -197,7 +203,8 @@ impl Receiving {
 
     fn lose_link(&mut self) {
         let Some(local) = &mut self.state.local else { return };
-        if let Some(link) = local.link.take() {
+        if let Some(mut link) = local.link.take() {
+            link.read_last();
             // What the component has acknowledged at last still counts.
             let confirmed = self.state.handed - link.unacknowledged();
             self.tell(confirmed);
@@ -223,6 +230,7 @@ impl Receiving {
             tracing::debug!(route = %self.route.key, "{unknown} messages were not taken; the far gateway gives them up");
         }
         state.queue.clear();
+        state.latched.clear();
         (state.handed, state.confirmed, state.flush) = (0, 0, false);
         self.wire.set_open(false);
     }
@@ -230,11 +238,25 @@ impl Receiving {
     fn carry(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         let Some(Local { link: Some(link), unasked, .. }) = &mut state.local else { return };
-        let handed = &mut state.handed;
-        link.send_all(cx, &mut state.queue, &mut |length| {
+        let (queue, handed) = (&mut state.queue, &mut state.handed);
+        let mut count = |handed: &mut u64, length: usize| {
             *handed += 1;
             *unasked = (unasked.0 + 1, unasked.1 + length as u64);
-        });
+        };
+        while let Some(&(number, sent)) = state.latched.front() {
+            let mut rest = queue.split_off(queue.len().min((number - *handed - 1) as usize));
+            link.send_all(cx, queue, &mut |length| count(handed, length));
+            let is_next = queue.is_empty();
+            queue.append(&mut rest);
+            let Some(message) = queue.pop_front_if(|_| is_next) else { return };
+            let length = message.len();
+            if let Err(message) = link.send_latched(cx, message, sent.elapsed()) {
+                return queue.push_front(message);
+            }
+            count(handed, length);
+            state.latched.pop_front();
+        }
+        link.send_all(cx, queue, &mut |length| count(handed, length));
     }
 
     /// Asks the component to acknowledge when half of the window is on its way, at a flush, and before the end is closed.

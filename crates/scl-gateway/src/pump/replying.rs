@@ -2,9 +2,9 @@
 
 use super::Counts;
 use super::local_end::{Attempts, BATCH, MOST_OPEN};
-use crate::local::{Run, View};
 use crate::route::Route;
-use crate::wire::{ReplierEvent, WireReplier};
+use crate::slot::View;
+use crate::wire::{Announced, ReplierEvent, WireReplier};
 use scl::transport::zeromq::ZeroMq;
 use scl::transport::{Answer, Endpoint, Requester, Transport};
 use std::collections::BTreeSet;
@@ -18,7 +18,7 @@ pub(crate) struct Replying {
     pub(crate) route: Route,
     pub(crate) wire: WireReplier,
     /// The replying component here.
-    pub(crate) component: View<Run>,
+    pub(crate) component: View<Announced>,
     pub(crate) transport: Arc<ZeroMq>,
     pub(crate) counts: Arc<Counts>,
     pub(crate) state: State,
@@ -76,7 +76,8 @@ impl Replying {
             self.close();
         } else if is_wanted && state.local.is_none() {
             let (route, transport) = (&self.route, &self.transport);
-            let endpoint = Endpoint::accepting(route.endpoint.clone(), route.max_size);
+            let mut endpoint = Endpoint::accepting(route.endpoint.clone(), route.max_size);
+            endpoint.in_flight = MOST_OPEN;
             state.local = state.attempts.open(cx, route, || Ok(transport.request(&endpoint)?));
         }
     }
@@ -125,6 +126,12 @@ impl Replying {
                     if self.state.unanswered.remove(&id) {
                         self.counts.add_carried(1);
                         self.wire.reply(id, body);
+                    }
+                }
+                Poll::Ready(Answer::Refused { id }) => {
+                    if self.state.unanswered.remove(&id) {
+                        self.counts.add_given_up(1);
+                        self.wire.refuse(id);
                     }
                 }
                 Poll::Ready(Answer::Lost) => {

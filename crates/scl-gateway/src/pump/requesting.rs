@@ -2,8 +2,8 @@
 
 use super::Counts;
 use super::local_end::{Attempts, BATCH, MOST_OPEN, names};
-use crate::local::{Held, View};
 use crate::route::Route;
+use crate::slot::{Held, View};
 use crate::wire::{RequesterEvent, WireRequester};
 use bytes::Bytes;
 use scl::bridge::Mirror;
@@ -80,6 +80,12 @@ impl Requesting {
                     self.counts.add_carried(1);
                     // A requester that has left needs no reply.
                     let _has_left = path.reply(&envelope, body);
+                }
+            }
+            RequesterEvent::Refused { id } => {
+                if let Some((envelope, path)) = state.open.remove(&id) {
+                    self.counts.add_given_up(1);
+                    path.refuse(&envelope);
                 }
             }
             // As with a replier on this host that does not reply: the requester's time runs out.

@@ -2,12 +2,12 @@
 
 use super::Counts;
 use super::local_end::{Attempts, BATCH, Timer, changed_if_any, end_name, names, window};
-use crate::local::{Held, Run, View};
 use crate::route::Route;
-use crate::wire::{SenderEvent, WireSender};
+use crate::slot::{Held, View};
+use crate::wire::{Announced, SenderEvent, WireSender};
 use scl::bridge::Mirror;
 use scl::transport::zeromq::ZeroMq;
-use scl::transport::{Receiver, Transport};
+use scl::transport::{Receiver, Resumed, Transport};
 use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
@@ -27,7 +27,7 @@ pub(crate) struct Sending {
     /// The far component, in whose place the local end is opened.
     pub(crate) mirror: View<Mirror>,
     /// The publisher here; `None` for pushers, which connect to the local end.
-    pub(crate) publisher: Option<View<Run>>,
+    pub(crate) publisher: Option<View<Announced>>,
     pub(crate) transport: Arc<ZeroMq>,
     pub(crate) counts: Arc<Counts>,
     pub(crate) state: State,
@@ -36,8 +36,9 @@ pub(crate) struct Sending {
 #[derive(Default)]
 pub(crate) struct State {
     matched: bool,
-    /// The publisher's run that the far host knows, and for how long still after it has ended.
-    run: Option<Held<Run>>,
+    /// The publisher's run that the far host knows, and for how long still after it has ended: as long as this exists, the
+    /// publisher counts as running for other hosts.
+    run: Option<Held<Announced>>,
     draining: Timer,
     local: Option<Local>,
     attempts: Attempts,
@@ -48,6 +49,10 @@ pub(crate) struct State {
     told: u64,
     /// The last message that the far side was asked to acknowledge.
     asked: u64,
+    /// What a latched publisher is told of the far component: another end when that has to get the last message.
+    resumed: Option<Resumed>,
+    /// Whether the far component has started and got no message since.
+    wants_last: bool,
     /// The gateway ends.
     stopping: bool,
 }
@@ -57,6 +62,8 @@ struct Local {
     receiver: Box<dyn Receiver>,
     mirror: Held<Mirror>,
     finishing: bool,
+    /// Whether another end is to take its place, to which a latched publisher sends its last message.
+    is_outdated: bool,
     limit: Timer,
 }
 
@@ -103,6 +110,7 @@ impl Sending {
         match event {
             SenderEvent::Matched => self.state.matched = true,
             SenderEvent::Unmatched => self.state.matched = false,
+            SenderEvent::NewReceiver => self.rejoin(),
             SenderEvent::Acknowledged(number) => {
                 self.counts.add_carried(number.saturating_sub(self.state.settled));
                 self.settle(number);
@@ -114,6 +122,17 @@ impl Sending {
                 self.settle(self.state.settled + count);
             }
             SenderEvent::Credit => {}
+        }
+    }
+
+    /// A latched publisher sends its last message to the far component, which has just started, unless that is on its way.
+    fn rejoin(&mut self) {
+        if self.wire.unacknowledged() > 0 {
+            return;
+        }
+        self.state.wants_last = true;
+        if let Some(local) = &mut self.state.local {
+            local.is_outdated = true;
         }
     }
 
@@ -150,18 +169,32 @@ impl Sending {
         match (&mut state.local, mirror) {
             (None, Some(mirror)) => {
                 let (route, transport) = (&self.route, &self.transport);
+                if std::mem::take(&mut state.wants_last) {
+                    state.resumed = Some(Resumed::new_end());
+                }
+                let resumed = state.resumed;
                 let receiver = state.attempts.open(cx, route, || {
                     let (gate, window) = (names(&route.to).1, window(route));
                     Ok(match names(&route.from) {
                         ("", _) => transport.pull(&mirror.pulling(gate, window)?)?,
-                        publisher => transport.subscribe(&mirror.subscribing(gate, publisher, window)?)?,
+                        publisher => {
+                            let mut endpoint = mirror.subscribing(gate, publisher, window)?;
+                            endpoint.resumed = resumed;
+                            transport.subscribe(&endpoint)?
+                        }
                     })
                 });
-                let local = |receiver| Local { receiver, mirror, finishing: false, limit: Timer::default() };
+                let local = |receiver| Local {
+                    receiver,
+                    mirror,
+                    finishing: false,
+                    is_outdated: false,
+                    limit: Timer::default(),
+                };
                 state.local = receiver.map(local);
             }
             (Some(local), mirror) => {
-                let is_wanted = mirror.is_some_and(|mirror| mirror.is_same(&local.mirror));
+                let is_wanted = mirror.is_some_and(|mirror| mirror.is_same(&local.mirror)) && !local.is_outdated;
                 if !is_wanted && !std::mem::replace(&mut local.finishing, true) {
                     local.receiver.finish();
                     local.limit.start(FINISH_LIMIT);
@@ -186,7 +219,12 @@ impl Sending {
             }
             let Poll::Ready(message) = local.receiver.poll_recv(cx) else { break };
             self.state.sent += 1;
-            self.wire.send(message);
+            self.state.wants_last = false;
+            self.state.resumed.iter_mut().for_each(|resumed| resumed.taken += 1);
+            match local.receiver.take_latched() {
+                Some(sent) => self.wire.send_latched(message, sent),
+                None => self.wire.send(message),
+            }
             taken += 1;
         }
         if local.receiver.take_acknowledgement_request() {

@@ -40,6 +40,7 @@ fn expected(pattern: Pattern, from: RouteEnd, to: RouteEnd, endpoint: &str, key:
         queue: 100,
         when_full: WhenFull::DropOldest,
         lossless: false,
+        latched: false,
         max_size: 64 << 20,
         newest_only: false,
     }
@@ -81,6 +82,7 @@ fn each_connection_of_a_publisher_is_a_route() {
     let logger = Route {
         when_full: WhenFull::Wait,
         lossless: true,
+        latched: false,
         ..expected(
             PUBLISHED,
             publisher(),
@@ -143,6 +145,7 @@ fn the_pushers_of_a_host_share_a_route_to_each_puller() {
         when_full: WhenFull::Wait,
         queue: 7,
         lossless: true,
+        latched: false,
         ..expected(
             PUSHED,
             end(host, None),

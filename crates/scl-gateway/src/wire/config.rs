@@ -21,6 +21,9 @@ const RETRY_MS: u64 = 250;
 /// Longest attempt. A lost SYN is repeated after 1 s and then after 3 s, so a new attempt after 2 s is sooner.
 const OPEN_TIMEOUT_MS: u64 = 2000;
 
+/// Longest TLS handshake of a host that connects, which takes one round trip of the network. Strangers hold one for so long.
+const HANDSHAKE_MS: u64 = 1000;
+
 /// Checks the options, and returns the configuration as JSON.
 pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
     for address in options.listen.iter().chain(options.peers.iter().filter_map(|peer| peer.address.as_ref())) {
@@ -30,7 +33,7 @@ pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
         check_free(address)?;
     }
     let protocol = protocol(options);
-    let listen: Vec<_> = options.listen.iter().map(|address| format!("{protocol}/{address}")).collect();
+    let listen: Vec<_> = options.listen.iter().map(|address| listen_endpoint(options, address)).collect();
     let connect: Vec<_> = options.peers.iter().filter_map(|peer| endpoint(options, peer)).collect();
     Ok(json!({
         "mode": "peer",
@@ -52,6 +55,7 @@ pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
             "unicast": {
                 "open_timeout": OPEN_TIMEOUT_MS,
                 "accept_timeout": OPEN_TIMEOUT_MS,
+                "accept_pending": 100,
                 "max_links": 1,
                 // Loses messages over 64 KiB.
                 "lowlatency": false,
@@ -89,6 +93,15 @@ pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
 pub(super) fn endpoint(options: &WireOptions, peer: &Peer) -> Option<String> {
     let address = peer.address.as_ref().filter(|_| options.listen.is_none() || options.host < peer.host)?;
     Some(format!("{}/{address}", protocol(options)))
+}
+
+/// Where this host listens, with what only the endpoint can say.
+fn listen_endpoint(options: &WireOptions, address: &str) -> String {
+    let protocol = protocol(options);
+    match options.tls.is_some() {
+        true => format!("{protocol}/{address}#tls_handshake_timeout_ms={HANDSHAKE_MS}"),
+        false => format!("{protocol}/{address}"),
+    }
 }
 
 fn protocol(options: &WireOptions) -> &'static str {

@@ -5,10 +5,24 @@ use bytes::{BufMut, Bytes, BytesMut};
 /// What is before the body.
 pub(super) const LENGTH: usize = 9;
 
+/// What an envelope is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// A request, or the reply to one.
+    Message,
+    /// Instead of a reply: there will be none.
+    Gone,
+    /// The same, because the replier has refused the request.
+    Refused,
+}
+
+impl Outcome {
+    const ALL: [Self; 3] = [Self::Message, Self::Gone, Self::Refused];
+}
+
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Envelope {
-    /// Instead of a reply: there will be none.
-    pub(super) is_gone: bool,
+    pub(super) outcome: Outcome,
     pub(super) id: u64,
     pub(super) body: Bytes,
 }
@@ -16,16 +30,17 @@ pub(super) struct Envelope {
 impl Envelope {
     pub(super) fn encode(&self) -> Bytes {
         let mut message = BytesMut::with_capacity(LENGTH + self.body.len());
-        message.put_u8(self.is_gone.into());
+        message.put_u8(self.outcome as u8);
         message.put_u64(self.id);
         message.extend_from_slice(&self.body);
         message.freeze()
     }
 
     pub(super) fn decode(message: &Bytes) -> Option<Envelope> {
-        let (is_gone, rest) = message.split_first().filter(|(is_gone, _)| **is_gone < 2)?;
+        let (outcome, rest) = message.split_first()?;
+        let outcome = *Outcome::ALL.get(usize::from(*outcome))?;
         let id = u64::from_be_bytes(*rest.first_chunk()?);
-        Some(Envelope { is_gone: *is_gone == 1, id, body: message.slice(LENGTH..) })
+        Some(Envelope { outcome, id, body: message.slice(LENGTH..) })
     }
 }
 
@@ -35,10 +50,12 @@ mod tests {
 
     #[test]
     fn survives_and_refuses_what_is_too_short() {
-        let envelope = Envelope { is_gone: false, id: 7, body: Bytes::from_static(b"body") };
-        let message = envelope.encode();
-        assert_eq!(Envelope::decode(&message), Some(envelope));
-        assert_eq!(Envelope::decode(&message.slice(..LENGTH - 1)), None);
-        assert_eq!(Envelope::decode(&Bytes::from_static(&[2; 9])), None);
+        for outcome in Outcome::ALL {
+            let envelope = Envelope { outcome, id: 7, body: Bytes::from_static(b"body") };
+            let message = envelope.encode();
+            assert_eq!(Envelope::decode(&message), Some(envelope));
+            assert_eq!(Envelope::decode(&message.slice(..LENGTH - 1)), None);
+        }
+        assert_eq!(Envelope::decode(&Bytes::from_static(&[3; 9])), None);
     }
 }

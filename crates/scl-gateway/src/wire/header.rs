@@ -1,5 +1,10 @@
 //! What travels beside the bytes of a message, and the acknowledgements that come back.
 
+use std::time::{Duration, Instant};
+
+/// In the first byte: an age follows.
+const LATCHED: u8 = 0x80;
+
 /// Attachment of everything that goes from a sending end to a receiving end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Header {
@@ -12,6 +17,9 @@ pub(super) struct Header {
     pub(super) attempt: u32,
     /// Number of the message; for [`Kind::Probe`] of the last message sent before.
     pub(super) sequence: u64,
+    /// When the message was sent, if that was before its receiver had joined. It travels as an age, because hosts have
+    /// different clocks; the time on the network is not part of it.
+    pub(super) latched: Option<Instant>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,8 +44,8 @@ impl Header {
             Kind::Probe { flush: false } => (2, None),
             Kind::Probe { flush: true } => (3, None),
         };
-        let mut bytes = Vec::with_capacity(45);
-        bytes.push(kind);
+        let mut bytes = Vec::with_capacity(53);
+        bytes.push(if self.latched.is_some() { kind | LATCHED } else { kind });
         bytes.extend(self.stream.to_be_bytes());
         bytes.extend(self.epoch.to_be_bytes());
         bytes.extend(self.attempt.to_be_bytes());
@@ -46,11 +54,16 @@ impl Header {
             bytes.extend(offset.to_be_bytes());
             bytes.extend(total.to_be_bytes());
         }
+        if let Some(sent) = self.latched {
+            let age = u64::try_from(sent.elapsed().as_nanos()).unwrap_or(u64::MAX);
+            bytes.extend(age.to_be_bytes());
+        }
         bytes
     }
 
     pub(super) fn decode(bytes: &[u8]) -> Option<Header> {
         let (kind, mut rest) = bytes.split_first()?;
+        let (kind, has_age) = (kind & !LATCHED, kind & LATCHED != 0);
         let (stream, epoch) = (take_u64(&mut rest)?, take_u64(&mut rest)?);
         let (attempt, after) = rest.split_first_chunk()?;
         rest = after;
@@ -62,6 +75,8 @@ impl Header {
             3 => Kind::Probe { flush: true },
             _ => return None,
         };
+        let age = if has_age { Some(Duration::from_nanos(take_u64(&mut rest)?)) } else { None };
+        let latched = age.and_then(|age| Instant::now().checked_sub(age));
         let attempt = u32::from_be_bytes(*attempt);
         (rest.is_empty() && sequence > 0 || matches!(kind, Kind::Probe { .. })).then_some(Header {
             kind,
@@ -69,6 +84,7 @@ impl Header {
             epoch,
             attempt,
             sequence,
+            latched,
         })
     }
 }
@@ -126,16 +142,35 @@ mod tests {
             Kind::Probe { flush: true },
         ];
         for kind in kinds {
-            let header = Header { kind, stream: 1, epoch: u64::MAX, attempt: 3, sequence: 4 };
+            let header = Header { kind, stream: 1, epoch: u64::MAX, attempt: 3, sequence: 4, latched: None };
             let bytes = header.encode();
             assert_eq!(Header::decode(&bytes), Some(header));
             for end in 0..bytes.len() {
                 assert_eq!(Header::decode(&bytes[..end]), None);
             }
         }
-        let number_zero = Header { kind: Kind::Whole, stream: 1, epoch: 2, attempt: 3, sequence: 0 };
+        let number_zero = Header { kind: Kind::Whole, stream: 1, epoch: 2, attempt: 3, sequence: 0, latched: None };
         assert_eq!(Header::decode(&number_zero.encode()), None);
         assert_eq!(Header::decode(&[9; 29]), None);
+    }
+
+    #[test]
+    fn an_age_survives_whatever_the_clock_of_the_other_host() {
+        for kind in [Kind::Whole, Kind::Chunk { offset: 5, total: 9 }] {
+            let sent = Instant::now() - Duration::from_secs(7);
+            let header = Header { kind, stream: 1, epoch: 2, attempt: 3, sequence: 4, latched: Some(sent) };
+            let bytes = header.encode();
+            let decoded = Header::decode(&bytes).expect("a header");
+            let later = decoded.latched.expect("an age").duration_since(sent);
+            assert!(later <= sent.elapsed() - Duration::from_secs(7), "{later:?}");
+            assert_eq!(Header { latched: None, ..decoded }, Header { latched: None, ..header });
+            for end in 0..bytes.len() {
+                assert_eq!(Header::decode(&bytes[..end]), None);
+            }
+            // The oldest age that can be told.
+            let oldest = [&bytes[..bytes.len() - 8], &[0xff; 8]].concat();
+            assert!(Header::decode(&oldest).is_some());
+        }
     }
 
     #[test]

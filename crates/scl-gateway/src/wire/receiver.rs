@@ -1,12 +1,14 @@
 //! The end of a route at which messages arrive at this host.
 
 use std::task::{Context, Poll};
+use std::time::Instant;
 
 use bytes::Bytes;
 
 use super::keys::Side;
 use super::link::Link;
-use super::stream::{Received, ReceivingEnd, ReceivingMail};
+use super::mail::ReceivingMail;
+use super::stream::{Received, ReceivingEnd};
 use super::token::EndToken;
 use crate::route::Route;
 
@@ -26,6 +28,8 @@ pub enum ReceiverEvent {
     Matched,
     /// The sending side closed, or the link is lost.
     Unmatched,
+    /// The next message was sent then, before this side was opened.
+    Latched(Instant),
     /// The next message. Messages are numbered 1, 2, 3, ... since the last `set_open(true)`.
     Message(Bytes),
     /// The sending component wants its messages acknowledged now, for a flush.
@@ -57,6 +61,7 @@ impl WireReceiver {
         self.end.poll(cx).map(|event| match event {
             Received::Matched => ReceiverEvent::Matched,
             Received::Unmatched => ReceiverEvent::Unmatched,
+            Received::Latched(sent) => ReceiverEvent::Latched(sent),
             Received::Message(message) => ReceiverEvent::Message(message),
             Received::Flush => ReceiverEvent::AcknowledgementRequested,
         })

@@ -5,10 +5,11 @@ use std::task::{Context, Poll};
 
 use bytes::Bytes;
 
-use super::envelope::{self, Envelope};
+use super::envelope::{self, Envelope, Outcome};
 use super::keys::{self, Side};
 use super::link::Link;
-use super::stream::{Received, ReceivingEnd, ReceivingMail, SendingEnd, SendingMail, Sent};
+use super::mail::{ReceivingMail, SendingMail};
+use super::stream::{Received, ReceivingEnd, SendingEnd, Sent};
 use super::token::EndToken;
 use crate::route::Route;
 
@@ -19,7 +20,6 @@ pub struct WireReplier {
     requests: ReceivingEnd,
     replies: SendingEnd,
     token: EndToken,
-    requester: Option<u64>,
     /// The requester's ids by ours.
     open: HashMap<u64, u64>,
     last: u64,
@@ -44,7 +44,7 @@ impl WireReplier {
         let (host, key) = (&route.from.host, &route.key);
         let max_size = route.max_size.saturating_add(envelope::LENGTH as u64);
         let requests = ReceivingEnd::new(&link.commands, host, key, max_size);
-        let replies = SendingEnd::new(&link.commands, host, &keys::replies(key), route.queue);
+        let replies = SendingEnd::new(&link.commands, host, &keys::replies(key), route.queue, false);
         let (requests_mail, replies_mail) = (requests.mail(), replies.mail());
         link.presence.watch(requests.id(), host, key, Side::Sender, move |peer| {
             replies_mail.push(0, SendingMail::Peer(peer));
@@ -55,7 +55,6 @@ impl WireReplier {
             requests,
             replies,
             token: EndToken::new(link, key, Side::Receiver),
-            requester: None,
             open: HashMap::new(),
             last: 0,
             taken: 0,
@@ -82,7 +81,7 @@ impl WireReplier {
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<ReplierEvent> {
         loop {
             match self.replies.poll(cx) {
-                Poll::Ready(Sent::Matched(requester)) if self.requester.replace(requester) != Some(requester) => {
+                Poll::Ready(Sent::Matched { is_new: true, .. }) => {
                     self.open.clear();
                     continue;
                 }
@@ -96,7 +95,7 @@ impl WireReplier {
                     Some(event) => event,
                     None => continue,
                 },
-                Poll::Ready(Received::Flush) => continue,
+                Poll::Ready(Received::Flush | Received::Latched(_)) => continue,
                 Poll::Pending => return Poll::Pending,
             };
             return Poll::Ready(event);
@@ -105,12 +104,17 @@ impl WireReplier {
 
     /// Answers request `id`. Unknown ids are ignored.
     pub fn reply(&mut self, id: u64, body: Bytes) {
-        self.answer(id, false, body);
+        self.answer(id, Outcome::Message, body);
     }
 
     /// Ends request `id` without a reply: the requester gets `Gone`.
     pub fn give_up(&mut self, id: u64) {
-        self.answer(id, true, Bytes::new());
+        self.answer(id, Outcome::Gone, Bytes::new());
+    }
+
+    /// The same for a request that the replying component has refused: the requester gets `Refused`.
+    pub fn refuse(&mut self, id: u64) {
+        self.answer(id, Outcome::Refused, Bytes::new());
     }
 
     fn request(&mut self, message: &Bytes) -> Option<ReplierEvent> {
@@ -122,9 +126,9 @@ impl WireReplier {
         Some(ReplierEvent::Request { id: self.last, body: request.body })
     }
 
-    fn answer(&mut self, id: u64, is_gone: bool, body: Bytes) {
+    fn answer(&mut self, id: u64, outcome: Outcome, body: Bytes) {
         if let Some(id) = self.open.remove(&id) {
-            self.replies.send(Envelope { is_gone, id, body }.encode());
+            self.replies.send(Envelope { outcome, id, body }.encode(), None);
         }
     }
 }

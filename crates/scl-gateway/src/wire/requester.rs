@@ -5,10 +5,11 @@ use std::task::{Context, Poll, Waker};
 
 use bytes::Bytes;
 
-use super::envelope::{self, Envelope};
+use super::envelope::{self, Envelope, Outcome};
 use super::keys::{self, Side};
 use super::link::Link;
-use super::stream::{Received, ReceivingEnd, SendingEnd, SendingMail, Sent};
+use super::mail::SendingMail;
+use super::stream::{Received, ReceivingEnd, SendingEnd, Sent};
 use super::token::EndToken;
 use crate::route::Route;
 
@@ -41,12 +42,14 @@ pub enum RequesterEvent {
     Reply { id: u64, body: Bytes },
     /// Request `id` gets no reply.
     Gone { id: u64 },
+    /// Request `id` gets no reply, because the replying component has refused it.
+    Refused { id: u64 },
 }
 
 impl WireRequester {
     pub(super) fn new(link: &Link, route: &Route) -> Self {
         let (host, key) = (&route.to.host, &route.key);
-        let requests = SendingEnd::new(&link.commands, host, key, route.queue);
+        let requests = SendingEnd::new(&link.commands, host, key, route.queue, false);
         let max_size = route.max_size.saturating_add(envelope::LENGTH as u64);
         let mut replies = ReceivingEnd::new(&link.commands, host, &keys::replies(key), max_size);
         let mut token = EndToken::new(link, key, Side::Sender);
@@ -83,7 +86,7 @@ impl WireRequester {
                 continue;
             }
             match self.requests.poll(cx) {
-                Poll::Ready(Sent::Matched(replier)) if self.replier != Some(replier) => {
+                Poll::Ready(Sent::Matched { peer: replier, .. }) if self.replier != Some(replier) => {
                     self.all_gone();
                     self.replier = Some(replier);
                     self.events.push_back(RequesterEvent::Matched);
@@ -93,7 +96,7 @@ impl WireRequester {
                     self.replier = None;
                     self.events.push_back(RequesterEvent::Unmatched);
                 }
-                Poll::Ready(Sent::Matched(_) | Sent::Settled(_) | Sent::GivenUp(_)) => (),
+                Poll::Ready(Sent::Matched { .. } | Sent::Settled(_) | Sent::GivenUp(_)) => (),
                 Poll::Pending => break,
             }
         }
@@ -101,7 +104,7 @@ impl WireRequester {
         Poll::Pending
     }
 
-    /// Sends a request. `id` must be unused among the open requests. Exactly one `Reply` or `Gone` follows; without a match
+    /// Sends a request. `id` must be unused among the open requests. Exactly one `Reply`, `Refused` or `Gone` follows; without a match
     /// it is `Gone`.
     pub fn request(&mut self, id: u64, body: Bytes) {
         if !self.requests.is_matched() {
@@ -113,7 +116,7 @@ impl WireRequester {
         }
         self.last += 1;
         self.open.insert(self.last, id);
-        self.requests.send(Envelope { is_gone: false, id: self.last, body }.encode());
+        self.requests.send(Envelope { outcome: Outcome::Message, id: self.last, body }.encode(), None);
     }
 
     fn received(&mut self, received: Received) {
@@ -122,9 +125,10 @@ impl WireRequester {
         self.replies.acknowledge(self.replied);
         let Some(reply) = Envelope::decode(&message) else { return };
         let Some(id) = self.open.remove(&reply.id) else { return };
-        self.events.push_back(match reply.is_gone {
-            true => RequesterEvent::Gone { id },
-            false => RequesterEvent::Reply { id, body: reply.body },
+        self.events.push_back(match reply.outcome {
+            Outcome::Message => RequesterEvent::Reply { id, body: reply.body },
+            Outcome::Gone => RequesterEvent::Gone { id },
+            Outcome::Refused => RequesterEvent::Refused { id },
         });
     }
 

@@ -2,12 +2,14 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::task::{Context, Poll};
+use std::time::Instant;
 
 use bytes::Bytes;
 
 use super::keys::Side;
 use super::link::Link;
-use super::stream::{SendingEnd, SendingMail, Sent};
+use super::mail::SendingMail;
+use super::stream::{SendingEnd, Sent};
 use super::token::EndToken;
 use crate::route::Route;
 
@@ -19,6 +21,9 @@ pub struct WireSender {
     link: Link,
     end: SendingEnd,
     token: EndToken,
+    latches: bool,
+    /// Whether the owner is yet to be told that the receiver is another one than before.
+    is_new_receiver: bool,
     /// Whether the owner waits for credit, and whether there is more since the last time it was told.
     wants_credit: AtomicBool,
     has_more: bool,
@@ -30,6 +35,8 @@ pub struct WireSender {
 pub enum SenderEvent {
     /// The receiving side is open. What was unacknowledged has been sent again if it is the same one as before.
     Matched,
+    /// On a latched route, after `Matched`: this receiver has got nothing yet, it is not the one before.
+    NewReceiver,
     /// The receiving side closed, or the link is lost. Unacknowledged messages stay here for the next match.
     Unmatched,
     /// All messages up to this number are taken by the receiving component (or were given up before).
@@ -43,13 +50,21 @@ pub enum SenderEvent {
 
 impl WireSender {
     pub(super) fn new(link: &Link, route: &Route) -> Self {
-        let end = SendingEnd::new(&link.commands, &route.to.host, &route.key, route.queue);
+        let end = SendingEnd::new(&link.commands, &route.to.host, &route.key, route.queue, route.latched);
         let mail = end.mail();
         link.presence.watch(end.id(), &route.to.host, &route.key, Side::Receiver, move |peer| {
             mail.push(0, SendingMail::Peer(peer));
         });
         let token = EndToken::new(link, &route.key, Side::Sender);
-        WireSender { link: link.clone(), end, token, wants_credit: AtomicBool::new(false), has_more: false }
+        WireSender {
+            link: link.clone(),
+            end,
+            token,
+            latches: route.latched,
+            is_new_receiver: false,
+            wants_credit: AtomicBool::new(false),
+            has_more: false,
+        }
     }
 
     /// Shows or withdraws this side's presence. Closed at first. Closing keeps what is unacknowledged.
@@ -59,10 +74,16 @@ impl WireSender {
 
     /// The next event. Must be polled while messages are on their way: it also sends what got lost again.
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<SenderEvent> {
+        if std::mem::take(&mut self.is_new_receiver) {
+            return Poll::Ready(SenderEvent::NewReceiver);
+        }
         let sent = self.end.poll(cx);
         self.has_more |= sent.is_ready();
         let event = match sent {
-            Poll::Ready(Sent::Matched(_)) => SenderEvent::Matched,
+            Poll::Ready(Sent::Matched { is_new, .. }) => {
+                self.is_new_receiver = self.latches && is_new;
+                SenderEvent::Matched
+            }
             Poll::Ready(Sent::Unmatched) => SenderEvent::Unmatched,
             Poll::Ready(Sent::Settled(count)) => SenderEvent::Acknowledged(count),
             Poll::Ready(Sent::GivenUp(count)) => SenderEvent::GivenUp(count),
@@ -88,7 +109,12 @@ impl WireSender {
     /// Sends a message. The caller asks [`may_send`](Self::may_send) before; a message sent without credit or match is kept
     /// and sent when there is.
     pub fn send(&mut self, message: Bytes) {
-        self.end.send(message);
+        self.end.send(message, None);
+    }
+
+    /// The same for a message that was sent then, before the receiver had joined.
+    pub fn send_latched(&mut self, message: Bytes, sent: Instant) {
+        self.end.send(message, Some(sent));
     }
 
     /// Asks the other side for [`ReceiverEvent::AcknowledgementRequested`](super::ReceiverEvent), for a flush.

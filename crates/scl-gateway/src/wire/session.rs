@@ -21,10 +21,10 @@ use super::error::WireError;
 use super::header::{Ack, Header};
 use super::keys;
 use super::lane::{Emission, Lane};
+use super::mail::{ReceivingMail, SendingMail};
 use super::mailbox::Mailbox;
 use super::neighbour::Neighbour;
 use super::presence::Presence;
-use super::stream::{ReceivingMail, SendingMail};
 use super::user_timeout;
 
 /// How often what has been wrong for a while is looked for.

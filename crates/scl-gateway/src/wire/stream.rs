@@ -10,5 +10,5 @@ mod outgoing;
 mod receiving_end;
 mod sending_end;
 
-pub(super) use self::receiving_end::{Received, ReceivingEnd, ReceivingMail};
-pub(super) use self::sending_end::{SendingEnd, SendingMail, Sent};
+pub(super) use self::receiving_end::{Received, ReceivingEnd};
+pub(super) use self::sending_end::{SendingEnd, Sent};

@@ -100,8 +100,13 @@ impl Hosts {
         });
         let wire = wire.await.unwrap();
         let host = self.host_mut(name);
-        let options =
-            GatewayOptions { dir: host.dir(), medium: scl::Medium::Ipc, host: name.to_owned(), components, routes };
+        let options = GatewayOptions {
+            dir: host.dir(),
+            kind: scl::TransportKind::Ipc,
+            host: name.to_owned(),
+            components,
+            routes,
+        };
         host.gateway = Some(Gateway::start(options, wire));
     }
 

@@ -87,7 +87,7 @@ async fn a_queue_of_one_gets_the_newest_message() {
     until("everything is accounted for", || newest.peer_stats()[0].waiting == 0).await;
     let stats = &newest.peer_stats()[0];
     assert_eq!((stats.published, stats.lost), (1000, 0));
-    assert_eq!(stats.taken + stats.dropped_oldest, 1000);
+    assert_eq!(stats.taken + stats.replaced, 1000);
 }
 
 #[tokio::test]

@@ -63,8 +63,8 @@ pub(super) fn play(name: &str, mut gate: impl Receives, commands: &Receiver<Stri
 }
 
 fn report(name: &str, gate: &impl Receives, receipts: &Receipts) {
-    let GateStats { dropped_oldest, dropped_newest, waiting, .. } = gate.figures();
-    println!("= {name} {receipts} dropped={} waiting={waiting}", dropped_oldest + dropped_newest);
+    let GateStats { replaced, dropped_oldest, dropped_newest, waiting, .. } = gate.figures();
+    println!("= {name} {receipts} dropped={} waiting={waiting}", replaced + dropped_oldest + dropped_newest);
 }
 
 /// Replies to each request with the request.

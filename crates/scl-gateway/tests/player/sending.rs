@@ -115,9 +115,9 @@ impl<G: Sends> Sender<'_, G> {
 fn account(peers: &[PeerStats], peer: &str) -> String {
     let names = || peers.iter().map(|peer| peer.peer.clone()).collect::<Vec<_>>();
     let found = peers.iter().find(|it| it.peer == peer);
-    let PeerStats { connected, published, taken, dropped_oldest, dropped_newest, lost, waiting, .. } =
+    let PeerStats { connected, published, taken, replaced, dropped_oldest, dropped_newest, lost, waiting, .. } =
         found.unwrap_or_else(|| panic!("no `{peer}` in {:?}", names()));
-    let (connected, dropped) = (u8::from(*connected), dropped_oldest + dropped_newest);
+    let (connected, dropped) = (u8::from(*connected), replaced + dropped_oldest + dropped_newest);
     format!("connected={connected} published={published} taken={taken} dropped={dropped} lost={lost} waiting={waiting}")
 }
 

@@ -27,6 +27,7 @@ pub(super) fn route(from: &str, to: &str, gate: &str) -> Route {
         queue: 100,
         when_full: WhenFull::Wait,
         lossless: true,
+        latched: false,
         max_size: 4 << 20,
         newest_only: false,
         key: format!("scl/system/{from}_program/{gate}/{to}_program/{gate}/c0"),

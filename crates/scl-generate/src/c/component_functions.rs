@@ -2,8 +2,8 @@
 
 use super::function::Function;
 use super::gate::{member, refuse_null};
+use super::literal::literal;
 use super::prefix;
-use super::source::literal;
 use crate::system::{Component, System};
 
 /// The functions of a component. A counterpart is opened together with its component.

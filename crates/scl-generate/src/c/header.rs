@@ -41,6 +41,7 @@ pub(super) fn text(system: &System) -> String {
     out.line("#ifdef __cplusplus\nextern \"C\" {\n#endif");
     system.components_and_counterparts().for_each(|component| write_component(system, component, &mut out));
     out.line("\n#ifdef __cplusplus\n}\n#endif\n");
+    write_checks(system, &mut out);
     out.line(format!("#endif /* {guard} */"));
     out.finish()
 }
@@ -100,6 +101,18 @@ fn write_wait(prefix: &str, component: &Component, out: &mut Writer) {
         out.line(format!("#define {} (UINT64_C(1) << {bit})", wait::constant(prefix, gate)));
     }
     function.declare(out);
+}
+
+fn write_checks(system: &System, out: &mut Writer) {
+    out.line("/* Compilers without an option for it, or with -w, take pointers of another type in silence; these macros do not. */");
+    out.line(format!("#if defined(SCL_POINTER) && !defined({})", source::own_macro(system)));
+    for component in system.components_and_counterparts() {
+        let prefix = prefix(system, component);
+        component_functions(system, component).iter().for_each(|function| function.check(out));
+        component.gates.iter().flat_map(|of| gate::functions(&prefix, of)).for_each(|function| function.check(out));
+        wait::function(&prefix, component).iter().for_each(|function| function.check(out));
+    }
+    out.line("#endif\n");
 }
 
 /// A comment of a headline and the text of `doc:`.

@@ -33,6 +33,7 @@ pub(super) fn needed(system: &System) -> Vec<&'static str> {
         (asks, CALL),
         (replies, REPLY),
         (receives || is_answered || is_asked, if is_recursive { UNPACK_LIMITED } else { UNPACK_MESSAGE }),
+        (receives || is_answered || is_asked, REPORT),
         (receives || is_answered, UNPACK),
         (receives, RECEIVE),
         (is_asked, TAKE),
@@ -215,8 +216,18 @@ static ProtobufCMessage *unpack_message(const ProtobufCMessageDescriptor *type, 
     return is_shallow(type, data, size, 1) ? protobuf_c_message_unpack(type, NULL, size, data) : NULL;
 }";
 
+const REPORT: &str = "\
+/* Reports what is not a message of `type`. SCL_OK: the next one is to be received. */
+static scl_status report_undecodable(scl_gate *gate, scl_request *request, const ProtobufCMessageDescriptor *type)
+{
+    char reason[256];
+    snprintf(reason, sizeof reason, \"it is not a `%s`\", type->name);
+    return scl_undecodable(gate, request, reason);
+}";
+
 const UNPACK: &str = "\
-/* Frees `bytes`, and stores the message that they are in `*result`: a pointer to the struct of `type`. */
+/* Frees `bytes`, and stores the message that they are in `*result`: a pointer to the struct of `type`. It is NULL, and
+ * the status SCL_OK, for one that is to be skipped. */
 static scl_status unpack(scl_gate *gate, const ProtobufCMessageDescriptor *type, scl_status status, scl_message *bytes,
                          void *result)
 {
@@ -227,7 +238,7 @@ static scl_status unpack(scl_gate *gate, const ProtobufCMessageDescriptor *type,
         message = unpack_message(type, data, size);
         scl_message_free(bytes);
         if (message == NULL) {
-            status = scl_undecodable(gate, type->name);
+            status = report_undecodable(gate, NULL, type);
         }
     }
     if (result != NULL) {
@@ -240,34 +251,51 @@ const RECEIVE: &str = "\
 static scl_status recv_message(scl_gate *gate, const ProtobufCMessageDescriptor *type, void *message,
                                int64_t timeout_ns)
 {
-    scl_message *bytes = NULL;
-    scl_status status = scl_recv(gate, timeout_ns, message == NULL ? NULL : &bytes);
-    return unpack(gate, type, status, bytes, message);
+    ProtobufCMessage *unpacked = NULL;
+    scl_status status;
+    do {
+        scl_message *bytes = NULL;
+        status = scl_recv(gate, timeout_ns, message == NULL ? NULL : &bytes);
+        status = unpack(gate, type, status, bytes, &unpacked);
+        timeout_ns = SCL_REST;
+    } while (status == SCL_OK && unpacked == NULL);
+    if (message != NULL) {
+        memcpy(message, &unpacked, sizeof unpacked);
+    }
+    return status;
 }
 
 static scl_status latest_message(scl_gate *gate, const ProtobufCMessageDescriptor *type, void *message)
 {
     scl_message *bytes = NULL;
+    ProtobufCMessage *unpacked = NULL;
     scl_status status = scl_latest(gate, message == NULL ? NULL : &bytes);
-    return unpack(gate, type, status, bytes, message);
+    status = unpack(gate, type, status, bytes, &unpacked);
+    if (message != NULL) {
+        memcpy(message, &unpacked, sizeof unpacked);
+    }
+    return status == SCL_OK && unpacked == NULL ? SCL_NOTHING : status;
 }";
 
 const TAKE: &str = "\
 static scl_status take_message(scl_gate *gate, const ProtobufCMessageDescriptor *type, void *message,
                                scl_request **request, int64_t timeout_ns)
 {
-    size_t size = 0;
     ProtobufCMessage *unpacked = NULL;
-    scl_status status = scl_take_request(gate, timeout_ns, request);
-    if (status == SCL_OK) {
-        const uint8_t *data = (const uint8_t *)scl_request_data(*request, &size);
-        unpacked = unpack_message(type, data, size);
-        if (unpacked == NULL) {
-            scl_request_free(*request);
-            *request = NULL;
-            status = scl_undecodable(gate, type->name);
+    scl_status status;
+    do {
+        status = scl_take_request(gate, timeout_ns, request);
+        if (status == SCL_OK) {
+            size_t size = 0;
+            const uint8_t *data = (const uint8_t *)scl_request_data(*request, &size);
+            unpacked = unpack_message(type, data, size);
+            if (unpacked == NULL) {
+                status = report_undecodable(gate, *request, type);
+                *request = NULL;
+            }
         }
-    }
+        timeout_ns = SCL_REST;
+    } while (status == SCL_OK && unpacked == NULL);
     memcpy(message, &unpacked, sizeof unpacked);
     return status;
 }";

@@ -1,6 +1,7 @@
 //! `<system>_scl.c`.
 
 use super::component_functions::component_functions;
+use super::literal::literal;
 use super::{gate, helpers, messages, prefix, wait};
 use crate::comment;
 use crate::system::{Component, System};
@@ -10,6 +11,7 @@ use crate::writer::Writer;
 pub(super) fn text(system: &System) -> String {
     let mut out = Writer::new("    ");
     first_line(system, &mut out);
+    out.line(format!("#define {}", own_macro(system)));
     out.line(format!("#include \"{}_scl.h\"\n", system.snake_name()));
     let has_structs = !messages(system).is_empty();
     out.line(if has_structs {
@@ -21,6 +23,11 @@ pub(super) fn text(system: &System) -> String {
     helpers::needed(system).into_iter().for_each(|helper| out.line(format!("\n{helper}")));
     system.components_and_counterparts().for_each(|component| write_component(system, component, &mut out));
     out.finish()
+}
+
+/// The name that the source defines, in which the macros would stand in front of the functions' own definitions.
+pub(super) fn own_macro(system: &System) -> String {
+    format!("{}_SCL_SOURCE", system.snake_name().to_ascii_uppercase())
 }
 
 /// The comment that every generated file begins with.
@@ -41,19 +48,6 @@ fn write_plan(system: &System, out: &mut Writer) {
         out.line(format!("    {}{end}", literal(line)));
     }
     out.line("#if defined(__GNUC__)\n#pragma GCC diagnostic pop\n#endif");
-}
-
-/// A text as a literal of C. A question mark could begin a trigraph.
-pub(super) fn literal(text: &str) -> String {
-    let mut literal = String::from("\"");
-    for letter in text.chars() {
-        match letter {
-            '"' | '\\' | '?' => literal.extend(['\\', letter]),
-            ' '..='~' => literal.push(letter),
-            other => other.to_string().bytes().for_each(|byte| literal.push_str(&format!("\\{byte:03o}"))),
-        }
-    }
-    literal + "\""
 }
 
 fn write_component(system: &System, component: &Component, out: &mut Writer) {

@@ -14,7 +14,7 @@ pub(super) fn write(system: &System, component: &Component, names: &Names, impor
     let head = Doc::concat([class, Doc::group("(", arguments(component), ")"), Doc::text(":")]);
     out.line(format!("\n\n{}", Layout::at(0).print(&head)));
     out.indented(|out| {
-        docs::write(&docs::of_component(system, component), out);
+        docs::write(&docs::of_component(system, component, names::gate), out);
         for gate in &component.gates {
             let annotation = annotation(gate, names, imports);
             let line = Doc::concat([Doc::text(format!("{}: ", names::gate(gate))), annotation]);
@@ -48,11 +48,22 @@ fn annotation(gate: &Gate, names: &Names, imports: &Imports) -> Doc {
         GateKind::Pull => "_scl.Pull",
     };
     let types = match gate.types.as_slice() {
-        [] if matches!(kind, GateKind::Req | GateKind::Rep) => vec![names.builtin("bytes", imports); 2],
-        [] => vec![names.builtin("bytes", imports)],
+        [] => bytes(kind, names, imports),
         types => types.iter().map(|used| message(gate, used, names, imports)).collect(),
     };
     Doc::concat([Doc::text(class), Doc::group("[", types.into_iter().map(Doc::Text).collect(), "]")])
+}
+
+/// Sent from any buffer, received as `bytes`.
+fn bytes(kind: GateKind, names: &Names, imports: &Imports) -> Vec<String> {
+    let sent = || "_scl.Buffer".to_owned();
+    let received = || names.builtin("bytes", imports);
+    match kind {
+        GateKind::Pub | GateKind::Push => vec![sent()],
+        GateKind::Sub | GateKind::Pull => vec![received()],
+        GateKind::Req => vec![sent(), received()],
+        GateKind::Rep => vec![received(), sent()],
+    }
 }
 
 fn message(gate: &Gate, used: &MessageUse, names: &Names, imports: &Imports) -> String {

@@ -37,16 +37,22 @@ pub(super) fn escape(text: &str) -> String {
     text.replace('\\', "\\\\").replace("\"\"\"", "'''")
 }
 
-/// The docstring of a class.
-pub(super) fn of_component(system: &System, component: &Component) -> String {
-    if component.counterpart_of.is_some() {
-        return component.doc.clone().unwrap_or_default();
+/// The docstring of a class. It lists the gates, which `help` would not show: they are attributes of instances.
+pub(super) fn of_component(system: &System, component: &Component, attribute: impl Fn(&Gate) -> String) -> String {
+    let mut parts: Vec<String> = component.doc.iter().map(|doc| doc.trim().to_owned()).collect();
+    if component.counterpart_of.is_none() {
+        parts.push(format!(
+            "The component `{}` of `{}`, declared at `{}`.",
+            component.name, system.name, component.plan.declared_at
+        ));
     }
-    let declared = format!(
-        "The component `{}` of `{}`, declared at `{}`.",
-        component.name, system.name, component.plan.declared_at
-    );
-    component.doc.as_ref().map_or_else(|| declared.clone(), |doc| format!("{}\n\n{declared}", doc.trim()))
+    let gates = component.gates.iter();
+    let gates = gates.map(|gate| format!("    {}: `{}` {}", attribute(gate), gate.plan.kind.word(), sentence(gate)));
+    let gates: Vec<String> = gates.collect();
+    if !gates.is_empty() {
+        parts.push(format!("Gates:\n{}", gates.join("\n")));
+    }
+    parts.join("\n\n")
 }
 
 /// The docstring of an attribute: the gate's `doc`, what it carries, between which gates, and unusual options.
@@ -94,5 +100,6 @@ fn value_of(place: &Place, options: &mut GateOptions) -> String {
         Place::Duration(duration) => format!("{:?}", duration(options)).replace('µ', "u"),
         Place::Flag(flag) => flag(options).to_string(),
         Place::Policy(policy) => policy(options).word().to_owned(),
+        Place::Undecodable(choice) => choice(options).word().to_owned(),
     }
 }

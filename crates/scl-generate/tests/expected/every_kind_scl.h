@@ -293,4 +293,201 @@ scl_status every_kind_empty_close(every_kind_empty *self, int64_t timeout_ns);
 }
 #endif
 
+/* Compilers without an option for it, or with -w, take pointers of another type in silence; these macros do not. */
+#if defined(SCL_POINTER) && !defined(EVERY_KIND_SCL_SOURCE)
+#define every_kind_left_open(self, options_json) \
+    every_kind_left_open(SCL_POINTER(every_kind_left, self), (options_json))
+#define every_kind_left_ready(self, timeout_ns) \
+    every_kind_left_ready(SCL_POINTER(every_kind_left, self), (timeout_ns))
+#define every_kind_left_close(self, timeout_ns) \
+    every_kind_left_close(SCL_POINTER(every_kind_left, self), (timeout_ns))
+#define every_kind_left_values_send(self, message, timeout_ns) \
+    every_kind_left_values_send( \
+        SCL_POINTER(every_kind_left, self), \
+        SCL_CONST_POINTER(Kinds__Value, message), \
+        (timeout_ns))
+#define every_kind_left_class_send(self, message, timeout_ns) \
+    every_kind_left_class_send( \
+        SCL_POINTER(every_kind_left, self), \
+        SCL_CONST_POINTER(Kinds__GPSFix__InnerPart, message), \
+        (timeout_ns))
+#define every_kind_left_int_call(self, request, reply, timeout_ns) \
+    every_kind_left_int_call( \
+        SCL_POINTER(every_kind_left, self), \
+        SCL_CONST_POINTER(Kinds__Value, request), \
+        SCL_POINTER(Part__Part *, reply), \
+        (timeout_ns))
+#define every_kind_left_int_free(message) \
+    every_kind_left_int_free(SCL_POINTER(Part__Part, message))
+#define every_kind_left_raw_out_send(self, data, size, timeout_ns) \
+    every_kind_left_raw_out_send(SCL_POINTER(every_kind_left, self), (data), (size), (timeout_ns))
+#define every_kind_left_raw_jobs_send(self, data, size, timeout_ns) \
+    every_kind_left_raw_jobs_send(SCL_POINTER(every_kind_left, self), (data), (size), (timeout_ns))
+#define every_kind_left_raw_question_call(self, data, size, reply, timeout_ns) \
+    every_kind_left_raw_question_call( \
+        SCL_POINTER(every_kind_left, self), \
+        (data), \
+        (size), \
+        SCL_POINTER(scl_message *, reply), \
+        (timeout_ns))
+#define every_kind_left_json_question_call(self, data, size, reply, timeout_ns) \
+    every_kind_left_json_question_call( \
+        SCL_POINTER(every_kind_left, self), \
+        (data), \
+        (size), \
+        SCL_POINTER(scl_message *, reply), \
+        (timeout_ns))
+#define every_kind_left_packed_send(self, data, size, timeout_ns) \
+    every_kind_left_packed_send(SCL_POINTER(every_kind_left, self), (data), (size), (timeout_ns))
+#define every_kind_left_trees_send(self, message, timeout_ns) \
+    every_kind_left_trees_send( \
+        SCL_POINTER(every_kind_left, self), \
+        SCL_CONST_POINTER(Kinds__Tree, message), \
+        (timeout_ns))
+#define every_kind_right_side_open(self, options_json) \
+    every_kind_right_side_open(SCL_POINTER(every_kind_right_side, self), (options_json))
+#define every_kind_right_side_ready(self, timeout_ns) \
+    every_kind_right_side_ready(SCL_POINTER(every_kind_right_side, self), (timeout_ns))
+#define every_kind_right_side_close(self, timeout_ns) \
+    every_kind_right_side_close(SCL_POINTER(every_kind_right_side, self), (timeout_ns))
+#define every_kind_right_side_values_recv(self, message, timeout_ns) \
+    every_kind_right_side_values_recv( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(Kinds__Value *, message), \
+        (timeout_ns))
+#define every_kind_right_side_values_latest(self, message) \
+    every_kind_right_side_values_latest(SCL_POINTER(every_kind_right_side, self), SCL_POINTER(Kinds__Value *, message))
+#define every_kind_right_side_values_free(message) \
+    every_kind_right_side_values_free(SCL_POINTER(Kinds__Value, message))
+#define every_kind_right_side_from_recv(self, message, timeout_ns) \
+    every_kind_right_side_from_recv( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(Kinds__GPSFix__InnerPart *, message), \
+        (timeout_ns))
+#define every_kind_right_side_from_latest(self, message) \
+    every_kind_right_side_from_latest( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(Kinds__GPSFix__InnerPart *, message))
+#define every_kind_right_side_from_free(message) \
+    every_kind_right_side_from_free(SCL_POINTER(Kinds__GPSFix__InnerPart, message))
+#define every_kind_right_side_answer_take_request(self, request, timeout_ns) \
+    every_kind_right_side_answer_take_request( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(every_kind_right_side_answer_request, request), \
+        (timeout_ns))
+#define every_kind_right_side_answer_reply(request, reply) \
+    every_kind_right_side_answer_reply( \
+        SCL_POINTER(every_kind_right_side_answer_request, request), \
+        SCL_CONST_POINTER(Part__Part, reply))
+#define every_kind_right_side_answer_free(request) \
+    every_kind_right_side_answer_free(SCL_POINTER(every_kind_right_side_answer_request, request))
+#define every_kind_right_side_raw_in_recv(self, message, timeout_ns) \
+    every_kind_right_side_raw_in_recv( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(scl_message *, message), \
+        (timeout_ns))
+#define every_kind_right_side_raw_in_latest(self, message) \
+    every_kind_right_side_raw_in_latest(SCL_POINTER(every_kind_right_side, self), SCL_POINTER(scl_message *, message))
+#define every_kind_right_side_raw_jobs_recv(self, message, timeout_ns) \
+    every_kind_right_side_raw_jobs_recv( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(scl_message *, message), \
+        (timeout_ns))
+#define every_kind_right_side_raw_jobs_latest(self, message) \
+    every_kind_right_side_raw_jobs_latest( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(scl_message *, message))
+#define every_kind_right_side_raw_answer_take_request(self, request, timeout_ns) \
+    every_kind_right_side_raw_answer_take_request( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(every_kind_right_side_raw_answer_request, request), \
+        (timeout_ns))
+#define every_kind_right_side_raw_answer_reply(request, data, size) \
+    every_kind_right_side_raw_answer_reply( \
+        SCL_POINTER(every_kind_right_side_raw_answer_request, request), \
+        (data), \
+        (size))
+#define every_kind_right_side_raw_answer_free(request) \
+    every_kind_right_side_raw_answer_free(SCL_POINTER(every_kind_right_side_raw_answer_request, request))
+#define every_kind_right_side_json_answer_take_request(self, request, timeout_ns) \
+    every_kind_right_side_json_answer_take_request( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(every_kind_right_side_json_answer_request, request), \
+        (timeout_ns))
+#define every_kind_right_side_json_answer_reply(request, data, size) \
+    every_kind_right_side_json_answer_reply( \
+        SCL_POINTER(every_kind_right_side_json_answer_request, request), \
+        (data), \
+        (size))
+#define every_kind_right_side_json_answer_free(request) \
+    every_kind_right_side_json_answer_free(SCL_POINTER(every_kind_right_side_json_answer_request, request))
+#define every_kind_right_side_packed_recv(self, message, timeout_ns) \
+    every_kind_right_side_packed_recv( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(scl_message *, message), \
+        (timeout_ns))
+#define every_kind_right_side_packed_latest(self, message) \
+    every_kind_right_side_packed_latest(SCL_POINTER(every_kind_right_side, self), SCL_POINTER(scl_message *, message))
+#define every_kind_right_side_trees_recv(self, message, timeout_ns) \
+    every_kind_right_side_trees_recv( \
+        SCL_POINTER(every_kind_right_side, self), \
+        SCL_POINTER(Kinds__Tree *, message), \
+        (timeout_ns))
+#define every_kind_right_side_trees_latest(self, message) \
+    every_kind_right_side_trees_latest(SCL_POINTER(every_kind_right_side, self), SCL_POINTER(Kinds__Tree *, message))
+#define every_kind_right_side_trees_free(message) \
+    every_kind_right_side_trees_free(SCL_POINTER(Kinds__Tree, message))
+#define every_kind_right_side_wait(self, gates, timeout_ns, ready) \
+    every_kind_right_side_wait( \
+        SCL_POINTER(every_kind_right_side, self), \
+        (gates), \
+        (timeout_ns), \
+        SCL_POINTER(uint64_t, ready))
+#define every_kind_lonely_open(self, options_json) \
+    every_kind_lonely_open(SCL_POINTER(every_kind_lonely, self), (options_json))
+#define every_kind_lonely_ready(self, timeout_ns) \
+    every_kind_lonely_ready(SCL_POINTER(every_kind_lonely, self), (timeout_ns))
+#define every_kind_lonely_close(self, timeout_ns) \
+    every_kind_lonely_close(SCL_POINTER(every_kind_lonely, self), (timeout_ns))
+#define every_kind_lonely_close_send(self, message, timeout_ns) \
+    every_kind_lonely_close_send( \
+        SCL_POINTER(every_kind_lonely, self), \
+        SCL_CONST_POINTER(Kinds__Value, message), \
+        (timeout_ns))
+#define every_kind_lonely_ready_recv(self, message, timeout_ns) \
+    every_kind_lonely_ready_recv( \
+        SCL_POINTER(every_kind_lonely, self), \
+        SCL_POINTER(Kinds__Value *, message), \
+        (timeout_ns))
+#define every_kind_lonely_ready_latest(self, message) \
+    every_kind_lonely_ready_latest(SCL_POINTER(every_kind_lonely, self), SCL_POINTER(Kinds__Value *, message))
+#define every_kind_lonely_ready_free(message) \
+    every_kind_lonely_ready_free(SCL_POINTER(Kinds__Value, message))
+#define every_kind_lonely_name_call(self, request, reply, timeout_ns) \
+    every_kind_lonely_name_call( \
+        SCL_POINTER(every_kind_lonely, self), \
+        SCL_CONST_POINTER(Kinds__Value, request), \
+        SCL_POINTER(Part__Part *, reply), \
+        (timeout_ns))
+#define every_kind_lonely_name_free(message) \
+    every_kind_lonely_name_free(SCL_POINTER(Part__Part, message))
+#define every_kind_lonely_component_recv(self, message, timeout_ns) \
+    every_kind_lonely_component_recv( \
+        SCL_POINTER(every_kind_lonely, self), \
+        SCL_POINTER(Kinds__Value *, message), \
+        (timeout_ns))
+#define every_kind_lonely_component_latest(self, message) \
+    every_kind_lonely_component_latest(SCL_POINTER(every_kind_lonely, self), SCL_POINTER(Kinds__Value *, message))
+#define every_kind_lonely_component_free(message) \
+    every_kind_lonely_component_free(SCL_POINTER(Kinds__Value, message))
+#define every_kind_lonely_wait(self, gates, timeout_ns, ready) \
+    every_kind_lonely_wait(SCL_POINTER(every_kind_lonely, self), (gates), (timeout_ns), SCL_POINTER(uint64_t, ready))
+#define every_kind_empty_open(self, options_json) \
+    every_kind_empty_open(SCL_POINTER(every_kind_empty, self), (options_json))
+#define every_kind_empty_ready(self, timeout_ns) \
+    every_kind_empty_ready(SCL_POINTER(every_kind_empty, self), (timeout_ns))
+#define every_kind_empty_close(self, timeout_ns) \
+    every_kind_empty_close(SCL_POINTER(every_kind_empty, self), (timeout_ns))
+#endif
+
 #endif /* EVERY_KIND_SCL_H */

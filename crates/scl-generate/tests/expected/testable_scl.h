@@ -440,4 +440,301 @@ scl_status testable_recorder_wait(testable_recorder *self, uint64_t gates, int64
 }
 #endif
 
+/* Compilers without an option for it, or with -w, take pointers of another type in silence; these macros do not. */
+#if defined(SCL_POINTER) && !defined(TESTABLE_SCL_SOURCE)
+#define testable_controller_peer_ready(self, timeout_ns) \
+    testable_controller_peer_ready(SCL_POINTER(testable_controller_peer, self), (timeout_ns))
+#define testable_controller_peer_close(self, timeout_ns) \
+    testable_controller_peer_close(SCL_POINTER(testable_controller_peer, self), (timeout_ns))
+#define testable_controller_peer_readings_send(self, message, timeout_ns) \
+    testable_controller_peer_readings_send( \
+        SCL_POINTER(testable_controller_peer, self), \
+        SCL_CONST_POINTER(Testable__Reading, message), \
+        (timeout_ns))
+#define testable_controller_peer_setpoints_recv(self, message, timeout_ns) \
+    testable_controller_peer_setpoints_recv( \
+        SCL_POINTER(testable_controller_peer, self), \
+        SCL_POINTER(Testable__Setpoint *, message), \
+        (timeout_ns))
+#define testable_controller_peer_setpoints_latest(self, message) \
+    testable_controller_peer_setpoints_latest( \
+        SCL_POINTER(testable_controller_peer, self), \
+        SCL_POINTER(Testable__Setpoint *, message))
+#define testable_controller_peer_setpoints_free(message) \
+    testable_controller_peer_setpoints_free(SCL_POINTER(Testable__Setpoint, message))
+#define testable_controller_peer_commands_call(self, request, reply, timeout_ns) \
+    testable_controller_peer_commands_call( \
+        SCL_POINTER(testable_controller_peer, self), \
+        SCL_CONST_POINTER(Testable__Command, request), \
+        SCL_POINTER(Testable__Status *, reply), \
+        (timeout_ns))
+#define testable_controller_peer_commands_free(message) \
+    testable_controller_peer_commands_free(SCL_POINTER(Testable__Status, message))
+#define testable_controller_peer_limits_take_request(self, request, timeout_ns) \
+    testable_controller_peer_limits_take_request( \
+        SCL_POINTER(testable_controller_peer, self), \
+        SCL_POINTER(testable_controller_peer_limits_request, request), \
+        (timeout_ns))
+#define testable_controller_peer_limits_reply(request, reply) \
+    testable_controller_peer_limits_reply( \
+        SCL_POINTER(testable_controller_peer_limits_request, request), \
+        SCL_CONST_POINTER(Testable__Status, reply))
+#define testable_controller_peer_limits_free(request) \
+    testable_controller_peer_limits_free(SCL_POINTER(testable_controller_peer_limits_request, request))
+#define testable_controller_peer_jobs_send(self, data, size, timeout_ns) \
+    testable_controller_peer_jobs_send(SCL_POINTER(testable_controller_peer, self), (data), (size), (timeout_ns))
+#define testable_controller_peer_log_recv(self, message, timeout_ns) \
+    testable_controller_peer_log_recv( \
+        SCL_POINTER(testable_controller_peer, self), \
+        SCL_POINTER(scl_message *, message), \
+        (timeout_ns))
+#define testable_controller_peer_log_latest(self, message) \
+    testable_controller_peer_log_latest( \
+        SCL_POINTER(testable_controller_peer, self), \
+        SCL_POINTER(scl_message *, message))
+#define testable_controller_peer_class_send(self, data, size, timeout_ns) \
+    testable_controller_peer_class_send(SCL_POINTER(testable_controller_peer, self), (data), (size), (timeout_ns))
+#define testable_controller_peer_spare_recv(self, message, timeout_ns) \
+    testable_controller_peer_spare_recv( \
+        SCL_POINTER(testable_controller_peer, self), \
+        SCL_POINTER(Testable__Reading *, message), \
+        (timeout_ns))
+#define testable_controller_peer_spare_latest(self, message) \
+    testable_controller_peer_spare_latest( \
+        SCL_POINTER(testable_controller_peer, self), \
+        SCL_POINTER(Testable__Reading *, message))
+#define testable_controller_peer_spare_free(message) \
+    testable_controller_peer_spare_free(SCL_POINTER(Testable__Reading, message))
+#define testable_controller_peer_wait(self, gates, timeout_ns, ready) \
+    testable_controller_peer_wait( \
+        SCL_POINTER(testable_controller_peer, self), \
+        (gates), \
+        (timeout_ns), \
+        SCL_POINTER(uint64_t, ready))
+#define testable_controller_open(self, options_json) \
+    testable_controller_open(SCL_POINTER(testable_controller, self), (options_json))
+#define testable_controller_test(self, peer) \
+    testable_controller_test(SCL_POINTER(testable_controller, self), SCL_POINTER(testable_controller_peer, peer))
+#define testable_controller_ready(self, timeout_ns) \
+    testable_controller_ready(SCL_POINTER(testable_controller, self), (timeout_ns))
+#define testable_controller_close(self, timeout_ns) \
+    testable_controller_close(SCL_POINTER(testable_controller, self), (timeout_ns))
+#define testable_controller_readings_recv(self, message, timeout_ns) \
+    testable_controller_readings_recv( \
+        SCL_POINTER(testable_controller, self), \
+        SCL_POINTER(Testable__Reading *, message), \
+        (timeout_ns))
+#define testable_controller_readings_latest(self, message) \
+    testable_controller_readings_latest( \
+        SCL_POINTER(testable_controller, self), \
+        SCL_POINTER(Testable__Reading *, message))
+#define testable_controller_readings_free(message) \
+    testable_controller_readings_free(SCL_POINTER(Testable__Reading, message))
+#define testable_controller_setpoints_send(self, message, timeout_ns) \
+    testable_controller_setpoints_send( \
+        SCL_POINTER(testable_controller, self), \
+        SCL_CONST_POINTER(Testable__Setpoint, message), \
+        (timeout_ns))
+#define testable_controller_commands_take_request(self, request, timeout_ns) \
+    testable_controller_commands_take_request( \
+        SCL_POINTER(testable_controller, self), \
+        SCL_POINTER(testable_controller_commands_request, request), \
+        (timeout_ns))
+#define testable_controller_commands_reply(request, reply) \
+    testable_controller_commands_reply( \
+        SCL_POINTER(testable_controller_commands_request, request), \
+        SCL_CONST_POINTER(Testable__Status, reply))
+#define testable_controller_commands_free(request) \
+    testable_controller_commands_free(SCL_POINTER(testable_controller_commands_request, request))
+#define testable_controller_limits_call(self, request, reply, timeout_ns) \
+    testable_controller_limits_call( \
+        SCL_POINTER(testable_controller, self), \
+        SCL_CONST_POINTER(Testable__Command, request), \
+        SCL_POINTER(Testable__Status *, reply), \
+        (timeout_ns))
+#define testable_controller_limits_free(message) \
+    testable_controller_limits_free(SCL_POINTER(Testable__Status, message))
+#define testable_controller_jobs_recv(self, message, timeout_ns) \
+    testable_controller_jobs_recv( \
+        SCL_POINTER(testable_controller, self), \
+        SCL_POINTER(scl_message *, message), \
+        (timeout_ns))
+#define testable_controller_jobs_latest(self, message) \
+    testable_controller_jobs_latest(SCL_POINTER(testable_controller, self), SCL_POINTER(scl_message *, message))
+#define testable_controller_log_send(self, data, size, timeout_ns) \
+    testable_controller_log_send(SCL_POINTER(testable_controller, self), (data), (size), (timeout_ns))
+#define testable_controller_class_recv(self, message, timeout_ns) \
+    testable_controller_class_recv( \
+        SCL_POINTER(testable_controller, self), \
+        SCL_POINTER(scl_message *, message), \
+        (timeout_ns))
+#define testable_controller_class_latest(self, message) \
+    testable_controller_class_latest(SCL_POINTER(testable_controller, self), SCL_POINTER(scl_message *, message))
+#define testable_controller_spare_send(self, message, timeout_ns) \
+    testable_controller_spare_send( \
+        SCL_POINTER(testable_controller, self), \
+        SCL_CONST_POINTER(Testable__Reading, message), \
+        (timeout_ns))
+#define testable_controller_wait(self, gates, timeout_ns, ready) \
+    testable_controller_wait( \
+        SCL_POINTER(testable_controller, self), \
+        (gates), \
+        (timeout_ns), \
+        SCL_POINTER(uint64_t, ready))
+#define testable_empty_peer_ready(self, timeout_ns) \
+    testable_empty_peer_ready(SCL_POINTER(testable_empty_peer, self), (timeout_ns))
+#define testable_empty_peer_close(self, timeout_ns) \
+    testable_empty_peer_close(SCL_POINTER(testable_empty_peer, self), (timeout_ns))
+#define testable_empty_open(self, options_json) \
+    testable_empty_open(SCL_POINTER(testable_empty, self), (options_json))
+#define testable_empty_test(self, peer) \
+    testable_empty_test(SCL_POINTER(testable_empty, self), SCL_POINTER(testable_empty_peer, peer))
+#define testable_empty_ready(self, timeout_ns) \
+    testable_empty_ready(SCL_POINTER(testable_empty, self), (timeout_ns))
+#define testable_empty_close(self, timeout_ns) \
+    testable_empty_close(SCL_POINTER(testable_empty, self), (timeout_ns))
+#define testable_world_peer_ready(self, timeout_ns) \
+    testable_world_peer_ready(SCL_POINTER(testable_world_peer, self), (timeout_ns))
+#define testable_world_peer_close(self, timeout_ns) \
+    testable_world_peer_close(SCL_POINTER(testable_world_peer, self), (timeout_ns))
+#define testable_world_peer_readings_recv(self, message, timeout_ns) \
+    testable_world_peer_readings_recv( \
+        SCL_POINTER(testable_world_peer, self), \
+        SCL_POINTER(Testable__Reading *, message), \
+        (timeout_ns))
+#define testable_world_peer_readings_latest(self, message) \
+    testable_world_peer_readings_latest( \
+        SCL_POINTER(testable_world_peer, self), \
+        SCL_POINTER(Testable__Reading *, message))
+#define testable_world_peer_readings_free(message) \
+    testable_world_peer_readings_free(SCL_POINTER(Testable__Reading, message))
+#define testable_world_peer_setpoints_send(self, message, timeout_ns) \
+    testable_world_peer_setpoints_send( \
+        SCL_POINTER(testable_world_peer, self), \
+        SCL_CONST_POINTER(Testable__Setpoint, message), \
+        (timeout_ns))
+#define testable_world_peer_commands_take_request(self, request, timeout_ns) \
+    testable_world_peer_commands_take_request( \
+        SCL_POINTER(testable_world_peer, self), \
+        SCL_POINTER(testable_world_peer_commands_request, request), \
+        (timeout_ns))
+#define testable_world_peer_commands_reply(request, reply) \
+    testable_world_peer_commands_reply( \
+        SCL_POINTER(testable_world_peer_commands_request, request), \
+        SCL_CONST_POINTER(Testable__Status, reply))
+#define testable_world_peer_commands_free(request) \
+    testable_world_peer_commands_free(SCL_POINTER(testable_world_peer_commands_request, request))
+#define testable_world_peer_limits_call(self, request, reply, timeout_ns) \
+    testable_world_peer_limits_call( \
+        SCL_POINTER(testable_world_peer, self), \
+        SCL_CONST_POINTER(Testable__Command, request), \
+        SCL_POINTER(Testable__Status *, reply), \
+        (timeout_ns))
+#define testable_world_peer_limits_free(message) \
+    testable_world_peer_limits_free(SCL_POINTER(Testable__Status, message))
+#define testable_world_peer_jobs_recv(self, message, timeout_ns) \
+    testable_world_peer_jobs_recv( \
+        SCL_POINTER(testable_world_peer, self), \
+        SCL_POINTER(scl_message *, message), \
+        (timeout_ns))
+#define testable_world_peer_jobs_latest(self, message) \
+    testable_world_peer_jobs_latest(SCL_POINTER(testable_world_peer, self), SCL_POINTER(scl_message *, message))
+#define testable_world_peer_log_send(self, data, size, timeout_ns) \
+    testable_world_peer_log_send(SCL_POINTER(testable_world_peer, self), (data), (size), (timeout_ns))
+#define testable_world_peer_notes_recv(self, message, timeout_ns) \
+    testable_world_peer_notes_recv( \
+        SCL_POINTER(testable_world_peer, self), \
+        SCL_POINTER(scl_message *, message), \
+        (timeout_ns))
+#define testable_world_peer_notes_latest(self, message) \
+    testable_world_peer_notes_latest(SCL_POINTER(testable_world_peer, self), SCL_POINTER(scl_message *, message))
+#define testable_world_peer_wait(self, gates, timeout_ns, ready) \
+    testable_world_peer_wait( \
+        SCL_POINTER(testable_world_peer, self), \
+        (gates), \
+        (timeout_ns), \
+        SCL_POINTER(uint64_t, ready))
+#define testable_world_open(self, options_json) \
+    testable_world_open(SCL_POINTER(testable_world, self), (options_json))
+#define testable_world_test(self, peer) \
+    testable_world_test(SCL_POINTER(testable_world, self), SCL_POINTER(testable_world_peer, peer))
+#define testable_world_ready(self, timeout_ns) \
+    testable_world_ready(SCL_POINTER(testable_world, self), (timeout_ns))
+#define testable_world_close(self, timeout_ns) \
+    testable_world_close(SCL_POINTER(testable_world, self), (timeout_ns))
+#define testable_world_readings_send(self, message, timeout_ns) \
+    testable_world_readings_send( \
+        SCL_POINTER(testable_world, self), \
+        SCL_CONST_POINTER(Testable__Reading, message), \
+        (timeout_ns))
+#define testable_world_setpoints_recv(self, message, timeout_ns) \
+    testable_world_setpoints_recv( \
+        SCL_POINTER(testable_world, self), \
+        SCL_POINTER(Testable__Setpoint *, message), \
+        (timeout_ns))
+#define testable_world_setpoints_latest(self, message) \
+    testable_world_setpoints_latest(SCL_POINTER(testable_world, self), SCL_POINTER(Testable__Setpoint *, message))
+#define testable_world_setpoints_free(message) \
+    testable_world_setpoints_free(SCL_POINTER(Testable__Setpoint, message))
+#define testable_world_commands_call(self, request, reply, timeout_ns) \
+    testable_world_commands_call( \
+        SCL_POINTER(testable_world, self), \
+        SCL_CONST_POINTER(Testable__Command, request), \
+        SCL_POINTER(Testable__Status *, reply), \
+        (timeout_ns))
+#define testable_world_commands_free(message) \
+    testable_world_commands_free(SCL_POINTER(Testable__Status, message))
+#define testable_world_limits_take_request(self, request, timeout_ns) \
+    testable_world_limits_take_request( \
+        SCL_POINTER(testable_world, self), \
+        SCL_POINTER(testable_world_limits_request, request), \
+        (timeout_ns))
+#define testable_world_limits_reply(request, reply) \
+    testable_world_limits_reply( \
+        SCL_POINTER(testable_world_limits_request, request), \
+        SCL_CONST_POINTER(Testable__Status, reply))
+#define testable_world_limits_free(request) \
+    testable_world_limits_free(SCL_POINTER(testable_world_limits_request, request))
+#define testable_world_jobs_send(self, data, size, timeout_ns) \
+    testable_world_jobs_send(SCL_POINTER(testable_world, self), (data), (size), (timeout_ns))
+#define testable_world_log_recv(self, message, timeout_ns) \
+    testable_world_log_recv(SCL_POINTER(testable_world, self), SCL_POINTER(scl_message *, message), (timeout_ns))
+#define testable_world_log_latest(self, message) \
+    testable_world_log_latest(SCL_POINTER(testable_world, self), SCL_POINTER(scl_message *, message))
+#define testable_world_notes_send(self, data, size, timeout_ns) \
+    testable_world_notes_send(SCL_POINTER(testable_world, self), (data), (size), (timeout_ns))
+#define testable_world_wait(self, gates, timeout_ns, ready) \
+    testable_world_wait(SCL_POINTER(testable_world, self), (gates), (timeout_ns), SCL_POINTER(uint64_t, ready))
+#define testable_recorder_peer_ready(self, timeout_ns) \
+    testable_recorder_peer_ready(SCL_POINTER(testable_recorder_peer, self), (timeout_ns))
+#define testable_recorder_peer_close(self, timeout_ns) \
+    testable_recorder_peer_close(SCL_POINTER(testable_recorder_peer, self), (timeout_ns))
+#define testable_recorder_peer_setpoints_send(self, message, timeout_ns) \
+    testable_recorder_peer_setpoints_send( \
+        SCL_POINTER(testable_recorder_peer, self), \
+        SCL_CONST_POINTER(Testable__Setpoint, message), \
+        (timeout_ns))
+#define testable_recorder_open(self, options_json) \
+    testable_recorder_open(SCL_POINTER(testable_recorder, self), (options_json))
+#define testable_recorder_test(self, peer) \
+    testable_recorder_test(SCL_POINTER(testable_recorder, self), SCL_POINTER(testable_recorder_peer, peer))
+#define testable_recorder_ready(self, timeout_ns) \
+    testable_recorder_ready(SCL_POINTER(testable_recorder, self), (timeout_ns))
+#define testable_recorder_close(self, timeout_ns) \
+    testable_recorder_close(SCL_POINTER(testable_recorder, self), (timeout_ns))
+#define testable_recorder_setpoints_recv(self, message, timeout_ns) \
+    testable_recorder_setpoints_recv( \
+        SCL_POINTER(testable_recorder, self), \
+        SCL_POINTER(Testable__Setpoint *, message), \
+        (timeout_ns))
+#define testable_recorder_setpoints_latest(self, message) \
+    testable_recorder_setpoints_latest( \
+        SCL_POINTER(testable_recorder, self), \
+        SCL_POINTER(Testable__Setpoint *, message))
+#define testable_recorder_setpoints_free(message) \
+    testable_recorder_setpoints_free(SCL_POINTER(Testable__Setpoint, message))
+#define testable_recorder_wait(self, gates, timeout_ns, ready) \
+    testable_recorder_wait(SCL_POINTER(testable_recorder, self), (gates), (timeout_ns), SCL_POINTER(uint64_t, ready))
+#endif
+
 #endif /* TESTABLE_SCL_H */

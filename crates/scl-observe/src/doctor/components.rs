@@ -1,7 +1,7 @@
 //! Components that were killed, hang, or were built with another release.
 
 use super::{Examined, Finding};
-use crate::snapshot::{Activity, activity};
+use crate::activity::Activity;
 use crate::{Component, System};
 use scl::runtime_dir::ComponentState;
 use std::time::SystemTime;
@@ -33,12 +33,12 @@ fn judge(system: &System, component: &Component, now: SystemTime) -> Option<Find
     if !component.is_running() {
         return None;
     }
-    match activity(component, now) {
+    match component.activity(now) {
         Activity::Hangs(silence) => {
             let text = format!("{name} hangs{process}: it has written no figures for {} s", silence.as_secs());
             Some(Finding::error(CHECK, text).help("its process is stopped, or blocks a thread that its gates need"))
         }
-        Activity::NotReady => {
+        Activity::Waiting => {
             Some(Finding::warning(CHECK, format!("{name} waits for peers")).help("`scl list` shows which do not run"))
         }
         _ if component.announcement.as_ref().is_some_and(|it| it.plan.is_none()) => {

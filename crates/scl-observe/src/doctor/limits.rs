@@ -18,7 +18,7 @@ pub(super) fn check(examined: &Examined<'_>) -> Vec<Finding> {
         let name = format!("`{}` of system `{}`", component.name, system.name());
         findings.extend(pid.and_then(descriptors_of).and_then(|(open, limit)| judge_use(&name, open, limit)));
     }
-    findings.push(judge_priority(getrlimit(Resource::Rtprio)));
+    findings.push(judge_priority(getrlimit(Resource::Rtprio), Kernel::read()));
     findings.push(judge_memory(getrlimit(Resource::Memlock)));
     findings
 }
@@ -49,12 +49,68 @@ fn judge_use(component: &str, open: u64, limit: u64) -> Option<Finding> {
     })
 }
 
-fn judge_priority(limit: Rlimit) -> Finding {
+/// What decides beside the limit.
+#[derive(Debug, Clone, Copy)]
+struct Kernel {
+    /// Whether this process has `CAP_SYS_NICE`, to which the limit does not apply.
+    may_exceed: bool,
+    /// `kernel.sched_rt_runtime_us`: microseconds of each period for real-time programs, -1 for all; 0 forbids them.
+    runtime: Option<i64>,
+    /// The same of this process's control group, where the kernel divides the time between groups.
+    group_runtime: Option<i64>,
+}
+
+impl Kernel {
+    fn read() -> Self {
+        let number = |path: &str| fs::read_to_string(path).ok()?.trim().parse().ok();
+        let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
+        Self {
+            may_exceed: has_capability(&status, CAP_SYS_NICE),
+            runtime: number("/proc/sys/kernel/sched_rt_runtime_us"),
+            group_runtime: processor_group(&groups)
+                .and_then(|group| number(&format!("/sys/fs/cgroup/cpu{group}/cpu.rt_runtime_us"))),
+        }
+    }
+}
+
+/// As in `capabilities(7)`.
+const CAP_SYS_NICE: u32 = 23;
+
+/// Whether a capability is in effect, by the text of /proc/<pid>/status.
+fn has_capability(status: &str, capability: u32) -> bool {
+    let effective = status.lines().find_map(|line| line.strip_prefix("CapEff:"));
+    let effective = effective.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    effective.is_some_and(|mask| mask & (1 << capability) != 0)
+}
+
+/// The control group of the first version for processor time, by the text of /proc/<pid>/cgroup. The second version does not
+/// divide real-time.
+fn processor_group(groups: &str) -> Option<&str> {
+    groups.lines().find_map(|line| {
+        let (_, rest) = line.split_once(':')?;
+        let (controllers, path) = rest.split_once(':')?;
+        controllers.split(',').any(|controller| controller == "cpu").then_some(path)
+    })
+}
+
+/// Judges as `sched_setscheduler(2)` does.
+fn judge_priority(limit: Rlimit, kernel: Kernel) -> Finding {
+    if kernel.runtime == Some(0) {
+        return Finding::warning(PRIORITY, "the kernel gives real-time programs no time, so `SCL_SCHED` has no effect")
+            .help("allow it with `sysctl kernel.sched_rt_runtime_us=950000`");
+    }
+    if kernel.group_runtime == Some(0) {
+        let text = "this control group has no real-time budget, so `SCL_SCHED` has no effect in it";
+        return Finding::warning(PRIORITY, text)
+            .help("write a budget to `cpu.rt_runtime_us` of the group and those above it");
+    }
     match limit.current {
+        _ if kernel.may_exceed => Finding::ok(PRIORITY, "allowed up to 99 by `cap_sys_nice`"),
         Some(0) => Finding::note(PRIORITY, "not allowed, so `SCL_SCHED` has no effect without `cap_sys_nice`")
             .help("to allow it, add `<user> - rtprio 99` to /etc/security/limits.conf and log in again"),
-        Some(highest) => Finding::ok(PRIORITY, format!("allowed up to {highest}")),
-        None => Finding::ok(PRIORITY, "not limited"),
+        Some(highest) => Finding::ok(PRIORITY, format!("allowed up to {}", highest.min(99))),
+        None => Finding::ok(PRIORITY, "allowed up to 99"),
     }
 }
 
@@ -74,6 +130,8 @@ mod tests {
     use super::super::Severity;
     use super::*;
 
+    const KERNEL: Kernel = Kernel { may_exceed: false, runtime: Some(950_000), group_runtime: None };
+
     fn limit(current: Option<u64>) -> Rlimit {
         Rlimit { current, maximum: None }
     }
@@ -84,8 +142,13 @@ mod tests {
             (judge_descriptors(limit(Some(256))), Severity::Warning),
             (judge_descriptors(limit(Some(1024))), Severity::Ok),
             (judge_descriptors(limit(None)), Severity::Ok),
-            (judge_priority(limit(Some(0))), Severity::Note),
-            (judge_priority(limit(Some(80))), Severity::Ok),
+            (judge_priority(limit(Some(0)), KERNEL), Severity::Note),
+            (judge_priority(limit(Some(80)), KERNEL), Severity::Ok),
+            (judge_priority(limit(None), KERNEL), Severity::Ok),
+            (judge_priority(limit(Some(0)), Kernel { may_exceed: true, ..KERNEL }), Severity::Ok),
+            (judge_priority(limit(None), Kernel { may_exceed: true, runtime: Some(0), ..KERNEL }), Severity::Warning),
+            (judge_priority(limit(None), Kernel { group_runtime: Some(0), ..KERNEL }), Severity::Warning),
+            (judge_priority(limit(Some(0)), Kernel { runtime: Some(-1), ..KERNEL }), Severity::Note),
             (judge_memory(limit(Some(8 << 20))), Severity::Note),
             (judge_memory(limit(None)), Severity::Ok),
         ];
@@ -97,5 +160,15 @@ mod tests {
         assert_eq!(judge_use("`x`", 81, 100).unwrap().severity, Severity::Warning);
         let (open, limit) = descriptors_of(std::process::id()).unwrap();
         assert!(0 < open && open <= limit);
+    }
+
+    #[test]
+    fn what_the_kernel_says_is_read() {
+        let status = "Name:\tscl\nCapPrm:\t0000000000000000\nCapEff:\t0000000000800000\n";
+        assert!(has_capability(status, CAP_SYS_NICE));
+        assert!(!has_capability(status, CAP_SYS_NICE + 1));
+        assert!(!has_capability("Name:\tscl\n", CAP_SYS_NICE));
+        assert_eq!(processor_group("4:memory:/a\n3:cpu,cpuacct:/user/x\n0::/b\n"), Some("/user/x"));
+        assert_eq!(processor_group("0::/b\n"), None);
     }
 }

@@ -1,13 +1,13 @@
 //! From JSON to plans.
 
-use super::VERSION;
 use super::object::At;
 use crate::base64;
 use crate::error::PlanError;
-use crate::kind::{GateKind, WhenFull};
+use crate::kind::{GateKind, Undecodable, WhenFull};
 use crate::options::{GateOptions, Place};
 use crate::plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
 use crate::system::SystemPlan;
+use crate::version::VERSION;
 use serde_json::Value;
 use std::collections::HashSet;
 use std::time::Duration;
@@ -100,7 +100,8 @@ fn gate(at: &At<'_>) -> Result<GatePlan, PlanError> {
     let known: Vec<&str> = own.into_iter().chain(GateOptions::ALL.map(|option| option.json)).collect();
     let fields = at.object(&known)?;
     let mut options = GateOptions::DEFAULT;
-    for option in GateOptions::ALL {
+    // One that an earlier release did not know, in a recording for example, has its default.
+    for option in GateOptions::ALL.into_iter().filter(|option| fields.has(option.json)) {
         read_option(&fields.field(option.json)?, option.place, &mut options)?;
     }
     Ok(GatePlan {
@@ -124,6 +125,7 @@ fn read_option(at: &At<'_>, place: Place, options: &mut GateOptions) -> Result<(
         Place::Duration(duration) => *duration(options) = Duration::from_nanos(at.number(u64::MAX)?),
         Place::Flag(flag) => *flag(options) = at.flag()?,
         Place::Policy(policy) => *policy(options) = at.word(&WhenFull::ALL, WhenFull::word)?,
+        Place::Undecodable(choice) => *choice(options) = at.word(&Undecodable::ALL, Undecodable::word)?,
     }
     Ok(())
 }

@@ -1,11 +1,11 @@
 //! From plans to JSON.
 
-use super::VERSION;
 use super::text::Json;
 use crate::base64;
 use crate::options::{GateOptions, Place};
 use crate::plan::{ConnectionPlan, GatePlan, Payload, Plan};
 use crate::system::SystemPlan;
+use crate::version::VERSION;
 use std::collections::BTreeMap;
 
 impl SystemPlan {
@@ -74,6 +74,7 @@ fn option(mut options: GateOptions, place: Place) -> Json {
         Place::Duration(duration) => Json::Number(u64::try_from(duration(&mut options).as_nanos()).unwrap_or(u64::MAX)),
         Place::Flag(flag) => Json::Bool(*flag(&mut options)),
         Place::Policy(policy) => Json::text(policy(&mut options).word()),
+        Place::Undecodable(choice) => Json::text(choice(&mut options).word()),
     }
 }
 

@@ -1,14 +1,24 @@
 //! Pairs the messages of one topic, and finds those that only one recording has.
+//!
+//! Equal messages are paired in order. Where they differ, the place is searched from which on the recordings agree again:
+//! first where the gate's own numbers say that messages are missing, then by their content.
 
 use super::CompareOptions;
 use super::report::{Difference, DifferenceKind, GateComparison};
 use super::side::{Side, Waiting};
 use super::values::{FieldDifference, Rules, shown_message};
 use crate::format::Topic;
+use std::collections::VecDeque;
 use std::time::Duration;
 
-/// How many messages in a row may be missing or additional to be recognized as such.
-const WINDOW: usize = 16;
+/// How far the recordings are searched for the place from which on they agree again, in messages and in bytes of each.
+const WINDOW: usize = 16 << 10;
+const WINDOW_BYTES: usize = 32 << 20;
+
+/// Up to this distance, so many messages may be missing on both sides at once. Trying that at any distance would take too
+/// long.
+const NEAR: usize = 256;
+const BOTH: usize = 16;
 
 /// The comparison of one topic.
 pub(super) struct Alignment {
@@ -17,16 +27,21 @@ pub(super) struct Alignment {
     times_within: Option<Duration>,
     /// Times of the first messages of both sides.
     starts: Option<[u64; 2]>,
+    /// How much the second recording's numbers were ahead at the last equal pair.
+    ahead: Option<u32>,
+    /// What is missing up to now, so that the next message extends it: its kind, and whether it is among the kept ones.
+    gap: Option<(DifferenceKind, bool)>,
 }
 
 /// What to do with the first messages of both queues.
 enum Step {
     Equal,
-    Different(FieldDifference),
-    /// This many messages of the first recording are not in the second.
-    Missing(usize),
-    /// This many messages of the second recording are not in the first.
-    Additional(usize),
+    /// The recordings agree again behind these numbers of messages.
+    Resume([usize; 2]),
+    /// They do not agree again within the window, so this many messages of both have to be paired as they are.
+    Unlike(usize),
+    /// Only this side has messages left.
+    Rest(DifferenceKind),
     /// More messages are needed to decide.
     Wait,
 }
@@ -34,19 +49,23 @@ enum Step {
 impl Alignment {
     pub(super) fn new(topic: &Topic, options: &CompareOptions) -> Self {
         let gate = GateComparison::new(topic);
-        Self { gate, shown: options.shown, times_within: options.times_within, starts: None }
+        let (shown, times_within) = (options.shown, options.times_within);
+        Self { gate, shown, times_within, starts: None, ahead: None, gap: None }
     }
 
     /// Compares what has been read.
     pub(super) fn advance(&mut self, sides: &mut [Side; 2], topic: usize, rules: &mut Rules) {
         loop {
             match self.next_step(sides, topic, rules) {
-                Step::Equal => self.pair(sides, topic, None),
-                Step::Different(difference) => self.pair(sides, topic, Some(difference)),
-                Step::Missing(count) => (0..count).for_each(|_| self.single(sides, topic, DifferenceKind::Missing)),
-                Step::Additional(count) => {
-                    (0..count).for_each(|_| self.single(sides, topic, DifferenceKind::Additional))
+                Step::Equal => self.pair(sides, topic, rules),
+                Step::Unlike(count) => (0..count).for_each(|_| self.pair(sides, topic, rules)),
+                Step::Resume([ones, others]) => {
+                    let pairs = ones.min(others);
+                    (0..pairs).for_each(|_| self.pair(sides, topic, rules));
+                    (pairs..ones).for_each(|_| self.single(sides, topic, DifferenceKind::Missing));
+                    (pairs..others).for_each(|_| self.single(sides, topic, DifferenceKind::Additional));
                 }
+                Step::Rest(kind) => self.single(sides, topic, kind),
                 Step::Wait => return,
             }
         }
@@ -57,48 +76,76 @@ impl Alignment {
     }
 
     fn next_step(&self, sides: &[Side; 2], topic: usize, rules: &mut Rules) -> Step {
-        let [ones, others] = [sides[0].queue(topic), sides[1].queue(topic)];
+        let queues = [sides[0].queue(topic), sides[1].queue(topic)];
         let is_complete = [sides[0].is_complete(topic), sides[1].is_complete(topic)];
-        let (one, other) = match (ones.front(), others.front()) {
+        let (one, other) = match (queues[0].front(), queues[1].front()) {
             (Some(one), Some(other)) => (one, other),
-            (Some(_), None) if is_complete[1] => return Step::Missing(1),
-            (None, Some(_)) if is_complete[0] => return Step::Additional(1),
+            (Some(_), None) if is_complete[1] => return Step::Rest(DifferenceKind::Missing),
+            (None, Some(_)) if is_complete[0] => return Step::Rest(DifferenceKind::Additional),
             _ => return Step::Wait,
         };
-        let Some(difference) = self.compare(sides, rules, one, other) else { return Step::Equal };
-        let has_enough = |count: usize, is_complete: bool| is_complete || count >= WINDOW + 2;
-        if !has_enough(ones.len(), is_complete[0]) || !has_enough(others.len(), is_complete[1]) {
+        if rules.difference(sides, [one, other]).is_none() {
+            return Step::Equal;
+        }
+        let has_enough = |side: usize| {
+            let length = queues[side].len();
+            is_complete[side] || length > WINDOW || length > BOTH && sides[side].bytes(topic) > WINDOW_BYTES
+        };
+        if !has_enough(0) || !has_enough(1) {
             return Step::Wait;
         }
-        let mut agree = |one: usize, other: usize| match (ones.get(one), others.get(other)) {
-            (Some(one), Some(other)) => self.compare(sides, rules, one, other).is_none(),
-            // Both recordings end here.
-            (None, None) => true,
-            _ => false,
+        // Whether so many messages in a row are the same.
+        let mut agree = |[one, other]: [usize; 2], count: usize| {
+            (0..count).all(|more| match (queues[0].get(one + more), queues[1].get(other + more)) {
+                (Some(one), Some(other)) => rules.difference(sides, [one, other]).is_none(),
+                // Both recordings end here.
+                (None, None) => is_complete == [true, true],
+                _ => false,
+            })
         };
-        // A message that has changed is more likely than one missing here and another one too many.
-        if agree(1, 1) {
-            return Step::Different(difference);
+        // Where the numbers say that messages were lost. A signal that repeats itself agrees at other places, too.
+        if let Some(at) = self.numbered_gap(queues).filter(|at| agree(*at, 2)) {
+            return Step::Resume(at);
         }
-        for count in 1..=WINDOW {
-            if agree(count, 0) && agree(count + 1, 1) {
-                return Step::Missing(count);
-            }
-            if agree(0, count) && agree(1, count + 1) {
-                return Step::Additional(count);
+        let lengths = queues.map(VecDeque::len);
+        for far in 1..lengths[0].max(lengths[1]) + 1 {
+            // A message that has changed is more likely than one missing here and another one too many.
+            let is_near = far == 1 && agree([1, 1], 1);
+            let gaps = (0..if far <= NEAR { far.min(BOTH) } else { 1 }).flat_map(|less| [[far, less], [less, far]]);
+            let found = if is_near { Some([1, 1]) } else { gaps.chain([[far, far]]).find(|at| agree(*at, 2)) };
+            if let Some(at) = found {
+                return Step::Resume(at);
             }
         }
-        Step::Different(difference)
+        // Half, because what agrees again may begin behind the window; and the next search costs as much.
+        Step::Unlike((lengths[0].min(lengths[1]) / 2).max(1))
     }
 
-    fn compare(&self, sides: &[Side; 2], rules: &mut Rules, one: &Waiting, other: &Waiting) -> Option<FieldDifference> {
-        rules.difference(sides, [one, other])
+    /// How many messages one side lacks according to the numbers that gates give to messages.
+    fn numbered_gap(&self, queues: [&VecDeque<Waiting>; 2]) -> Option<[usize; 2]> {
+        let [one, other] = queues.map(VecDeque::front);
+        let (one, other) = (one?, other?);
+        let ahead = other.sequence.wrapping_sub(one.sequence).wrapping_sub(self.ahead?) as i32;
+        let skipped = |queue: &VecDeque<Waiting>, by: u32| {
+            let first = queue.front()?.sequence;
+            queue.iter().position(|message| message.sequence.wrapping_sub(first) >= by)
+        };
+        match ahead {
+            0 => None,
+            1.. => Some([skipped(queues[0], ahead.unsigned_abs())?, 0]),
+            _ => Some([0, skipped(queues[1], ahead.unsigned_abs())?]),
+        }
     }
 
-    fn pair(&mut self, sides: &mut [Side; 2], topic: usize, difference: Option<FieldDifference>) {
+    fn pair(&mut self, sides: &mut [Side; 2], topic: usize, rules: &mut Rules) {
         let (Some(one), Some(other)) = (sides[0].pop(topic), sides[1].pop(topic)) else { return };
         self.gate.paired += 1;
+        self.gap = None;
         let starts = *self.starts.get_or_insert([one.sent_ns, other.sent_ns]);
+        let difference = rules.difference(sides, [&one, &other]);
+        if difference.is_none() {
+            self.ahead = Some(other.sequence.wrapping_sub(one.sequence));
+        }
         let difference = difference.or_else(|| self.time_difference(starts, &one, &other));
         let Some(FieldDifference { field, values }) = difference else { return };
         self.gate.different += 1;
@@ -108,17 +155,26 @@ impl Alignment {
     fn single(&mut self, sides: &mut [Side; 2], topic: usize, kind: DifferenceKind) {
         let side = if kind == DifferenceKind::Missing { 0 } else { 1 };
         let Some(message) = sides[side].pop(topic) else { return };
-        let value = shown_message(sides[side].message_type(message.channel), &message.payload);
-        let values = if side == 0 {
-            self.gate.missing += 1;
-            [Some(value), None]
-        } else {
-            self.gate.additional += 1;
-            [None, Some(value)]
-        };
-        self.keep(sides, &message, kind, String::new(), values);
+        match side {
+            0 => self.gate.missing += 1,
+            _ => self.gate.additional += 1,
+        }
+        match (self.gap, self.gate.differences.last_mut()) {
+            (Some((open, true)), Some(gap)) if open == kind => {
+                gap.count += 1;
+                gap.until = sides[side].since_start(message.sent_ns);
+            }
+            (Some((open, false)), _) if open == kind => {}
+            _ => {
+                let value = shown_message(sides[side].message_type(message.channel), &message.payload);
+                let values = if side == 0 { [Some(value), None] } else { [None, Some(value)] };
+                let is_kept = self.keep(sides, &message, kind, String::new(), values);
+                self.gap = Some((kind, is_kept));
+            }
+        }
     }
 
+    /// Keeps a difference that will be shown; returns false if there are enough.
     fn keep(
         &mut self,
         sides: &[Side; 2],
@@ -126,12 +182,15 @@ impl Alignment {
         kind: DifferenceKind,
         field: String,
         values: [Option<String>; 2],
-    ) {
-        if self.gate.differences.len() < self.shown {
+    ) -> bool {
+        let is_kept = self.gate.differences.len() < self.shown;
+        if is_kept {
             let side = usize::from(kind == DifferenceKind::Additional);
             let time = sides[side].since_start(message.sent_ns);
-            self.gate.differences.push(Difference { kind, index: message.index, time, field, values });
+            let (index, count, until) = (message.index, 1, time);
+            self.gate.differences.push(Difference { kind, index, count, time, until, field, values });
         }
+        is_kept
     }
 
     /// Times count from the first messages of the gate.

@@ -35,8 +35,12 @@ pub struct Difference {
     pub kind: DifferenceKind,
     /// Number of the message among those of its topic, from 0, in the first recording (an additional one: in the second).
     pub index: u64,
+    /// Number of messages in a row that are missing or additional; otherwise 1.
+    pub count: u64,
     /// Time since the beginning of that recording.
     pub time: Duration,
+    /// The same for the last of them.
+    pub until: Duration,
     /// The first field that differs; `.` for the whole message, empty unless `kind` is `Different`.
     pub field: String,
     /// The values in both recordings.
@@ -74,7 +78,7 @@ impl CompareReport {
             differences.iter().for_each(|difference| {
                 let _ = writeln!(text, "  {}", difference.to_text());
             });
-            let more = different + missing + additional - differences.len() as u64;
+            let more = different + missing + additional - differences.iter().map(|it| it.count).sum::<u64>();
             if more > 0 {
                 let _ = writeln!(text, "  and {more} more");
             }
@@ -119,6 +123,7 @@ impl GateComparison {
             json!({
                 "kind": kind,
                 "index": difference.index,
+                "count": difference.count,
                 "seconds": difference.time.as_secs_f64(),
                 "field": Some(&difference.field).filter(|field| !field.is_empty()),
                 "first": difference.values[0],
@@ -144,6 +149,16 @@ impl Difference {
         match (self.kind, self.field.as_str()) {
             (DifferenceKind::Different, ".") => format!("{place}: {first} -> {second}"),
             (DifferenceKind::Different, field) => format!("{place}, {field}: {first} -> {second}"),
+            (kind, _) if self.count > 1 => {
+                let word = if kind == DifferenceKind::Missing { "missing" } else { "additional" };
+                let (last, until) = (self.index + self.count - 1, self.until.as_secs_f64());
+                format!(
+                    "{} messages, {} at {:.3} s to {last} at {until:.3} s, are {word}",
+                    self.count,
+                    self.index,
+                    self.time.as_secs_f64()
+                )
+            }
             (DifferenceKind::Missing, _) => format!("{place} is missing: {first}"),
             (DifferenceKind::Additional, _) => format!("{place} is additional: {second}"),
         }

@@ -70,6 +70,8 @@ pub(super) struct Waiting {
     /// Number of the message among those of its topic.
     pub(super) index: u64,
     pub(super) sent_ns: u64,
+    /// See [`crate::format::sequence`].
+    pub(super) sequence: u32,
     /// Decoded when it is first compared: to find messages that only one recording has, each is compared with many.
     value: OnceCell<Option<Value>>,
 }
@@ -88,13 +90,14 @@ pub(super) struct Side {
     messages: Messages,
     topics: Vec<Topic>,
     queues: Vec<VecDeque<Waiting>>,
+    /// Of each topic, bytes in its queue.
+    bytes: Vec<usize>,
     /// Of each topic, messages not read yet, and read.
     left: Vec<u64>,
     read: Vec<u64>,
     /// By channel, the index of its topic if that is compared, and how its messages are read.
     by_channel: Vec<Option<usize>>,
     types: Vec<MessageType>,
-    queued_bytes: usize,
     is_at_end: bool,
     start_ns: u64,
     position: Duration,
@@ -108,12 +111,12 @@ impl Side {
             messages: recording.messages(),
             topics: topics.to_vec(),
             queues: topics.iter().map(|_| VecDeque::new()).collect(),
+            bytes: vec![0; topics.len()],
             is_at_end: left.iter().all(|left| *left == 0),
             read: vec![0; left.len()],
             left,
             by_channel: Vec::new(),
             types: Vec::new(),
-            queued_bytes: 0,
             start_ns: contents.start_ns,
             position: Duration::ZERO,
         }
@@ -130,14 +133,15 @@ impl Side {
             self.by_channel.push(self.topics.iter().position(|topic| *topic == channel.topic));
             self.types.push(message_type(channel));
         }
-        let RecordedMessage { channel, sent_ns, payload, .. } = message;
+        let RecordedMessage { channel, sent_ns, sequence, payload, .. } = message;
         let Some(topic) = self.by_channel[channel] else { return Ok(None) };
         let index = self.read[topic];
         self.read[topic] += 1;
         self.left[topic] -= 1;
         self.is_at_end = self.left.iter().all(|left| *left == 0);
-        self.queued_bytes += payload.len();
-        self.queues[topic].push_back(Waiting { payload, channel, index, sent_ns, value: OnceCell::new() });
+        self.bytes[topic] += payload.len();
+        let value = OnceCell::new();
+        self.queues[topic].push_back(Waiting { payload, channel, index, sent_ns, sequence, value });
         Ok(Some(topic))
     }
 
@@ -148,7 +152,7 @@ impl Side {
 
     pub(super) fn pop(&mut self, topic: usize) -> Option<Waiting> {
         let message = self.queues[topic].pop_front()?;
-        self.queued_bytes -= message.payload.len();
+        self.bytes[topic] -= message.payload.len();
         Some(message)
     }
 
@@ -161,8 +165,13 @@ impl Side {
         self.is_at_end
     }
 
+    /// Bytes of the messages of a topic that wait for their counterparts.
+    pub(super) fn bytes(&self, topic: usize) -> usize {
+        self.bytes[topic]
+    }
+
     pub(super) fn queued_bytes(&self) -> usize {
-        self.queued_bytes
+        self.bytes.iter().sum()
     }
 
     /// How the messages of a channel are read.

@@ -54,15 +54,90 @@ fn a_missing_or_additional_message_is_one_difference() {
         &without(&[50, 51, 52, 53]),
         &all,
         "controller.actuator: 0 of 96 messages different, 0 missing, 4 additional\n  \
-         message 50 at 0.500 s is additional: {\"throttle\":50}\n  \
-         message 51 at 0.510 s is additional: {\"throttle\":51}\n  \
-         message 52 at 0.520 s is additional: {\"throttle\":52}\n  and 1 more\n",
+         4 messages, 50 at 0.500 s to 53 at 0.530 s, are additional\n",
     );
     check(
         &all[..2],
         &[],
         "controller.actuator: 0 of 0 messages different, 2 missing, 0 additional\n  \
-         message 0 at 0.000 s is missing: {\"throttle\":0}\n  message 1 at 0.010 s is missing: {\"throttle\":1}\n",
+         2 messages, 0 at 0.000 s to 1 at 0.010 s, are missing\n",
+    );
+}
+
+#[test]
+fn a_gap_of_any_length_is_one_difference() {
+    let all: Vec<f64> = (0..5000).map(f64::from).collect();
+    let without = |gone: std::ops::Range<usize>| [&all[..gone.start], &all[gone.end..]].concat();
+    for (gone, time) in [
+        (100..117, "1.000 s to 116 at 1.160 s"),
+        (1000..4000, "10.000 s to 3999 at 39.990 s"),
+        (0..600, "0.000 s to 599 at 5.990 s"),
+    ] {
+        let (start, count) = (gone.start, gone.len());
+        let expected = |kind: &str| {
+            let (missing, additional) = if kind == "missing" { (count, 0) } else { (0, count) };
+            format!(
+                "controller.actuator: 0 of {} messages different, {missing} missing, {additional} additional\n  \
+                 {count} messages, {start} at {time}, are {kind}\n",
+                5000 - count
+            )
+        };
+        check(&all, &without(gone.clone()), &expected("missing"));
+        check(&without(gone), &all, &expected("additional"));
+    }
+}
+
+#[test]
+fn gaps_on_both_sides_and_changes_are_told_apart() {
+    let all: Vec<f64> = (0..1000).map(f64::from).collect();
+    let mut first = all.clone();
+    first.drain(600..700);
+    let mut second = all;
+    second[900] += 0.5;
+    second.drain(200..250);
+    check(
+        &first,
+        &second,
+        "controller.actuator: 1 of 850 messages different, 50 missing, 100 additional\n  \
+         50 messages, 200 at 2.000 s to 249 at 2.490 s, are missing\n  \
+         100 messages, 550 at 5.500 s to 649 at 6.490 s, are additional\n  \
+         message 800 at 8.000 s, throttle: 900 -> 900.5\n",
+    );
+}
+
+/// The numbers of messages decide where content alone would find the gap too early.
+#[test]
+fn a_gap_in_a_signal_that_repeats_itself_has_its_length() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name, gone: std::ops::Range<u64>| {
+        let payloads: Vec<_> = (0..400).map(|number| format!(r#"{{"throttle": {}}}"#, number % 20)).collect();
+        let samples: Vec<_> =
+            payloads.iter().zip(0..).map(|(payload, at)| (TOPIC, 10 * at, payload.as_str())).collect();
+        let mut recorder = Recorder::new();
+        for (index, sample) in samples.into_iter().enumerate() {
+            recorder =
+                if gone.contains(&(index as u64)) { recorder.lose_message() } else { recorder.messages(&[sample]) };
+        }
+        Recording::open(&[recorder.write_to(folder.path(), name)]).unwrap()
+    };
+    let (first, second) = (write("first.mcap", 0..0), write("second.mcap", 101..146));
+    let report = compare(&first, &second, &CompareOptions { shown: 3, ..CompareOptions::default() }, &|_| {}).unwrap();
+    assert_eq!(
+        report.to_text(),
+        "controller.actuator: 0 of 355 messages different, 45 missing, 0 additional\n  \
+         45 messages, 101 at 1.010 s to 145 at 1.450 s, are missing\n"
+    );
+}
+
+/// Recordings that have nothing in common are paired message by message, in a time that grows with their length.
+#[test]
+fn recordings_of_another_signal_are_paired_as_they_are() {
+    let first: Vec<f64> = (0..40_000).map(f64::from).collect();
+    let second: Vec<f64> = first.iter().map(|number| number + 0.5).collect();
+    let text = compared(&first, &second, &CompareOptions::default());
+    assert_eq!(
+        text,
+        "controller.actuator: 40000 of 40000 messages different, 0 missing, 0 additional\n  and 40000 more\n"
     );
 }
 

@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 pub struct Totals {
     /// Key `system`: the system's name.
     pub system: String,
-    /// By gate (`sensor.measurements`). Keys `<gate>.recorded` and `<gate>.lost`.
+    /// By gate (`sensor.measurements`). Keys `<gate>.recorded`, `<gate>.lost` and, unless it is 0,
+    /// `<gate>.latched`.
     pub gates: BTreeMap<String, GateTotals>,
 }
 
@@ -18,6 +19,9 @@ pub struct GateTotals {
     pub recorded: u64,
     /// Messages that the gate sent while this file was written, but that are not in it.
     pub lost: u64,
+    /// Those recorded that had been sent before the recording observed the gate: the last message of a gate with
+    /// `latched: true`.
+    pub latched: u64,
 }
 
 impl Totals {
@@ -30,6 +34,9 @@ impl Totals {
         for (gate, totals) in &self.gates {
             map.insert(format!("{gate}{RECORDED}"), totals.recorded.to_string());
             map.insert(format!("{gate}{LOST}"), totals.lost.to_string());
+            if totals.latched > 0 {
+                map.insert(format!("{gate}{LATCHED}"), totals.latched.to_string());
+            }
         }
         map
     }
@@ -42,6 +49,8 @@ impl Totals {
                 totals.gates.entry(gate.to_owned()).or_default().recorded = value.parse().ok()?;
             } else if let Some(gate) = key.strip_suffix(LOST) {
                 totals.gates.entry(gate.to_owned()).or_default().lost = value.parse().ok()?;
+            } else if let Some(gate) = key.strip_suffix(LATCHED) {
+                totals.gates.entry(gate.to_owned()).or_default().latched = value.parse().ok()?;
             }
         }
         Some(totals)
@@ -51,6 +60,7 @@ impl Totals {
 const SYSTEM: &str = "system";
 const RECORDED: &str = ".recorded";
 const LOST: &str = ".lost";
+const LATCHED: &str = ".latched";
 
 #[cfg(test)]
 mod tests {
@@ -59,8 +69,8 @@ mod tests {
     #[test]
     fn totals_are_read_as_they_are_written() {
         let gates = BTreeMap::from([
-            ("sensor.lost".to_owned(), GateTotals { recorded: 5, lost: 1 }),
-            ("sensor.measurements".to_owned(), GateTotals { recorded: u64::MAX, lost: 0 }),
+            ("sensor.lost".to_owned(), GateTotals { recorded: 5, lost: 1, latched: 1 }),
+            ("sensor.measurements".to_owned(), GateTotals { recorded: u64::MAX, lost: 0, latched: 0 }),
         ]);
         let totals = Totals { system: "rover".to_owned(), gates };
         assert_eq!(Totals::from_map(&totals.to_map()), Some(totals));

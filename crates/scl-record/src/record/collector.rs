@@ -175,7 +175,10 @@ impl<'a> Collector<'a> {
 
     fn observe(&mut self, gate: usize, observation: Observation) {
         let losses = &mut self.losses[gate];
-        losses.see(observation.sequence);
+        if observation.latched && losses.is_last(observation.sequence, observation.sent_ns) {
+            return;
+        }
+        losses.see(observation.sequence, observation.sent_ns);
         let lost_before = losses.take();
         let part = match observation.kind {
             ObservedKind::Message => Part::Message,
@@ -186,9 +189,11 @@ impl<'a> Collector<'a> {
             gate,
             part,
             sequence: sequence(part, observation.sequence, observation.call_id),
-            sent_ns: observation.sent_ns,
+            // A latched message may be older than the recording, which begins with it.
+            sent_ns: if observation.latched { observation.received_ns } else { observation.sent_ns },
             received_ns: observation.received_ns,
             lost_before,
+            latched: observation.latched,
             payload: observation.payload,
         };
         if !self.queue.push(message) {

@@ -1,6 +1,7 @@
 //! What every file of a recording begins with, so that each is complete in itself.
 
-use super::file::{RecordingFile, WriteError};
+use super::file::RecordingFile;
+use super::write_error::WriteError;
 use crate::format::PLAN;
 use bytes::Bytes;
 use scl_observe::ObservedGate;

@@ -1,10 +1,10 @@
 //! Recording into one file, or into one after the other.
 
 use super::contents::{Contents, attach_plan};
-use super::file::{RecordingFile, WriteError, WrittenFile};
+use super::file::{RecordingFile, WrittenFile};
 use super::file_names::FileNames;
 use super::gate::Message;
-use super::storage::problem_of;
+use super::write_error::WriteError;
 use scl_terminal::Problem;
 use std::collections::VecDeque;
 use std::fs;
@@ -111,6 +111,7 @@ impl Continuous {
     pub(crate) fn keep_up(&mut self, contents: &Contents) -> Result<(), Problem> {
         if self.flushed.elapsed() >= FLUSH {
             self.flush()?;
+            self.with_file(|file| file.check_name())?;
         }
         if self.sync.is_some_and(|period| self.synced.elapsed() >= period) {
             self.flush()?;
@@ -145,7 +146,7 @@ impl Continuous {
 
     fn start_file(&mut self, contents: &Contents) -> Result<(), Problem> {
         let (path, file) = self.names.create_next()?;
-        let started = contents.start_file(path.clone(), file).map_err(|error| problem_of(STOPPED, &error, &path))?;
+        let started = contents.start_file(path.clone(), file).map_err(|error| error.problem(STOPPED, &path))?;
         self.file = Some(started);
         (self.started, self.flushed) = (Instant::now(), Instant::now());
         Ok(())
@@ -155,9 +156,9 @@ impl Continuous {
     fn with_file(&mut self, action: impl FnOnce(&mut RecordingFile) -> Result<(), WriteError>) -> Result<(), Problem> {
         let Some(file) = &mut self.file else { return Ok(()) };
         let Err(error) = action(file) else { return Ok(()) };
-        let problem = problem_of(STOPPED, &error, file.path());
+        let problem = error.problem(STOPPED, file.path());
         match error {
-            WriteError::Full(_) => self.finish_file()?,
+            WriteError::Full(_) | WriteError::Moved(_) => self.finish_file()?,
             WriteError::Failed(_) => self.abandon_file(),
         }
         Err(problem)
@@ -172,12 +173,15 @@ impl Continuous {
                     // What cannot be synced here is not lost for readers, only less safe.
                     let _synced = file.sync();
                 }
+                let named = file.check_name().map_err(|error| error.problem(STOPPED, file.path()));
                 self.file = None;
-                self.add_finished(written);
-                Ok(())
+                if named.is_ok() {
+                    self.add_finished(written);
+                }
+                named
             }
             Err(error) => {
-                let problem = problem_of(STOPPED, &error, file.path());
+                let problem = error.problem(STOPPED, file.path());
                 self.abandon_file();
                 Err(problem)
             }

@@ -2,14 +2,16 @@
 
 use super::disk_room::DiskRoom;
 use super::gate::{Message, NewChannel, channels};
+use super::write_error::WriteError;
 use crate::format::{GateTotals, PROFILE, Part, Totals};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
 use scl_observe::ObservedGate;
 use std::collections::BTreeMap;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -52,21 +54,6 @@ pub struct WrittenFile {
     pub path: PathBuf,
     pub bytes: u64,
     pub totals: Totals,
-}
-
-/// Why a recording cannot go on.
-#[derive(Debug)]
-pub(crate) enum WriteError {
-    /// No room for the message; it was not written, and the file can be finished.
-    Full(io::Error),
-    /// The file is damaged after its last flush, and has no index.
-    Failed(McapError),
-}
-
-impl From<McapError> for WriteError {
-    fn from(error: McapError) -> Self {
-        Self::Failed(error)
-    }
 }
 
 impl RecordingFile {
@@ -152,6 +139,7 @@ impl RecordingFile {
         self.pending += size;
         if let Some((_, totals)) = self.gates.get_mut(&message.gate) {
             totals.recorded += 1;
+            totals.latched += u64::from(message.latched);
         }
         if self.pending >= CHUNK {
             self.flush()?;
@@ -175,6 +163,21 @@ impl RecordingFile {
         self.writer.flush()?;
         self.flushed = self.written.load(Ordering::Relaxed);
         Ok(())
+    }
+
+    /// Compares the file with what its name leads to.
+    ///
+    /// # Errors
+    /// The file was removed, renamed or replaced, so nobody would find the recording.
+    pub(crate) fn check_name(&self) -> Result<(), WriteError> {
+        let own = self.file.metadata().map_err(McapError::from)?;
+        let fault = match fs::metadata(&self.path) {
+            Ok(named) if (named.dev(), named.ino()) == (own.dev(), own.ino()) => return Ok(()),
+            Ok(_) => "the file was replaced by another one",
+            Err(_) if own.nlink() == 0 => "the file was removed",
+            Err(_) => "the file was renamed",
+        };
+        Err(WriteError::Moved(fault))
     }
 
     /// Waits until everything that was flushed is on the disk.
@@ -210,6 +213,7 @@ impl RecordingFile {
             let totals = gates.entry(name.clone()).or_default();
             totals.recorded += counted.recorded;
             totals.lost += counted.lost;
+            totals.latched += counted.latched;
         }
         Totals { system: self.system.clone(), gates }
     }

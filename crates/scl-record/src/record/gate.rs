@@ -18,6 +18,8 @@ pub(crate) struct Message {
     pub(crate) received_ns: u64,
     /// Messages of the same gate that were lost since the one before.
     pub(crate) lost_before: u64,
+    /// It was sent before the gate was observed.
+    pub(crate) latched: bool,
     pub(crate) payload: Bytes,
 }
 

@@ -5,6 +5,8 @@
 pub(crate) struct Losses {
     /// The next number; `None` while the recorder has not seen the gate, because it joined when the gate was running.
     next: Option<u64>,
+    /// When the last one was sent.
+    sent_ns: u64,
     /// Lost and not yet reported with a message.
     pending: u64,
 }
@@ -12,16 +14,22 @@ pub(crate) struct Losses {
 impl Losses {
     /// A gate that was running when recording began: what it sent before is not lost.
     pub(crate) fn running() -> Self {
-        Self { next: None, pending: 0 }
+        Self { next: None, sent_ns: 0, pending: 0 }
     }
 
     /// A gate of a component that started during the recording: what it sent before the recorder was connected is lost.
     pub(crate) fn started() -> Self {
-        Self { next: Some(0), pending: 0 }
+        Self { next: Some(0), sent_ns: 0, pending: 0 }
     }
 
-    /// Takes note of a message's number.
-    pub(crate) fn see(&mut self, sequence: u64) {
+    /// Returns true if this is the message that was seen last: a latched gate shows its last one again when the recorder
+    /// reconnects.
+    pub(crate) fn is_last(&self, sequence: u64, sent_ns: u64) -> bool {
+        self.next == Some(sequence + 1) && self.sent_ns == sent_ns
+    }
+
+    /// Takes note of a message's number, and of when it was sent.
+    pub(crate) fn see(&mut self, sequence: u64, sent_ns: u64) {
         let expected = match self.next {
             None => sequence,
             // The component has started again.
@@ -29,7 +37,7 @@ impl Losses {
             Some(next) => next,
         };
         self.pending += sequence - expected;
-        self.next = Some(sequence + 1);
+        (self.next, self.sent_ns) = (Some(sequence + 1), sent_ns);
     }
 
     /// Adds messages that were seen but found no room, and what was lost before them.
@@ -58,9 +66,19 @@ mod tests {
             (Losses::started(), &[2, 3], 2),
         ];
         for (mut losses, sequences, expected) in cases {
-            sequences.iter().for_each(|&sequence| losses.see(sequence));
+            sequences.iter().for_each(|&sequence| losses.see(sequence, 1));
             assert_eq!(losses.take(), expected, "{sequences:?}");
             assert_eq!(losses.take(), 0);
         }
+    }
+
+    #[test]
+    fn only_the_message_that_was_seen_last_is_known() {
+        let mut losses = Losses::running();
+        assert!(!losses.is_last(7, 1));
+        losses.see(7, 1);
+        assert!(losses.is_last(7, 1));
+        assert!(!losses.is_last(6, 1) && !losses.is_last(8, 1));
+        assert!(!losses.is_last(7, 2), "of a component that has started again");
     }
 }

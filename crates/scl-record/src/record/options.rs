@@ -30,6 +30,8 @@ pub struct Options {
     pub memory: usize,
     /// Keep messages in memory only, and write them when asked.
     pub ring: Option<RingOptions>,
+    /// The topology file, which tells the gates of components that do not run yet.
+    pub topology: PathBuf,
     /// Files to add to each recording.
     pub attached: Vec<AttachedFile>,
 }

@@ -105,7 +105,16 @@ mod tests {
 
     fn message(size: usize) -> Message {
         let payload = Bytes::from(vec![0; size]);
-        Message { gate: 0, part: Part::Message, sequence: 0, sent_ns: 0, received_ns: 0, lost_before: 0, payload }
+        Message {
+            gate: 0,
+            part: Part::Message,
+            sequence: 0,
+            sent_ns: 0,
+            received_ns: 0,
+            lost_before: 0,
+            latched: false,
+            payload,
+        }
     }
 
     #[test]

@@ -79,7 +79,8 @@ mod tests {
 
     #[test]
     fn the_text_names_gates_and_files() {
-        let gates = BTreeMap::from([("sensor.measurements".to_owned(), GateTotals { recorded: 5000, lost: 2 })]);
+        let gates =
+            BTreeMap::from([("sensor.measurements".to_owned(), GateTotals { recorded: 5000, lost: 2, latched: 0 })]);
         let totals = Totals { system: "rover".to_owned(), gates };
         let file = WrittenFile { path: "flight.mcap".into(), bytes: 2048, totals: totals.clone() };
         let report = Report { totals, duration: Duration::from_secs(5), files: vec![file], deleted: 0, problem: None };

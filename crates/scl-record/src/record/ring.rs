@@ -1,10 +1,10 @@
 //! The last messages in memory, written when something has happened.
 
 use super::contents::{Contents, now_ns};
-use super::file::{RecordingFile, WriteError, WrittenFile};
+use super::file::{RecordingFile, WrittenFile};
 use super::file_names::FileNames;
 use super::gate::Message;
-use super::storage::problem_of;
+use super::write_error::WriteError;
 use bytes::Bytes;
 use scl_terminal::Problem;
 use std::collections::VecDeque;
@@ -52,19 +52,19 @@ impl Ring {
         self.forget_before(now_ns().saturating_sub(self.window_ns));
         let (path, file) = self.names.create_next()?;
         let mut recording =
-            contents.start_file(path.clone(), file).map_err(|error| problem_of(INCOMPLETE, &error, &path))?;
+            contents.start_file(path.clone(), file).map_err(|error| error.problem(INCOMPLETE, &path))?;
         let copied = self.copy_to(&mut recording);
         let finished = match copied {
             Err(WriteError::Failed(_)) => None,
             _ => Some(recording.flush().and_then(|()| recording.finish())),
         };
         let (written, error) = match finished {
-            Some(Ok(written)) => (written, copied.err()),
+            Some(Ok(written)) => (written, copied.and_then(|()| recording.check_name()).err()),
             Some(Err(error)) => (recording.abandon(), Some(error)),
             None => (recording.abandon(), copied.err()),
         };
         self.written.push(written.clone());
-        error.map_or(Ok(written), |error| Err(problem_of(INCOMPLETE, &error, &path)))
+        error.map_or(Ok(written), |error| Err(error.problem(INCOMPLETE, &path)))
     }
 
     /// The files that were written, and a last one if that was asked for.
@@ -106,7 +106,16 @@ mod tests {
     fn message(second: u64, size: usize) -> Message {
         let time = second * 1_000_000_000;
         let payload = Bytes::from(vec![0; size]);
-        Message { gate: 0, part: Part::Message, sequence: 0, sent_ns: time, received_ns: time, lost_before: 0, payload }
+        Message {
+            gate: 0,
+            part: Part::Message,
+            sequence: 0,
+            sent_ns: time,
+            received_ns: time,
+            lost_before: 0,
+            latched: false,
+            payload,
+        }
     }
 
     fn ring(limit: usize) -> Ring {

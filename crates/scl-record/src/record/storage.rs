@@ -2,17 +2,14 @@
 
 use super::contents::Contents;
 use super::continuous::Continuous;
-use super::file::{WriteError, WrittenFile};
+use super::file::WrittenFile;
 use super::queue::{Item, QueueReceiver};
 use super::ring::Ring;
 use crate::format::{GateTotals, Totals};
 use bytes::Bytes;
-use mcap::McapError;
-use rustix::io::Errno;
 use scl_observe::ObservedGate;
 use scl_terminal::Problem;
 use std::collections::VecDeque;
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -90,31 +87,6 @@ pub(crate) fn store(
         Store::Ring(ring) => ring.finish(&contents),
     };
     Outcome { files, deleted, totals, problem: problem.or(at_end) }
-}
-
-/// What went wrong, in words for the user, after `what` was not completed: `recording stopped`.
-pub(crate) fn problem_of(what: &str, error: &WriteError, path: &Path) -> Problem {
-    let path = path.display();
-    match error {
-        WriteError::Full(error) => {
-            let reason = match Errno::from_io_error(error) {
-                Some(Errno::DQUOT) => "the disk quota is used up".to_owned(),
-                Some(Errno::FBIG) => "the file has the largest size that is allowed (`ulimit -f`)".to_owned(),
-                Some(Errno::NOSPC) => "the disk is full".to_owned(),
-                _ => error.to_string(),
-            };
-            Problem::new(format!("{what}: {reason}")).at(path.to_string())
-        }
-        WriteError::Failed(error) => {
-            let text = match error {
-                McapError::Io(error) => error.to_string(),
-                other => other.to_string(),
-            };
-            Problem::new(format!("{what}: cannot write: {text}"))
-                .at(path.to_string())
-                .help(format!("`scl recover {path}` rebuilds the index of what was written"))
-        }
-    }
 }
 
 fn store_items(

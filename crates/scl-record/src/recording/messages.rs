@@ -3,6 +3,7 @@
 use super::channel::{RecordedChannel, RecordedSchema};
 use super::chunk;
 use super::records::{RecordHeader, Records};
+use crate::parse::parse;
 use bytes::Bytes;
 use mcap::McapError;
 use mcap::records::{MessageHeader, Record, op};
@@ -90,7 +91,7 @@ impl Messages {
                 return Ok(());
             }
             let content = records.content(u64::MAX)?;
-            taken = chunk::parse(header.opcode, &content)
+            taken = parse(header.opcode, &content)
                 .ok_or_else(|| Fault::damaged("unreadable record"))
                 .and_then(|record| self.take(record));
         } else if header.is_cut {

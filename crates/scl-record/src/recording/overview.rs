@@ -3,6 +3,7 @@
 use super::chunk;
 use super::records::Records;
 use crate::format::PROFILE;
+use crate::parse::parse;
 use bytes::Bytes;
 use mcap::records::{Record, op};
 use scl_terminal::{Problem, escape};
@@ -53,7 +54,7 @@ impl Overview {
                 op::HEADER | op::ATTACHMENT | op::METADATA | op::MESSAGE => {
                     let content = records.content(u64::MAX)?;
                     let damaged = || records.problem(header.offset, "the recording is damaged: unreadable record");
-                    overview.add(path, chunk::parse(header.opcode, &content).ok_or_else(damaged)?)?;
+                    overview.add(path, parse(header.opcode, &content).ok_or_else(damaged)?)?;
                 }
                 op::DATA_END => {
                     is_complete = true;

@@ -19,7 +19,7 @@ fn plan() -> SystemPlan {
 
 /// Two chunks, an attachment before and the totals behind them.
 fn small_recording() -> Vec<u8> {
-    let gates = BTreeMap::from([("sensor.measurements".to_owned(), GateTotals { recorded: 3, lost: 2 })]);
+    let gates = BTreeMap::from([("sensor.measurements".to_owned(), GateTotals { recorded: 3, lost: 2, latched: 0 })]);
     let totals = Totals { system: "rover".to_owned(), gates };
     let recorder = Recorder::new().attach_plan(&plan()).messages(&SAMPLES[..2]).end_chunk();
     recorder.messages(&SAMPLES[2..]).end_chunk().totals(&totals).finish()

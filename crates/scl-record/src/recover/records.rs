@@ -1,16 +1,13 @@
 //! The records of a recording that may end anywhere.
 
+use crate::parse::{LONGEST, chunk_options};
 use mcap::MAGIC;
 use mcap::records::op;
-use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::sans_io::{LinearReadEvent, LinearReader};
 use std::io::{self, Read};
 
 /// Opcode and length.
 const PREFIX: usize = 9;
-
-/// Records, and chunks after decompression, that are longer are taken for garbage: reading allocates as much as they
-/// say.
-const LONGEST: u64 = 1 << 30;
 
 /// The records of the data section, one after the other, up to its end or to where the file is cut off.
 pub(super) struct FileRecords<R> {
@@ -79,7 +76,7 @@ impl<R: Read> FileRecords<R> {
         if opcode == op::CHUNK {
             return Ok(Some(FileRecord::Chunk(self.chunk(&prefix, length, available))));
         }
-        if opcode == 0 || length > available.min(LONGEST) {
+        if opcode == 0 || length > available.min(LONGEST as u64) {
             self.ended = true;
             return Ok(None);
         }
@@ -95,20 +92,15 @@ impl<R: Read> FileRecords<R> {
     }
 
     fn chunk(&mut self, prefix: &[u8; PREFIX], length: u64, available: u64) -> Chunk<'_, R> {
-        let is_whole = length <= available;
+        let (size, is_whole) = (length.min(available), length <= available);
         // Of a whole chunk, nothing is used if its checksum is wrong; what is left of another one cannot be checked.
-        let limit = usize::try_from(LONGEST).unwrap_or(usize::MAX);
         let mut reader = LinearReader::new_with_options(
-            LinearReaderOptions::default()
-                .with_skip_start_magic(true)
-                .with_skip_end_magic(true)
+            chunk_options(usize::try_from(size).unwrap_or(usize::MAX))
                 .with_validate_chunk_crcs(is_whole)
-                .with_prevalidate_chunk_crcs(is_whole)
-                .with_record_length_limit(limit),
+                .with_prevalidate_chunk_crcs(is_whole),
         );
         reader.insert(PREFIX).copy_from_slice(prefix);
         reader.notify_read(PREFIX);
-        let size = length.min(available);
         Chunk { file: self, reader: Box::new(reader), size, is_whole }
     }
 

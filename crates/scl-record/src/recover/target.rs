@@ -1,9 +1,10 @@
 //! The new file: written under a temporary name, then renamed.
 
+use crate::parse::parse;
 use crate::record::options;
 use mcap::records::{Header, Record};
 use mcap::write::NoSeek;
-use mcap::{Attachment, McapError, McapResult, Writer, parse_record};
+use mcap::{Attachment, McapError, McapResult, Writer};
 use scl_terminal::Problem;
 use std::borrow::Cow;
 use std::fs::{self, File, Metadata};
@@ -49,7 +50,7 @@ impl Target {
 
     /// Adds a record of the old file; returns false if it cannot be understood. Records of the index are made anew.
     pub(super) fn add_record(&mut self, opcode: u8, body: &[u8]) -> McapResult<bool> {
-        let Ok(record) = parse_record(opcode, body) else { return Ok(false) };
+        let Some(record) = parse(opcode, body) else { return Ok(false) };
         if let Record::Header(header) = record {
             self.open(Some(header))?;
             return Ok(true);

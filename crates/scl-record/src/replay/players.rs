@@ -2,7 +2,7 @@
 
 use super::ReplayOptions;
 use super::answers::Answers;
-use super::cast::{Cast, problem_of};
+use super::participants::{Participants, problem_of};
 use super::report::{AnswerReport, NotTaken};
 use bytes::Bytes;
 use scl::untyped::{Component, Gate};
@@ -65,7 +65,7 @@ impl Players {
     /// # Errors
     /// A component is running, or the runtime folder cannot be used.
     pub(super) async fn open(
-        cast: &Cast,
+        cast: &Participants,
         options: &ReplayOptions,
         mut answers: HashMap<GateId, Answers>,
     ) -> Result<Self, Problem> {
@@ -232,6 +232,7 @@ impl Players {
                 SendingGate::Push(gate) => gate.peer_stats(),
                 SendingGate::Req { .. } => Vec::new(),
             };
+            // What `queue: 1` replaces is not missed.
             for PeerStats { peer, connected, dropped_oldest, dropped_newest, lost, .. } in peers {
                 let reason = if connected { "its queue was full" } else { "it was not connected" };
                 let full = (dropped_oldest + dropped_newest, reason);

@@ -1,6 +1,6 @@
 //! Which gate sends what a channel has recorded.
 
-use super::cast::Cast;
+use super::participants::Participants;
 use crate::format::Part;
 use crate::recording::{RecordedChannel, type_and_codec};
 use scl_plan::{GatePlan, Payload, SystemPlan};
@@ -24,7 +24,7 @@ pub(super) enum Route {
 ///
 /// # Errors
 /// The recorded contract is not that of the plan, or the plan has no such gate.
-pub(super) fn route(plan: &SystemPlan, cast: &Cast, channel: &RecordedChannel) -> Result<Route, Problem> {
+pub(super) fn route(plan: &SystemPlan, cast: &Participants, channel: &RecordedChannel) -> Result<Route, Problem> {
     let topic = &channel.topic;
     let Some(component) = plan.components.iter().find(|plan| plan.component == topic.component) else {
         return Ok(Route::Skip(format!("the topology has no component `{}`", topic.component)));

@@ -1,9 +1,9 @@
 //! `scl stop` and `scl restart`: finds the `scl run` of each component, asks it, and waits until it is done.
 
-use super::client::{ControlledRun, find_runs};
+use super::client::{ControlledRun, NoAnswer, find_runs};
 use super::protocol::{Command, ComponentReport, Request, Response, VERSION};
-use scl::runtime_dir::{ComponentState, Holder, RuntimeDir, SystemDir};
-use scl_terminal::{Problem, closest_name, quoted_list};
+use scl::runtime_dir::{Announcement, ComponentProcess, ComponentState, RuntimeDir, SystemDir};
+use scl_terminal::{Problem, choose_system, closest_name, named_system, quoted_list};
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::thread;
@@ -18,6 +18,17 @@ pub struct Wish<'a> {
     pub system: Option<&'a str>,
     /// The system of the working folder, asked for only if several run.
     pub here: &'a dyn Fn() -> Option<String>,
+    /// Whether a restart builds first.
+    pub build: bool,
+}
+
+/// What was done.
+#[derive(Debug, Default)]
+pub struct Done {
+    /// How each component is afterwards, in the order of the runs.
+    pub components: Vec<ComponentReport>,
+    /// Why not everything was done.
+    pub problems: Vec<Problem>,
 }
 
 /// A `scl run` and its components.
@@ -26,51 +37,106 @@ struct Answering {
     components: Vec<ComponentReport>,
 }
 
-/// Does it, and returns how each component is afterwards, in the order of the runs.
+/// Does it.
 ///
 /// # Errors
 ///
 /// Every reason why nothing was done.
-pub fn ask(wish: &Wish<'_>) -> Result<Vec<ComponentReport>, Vec<Problem>> {
+pub fn ask(wish: &Wish<'_>) -> Result<Done, Vec<Problem>> {
     let variables = |name: &str| -> Option<OsString> { std::env::var_os(name) };
     let dir = RuntimeDir::existing(&variables).map_err(|error| vec![Problem::new(error.to_string())])?;
     let Some(dir) = dir else { return Err(vec![no_run(wish, None)]) };
-    let chosen = wish.system.map(str::to_owned).or_else(|| std::env::var("SCL_SYSTEM").ok());
-    let mut runs = find_runs(dir.path(), chosen.as_deref().filter(|name| !name.is_empty()));
+    let named = named_system(wish.system, &variables).map_err(|problem| vec![problem])?;
+    let mut runs = find_runs(dir.path(), named.as_deref());
     let systems: BTreeSet<String> = runs.iter().map(|run| run.system.clone()).collect();
-    if systems.len() > 1 {
-        let here = (wish.here)().filter(|here| systems.contains(here));
-        let here = here.ok_or_else(|| vec![several_systems(&systems)])?;
-        runs.retain(|run| run.system == here);
-    }
-    let system = runs.first().map(|run| run.system.clone()).or(chosen).or_else(wish.here);
+    let systems: Vec<String> = systems.into_iter().collect();
+    let system = choose_system(wish.system, &variables, &systems, wish.here).map_err(|problem| vec![problem])?;
+    runs.retain(|run| system.as_ref() == Some(&run.system));
     let folder = system.and_then(|name| dir.existing_system(&name).ok().flatten());
-    let answering: Vec<Answering> = runs.into_iter().filter_map(list).collect();
-    let requests = assign(wish, answering, folder.as_ref())?;
+    let mut done = Done::default();
+    let answering = list(runs, &mut done.problems);
+    let requests = match assign(wish, answering, folder.as_ref()) {
+        Ok(requests) => requests,
+        // The runs that do not answer may have what was not found.
+        Err(_) if !done.problems.is_empty() => return Err(done.problems),
+        Err(problems) => return Err(problems),
+    };
+    if !wish.components.is_empty() {
+        // All of them were found elsewhere.
+        done.problems.clear();
+    }
+    if wish.command == Command::Restart
+        && wish.build
+        && let Err(problem) = build(&requests)
+    {
+        return Ok(Done { problems: vec![problem], ..Done::default() });
+    }
     // At the same time, so that the slowest run decides how long it takes.
     let responses = thread::scope(|scope| {
-        let asked = requests.into_iter().map(|(run, request)| scope.spawn(move || run.ask(&request)));
+        let ask = |(run, request): (ControlledRun, Request)| run.ask(&request).map_err(|error| run.problem(&error));
+        let asked = requests.into_iter().map(|request| scope.spawn(move || ask(request)));
         let asked: Vec<_> = asked.collect();
         asked.into_iter().filter_map(|asked| asked.join().ok()).collect::<Vec<_>>()
     });
-    let mut reports = Vec::new();
-    let mut problems = Vec::new();
     for response in responses {
         match response {
             Ok(Response { error: Some(error), .. }) => {
-                problems.push(Problem::new(format!("`scl run` refused: {error}")))
+                done.problems.push(Problem::new(format!("`scl run` refused: {error}")))
             }
-            Ok(response) => reports.extend(response.components),
-            Err(error) => problems.push(Problem::new(format!("no answer from `scl run`: {error}"))),
+            Ok(response) => done.components.extend(response.components),
+            Err(problem) => done.problems.push(problem),
         }
     }
-    if problems.is_empty() { Ok(reports) } else { Err(problems) }
+    if wish.command == Command::Stop && wish.components.is_empty() {
+        done.problems.extend(folder.iter().flat_map(still_running));
+    }
+    if done.components.is_empty() && !done.problems.is_empty() { Err(done.problems) } else { Ok(done) }
 }
 
-fn list(run: ControlledRun) -> Option<Answering> {
-    // One that ends at this moment runs nothing.
-    let response = run.ask(&request(Command::List, &[])).ok()?;
-    Some(Answering { run, components: response.components })
+/// Builds what the components are started from, in their old processes' place only if all of it succeeds.
+fn build(requests: &[(ControlledRun, Request)]) -> Result<(), Problem> {
+    for (run, request) in requests {
+        let question = Request { command: Command::Builds, ..request.clone() };
+        let response = run.ask(&question).map_err(|error| run.problem(&error))?;
+        if let Some(error) = response.error {
+            return Err(Problem::new(format!("`scl run` refused: {error}")));
+        }
+        response.builds.iter().try_for_each(super::build::run)?;
+    }
+    Ok(())
+}
+
+/// Asks each run how its components are. One that ends at this moment runs nothing.
+fn list(runs: Vec<ControlledRun>, problems: &mut Vec<Problem>) -> Vec<Answering> {
+    let mut answering = Vec::new();
+    for run in runs {
+        match run.ask(&request(Command::List, &[])) {
+            Ok(response) => answering.push(Answering { run, components: response.components }),
+            Err(NoAnswer::Ended) => {}
+            Err(error) => problems.push(run.problem(&error)),
+        }
+    }
+    answering
+}
+
+/// The components that a stop of everything did not stop, because they run without `scl run`. Those of other hosts, which
+/// a gateway only shows here, do not run here.
+fn still_running(folder: &SystemDir) -> Vec<Problem> {
+    let is_here = |name: &String| Announcement::read(folder, name).is_none_or(|it| it.host.is_none());
+    let names = folder.components().unwrap_or_default().into_iter().filter(is_here);
+    let running = names.filter_map(|name| match folder.state(&name) {
+        ComponentState::Running(holder) => Some(without_run(&name, holder, Command::Stop)),
+        _ => None,
+    });
+    running.collect()
+}
+
+fn without_run(name: &str, holder: ComponentProcess, command: Command) -> Problem {
+    let problem = Problem::new(format!("component `{name}` runs without `scl run`, as {holder}"));
+    match (command, holder) {
+        (Command::Stop, ComponentProcess::Process(pid)) => problem.help(format!("stop it with `kill {pid}`")),
+        _ => problem,
+    }
 }
 
 fn request(command: Command, components: &[&str]) -> Request {
@@ -114,11 +180,7 @@ fn run_of(name: &str, runs: &[Answering]) -> Option<usize> {
 
 fn not_run(wish: &Wish<'_>, name: &str, runs: &[Answering], folder: Option<&SystemDir>) -> Problem {
     if let Some(ComponentState::Running(holder)) = folder.map(|folder| folder.state(name)) {
-        let problem = Problem::new(format!("component `{name}` runs without `scl run`, as {holder}"));
-        return match (wish.command, holder) {
-            (Command::Stop, Holder::Process(pid)) => problem.help(format!("stop it with `kill {pid}`")),
-            _ => problem,
-        };
+        return without_run(name, holder, wish.command);
     }
     let names: Vec<&str> = runs.iter().flat_map(|run| &run.components).map(|it| it.component.as_str()).collect();
     if names.is_empty() {
@@ -150,10 +212,4 @@ fn no_run(wish: &Wish<'_>, folder: Option<&SystemDir>) -> Problem {
         return problem.help("start the system with `scl run`");
     }
     problem.note(format!("components that run without it: {}", running.join(", ")))
-}
-
-fn several_systems(systems: &BTreeSet<String>) -> Problem {
-    Problem::new("several systems run")
-        .help("choose one with `--system`")
-        .note(format!("the systems are {}", quoted_list(systems.iter().map(String::as_str))))
 }

@@ -1,18 +1,45 @@
 //! The other side of the control socket: finds every `scl run` and asks it.
 
-use super::super::own_file::{connect, sockets_in};
-use super::protocol::{Request, Response};
+use super::super::own_file::{connect, process_of, sockets_in};
+use super::protocol::{Command, Request, Response, VERSION};
+use scl_terminal::Problem;
 use std::fs;
-use std::io::{self, BufRead, BufReader, Write};
-use std::os::unix::net::UnixStream;
+use std::io::{self, BufRead, BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How long a `scl run` that lives may take to say how its components are. It answers at once unless it hangs.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// How often it is looked at meanwhile.
+const LOOK: Duration = Duration::from_millis(500);
+
+/// How often a request is sent again that the other side has dropped for other clients.
+const ATTEMPTS: usize = 3;
 
 /// A `scl run` that can be asked.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ControlledRun {
     /// The system whose components it runs.
     pub system: String,
+    /// Its process.
+    pub process: u32,
     socket: PathBuf,
+}
+
+/// Why there is no answer.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum NoAnswer {
+    /// The `scl run` has ended.
+    Ended,
+    /// Its process is stopped, by SIGSTOP or a debugger.
+    Stopped,
+    /// It has not answered in time.
+    Silent,
+    /// The connection failed.
+    Io(io::Error),
 }
 
 /// Every `scl run` whose socket is in a folder of a system below the runtime folder; only those of `system`, if given.
@@ -23,27 +50,111 @@ pub fn find_runs(runtime_folder: &Path, system: Option<&str>) -> Vec<ControlledR
     names.sort();
     let runs = names.iter().flat_map(|name| {
         let sockets = sockets_in(&runtime_folder.join(name), "control");
-        sockets.into_iter().map(|socket| ControlledRun { system: name.clone(), socket })
+        let run = |socket: PathBuf| {
+            Some(ControlledRun { system: name.clone(), process: process_of(&socket, "control")?, socket })
+        };
+        sockets.into_iter().filter_map(run)
     });
-    // A connection without a request is closed by the other side, and nothing else.
-    runs.filter(|run| connect(&run.socket).is_ok()).collect()
+    // A connection without a request is closed by the other side, and nothing else. One that does not accept is there, too.
+    let is_there = |error: io::Error| error.kind() == ErrorKind::WouldBlock;
+    runs.filter(|run| connect(&run.socket).map_or_else(is_there, |_| true)).collect()
 }
 
 impl ControlledRun {
-    /// Sends a request and waits for its response, as long as the `scl run` lives.
+    /// Sends a request and waits for its response, as long as the `scl run` lives and is not stopped.
     ///
     /// # Errors
     ///
-    /// If it cannot be reached, or ends before it answers.
-    pub fn ask(&self, request: &Request) -> io::Result<Response> {
-        let mut connection: UnixStream = connect(&self.socket)?;
-        let line = serde_json::to_string(request).map_err(io::Error::other)?;
-        connection.write_all(format!("{line}\n").as_bytes())?;
-        let mut answer = String::new();
-        BufReader::new(connection).read_line(&mut answer)?;
-        if answer.is_empty() {
-            return Err(io::Error::new(io::ErrorKind::UnexpectedEof, "it ended before it answered"));
+    /// [`NoAnswer`].
+    pub fn ask(&self, request: &Request) -> Result<Response, NoAnswer> {
+        let line = serde_json::to_string(request).map_err(|error| NoAnswer::Io(error.into()))?;
+        let mut answered = self.try_ask(request.command, &line);
+        for _ in 1..ATTEMPTS {
+            if matches!(answered, Err(NoAnswer::Ended)) && connect(&self.socket).is_ok() {
+                answered = self.try_ask(request.command, &line);
+            }
         }
-        serde_json::from_str(&answer).map_err(io::Error::other)
+        answered
+    }
+
+    /// What the user is told about a missing answer.
+    pub(crate) fn problem(&self, error: &NoAnswer) -> Problem {
+        let process = self.process;
+        let kill = format!("end it and its programs: `kill -KILL {process}`");
+        match error {
+            NoAnswer::Ended => Problem::new(format!("`scl run`, process {process}, ended before it answered")),
+            NoAnswer::Stopped => Problem::new(format!("`scl run`, process {process}, does not answer: it is stopped"))
+                .help(format!("let it go on: `kill -CONT {process}`"))
+                .help(kill),
+            NoAnswer::Silent => {
+                let text = format!("`scl run`, process {process}, has not answered for {} s", PATIENCE.as_secs());
+                Problem::new(text).help(kill)
+            }
+            NoAnswer::Io(error) => Problem::new(format!("no answer from `scl run`, process {process}: {error}")),
+        }
+    }
+
+    fn try_ask(&self, command: Command, line: &str) -> Result<Response, NoAnswer> {
+        let began = Instant::now();
+        let mut connection = loop {
+            match connect(&self.socket) {
+                Ok(connection) => break connection,
+                // Too many connections wait to be accepted.
+                Err(error) if error.kind() == ErrorKind::WouldBlock => {
+                    self.look(Command::List, began)?;
+                    thread::sleep(LOOK);
+                }
+                Err(_) => return Err(NoAnswer::Ended),
+            }
+        };
+        connection.set_read_timeout(Some(LOOK)).map_err(NoAnswer::Io)?;
+        if connection.write_all(format!("{line}\n").as_bytes()).is_err() {
+            return Err(NoAnswer::Ended);
+        }
+        let (mut reader, mut answer) = (BufReader::new(connection), Vec::new());
+        let mut began = Instant::now();
+        loop {
+            match reader.read_until(b'\n', &mut answer) {
+                Ok(_) if answer.ends_with(b"\n") => {
+                    return serde_json::from_slice(&answer).map_err(|error| NoAnswer::Io(error.into()));
+                }
+                Ok(_) => return Err(NoAnswer::Ended),
+                Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {
+                    self.look(command, began)?;
+                    if began.elapsed() >= PATIENCE {
+                        began = Instant::now();
+                    }
+                }
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) if error.kind() == ErrorKind::ConnectionReset => return Err(NoAnswer::Ended),
+                Err(error) => return Err(NoAnswer::Io(error)),
+            }
+        }
+    }
+
+    /// Looks whether an answer may still come: a stop takes as long as the programs take, but how they are is known at once.
+    fn look(&self, command: Command, began: Instant) -> Result<(), NoAnswer> {
+        if self.is_stopped() {
+            return Err(NoAnswer::Stopped);
+        }
+        match (began.elapsed() >= PATIENCE, command) {
+            (false, _) => Ok(()),
+            (true, Command::List) => Err(NoAnswer::Silent),
+            (true, _) => {
+                let request = Request { version: VERSION, command: Command::List, components: Vec::new() };
+                match self.ask(&request) {
+                    Err(error @ (NoAnswer::Silent | NoAnswer::Stopped)) => Err(error),
+                    // Its end ends the first connection, too.
+                    _ => Ok(()),
+                }
+            }
+        }
+    }
+
+    /// Whether its process is stopped, as `/proc/<pid>/stat` shows.
+    fn is_stopped(&self) -> bool {
+        let stat = fs::read_to_string(format!("/proc/{}/stat", self.process)).unwrap_or_default();
+        let state = stat.rsplit_once(')').and_then(|(_, fields)| fields.split_ascii_whitespace().next());
+        matches!(state, Some("T" | "t"))
     }
 }

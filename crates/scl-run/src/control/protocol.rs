@@ -1,6 +1,10 @@
 //! Requests and responses of the control socket, one line of JSON each.
 
+use super::super::plan::COMPONENT;
+use super::super::program::Build;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// The version of the protocol. A `scl run` answers requests of its own version only.
 pub const VERSION: u32 = 1;
@@ -24,6 +28,8 @@ pub struct Request {
 pub enum Command {
     /// Say how the components are.
     List,
+    /// Say what builds the programs of components.
+    Builds,
     /// Stop components. The response comes when they have ended. Without names the run ends too.
     Stop,
     /// Stop components and start them again. The response comes when they run, or are ready if they have
@@ -42,6 +48,24 @@ pub struct Response {
     /// The components that were asked for.
     #[serde(default)]
     pub components: Vec<ComponentReport>,
+    /// What builds the programs of the components, in this order, for [`Command::Builds`].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub builds: Vec<BuildCommand>,
+}
+
+/// A build as `scl run` runs it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BuildCommand {
+    /// Whose programs it makes, for messages.
+    pub owner: String,
+    /// How it is written, for messages.
+    pub shown: String,
+    /// The command and its arguments.
+    pub command: Vec<String>,
+    /// Its working folder.
+    pub folder: PathBuf,
+    /// All its variables: those of `scl run` and of the launch file.
+    pub environment: BTreeMap<String, String>,
 }
 
 /// How a component is, after the request.
@@ -62,6 +86,23 @@ pub struct ComponentReport {
     pub detail: Option<String>,
 }
 
+impl BuildCommand {
+    /// The build, in the environment of this process.
+    pub(crate) fn of(build: &Build) -> Self {
+        // A variable that is no text is left out. What another `scl run` expects of us is not for builds.
+        let own = std::env::vars_os()
+            .filter(|(name, _)| name != COMPONENT)
+            .filter_map(|(name, value)| Some((name.into_string().ok()?, value.into_string().ok()?)));
+        Self {
+            owner: build.owner(),
+            shown: build.shown_command(),
+            command: build.command().iter().map(|word| word.to_string_lossy().into_owned()).collect(),
+            folder: build.program.folder.clone(),
+            environment: own.chain(build.program.environment.iter().cloned()).collect(),
+        }
+    }
+}
+
 impl Request {
     /// Reads a line.
     ///
@@ -80,12 +121,12 @@ impl Request {
 impl Response {
     /// A response about components.
     pub fn of(components: Vec<ComponentReport>) -> Self {
-        Self { version: VERSION, error: None, components }
+        Self { version: VERSION, error: None, components, builds: Vec::new() }
     }
 
     /// A response to a request that was not fulfilled.
     pub fn error(text: impl Into<String>) -> Self {
-        Self { version: VERSION, error: Some(text.into()), components: Vec::new() }
+        Self { version: VERSION, error: Some(text.into()), components: Vec::new(), builds: Vec::new() }
     }
 
     /// The line, without its end.

@@ -1,7 +1,8 @@
 //! What a launch file says about one component, in `components` or in a profile.
 
+use super::super::command_line;
 use super::keys;
-use super::reader::{KeyPath, Reader, likely_key, scalar_text, shown};
+use super::reader::{KeyPath, Reader, joined, likely_key, scalar_text, shown};
 use super::settings::Settings;
 use scl_terminal::{Problem, closest_name, quoted_list};
 use serde_yaml::{Mapping, Value};
@@ -17,8 +18,56 @@ pub(crate) struct LaunchComponent {
     pub(crate) source: Source,
     /// For this program.
     pub(crate) environment: Vec<(String, String)>,
+    /// Which components its program may open.
+    pub(crate) opens: Opens,
     /// How it is run.
     pub(crate) settings: Settings,
+    /// Where its program is written.
+    pub(crate) place: String,
+}
+
+/// Which components a program may open.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) enum Opens {
+    /// The one that it was started as.
+    #[default]
+    Own,
+    /// That one and these.
+    Also(Vec<String>),
+    /// Every one.
+    Any,
+}
+
+impl Opens {
+    /// The word for every component.
+    pub(super) const ANY: &str = "any";
+
+    /// Whether it names this component.
+    pub(crate) fn names(&self, component: &str) -> bool {
+        matches!(self, Opens::Also(names) if names.iter().any(|name| name == component))
+    }
+}
+
+impl LaunchComponent {
+    /// The components that its program may open, for the program; `topology` is the name of the system in its topology file.
+    /// `None` if it may open any. What plays a recording is told the component's name itself.
+    pub(crate) fn expected(&self, topology: Option<&str>) -> Option<String> {
+        let also: &[String] = match &self.opens {
+            _ if matches!(self.source, Source::Replay(_)) => return None,
+            Opens::Any => return None,
+            Opens::Own => &[],
+            Opens::Also(names) => names,
+        };
+        let full = |name: &String| topology.map_or_else(|| name.clone(), |system| format!("{system}.{name}"));
+        Some(
+            [&self.name]
+                .into_iter()
+                .chain(also.iter().filter(|name| **name != self.name))
+                .map(full)
+                .collect::<Vec<_>>()
+                .join(","),
+        )
+    }
 }
 
 /// What runs a component.
@@ -43,14 +92,17 @@ pub(super) struct Entry {
     pub(super) build: Option<Vec<String>>,
     pub(super) source: Option<Source>,
     pub(super) environment: Vec<(String, String)>,
+    pub(super) opens: Option<Opens>,
     pub(super) settings: Settings,
+    pub(super) place: String,
 }
 
 impl Entry {
     /// The component, if the entry says what runs it.
     pub(super) fn into_component(self) -> Option<LaunchComponent> {
-        let Self { name, build, source, environment, settings } = self;
-        Some(LaunchComponent { name, build, source: source?, environment, settings })
+        let Self { name, build, source, environment, opens, settings, place } = self;
+        let opens = opens.unwrap_or_default();
+        Some(LaunchComponent { name, build, source: source?, environment, opens, settings, place })
     }
 }
 
@@ -99,7 +151,9 @@ impl Reader<'_> {
             build: self.read_build(keys.get("build"), &joined(&at, "build")),
             source,
             environment: self.read_environment(keys.get("environment"), &joined(&at, "environment")),
+            opens: self.read_opens(keys.get("opens"), &joined(&at, "opens")),
             settings: self.read_settings(keys, &at),
+            place: self.text.place(&at),
         })
     }
 
@@ -111,6 +165,21 @@ impl Reader<'_> {
             self.problems.push(problem.help("write `build: make sensor` or `build: [make, sensor]`"));
         }
         words
+    }
+
+    fn read_opens(&mut self, value: Option<&Value>, at: KeyPath<'_>) -> Option<Opens> {
+        let value = value?;
+        if value.as_str() == Some(Opens::ANY) {
+            return Some(Opens::Any);
+        }
+        let names =
+            value.as_sequence().and_then(|names| names.iter().map(Value::as_str).collect::<Option<Vec<&str>>>());
+        let Some(names) = names else {
+            self.wrong_value(at, value);
+            return None;
+        };
+        names.iter().for_each(|name| self.check_known(name, at));
+        Some(Opens::Also(names.into_iter().map(str::to_owned).collect()))
     }
 
     fn read_replay(&mut self, keys: &Mapping, at: KeyPath<'_>) -> Option<Source> {
@@ -158,19 +227,12 @@ impl Reader<'_> {
     }
 }
 
-/// The program and arguments of a command: a list as it is, a text for the shell. `None` if the value is not a command.
+/// The program and arguments of a command: a list as it is, the words of a text. `None` if the value is not a command.
 fn command_words(value: &Value) -> Option<Vec<String>> {
     let words: Vec<String> = match value {
-        Value::String(line) if !line.trim().is_empty() && !line.contains('\0') => {
-            ["/bin/sh", "-c", line].map(str::to_owned).to_vec()
-        }
+        Value::String(line) if !line.trim().is_empty() && !line.contains('\0') => command_line::words(line),
         Value::Sequence(words) => words.iter().map(scalar_text).collect::<Option<_>>()?,
         _ => return None,
     };
     words.first().is_some_and(|program| !program.is_empty()).then_some(words)
-}
-
-/// The path of keys with one more.
-pub(super) fn joined<'k>(path: &[&'k str], key: &'k str) -> Vec<&'k str> {
-    path.iter().copied().chain([key]).collect()
 }

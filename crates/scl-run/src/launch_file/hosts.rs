@@ -4,9 +4,8 @@ mod address;
 mod together;
 
 use super::super::deployment::{Deployment, Host};
-use super::entry::joined;
 use super::keys;
-use super::reader::{KeyPath, Reader, likely_key, shown};
+use super::reader::{KeyPath, Reader, joined, likely_key, shown};
 use scl_terminal::Problem;
 use serde_yaml::{Mapping, Value};
 use std::path::PathBuf;

@@ -9,11 +9,9 @@ pub(super) struct Key {
     pub(super) also: &'static [&'static str],
     /// What its value looks like.
     pub(super) form: Form,
-    /// What applies without it, for the tables.
-    #[cfg_attr(not(test), expect(dead_code, reason = "only the page shows it"))]
+    /// What applies without it, for the tables and `scl explain`.
     pub(super) default: &'static str,
-    /// What it means, for the tables.
-    #[cfg_attr(not(test), expect(dead_code, reason = "only the page shows it"))]
+    /// What it means, for the tables and `scl explain`.
     pub(super) meaning: &'static str,
     /// Whether it may also stand in `defaults`.
     pub(super) in_defaults: bool,
@@ -36,6 +34,7 @@ pub(super) enum Form {
     Address,
     Port,
     Names,
+    NamesOrAny,
     /// A mapping with parts of its own.
     Mapping(&'static str),
 }
@@ -57,6 +56,7 @@ impl Form {
             Form::Address => "an IP address or a DNS name".to_owned(),
             Form::Port => "a number, 1 to 65535".to_owned(),
             Form::Names => "a list of components like `[sensor, controller]`".to_owned(),
+            Form::NamesOrAny => "a list of components like `[sensor, controller]`, or `any`".to_owned(),
             Form::Mapping(description) => description.to_owned(),
         }
     }
@@ -203,6 +203,14 @@ pub(super) const COMPONENT: &[Key] = &[
         in_defaults: true,
     },
     Key {
+        name: "opens",
+        also: &["plays", "also"],
+        form: Form::NamesOrAny,
+        default: "its own component",
+        meaning: "Components that the program may open besides its own. See [The right program](#the-right-program).",
+        ..KEY
+    },
+    Key {
         name: "priority",
         also: &["nice", "sched", "scheduler"],
         form: Form::Priority,
@@ -321,6 +329,64 @@ pub(super) const GATEWAY: &[Key] = &[
         ..KEY
     },
 ];
+
+/// A key of launch files with its documentation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LaunchKey {
+    /// As in the file.
+    pub word: &'static str,
+    /// Names that other tools use for it.
+    pub also: &'static [&'static str],
+    /// Where it stands: `key of a host`.
+    pub what: &'static str,
+    /// What it means, in one sentence.
+    pub summary: &'static str,
+    /// Everything there is to know, as Markdown.
+    pub text: String,
+}
+
+/// Every key of launch files, in the order of the page.
+pub fn launch_keys() -> Vec<LaunchKey> {
+    let all = [
+        (TOP, "key of a launch file"),
+        (COMPONENT, "key of a program"),
+        (HOST, "key of a host"),
+        (GATEWAY, "key of `gateway`"),
+    ];
+    all.iter().flat_map(|(keys, what)| keys.iter().map(|key| explained(key, what))).collect()
+}
+
+fn explained(key: &Key, what: &'static str) -> LaunchKey {
+    // Links lead to other parts of the page.
+    let sentences = without_links(key.meaning);
+    let summary = key.meaning.split(". ").next().unwrap_or_default().trim_end_matches('.');
+    let meaning = sentences.split(" See ").next().unwrap_or_default();
+    let defaults = if key.in_defaults { "It may also stand in `defaults`, for all programs.\n" } else { "" };
+    let text = format!(
+        "# {} ({what})\n\n{meaning}\n\nValue: {}\nDefault: {}\n{defaults}\nSee docs/launch.md.\n",
+        key.name,
+        without_links(&key.form.description()),
+        without_links(key.default),
+    );
+    LaunchKey { word: key.name, also: key.also, what, summary, text }
+}
+
+/// `[Hosts](#hosts)` as `Hosts`.
+fn without_links(text: &str) -> String {
+    let mut plain = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('[') {
+        let Some((name, after)) =
+            after.split_once("](").and_then(|(name, after)| Some((name, after.split_once(')')?.1)))
+        else {
+            break;
+        };
+        plain.push_str(before);
+        plain.push_str(name);
+        rest = after;
+    }
+    plain + rest
+}
 
 /// The row of a key. Unknown names get an empty row, which no caller asks for.
 pub(super) fn form_of(name: &str) -> Form {

@@ -1,8 +1,8 @@
 //! `profiles`: other programs for the same components.
 
 use super::LaunchFile;
-use super::entry::{Entry, LaunchComponent, joined};
-use super::reader::{Reader, shown};
+use super::entry::{Entry, LaunchComponent, Opens};
+use super::reader::{Reader, joined, shown};
 use scl_terminal::{Problem, closest_name, quoted_list};
 use serde_yaml::Value;
 
@@ -57,6 +57,11 @@ fn apply(entry: &Entry, components: &mut Vec<LaunchComponent>) {
         component.source.clone_from(source);
         component.build = None;
         component.settings.working_directory = None;
+        component.opens = Opens::Own;
+        component.place.clone_from(&entry.place);
+    }
+    if let Some(opens) = &entry.opens {
+        component.opens.clone_from(opens);
     }
     if entry.build.is_some() {
         component.build.clone_from(&entry.build);

@@ -59,6 +59,11 @@ impl Reader<'_> {
     }
 }
 
+/// The path of keys with one more.
+pub(super) fn joined<'k>(path: &[&'k str], key: &'k str) -> Vec<&'k str> {
+    path.iter().copied().chain([key]).collect()
+}
+
 /// The key that an unknown one probably means: another tool's word for it, or a similar name.
 pub(super) fn likely_key<'k>(word: &str, allowed: impl IntoIterator<Item = &'k Key>) -> Option<&'k str> {
     let allowed: Vec<&Key> = allowed.into_iter().collect();

@@ -1,9 +1,8 @@
 //! The keys of a component that may also stand in `defaults`: restarts, limits of time, processors, priority.
 
 use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
-use super::entry::joined;
 use super::keys::{Form, form_of};
-use super::reader::{KeyPath, Reader, scalar_text, shown};
+use super::reader::{KeyPath, Reader, joined, scalar_text, shown};
 use scl_terminal::{Problem, closest_name, parse_duration};
 use serde_yaml::{Mapping, Value};
 use std::time::Duration;

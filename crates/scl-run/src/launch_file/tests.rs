@@ -67,11 +67,35 @@ fn sensor() -> LaunchComponent {
 fn controller() -> LaunchComponent {
     LaunchComponent {
         name: "controller".to_owned(),
-        build: None,
         source: command(&["/bin/sh", "-c", "./controller 2>> log"]),
         environment: pairs(&[("GAIN", "0.5")]),
         settings: in_folder("control"),
+        ..LaunchComponent::default()
     }
+}
+
+fn without_places(components: &[LaunchComponent]) -> Vec<LaunchComponent> {
+    components.iter().map(|component| LaunchComponent { place: String::new(), ..component.clone() }).collect()
+}
+
+#[test]
+fn an_entry_may_name_the_components_that_its_program_opens() {
+    let text = "components:
+  a: {command: ./a}
+  b: {command: ./b, opens: [a, c]}
+  c: {command: ./c, opens: any}
+profiles:
+  replayed: {a: {replay: a.mcap}, b: {command: ./other}}
+";
+    let file = parse_launch_file(text, None).unwrap();
+    let expected = |profiles: &[&str], topology| {
+        let components = file.components_with(&words(profiles)).unwrap();
+        components.iter().map(|component| component.expected(topology)).collect::<Vec<_>>()
+    };
+    let some = |text: &str| Some(text.to_owned());
+    assert_eq!(expected(&[], Some("rover")), [some("rover.a"), some("rover.b,rover.a,rover.c"), None]);
+    assert_eq!(expected(&[], None), [some("a"), some("b,a,c"), None]);
+    assert_eq!(expected(&["replayed"], Some("rover")), [None, some("rover.b"), None]);
 }
 
 #[test]
@@ -79,8 +103,9 @@ fn a_good_file_keeps_its_order_and_its_values() {
     let known = components(&["sensor", "controller", "display", "other"]);
     for text in [GOOD.to_owned(), GOOD.replace('\n', "\r\n"), format!("\u{feff}{GOOD}")] {
         let file = parse_launch_file(&text, Some(&known)).unwrap();
-        assert_eq!(file.components, [sensor(), controller()]);
-        assert_eq!(file.build, Some(words(&["/bin/sh", "-c", "make all"])));
+        assert_eq!(without_places(&file.components), [sensor(), controller()]);
+        assert_eq!(file.components[1].place, "launch.yaml:9:3");
+        assert_eq!(file.build, Some(words(&["make", "all"])));
         assert_eq!(file.environment, pairs(&[("RUST_LOG", "info"), ("LEVEL", "2")]));
         assert_eq!(file.transports.variable(Some("tcp")).as_deref(), Some("ipc,sensor.images=shm"));
     }
@@ -99,11 +124,11 @@ fn a_profile_replaces_programs_or_changes_keys_and_later_ones_win() {
     let environment = |more: &[(&str, &str)]| [pairs(&[("GAIN", "0.5")]), pairs(more)].concat();
     let display = || LaunchComponent {
         name: "display".to_owned(),
-        source: command(&["/bin/sh", "-c", "./display"]),
+        source: command(&["./display"]),
         ..LaunchComponent::default()
     };
     let python = ["python3", "controller.py"];
-    let debug_build = Some(words(&["/bin/sh", "-c", "make debug"]));
+    let debug_build = Some(words(&["make", "debug"]));
     let cases: [(&[&str], Vec<LaunchComponent>); 4] = [
         (&[], vec![sensor(), controller()]),
         (
@@ -145,7 +170,8 @@ fn a_profile_replaces_programs_or_changes_keys_and_later_ones_win() {
         ),
     ];
     for (profiles, expected) in cases {
-        assert_eq!(file.components_with(&words(profiles)), Ok(expected), "{profiles:?}");
+        let found = file.components_with(&words(profiles)).map(|found| without_places(&found));
+        assert_eq!(found, Ok(expected), "{profiles:?}");
     }
 }
 

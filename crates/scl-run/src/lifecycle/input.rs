@@ -11,10 +11,14 @@ pub(crate) enum Input {
     Started,
     /// It could not be started, because of this.
     CannotStart(String),
-    /// Its process ended.
+    /// The first of its processes ended, and others run on that are to end with it.
+    LeaderEnded,
+    /// Its process ended, and all that it has started.
     Exited(Ending),
     /// Its process said something about itself.
     Notified(Notice),
+    /// Its process is another program than it should be, because of this.
+    Refused(String),
     /// All components are to stop.
     StopAll(Signal),
     /// The process must end now.
@@ -38,6 +42,8 @@ pub(crate) enum Notice {
     Alive,
     /// `STATUS=...`
     Status(String),
+    /// `X_SCL_OPENS=...`: it has tried to open this component, which it was not started as.
+    Opens(String),
 }
 
 /// What is to be done for a component.
@@ -45,7 +51,7 @@ pub(crate) enum Notice {
 pub(crate) enum Action {
     /// Start a process, and answer with [`Input::Started`] or [`Input::CannotStart`].
     Start,
-    /// Send a signal to the process and those that it has started.
+    /// Send a signal to the process and those that it has started, also to one that misses it at first.
     Signal(Signal),
     /// Tell the user this.
     Report(String),

@@ -29,8 +29,12 @@ pub(crate) enum StopReason {
     Request { start_again: bool },
     /// It has failed already: it was not ready or not alive in time.
     Failed,
+    /// It is the wrong program, so another start would not help. It was told so, and ends by itself.
+    Refused,
     /// It said so itself.
     Own,
+    /// Its first process ended by itself, and the others were told to.
+    LeaderEnded,
 }
 
 /// How a component ended.
@@ -55,5 +59,10 @@ impl StopReason {
 
     pub(super) fn signal(self) -> Signal {
         self.asked_by().unwrap_or(Signal::SIGTERM)
+    }
+
+    /// Whether the processes were asked to end, so that a second signal would mean more than that.
+    pub(super) fn is_asked(self) -> bool {
+        matches!(self, StopReason::Everything(_) | StopReason::Request { .. } | StopReason::LeaderEnded)
     }
 }

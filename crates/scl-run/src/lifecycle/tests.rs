@@ -175,3 +175,49 @@ fn a_request_stops_or_starts_one() {
         State::Starting,
     );
 }
+
+#[test]
+fn the_rest_of_a_program_whose_first_process_ended_is_told_once_and_waited_for() {
+    let (ended, term) = ((10, Input::LeaderEnded), Action::Signal(Signal::SIGTERM));
+    check(watched(), &[ended.clone(), (20, EXIT_0)], &[term.clone(), end(0, 20)], State::Ended(Verdict::InOrder));
+    check(
+        watched(),
+        &[ended.clone(), (20, EXIT_3)],
+        &[term.clone(), end(3, 20), report("restarting in 100ms")],
+        waiting(120),
+    );
+    let killed = [term.clone(), report("not stopped within 5s, killed"), Action::Signal(Signal::SIGKILL), end(0, 5020)];
+    check(watched(), &[ended.clone(), (5010, Input::Time), (5020, EXIT_0)], &killed, State::Ended(Verdict::InOrder));
+    // A second signal would end a program of SCL at once.
+    let stopped = [ended.clone(), (11, Input::StopAll(Signal::SIGINT)), (20, EXIT_0)];
+    check(watched(), &stopped, &[term.clone(), end(0, 20)], State::Ended(Verdict::InOrder));
+    for (stop, signal) in [(Input::StopAll(Signal::SIGINT), Signal::SIGINT), (Input::Stop, Signal::SIGTERM)] {
+        let (component, actions) = story(watched(), &[(5, stop), ended.clone()]);
+        assert_eq!(actions, [Action::Signal(signal)]);
+        assert_eq!(component.due(), Some(millis(5005)), "waits for the rest");
+    }
+    let (_, actions) = story(watched(), &[(5, Input::Notified(Notice::Stopping)), ended, (11, Input::Stop)]);
+    assert_eq!(actions, [term]);
+}
+
+#[test]
+fn a_shell_says_by_its_exit_code_that_a_signal_ended_its_program() {
+    let soon = report("restarting in 100ms");
+    let exit = |code| [(7, Input::Exited(Ending::Exited(code)))];
+    check(restarting(Restart::OnAbnormal), &exit(137), &[end(137, 7), soon], waiting(107));
+    for code in [1, 127, 128, 200] {
+        check(restarting(Restart::OnAbnormal), &exit(code), &[end(code, 7)], State::Ended(Verdict::Failed));
+    }
+}
+
+#[test]
+fn a_wrong_program_fails_for_good_and_is_given_time_to_say_so() {
+    let refused = (10, Input::Refused("opens `gps`".to_owned()));
+    let expected = [report("opens `gps`"), end(3, 20)];
+    let (component, actions) = story(watched(), &[refused.clone(), (20, EXIT_3)]);
+    assert_eq!((actions.as_slice(), component.state()), (&expected[..], State::Ended(Verdict::Failed)));
+    assert_eq!(component.failure(), Some("opens `gps`"));
+    let (component, actions) = story(watched(), &[refused, (5010, Input::Time)]);
+    assert_eq!(actions[1..], [report("not stopped within 5s, killed"), Action::Signal(Signal::SIGKILL)]);
+    assert_eq!(component.failure(), Some("opens `gps`"));
+}

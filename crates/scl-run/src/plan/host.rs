@@ -1,12 +1,13 @@
 //! `--host`: the components of one host, and the gateway that connects them to the others.
 
 use super::super::Options;
+use super::super::component::Component;
 use super::super::deployment::{Deployment, Host};
 use super::super::gateway_program;
 use super::super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile};
 use super::super::placement::Placement;
 use super::super::policy::{Policy, Restart, RestartLimit};
-use super::super::program::{Component, Program};
+use super::super::program::Program;
 use super::{ComponentNames, LAUNCH_FILE, environment_of_programs, find_folder, find_topology, read_names, read_text};
 use scl_terminal::{Problem, print_err};
 use std::ffi::OsString;
@@ -110,6 +111,8 @@ pub(super) fn plan_gateway(
             ..Policy::default()
         },
         recording: None,
+        made_by_cargo: None,
+        entry: None,
     })
 }
 

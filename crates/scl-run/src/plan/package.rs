@@ -1,63 +1,51 @@
 //! Without a launch file: the programs of the cargo package beside the topology.
 
 use super::super::Options;
-use super::super::cargo_package::{BuiltProgram, build_package};
+use super::super::cargo::{Target, cargo};
+use super::super::component::{Component, MadeByCargo};
 use super::super::placement::Placement;
 use super::super::policy::Policy;
-use super::super::program::{Component, Program};
+use super::super::program::{Build, Program};
 use super::super::selection::Selection;
-use super::{LAUNCH_FILE, RunPlan, SystemNames, TOPOLOGY_FILE, system_of_environment};
-use scl_terminal::{Problem, quoted_list};
+use super::{COMPONENT, RunPlan, SystemNames, TOPOLOGY_FILE, system_of_environment};
+use scl_terminal::Problem;
+use std::ffi::OsString;
 use std::path::Path;
 
-/// Builds the package and finds the program of each component.
+/// The build of the package, and the program of each component, which has its name.
 ///
 /// # Errors
 ///
-/// Everything that is missing.
+/// If there is no package, or no component is chosen.
 pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Options) -> Result<RunPlan, Vec<Problem>> {
     let source = format!("`{}`", folder.join(TOPOLOGY_FILE).display());
     let selection = Selection::new(options, &names.components, &source)?;
-    let components: Vec<&String> = names.components.iter().filter(|name| selection.includes(name)).collect();
-    let built = build_package(folder, options.release).map_err(|problem| vec![problem])?;
-    let program_of = |name: &String| built.iter().find(|program| plays(program, name));
-    let missing = components.iter().filter(|name| program_of(name).is_none());
-    let missing: Vec<&str> = missing.map(|name| name.as_str()).collect();
-    if !missing.is_empty() {
-        return Err(vec![missing_programs(folder, &missing, &built)]);
+    if !folder.join("Cargo.toml").is_file() {
+        let problem = Problem::new(format!("there is no cargo package in `{}`", folder.display()));
+        let help = "add a `launch.yaml` that says how each component is started; `scl run --help` shows one";
+        return Err(vec![problem.help(help)]);
     }
-    let plan = |(name, built): (&String, &BuiltProgram)| Component {
+    let program = |command| Program {
+        command,
+        environment: Vec::new(),
+        folder: folder.to_owned(),
+        placement: Placement::default(),
+    };
+    let release = options.release.then(|| OsString::from("--release"));
+    let build = [cargo(), "build".into(), "--bins".into()].into_iter().chain(release).collect();
+    let expected = |name: &String| (COMPONENT.to_owned(), format!("{}.{name}", names.system));
+    let plan = |name: &String| Component {
         name: name.clone(),
-        program: Program {
-            command: vec![built.executable.clone().into_os_string()],
-            environment: Vec::new(),
-            folder: folder.to_owned(),
-            placement: Placement::default(),
-        },
+        program: Program { environment: vec![expected(name)], ..program(vec![cargo()]) },
         policy: Policy { stop_within: options.grace, ..Policy::default() },
         recording: None,
+        made_by_cargo: Some(MadeByCargo { build: 0, target: Target::OfComponent(name.clone()) }),
+        entry: None,
     };
-    let programs = components.iter().filter_map(|name| Some((*name, program_of(name)?)));
-    let components = programs.map(plan).collect();
     Ok(RunPlan {
-        system: system_of_environment().or(Some(names.system)),
-        builds: Vec::new(),
-        components,
+        system: system_of_environment().or(Some(names.system.clone())),
+        builds: vec![Build { components: Vec::new(), program: program(build), cargo_choices: Some(Vec::new()) }],
+        components: names.components.iter().filter(|name| selection.includes(name)).map(plan).collect(),
         gateway: None,
     })
-}
-
-/// Cargo targets are often named with hyphens, which component names cannot contain.
-fn plays(program: &BuiltProgram, component: &str) -> bool {
-    program.name == component || program.name.replace('-', "_") == component
-}
-
-fn missing_programs(folder: &Path, missing: &[&str], built: &[BuiltProgram]) -> Problem {
-    let noun = if missing.len() == 1 { "component" } else { "components" };
-    let problem = Problem::new(format!("no program for the {noun} {}", quoted_list(missing.iter().copied())));
-    let programs = quoted_list(built.iter().map(|program| program.name.as_str()));
-    let found = if built.is_empty() { "no programs".to_owned() } else { format!("the programs {programs}") };
-    problem
-        .help(format!("add `src/bin/{}.rs`, or say in `{LAUNCH_FILE}` how to start it", missing[0]))
-        .note(format!("the cargo package in `{}` has {found}", folder.display()))
 }

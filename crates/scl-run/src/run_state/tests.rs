@@ -111,7 +111,8 @@ fn input() -> impl Strategy<Value = Input> {
     let status = Input::Notified(Notice::Status("busy".to_owned()));
     let notices = [Notice::Ready, Notice::Stopping, Notice::Alive].map(Input::Notified);
     let endings = [Ending::Exited(0), Ending::Exited(1), Ending::Killed(Signal::SIGTERM)].map(Input::Exited);
-    let requests = [Input::Stop, Input::Restart, Input::Time, status];
+    let requests =
+        [Input::Stop, Input::Restart, Input::Time, Input::LeaderEnded, Input::Refused(String::new()), status];
     prop::sample::select([notices.to_vec(), endings.to_vec(), requests.to_vec()].concat())
 }
 

@@ -71,6 +71,7 @@ fn services_do_what_the_launch_file_says() {
         WorkingDirectory=FOLDER
         Environment=SCL_RUNTIME_DIR=/run/rover
         Environment=SCL_SYSTEM=rover
+        Environment=SCL_COMPONENT=rover.sensor
         Environment=RUST_LOG=info
         ExecStart=/bin/cat --rate "100 %%" "$$HOME"
         TimeoutStopSec=3s
@@ -91,6 +92,7 @@ fn services_do_what_the_launch_file_says() {
         WorkingDirectory=FOLDER/logs
         Environment=SCL_RUNTIME_DIR=/run/rover
         Environment=SCL_SYSTEM=rover
+        Environment=SCL_COMPONENT=rover.logger
         Environment=RUST_LOG=info
         Environment="NAME=a \"b\" 5%%"
         ExecStart=/bin/sh -c "cat > log"

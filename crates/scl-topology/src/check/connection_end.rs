@@ -78,15 +78,15 @@ fn report(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnos
     }
     match parts(&text.value) {
         None => problems.push(misshapen(draft, text)),
-        Some((component, _)) if draft.component(component).is_none() => {
-            unknown_component::check(draft, link, end, problems);
+        Some((component, gate)) if draft.component(component).is_none() => {
+            unknown_component::check(draft, [link, end], [component, gate], problems);
         }
-        Some(_) => unknown_gate::check(draft, link, end, problems),
+        Some((component, gate)) => unknown_gate::check(draft, [link, end], [component, gate], problems),
     }
 }
 
 /// Component and gate, where the text has that shape.
-pub(super) fn parts(text: &str) -> Option<(&str, &str)> {
+fn parts(text: &str) -> Option<(&str, &str)> {
     let (component, gate) = text.split_once('.')?;
     let is_name = |name: &str| {
         !name.is_empty() && name.chars().all(|letter| letter.is_alphanumeric() || letter == '_' || letter == '-')

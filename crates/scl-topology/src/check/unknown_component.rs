@@ -1,6 +1,5 @@
 //! SCL0501: an end of a component that does not exist. SCL0504: its two names are swapped.
 
-use super::connection_end::parts;
 use super::draft::Draft;
 use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -71,9 +70,13 @@ connections:
     },
 };
 
-pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnostics) {
+pub(super) fn check(
+    draft: &mut Draft<'_>,
+    [link, end]: [usize; 2],
+    [component, gate]: [&str; 2],
+    problems: &mut Diagnostics,
+) {
     let text = &draft.links[link].model.ends[end];
-    let Some((component, gate)) = parts(&text.value) else { return };
     let headline = format!("unknown component `{component}`");
     if let Some(swapped) = draft.gate(gate, component) {
         draft.gates[swapped].named = true;

@@ -1,6 +1,5 @@
 //! SCL0502: an end with a gate that its component does not have.
 
-use super::connection_end::parts;
 use super::draft::Draft;
 use super::unknown_component::swap;
 use crate::diagnostic::Severity;
@@ -41,9 +40,13 @@ connections:
     },
 };
 
-pub(super) fn check(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnostics) {
+pub(super) fn check(
+    draft: &mut Draft<'_>,
+    [link, end]: [usize; 2],
+    [component, gate]: [&str; 2],
+    problems: &mut Diagnostics,
+) {
     let text = &draft.links[link].model.ends[end];
-    let Some((component, gate)) = parts(&text.value) else { return };
     let headline = format!("component `{component}` has no gate `{gate}`");
     if let Some(swapped) = draft.gate(gate, component) {
         draft.gates[swapped].named = true;

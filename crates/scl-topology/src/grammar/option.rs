@@ -5,7 +5,7 @@ use super::queue_policy::POLICIES;
 use super::shape::{self, OutOfRange, Shape, Word};
 use crate::{duration, size};
 use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
-use scl_plan::WhenFull;
+use scl_plan::{Undecodable, WhenFull};
 use std::ops::{Deref, DerefMut};
 use std::time::Duration;
 
@@ -46,8 +46,11 @@ const LONGEST_QUEUE: u32 = 1_000_000;
 /// The longest wait for a reply: a day.
 const LONGEST_TIMEOUT: Duration = Duration::from_secs(24 * 60 * 60);
 
+/// The most calls that a gate may have in progress: as many unread replies as a replier keeps for a requester.
+const MOST_IN_FLIGHT: u32 = 64;
+
 /// All options, in the order in which messages list them.
-pub static OPTIONS: [GateOption; 9] = [
+pub static OPTIONS: [GateOption; 12] = [
     GateOption {
         key: "doc",
         shape: Shape::Text,
@@ -119,12 +122,36 @@ pub static OPTIONS: [GateOption; 9] = [
         limits: ["", ""],
     },
     GateOption {
+        key: "latched",
+        shape: Shape::Boolean,
+        kinds: &[Pub],
+        field: Field::Switch(|options| &mut options.latched),
+        summary: "A subscriber that joins or restarts gets the last message at once.",
+        text: "For state that seldom changes, such as a mode or a configuration, so that nobody has to send it again and \
+               again, or wait for its first subscriber. This holds over every transport, between hosts, and in every language. \
+               The last message comes after those that wait in the queue, whatever `when_full` says. The subscriber can ask \
+               how old it is (`latched_age`), by the publisher's clock; between hosts, the time on the network is not part of \
+               that. One that stays connected, or reconnects, gets each message once, unless a gateway between them restarts. \
+               A plain ZeroMQ subscriber gets the last message each time that it connects, or subscribes to its topic later, \
+               and does not learn its age. The publisher's memory holds a copy of the message, so a publisher that restarts \
+               has none until it sends one.",
+        examples: &["mode: {pub: Mode, latched: true}"],
+        absent: &[
+            (&[Sub], "the publisher keeps its last message, for all of its subscribers"),
+            (&[Push, Pull], "each message goes to one puller, once"),
+            (&[Req, Rep], "a reply belongs to one call"),
+        ],
+        limits: ["", ""],
+    },
+    GateOption {
         key: "max_size",
         shape: Shape::Size { most: GateOptions::LARGEST_MAX_SIZE },
         kinds: &[Sub, Pull, Req, Rep],
         field: Field::Size(|options| &mut options.max_size),
         summary: "The longest message that this gate accepts.",
-        text: "Checked before memory is reserved. A sender refuses a message that is longer than a receiver accepts.",
+        text: "Checked before memory is reserved. A sender refuses a message that is longer than a receiver accepts. \
+               A message of `schemas` whose decoding would take more than 16 times this size in memory (at least 16 MiB) is \
+               undecodable.",
         examples: &["image: {sub: Image, max_size: 8MiB}"],
         absent: &[(&[Pub, Push], "each receiving gate sets its own limit")],
         limits: [
@@ -142,6 +169,45 @@ pub static OPTIONS: [GateOption; 9] = [
                of its own before it answers, this timeout has to be longer than theirs.",
         examples: &["set_mode: {req: Mode -> Accepted, timeout: 500ms}"],
         absent: &[(&[Rep], "each requester says how long it waits")],
+        limits: ["", ""],
+    },
+    GateOption {
+        key: "in_flight",
+        shape: Shape::Number { least: 1, most: MOST_IN_FLIGHT },
+        kinds: &[Req],
+        field: Field::Number(|options| &mut options.in_flight),
+        summary: "How many calls may be in progress at once.",
+        text: "For programs that call from several tasks. A call beyond the limit waits, within its timeout, until another one \
+               ends. Each reply is matched with its request; a replier may answer in any order, or take one request after \
+               the other.",
+        examples: &["tiles: {req: Area -> Tile, in_flight: 8}"],
+        absent: &[(&[Rep], "a replier may hold any number of requests")],
+        limits: ["", ""],
+    },
+    GateOption {
+        key: "undecodable",
+        shape: Shape::Word(&[
+            Word {
+                word: Undecodable::Skip.word(),
+                summary: "the message is counted and skipped",
+                text: "The call goes on with the next message.",
+            },
+            Word { word: Undecodable::Fail.word(), summary: "the call fails", text: "The next call goes on." },
+        ]),
+        kinds: &[Sub, Pull, Rep],
+        field: Field::Word {
+            read: |options| Some(options.undecodable.word()),
+            write: |options, word| options.undecodable = Undecodable::of(word).unwrap_or(options.undecodable),
+        },
+        summary: "What a receiving call does with a message that the codec cannot read: skip it, or fail.",
+        text: "With `skip`, the message is counted as `undecodable`, the first one of each peer is logged with the \
+               reason, and the call goes on with the next message within its time. With `fail`, the call returns the \
+               error. Either way the sender of an undecodable request is told at once, so its call fails before its timeout.",
+        examples: &["commands: {pull: Command, undecodable: fail}"],
+        absent: &[
+            (&[Pub, Push], "each receiving gate says what it does with messages that it cannot read"),
+            (&[Req], "an undecodable reply fails the call that it answers"),
+        ],
         limits: ["", ""],
     },
     GateOption {

@@ -1,14 +1,11 @@
 //! The section `components`.
 
-use super::fields::{Field, Fields};
-use super::{Reader, gate, pitfall, scalar, shape};
-use crate::grammar;
+use super::field::{Field, Fields};
+use super::words::{COMPONENT_KEYS, is_kind};
+use super::{Reader, pitfall, scalar, shape};
 use crate::model::ComponentModel;
-use crate::source::{Span, Spanned};
+use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
-
-/// The keys of a component, in the order in which messages list them.
-pub(super) const KEYS: [&str; grammar::COMPONENT_KEYS.len()] = grammar::words(&grammar::COMPONENT_KEYS);
 
 impl Reader<'_> {
     pub(super) fn read_components(&mut self, section: Field<'_>) {
@@ -105,11 +102,11 @@ impl Reader<'_> {
     /// Whether a list item is rather a gate of the component above it.
     fn is_stray_gate(&self, entries: &[(Node, Node)]) -> bool {
         let [(key, value)] = entries else { return false };
-        let is_name = scalar(key).is_some_and(|key| !KEYS.contains(&key.value.as_str()));
+        let is_name = scalar(key).is_some_and(|key| !COMPONENT_KEYS.contains(&key.value.as_str()));
         let is_kind = match &value.kind {
-            NodeKind::Scalar { text, .. } => gate::is_kind(text),
+            NodeKind::Scalar { text, .. } => is_kind(text),
             NodeKind::Mapping { entries } => {
-                entries.iter().any(|(key, _)| scalar(key).is_some_and(|key| gate::is_kind(&key.value)))
+                entries.iter().any(|(key, _)| scalar(key).is_some_and(|key| is_kind(&key.value)))
             }
             _ => false,
         };
@@ -224,19 +221,4 @@ fn second_component(entries: &[(Node, Node)]) -> Option<usize> {
 
 fn unread_component(name: Spanned<String>) -> ComponentModel {
     ComponentModel { name, doc: None, optional: false, gates: Vec::new(), gates_unread: true }
-}
-
-/// From the first character of an item, its `-` included, to the end of its first key.
-pub(super) fn head(item: &Node, fields: &Fields<'_>, source: &crate::source::SourceFile) -> Span {
-    let start = super::with_dash(item.span, source);
-    match fields.list.first() {
-        Some(first) => Span { end: first.key_span.end, ..start },
-        None => start,
-    }
-}
-
-/// The end of a key, its colon included if it follows at once.
-pub(super) fn end_with_colon(key: Span, source: &crate::source::SourceFile) -> u32 {
-    let follows = source.text().get(key.end as usize..).is_some_and(|rest| rest.starts_with(':'));
-    key.end + u32::from(follows)
 }

@@ -1,6 +1,6 @@
 //! The section `connections`.
 
-use super::fields::Field;
+use super::field::Field;
 use super::{Reader, is_plain, pitfall, scalar, shape};
 use crate::confusable;
 use crate::diagnostic::Diagnostic;

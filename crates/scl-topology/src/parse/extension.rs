@@ -1,7 +1,7 @@
 //! Sections of the user's own, such as `x-notes`: their content is theirs, but a key that is written twice is not read
 //! alike by all YAML tools, there as elsewhere.
 
-use super::fields::Field;
+use super::field::Field;
 use super::{Reader, pitfall};
 use crate::source::Span;
 use crate::yaml::{Node, NodeKind};

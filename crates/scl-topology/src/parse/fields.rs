@@ -1,49 +1,14 @@
-//! A mapping as the keys that we can read, each once.
+//! Reads a mapping as the keys that we can read, each once.
 
+use super::field::{Field, Fields};
+use super::words::known_word;
 use super::{Reader, pitfall};
 use crate::confusable;
 use crate::diagnostic::Diagnostic;
-use crate::grammar::{self, GateKind};
 use crate::source::Span;
 use crate::yaml::{Node, NodeKind};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-
-/// One key and its value.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Field<'n> {
-    /// The key as text.
-    pub(super) key: &'n str,
-    /// The key's place.
-    pub(super) key_span: Span,
-    /// The key's node, which knows whether it was quoted.
-    pub(super) key_node: &'n Node,
-    /// The value.
-    pub(super) value: &'n Node,
-}
-
-/// The readable keys of a mapping.
-#[derive(Debug, Default)]
-pub(super) struct Fields<'n> {
-    /// In file order, each key once.
-    pub(super) list: Vec<Field<'n>>,
-    /// The second and later fields of the same key; a problem says so.
-    pub(super) repeated: Vec<Field<'n>>,
-    /// A key could not be read, and a problem says so: whatever seems to be missing may be behind it.
-    pub(super) damaged: bool,
-}
-
-impl<'n> Fields<'n> {
-    /// The field with this key.
-    pub(super) fn get(&self, key: &str) -> Option<Field<'n>> {
-        self.list.iter().copied().find(|field| field.key == key)
-    }
-
-    /// All fields with this key, the repeated ones too.
-    pub(super) fn all(&self, key: &str) -> impl Iterator<Item = Field<'n>> {
-        self.list.iter().chain(&self.repeated).copied().filter(move |field| field.key == key)
-    }
-}
 
 impl Reader<'_> {
     /// Reads keys; `owner` says whose they are, for example `this component`.
@@ -118,12 +83,4 @@ impl Reader<'_> {
         self.report(problem);
         None
     }
-}
-
-/// One of the words that the format knows as keys.
-pub(super) fn known_word(word: &str) -> Option<&'static str> {
-    let keys = grammar::SECTIONS.iter().chain(&grammar::COMPONENT_KEYS).map(|key| key.key);
-    let kinds = GateKind::ALL.into_iter().map(GateKind::word);
-    let options = grammar::OPTIONS.iter().map(|option| option.key);
-    keys.chain(kinds).chain(options).find(|known| *known == word)
 }

@@ -1,12 +1,12 @@
 //! The gates of a component.
 
-use super::fields::{Field, Fields};
+use super::field::{Field, Fields, spanned_key};
+use super::words::{is_kind, is_like_option, is_option};
 use super::{Reader, is_plain, pitfall, scalar, shape};
 use crate::confusable;
 use crate::diagnostic::Diagnostic;
 use crate::model::{ComponentModel, GateModel};
 use crate::source::{Span, Spanned};
-use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};
 
 impl Reader<'_> {
@@ -67,8 +67,7 @@ impl Reader<'_> {
             return component.gates.push(gate);
         }
         self.read_gate(*first, component);
-        let (options, gates): (Vec<&Field<'_>>, Vec<&Field<'_>>) =
-            others.partition(|other| super::option::is_key(other.key));
+        let (options, gates): (Vec<&Field<'_>>, Vec<&Field<'_>>) = others.partition(|other| is_option(other.key));
         for option in options {
             self.report(shape::level::option_beside_gate(*option, *first, self.source));
         }
@@ -198,7 +197,7 @@ impl Reader<'_> {
             return gate;
         }
         let Some(kind) = self.gate_kind(field, &fields) else { return gate };
-        gate.kind = super::sections::spanned_key(kind);
+        gate.kind = spanned_key(kind);
         gate.payload = self.payload(kind);
         if let Some(answer) = self.second_type(kind, &fields) {
             if let Some(payload) = &mut gate.payload {
@@ -215,7 +214,7 @@ impl Reader<'_> {
         }
         let is_rest = |field: &Field<'_>| rest_of_doc.iter().any(|rest| rest.key_span == field.key_span);
         for option in fields.list.iter().filter(|field| field.key_span != kind.key_span && !is_rest(field)) {
-            if super::option::is_key(option.key) {
+            if is_option(option.key) {
                 gate.options.extend(self.option(*option));
             } else if !is_kind(option.key) {
                 self.report(shape::gate_key::diagnose(*option, kind.key, &path));
@@ -245,7 +244,7 @@ impl Reader<'_> {
         if let [first, second, ..] = kinds.as_slice() {
             self.report(shape::gate::two_kinds(gate.key, first, second));
         }
-        let unknown = || fields.list.iter().copied().find(|field| !super::option::is_like(field.key));
+        let unknown = || fields.list.iter().copied().find(|field| !is_like_option(field.key));
         let kind = kinds.first().copied().or_else(unknown);
         if kind.is_none() && !fields.damaged {
             self.report(shape::gate::without_kind_key(gate, fields));
@@ -279,7 +278,7 @@ fn rest_of_doc<'f, 'n>(fields: &'f Fields<'n>) -> &'f [Field<'n>] {
     let is_doc = |field: &Field<'_>| field.key == "doc" && is_plain(field.value) && !field.value.is_null();
     let Some(doc) = fields.list.iter().position(is_doc) else { return &[] };
     let rest = &fields.list[doc + 1..];
-    let is_option = |field: &Field<'_>| is_kind(field.key) || super::option::is_key(field.key);
+    let is_option = |field: &Field<'_>| is_kind(field.key) || is_option(field.key);
     let is_text = |field: &Field<'_>| field.value.is_null() && is_plain(field.key_node) && !is_option(field);
     &rest[..rest.iter().take_while(|field| is_text(field)).count()]
 }
@@ -288,7 +287,7 @@ fn rest_of_doc<'f, 'n>(fields: &'f Fields<'n>) -> &'f [Field<'n>] {
 fn glued_key<'n>(fields: &Fields<'n>) -> Option<Field<'n>> {
     let is_glued = |field: &&Field<'n>| {
         let word = first_word(field.key);
-        let is_known = is_kind(word) || super::option::is_key(word);
+        let is_known = is_kind(word) || is_option(word);
         field.value.is_null() && word.len() < field.key.len() && is_known && is_plain(field.key_node)
     };
     fields.list.iter().find(is_glued).copied()
@@ -328,10 +327,6 @@ fn odd_arrow(payload: &str) -> Option<(&str, String)> {
         }
         _ => None,
     }
-}
-
-pub(super) fn is_kind(word: &str) -> bool {
-    GateKind::of(word).is_some()
 }
 
 fn bare_gate(name: Spanned<String>, kind: Spanned<String>, span: Span) -> GateModel {

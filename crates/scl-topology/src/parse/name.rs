@@ -1,6 +1,6 @@
 //! A name, wherever one stands: of a component, a gate, a type, a file.
 
-use super::fields::Field;
+use super::field::Field;
 use super::{Reader, is_plain, pitfall, scalar, shape};
 use crate::confusable;
 use crate::source::Spanned;

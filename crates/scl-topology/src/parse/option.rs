@@ -1,23 +1,11 @@
 //! The options of a gate.
 
-use super::fields::Field;
+use super::field::{Field, spanned_key};
 use super::{Reader, is_plain, pitfall, scalar, shape};
-use crate::grammar::{GateKind, OPTIONS, Shape, option};
+use crate::grammar::{Shape, option};
 use crate::model::OptionModel;
 use crate::source::Spanned;
-use crate::suggest::similar;
 use crate::yaml::NodeKind;
-
-/// Whether this key is an option of some gate.
-pub(super) fn is_key(key: &str) -> bool {
-    option(key).is_some()
-}
-
-/// Whether this key is an option, or looks more like one than like a kind.
-pub(super) fn is_like(key: &str) -> bool {
-    let kinds = GateKind::ALL.map(GateKind::word);
-    is_key(key) || similar(key, kinds).is_empty() && !similar(key, OPTIONS.iter().map(|option| option.key)).is_empty()
-}
 
 impl Reader<'_> {
     /// One option, if its value has the right shape.
@@ -28,7 +16,7 @@ impl Reader<'_> {
             shape => self.shaped(field, shape),
         }?;
         let quoted = !is_plain(field.value);
-        Some(OptionModel { key: super::sections::spanned_key(field), value, quoted })
+        Some(OptionModel { key: spanned_key(field), value, quoted })
     }
 
     /// `true` or `false`.
@@ -52,17 +40,5 @@ impl Reader<'_> {
         };
         self.report(problem);
         None
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_like;
-
-    #[test]
-    fn a_misspelt_kind_is_no_option() {
-        for (key, like) in [("queue", true), ("que", true), ("publ", false), ("publish", false), ("reqq", false)] {
-            assert_eq!(is_like(key), like, "{key}");
-        }
     }
 }

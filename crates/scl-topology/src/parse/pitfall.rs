@@ -2,40 +2,39 @@
 
 mod anchor;
 pub(super) mod boolean_word;
-mod bracket;
+pub(super) mod bracket;
 mod conflict_marker;
 pub(super) mod dash;
-mod depth;
-mod directive;
+pub(super) mod depth;
+pub(super) mod directive;
 pub(super) mod duplicate_key;
 mod empty_file;
-mod indentation;
+pub(super) mod indentation;
 mod invisible;
 pub(super) mod leading_zero;
 pub(super) mod look_alike;
 pub(super) mod merge_key;
-mod missing_colon;
-mod missing_comma;
+pub(super) mod missing_colon;
+pub(super) mod missing_comma;
 pub(super) mod missing_space;
 pub(super) mod no_value;
-mod not_yaml;
+pub(super) mod not_yaml;
 pub(super) mod number_name;
 pub(super) mod odd_key;
-mod quote;
-mod repair;
-mod reserved_character;
-mod scan;
+pub(super) mod quote;
+pub(super) mod reserved_character;
+pub(super) mod scan;
 mod second_document;
-mod tab;
+pub(super) mod tab;
 mod tab_separator;
 mod tag;
 pub(super) mod text_block_name;
-mod unexpected;
+pub(super) mod unexpected;
 
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::Diagnostics;
 use crate::rule::Rule;
 use crate::source::{FileId, SourceFile, Span};
-use crate::yaml::{SyntaxError, SyntaxErrorKind, Tree};
+use crate::yaml::Tree;
 
 /// All of them, by their codes.
 pub(crate) const RULES: [&Rule; 29] = [
@@ -76,7 +75,7 @@ pub(crate) const MISREAD: [&Rule; 4] =
 
 /// Where a rule looks: the file, and the text with every reported character replaced by spaces.
 pub(super) struct Place<'s> {
-    source: &'s SourceFile,
+    pub(super) source: &'s SourceFile,
     file: FileId,
 }
 
@@ -86,24 +85,24 @@ impl<'s> Place<'s> {
     }
 
     /// The span of some bytes of the file.
-    fn span(&self, range: std::ops::Range<usize>) -> Span {
+    pub(super) fn span(&self, range: std::ops::Range<usize>) -> Span {
         Span { file: self.file, start: range.start as u32, end: range.end as u32 }
     }
 
     /// The line of a byte, from 1.
-    fn line(&self, at: usize) -> u32 {
+    pub(super) fn line(&self, at: usize) -> u32 {
         self.source.line(at as u32)
     }
 
     /// The bytes of the line below one that ends at a byte, without the line break; at the end of the file, nothing.
-    fn line_below(&self, end: usize) -> std::ops::Range<usize> {
+    pub(super) fn line_below(&self, end: usize) -> std::ops::Range<usize> {
         let text = self.source.text();
         let next = text[end..].find('\n').map_or(text.len(), |at| end + at + 1);
         self.line_range(next)
     }
 
     /// The bytes of the line of a byte, without the line break.
-    fn line_range(&self, at: usize) -> std::ops::Range<usize> {
+    pub(super) fn line_range(&self, at: usize) -> std::ops::Range<usize> {
         self.source.line_range(at as u32)
     }
 }
@@ -134,56 +133,12 @@ pub(super) fn check_text(source: &SourceFile, file: FileId, problems: &mut Diagn
 }
 
 /// The rules about what the parser found, but not about what it means.
-pub(super) fn check_tree(
-    tree: &Tree,
-    text: &CheckedText,
-    source: &SourceFile,
-    file: FileId,
-    problems: &mut Diagnostics,
-) {
-    let place = Place { source, file };
-    anchor::check(tree, &place, problems);
+pub(super) fn check_tree(tree: &Tree, place: &Place<'_>, problems: &mut Diagnostics) {
+    anchor::check(tree, place, problems);
     problems.extend(tree.tags.iter().map(|tag| tag::diagnose(*tag)));
-    problems.extend(tree.second_document.map(|at| second_document::diagnose(&place, at)));
+    problems.extend(tree.second_document.map(|at| second_document::diagnose(place, at)));
     problems.extend(tree.too_deep.map(depth::diagnose));
-    match &tree.error {
-        Some(error) if error.kind == SyntaxErrorKind::Limit => {
-            // The parser may notice it before it hands out the first of the nested values.
-            let at = place.span(error.at..error.at);
-            problems.extend(tree.too_deep.is_none().then(|| depth::diagnose(at)));
-        }
-        Some(error) => problems.extend(syntax_error(error, text, &place)),
-        None => problems.extend(empty_file::find(tree, &place)),
+    if tree.error.is_none() {
+        problems.extend(empty_file::find(tree, place));
     }
-}
-
-/// The rule that explains best why the parser stopped; none where a problem says so already.
-fn syntax_error(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> Option<Diagnostic> {
-    if text.is_mended {
-        return None;
-    }
-    let explained = match error.kind {
-        SyntaxErrorKind::Glued => missing_space::at_bracket(error, &text.text, place),
-        SyntaxErrorKind::Quote => quote::find(error, &text.text, place),
-        SyntaxErrorKind::Character(character) => Some(reserved_character::diagnose(error.at, character, place)),
-        SyntaxErrorKind::Property => reserved_character::find(error.at, place),
-        SyntaxErrorKind::Tab => Some(tab::elsewhere(error.at, place)),
-        SyntaxErrorKind::Directive => Some(directive::diagnose(place, error.at)),
-        _ => None,
-    };
-    let explained =
-        explained.or_else(|| missing_space::before(error, place)).or_else(|| quote::find(error, &text.text, place));
-    if explained.is_some() {
-        return explained;
-    }
-    let repair = repair::find(error, text, place);
-    if repair.as_ref().is_some_and(|repair| repair.is_sure) {
-        return repair.map(|repair| repair.problem);
-    }
-    bracket::find(error, &text.text, place)
-        .or_else(|| not_yaml::missing_dash_space(error, place))
-        .or_else(|| not_yaml::missing_colon(error, place))
-        .or_else(|| indentation::find(error, &text.text, place))
-        .or_else(|| repair.map(|repair| repair.problem))
-        .or_else(|| Some(not_yaml::diagnose(error, place)))
 }

@@ -1,14 +1,11 @@
 //! The top level: which sections exist, and the small ones.
 
-use super::fields::{Field, Fields};
+use super::field::{Field, Fields};
+use super::words::SECTIONS;
 use super::{Reader, shape};
 use crate::grammar;
-use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
-
-/// The sections of a topology, in the order in which messages list them.
-pub(super) const SECTIONS: [&str; grammar::SECTIONS.len()] = grammar::words(&grammar::SECTIONS);
 
 impl Reader<'_> {
     pub(super) fn read_sections(&mut self, entries: &[(Node, Node)]) {
@@ -121,9 +118,4 @@ impl Reader<'_> {
 /// Whether an unknown key was probably meant to be this section.
 fn is_misspelt(key: &str, section: &str) -> bool {
     !SECTIONS.contains(&key) && similar(key, [section]).contains(&section)
-}
-
-/// A word of the file, with its place.
-pub(super) fn spanned_key(field: Field<'_>) -> Spanned<String> {
-    Spanned { value: field.key.to_owned(), span: field.key_span }
 }

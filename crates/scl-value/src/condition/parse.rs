@@ -68,8 +68,10 @@ impl<'t> Parser<'t> {
         let left = self.operand()?;
         match self.operator() {
             Some(operator) => Ok(Node::Compare(left, operator, self.operand()?)),
-            None if matches!(left, Operand::Field(_)) => Ok(Node::True(left)),
-            None => Err(self.wrong("expected `==`, `!=`, `<`, `<=`, `>`, `>=` or `contains`")),
+            None => match left {
+                Operand::Field(path) => Ok(Node::True(path)),
+                Operand::Constant(_) => Err(self.wrong("expected `==`, `!=`, `<`, `<=`, `>`, `>=` or `contains`")),
+            },
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::from_value::known_fields;
 use super::well_known::{Short, short};
+use crate::field_kind::FieldKind;
 use crate::path::{FieldPath, Segment, UnknownField};
 use prost_reflect::{FieldDescriptor, Kind, MessageDescriptor};
 use scl_terminal::closest_name;
@@ -13,23 +14,41 @@ const MAX_COLUMNS: usize = 1000;
 enum Reached {
     Message(MessageDescriptor),
     List(Box<Reached>),
-    Map(Box<Reached>),
+    /// Its keys and values.
+    Map(FieldKind, Box<Reached>),
     /// A number, a text, bytes.
-    Scalar(&'static str),
+    Scalar(FieldKind),
     /// Anything may be below.
     Anything,
 }
 
-/// Checks that a message may have a field.
-pub(crate) fn check_field(message: &MessageDescriptor, path: &FieldPath) -> Result<(), UnknownField> {
+/// What the value at a path may be.
+///
+/// # Errors
+/// The message has no such field.
+pub(crate) fn kind_of(message: &MessageDescriptor, path: &FieldPath) -> Result<FieldKind, UnknownField> {
+    reach(message, path).map(kind_of_reached)
+}
+
+fn kind_of_reached(reached: Reached) -> FieldKind {
+    match reached {
+        Reached::Message(_) => FieldKind::Message,
+        Reached::List(item) => FieldKind::List(Box::new(kind_of_reached(*item))),
+        Reached::Map(key, _) => FieldKind::Map(Box::new(key)),
+        Reached::Scalar(kind) => kind,
+        Reached::Anything => FieldKind::Unknown,
+    }
+}
+
+fn reach(message: &MessageDescriptor, path: &FieldPath) -> Result<Reached, UnknownField> {
     let mut reached = of_message(message);
     for (index, segment) in path.segments().iter().enumerate() {
         let wrong = |reason: String| UnknownField { path: path.up_to(index), reason, help: None, note: None };
         reached = match (reached, segment) {
-            (Reached::Anything, _) => return Ok(()),
+            (Reached::Anything, _) => return Ok(Reached::Anything),
             (Reached::Message(message), Segment::Name(name)) => match message.get_field_by_name(name) {
                 Some(field) => of_field(&field),
-                None if name.starts_with('@') => return Ok(()),
+                None if name.starts_with('@') => return Ok(Reached::Anything),
                 None => {
                     let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
                     let near = closest_name(name, names.iter().map(String::as_str));
@@ -41,7 +60,7 @@ pub(crate) fn check_field(message: &MessageDescriptor, path: &FieldPath) -> Resu
                 }
             },
             (Reached::List(item), Segment::Index(_)) => *item,
-            (Reached::Map(value), _) => *value,
+            (Reached::Map(_, value), _) => *value,
             (Reached::Message(message), Segment::Index(_)) => {
                 return Err(wrong(format!("`{}` is a message, not a list", message.full_name())));
             }
@@ -49,18 +68,20 @@ pub(crate) fn check_field(message: &MessageDescriptor, path: &FieldPath) -> Resu
                 let help = Some(format!("name an element: `{}[0]`", path.up_to(index)));
                 return Err(UnknownField { help, ..wrong(format!("`{}` is a list", path.up_to(index))) });
             }
-            (Reached::Scalar(word), _) => {
+            (Reached::Scalar(kind), _) => {
+                let word = kind.word();
                 return Err(wrong(format!("`{}` is {word} and has no fields", path.up_to(index))));
             }
         };
     }
-    Ok(())
+    Ok(reached)
 }
 
 fn of_field(field: &FieldDescriptor) -> Reached {
     match field.kind() {
         Kind::Message(entry) if field.is_map() => {
-            Reached::Map(Box::new(of_kind(&entry.map_entry_value_field().kind())))
+            let key = kind_of_reached(of_kind(&entry.map_entry_key_field().kind()));
+            Reached::Map(key, Box::new(of_kind(&entry.map_entry_value_field().kind())))
         }
         kind if field.is_list() => Reached::List(Box::new(of_kind(&kind))),
         kind => of_kind(&kind),
@@ -70,17 +91,18 @@ fn of_field(field: &FieldDescriptor) -> Reached {
 fn of_kind(kind: &Kind) -> Reached {
     match kind {
         Kind::Message(message) => of_message(message),
-        Kind::String | Kind::Enum(_) => Reached::Scalar("a text"),
-        Kind::Bytes => Reached::Scalar("bytes"),
-        Kind::Bool => Reached::Scalar("a boolean"),
-        _ => Reached::Scalar("a number"),
+        Kind::Enum(names) => Reached::Scalar(FieldKind::Enum(names.values().map(|it| it.name().to_owned()).collect())),
+        Kind::String => Reached::Scalar(FieldKind::Text),
+        Kind::Bytes => Reached::Scalar(FieldKind::Bytes),
+        Kind::Bool => Reached::Scalar(FieldKind::Boolean),
+        _ => Reached::Scalar(FieldKind::Number),
     }
 }
 
 fn of_message(message: &MessageDescriptor) -> Reached {
     match short(message) {
         None => Reached::Message(message.clone()),
-        Some(Short::Text) => Reached::Scalar("a text"),
+        Some(Short::Text) => Reached::Scalar(FieldKind::Text),
         Some(Short::Wrapper) => message.get_field(1).map_or(Reached::Anything, |field| of_field(&field)),
         Some(Short::Struct | Short::Value | Short::List | Short::Any) => Reached::Anything,
     }

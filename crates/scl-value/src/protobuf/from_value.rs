@@ -1,6 +1,9 @@
 //! From values to messages of protobuf, with errors that name the field.
 
-use super::{UNKNOWN, well_known};
+mod short_form;
+
+use super::UNKNOWN;
+use crate::base64::from_base64;
 use crate::error::EncodeError;
 use crate::value::{Value, key_text};
 use prost_reflect::{DynamicMessage, EnumDescriptor, FieldDescriptor, Kind, MapKey, MessageDescriptor, Value as Field};
@@ -24,7 +27,7 @@ pub(crate) fn from_value(
     value: &Value,
     unknown: &mut Unknown,
 ) -> Result<DynamicMessage, EncodeError> {
-    if let Some(read) = well_known::lengthen(message, value, unknown) {
+    if let Some(read) = short_form::lengthen(message, value, unknown) {
         return read;
     }
     let Value::Map(entries) = value else {
@@ -154,7 +157,7 @@ fn read_value(kind: &Kind, value: &Value, unknown: &mut Unknown) -> Result<Field
         Kind::Bytes => match value {
             Value::Bytes(bytes) => Field::Bytes(bytes.clone().into()),
             Value::Text(text) => {
-                let decoded = crate::text::from_base64(text).map_err(|reason| {
+                let decoded = from_base64(text).map_err(|reason| {
                     EncodeError::new(format!("expected bytes as base64: {}", reason.trim_end_matches('.')))
                 })?;
                 Field::Bytes(decoded.into())

@@ -1,6 +1,8 @@
 //! From decoded messages of protobuf to values.
 
-use super::{UNKNOWN, well_known};
+mod short_form;
+
+use super::UNKNOWN;
 use crate::limits::MAX_DEPTH;
 use crate::value::{Value, widen};
 use prost::bytes::Buf;
@@ -9,11 +11,11 @@ use prost_reflect::{DynamicMessage, FieldDescriptor, Kind, MapKey, ReflectMessag
 
 /// The value of a message; `depth` counts the messages around it.
 pub(super) fn to_value(message: &DynamicMessage, depth: usize) -> Value {
-    well_known::shorten(message, depth).unwrap_or_else(|| plain(message, depth))
+    short_form::shorten(message, depth).unwrap_or_else(|| plain(message, depth))
 }
 
 /// The fields of a message, whether it is a well-known one or not.
-pub(super) fn plain(message: &DynamicMessage, depth: usize) -> Value {
+fn plain(message: &DynamicMessage, depth: usize) -> Value {
     if depth >= MAX_DEPTH {
         // The decoder accepts less; an `Any` within an `Any` is decoded on its own.
         return Value::Null;

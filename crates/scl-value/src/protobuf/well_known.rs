@@ -1,15 +1,9 @@
 //! Protobuf's own messages in the short form that they have in its JSON: `google.protobuf.Timestamp` as a text.
 
-use super::from_value::{Unknown, from_value};
-use super::{check, to_value};
-use crate::error::EncodeError;
-use crate::value::{Value, key_text};
-use prost::Message;
-use prost_reflect::{DynamicMessage, MapKey, MessageDescriptor, ReflectMessage as _, Value as Field};
-use std::collections::HashMap;
+use prost_reflect::MessageDescriptor;
 
 /// The key of the type of an `Any`.
-const TYPE: &str = "@type";
+pub(super) const TYPE: &str = "@type";
 
 /// What the short form of a well-known message looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,154 +36,7 @@ pub(super) fn short(message: &MessageDescriptor) -> Option<Short> {
     })
 }
 
-/// A well-known message in its short form; `None` if it has none, or if this message cannot be told in it.
-pub(super) fn shorten(message: &DynamicMessage, depth: usize) -> Option<Value> {
-    // What the short form leaves out must not be lost.
-    if message.unknown_fields().next().is_some() {
-        return None;
-    }
-    let inner = |name| match to_value::plain(message, depth) {
-        Value::Map(entries) => entries.into_iter().find(|(key, _)| *key == Value::from(name)).map(|(_, value)| value),
-        _ => None,
-    };
-    match short(&message.descriptor())? {
-        Short::Text => match serde_json::to_value(message).ok()? {
-            serde_json::Value::String(text) => Some(text.into()),
-            _ => None,
-        },
-        Short::Wrapper => inner("value"),
-        Short::Struct => inner("fields"),
-        Short::List => inner("values"),
-        Short::Value => match to_value::plain(message, depth) {
-            // One field of a oneof; `null_value` is an enum.
-            Value::Map(mut entries) => match entries.pop()? {
-                (name, _) if name == "null_value".into() => Some(Value::Null),
-                (_, value) => Some(value),
-            },
-            _ => None,
-        },
-        Short::Any => any(message, depth),
-    }
-}
-
-/// The fields of the message in an `Any`, if the schema describes it.
-fn any(message: &DynamicMessage, depth: usize) -> Option<Value> {
-    let url = message.get_field_by_name("type_url")?.as_str()?.to_owned();
-    let bytes = message.get_field_by_name("value")?.as_bytes()?.clone();
-    let descriptor = any_type(&message.descriptor(), &url)?;
-    // Each `Any` begins anew with the decoder's limits, so that the depth is limited here.
-    if depth + 1 >= crate::limits::MAX_DEPTH || check::check(&descriptor, &bytes).is_err() {
-        return None;
-    }
-    let content = DynamicMessage::decode(descriptor.clone(), bytes).ok()?;
-    let mut entries = vec![(TYPE.into(), url.into())];
-    match to_value::to_value(&content, depth + 1) {
-        Value::Map(fields) if short(&descriptor).is_none() => entries.extend(fields),
-        value => entries.push(("value".into(), value)),
-    }
-    Some(Value::Map(entries))
-}
-
-fn any_type(any: &MessageDescriptor, url: &str) -> Option<MessageDescriptor> {
+/// The message with the type of an `Any`, if the schema describes it.
+pub(super) fn any_type(any: &MessageDescriptor, url: &str) -> Option<MessageDescriptor> {
     any.parent_pool().get_message_by_name(url.rsplit('/').next()?)
-}
-
-/// Reads the short form of a well-known message; `None` if it has none, or if the value is its plain form.
-pub(super) fn lengthen(
-    message: &MessageDescriptor,
-    value: &Value,
-    unknown: &mut Unknown,
-) -> Option<Result<DynamicMessage, EncodeError>> {
-    let is_plain = |name: &str| matches!(value, Value::Map(_)) && value.get(name).is_some();
-    let wrapped = |name: &str, value: &Value, unknown: &mut Unknown| {
-        from_value(message, &Value::fields([(name, value.clone())]), unknown).map_err(|error| EncodeError {
-            path: error.path.strip_prefix(name).unwrap_or(&error.path).trim_start_matches('.').to_owned(),
-            ..error
-        })
-    };
-    Some(match short(message)? {
-        Short::Text => match value {
-            Value::Text(text) => {
-                let text = serde_json::Value::String(text.clone());
-                DynamicMessage::deserialize(message.clone(), text)
-                    .map_err(|error| EncodeError::new(format!("{error}; expected {}", expected(message))))
-            }
-            Value::Map(_) => return None,
-            other => Err(EncodeError::new(format!("expected {}, found {}", expected(message), other.kind()))),
-        },
-        Short::Wrapper if is_plain("value") => return None,
-        Short::Wrapper => wrapped("value", value, unknown),
-        Short::Struct | Short::Value | Short::List => anything(message, value),
-        Short::Any => {
-            let url = match value.get(TYPE)? {
-                Value::Text(url) => url.clone(),
-                other => {
-                    return Some(Err(EncodeError::new(format!("expected a text, found {}", other.kind())).below(TYPE)));
-                }
-            };
-            let Some(descriptor) = any_type(message, &url) else {
-                return Some(Err(EncodeError::new(format!("the schema has no message `{url}`")).below(TYPE)));
-            };
-            let content = match value {
-                Value::Map(_) if short(&descriptor).is_some() => value.get("value").cloned().unwrap_or(Value::Null),
-                Value::Map(entries) => {
-                    Value::Map(entries.iter().filter(|(key, _)| *key != TYPE.into()).cloned().collect())
-                }
-                _ => Value::Null,
-            };
-            from_value(&descriptor, &content, unknown).map(|content| {
-                let mut any = DynamicMessage::new(message.clone());
-                any.set_field_by_name("type_url", Field::String(url));
-                any.set_field_by_name("value", Field::Bytes(content.encode_to_vec().into()));
-                any
-            })
-        }
-    })
-}
-
-/// What the text of a well-known message looks like.
-fn expected(message: &MessageDescriptor) -> &'static str {
-    match message.name() {
-        "Timestamp" => "a time like `2026-11-22T10:00:00.5Z`",
-        "Duration" => "a duration like `1.5s`",
-        _ => "field names like `speed,unit`",
-    }
-}
-
-/// `Struct`, `ListValue` and `Value` from any value.
-fn anything(message: &MessageDescriptor, value: &Value) -> Result<DynamicMessage, EncodeError> {
-    let nested = |name: &str, value: &Value| {
-        let inner = message.parent_pool().get_message_by_name(&format!("google.protobuf.{name}"));
-        let inner = inner.ok_or_else(|| EncodeError::new(format!("the schema has no `google.protobuf.{name}`")))?;
-        anything(&inner, value).map(Field::Message)
-    };
-    let mut result = DynamicMessage::new(message.clone());
-    let (name, field) = match (message.name(), value) {
-        ("Struct", Value::Map(entries)) => {
-            let entry = |(key, value): &(Value, Value)| Ok((MapKey::String(key_text(key)), nested("Value", value)?));
-            let map: HashMap<_, _> = entries.iter().map(entry).collect::<Result<_, EncodeError>>()?;
-            ("fields", Field::Map(map))
-        }
-        ("ListValue", Value::List(items)) => {
-            let items: Vec<_> = items.iter().map(|item| nested("Value", item)).collect::<Result<_, _>>()?;
-            ("values", Field::List(items))
-        }
-        ("Value", value) => match value {
-            Value::Null => ("null_value", Field::EnumNumber(0)),
-            Value::Bool(flag) => ("bool_value", Field::Bool(*flag)),
-            Value::Int(number) => ("number_value", Field::F64(*number as f64)),
-            Value::Uint(number) => ("number_value", Field::F64(*number as f64)),
-            Value::Float(number) => ("number_value", Field::F64(*number)),
-            Value::Text(text) => ("string_value", Field::String(text.clone())),
-            Value::List(_) => ("list_value", nested("ListValue", value)?),
-            Value::Map(_) => ("struct_value", nested("Struct", value)?),
-            Value::Bytes(_) | Value::Opaque(_) => {
-                return Err(EncodeError::new(format!("expected a value as in JSON, found {}", value.kind())));
-            }
-        },
-        ("Struct", other) => return Err(EncodeError::new(format!("expected a map, found {}", other.kind()))),
-        (_, other) => return Err(EncodeError::new(format!("expected a list, found {}", other.kind()))),
-    };
-    result.set_field_by_name(name, field);
-    Ok(result)
 }

@@ -1,7 +1,8 @@
 //! Messages as rows of a table, for CSV.
 
+use crate::base64::to_base64;
 use crate::path::FieldPath;
-use crate::value::Value;
+use crate::value::{Value, to_json};
 
 /// The columns of a table of messages, one per field.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,8 +45,8 @@ fn cell(value: &Value) -> String {
         Value::Text(text) => text.clone(),
         Value::Float(number) if number.is_nan() => "NaN".to_owned(),
         Value::Float(number) if number.is_infinite() => if *number > 0.0 { "inf" } else { "-inf" }.to_owned(),
-        Value::Bytes(bytes) => super::to_base64(bytes),
-        other => super::to_json(other),
+        Value::Bytes(bytes) => to_base64(bytes),
+        other => to_json(other),
     }
 }
 

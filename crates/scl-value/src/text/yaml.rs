@@ -1,9 +1,9 @@
 //! Values as YAML, and from YAML or JSON, as users write them.
 
-use super::to_base64;
+use crate::base64::to_base64;
 use crate::limits::Budget;
 use crate::self_describing::AnyValue;
-use crate::value::Value;
+use crate::value::{Value, to_json};
 use scl_terminal::Problem;
 use serde::de::DeserializeSeed;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
@@ -37,7 +37,7 @@ pub fn read_yaml(text: &str) -> Result<Value, ReadError> {
 
 /// A value as YAML, as a user would write it; it ends with a line end. `read_yaml` reads it back.
 pub fn to_yaml(value: &Value) -> String {
-    serde_yaml::to_string(&Yaml(value)).unwrap_or_else(|_| format!("{}\n", super::to_json(value)))
+    serde_yaml::to_string(&Yaml(value)).unwrap_or_else(|_| format!("{}\n", to_json(value)))
 }
 
 struct Yaml<'v>(&'v Value);
@@ -130,7 +130,7 @@ mod tests {
             ("18446744073709551615", "18446744073709551615"),
         ];
         for (text, expected) in cases {
-            assert_eq!(super::super::to_json(&read_yaml(text).unwrap()), expected, "{text}");
+            assert_eq!(to_json(&read_yaml(text).unwrap()), expected, "{text}");
         }
         assert_eq!(read_yaml("!binary AQL/").unwrap(), Value::Bytes(vec![1, 2, 255]));
     }

@@ -17,7 +17,7 @@ static demand met_by(mixed mixed) {
 static void a_demand_within_limits_is_met_exactly(void) {
     mixed mixed = mixer_mix(&(demand){.thrust = 0.5, .roll = 0.1, .pitch = -0.2, .yaw = 0.05});
     demand met = met_by(mixed);
-    CHECK(!mixed.saturated);
+    CHECK(mixed.cut.x == 0.0 && mixed.cut.y == 0.0 && mixed.cut.z == 0.0);
     CHECK_NEAR(met.thrust, 0.5, 1e-12);
     CHECK_NEAR(met.roll, 0.1, 1e-12);
     CHECK_NEAR(met.pitch, -0.2, 1e-12);
@@ -27,7 +27,8 @@ static void a_demand_within_limits_is_met_exactly(void) {
 static void roll_and_pitch_survive_full_thrust_and_full_yaw(void) {
     mixed mixed = mixer_mix(&(demand){.thrust = 1.0, .roll = 0.2, .pitch = 0.1, .yaw = 0.5});
     demand met = met_by(mixed);
-    CHECK(mixed.saturated);
+    CHECK(mixed.cut.x == 0.0 && mixed.cut.y == 0.0);
+    CHECK_NEAR(mixed.cut.z, met.yaw - 0.5, 1e-12);
     CHECK_NEAR(met.roll, 0.2, 1e-12);
     CHECK_NEAR(met.pitch, 0.1, 1e-12);
     for (int motor = 0; motor < 4; motor++) {
@@ -42,8 +43,12 @@ static void without_thrust_the_motors_speed_up_to_stay_upright(void) {
 }
 
 static void impossible_torques_keep_their_direction(void) {
-    demand met = met_by(mixer_mix(&(demand){.thrust = 0.5, .roll = 2.0, .pitch = 1.0}));
+    mixed mixed = mixer_mix(&(demand){.thrust = 0.5, .roll = 2.0, .pitch = 1.0});
+    demand met = met_by(mixed);
     CHECK_NEAR(met.roll / met.pitch, 2.0, 1e-12);
+    CHECK_NEAR(mixed.cut.x, met.roll - 2.0, 1e-12);
+    CHECK_NEAR(mixed.cut.y, met.pitch - 1.0, 1e-12);
+    CHECK(mixed.cut.z == 0.0);
 }
 
 void test_mixer(void) {

@@ -122,24 +122,22 @@ pub struct RateController {
 }
 
 impl RateController {
+    /// `cut`: by how much the motors missed roll, pitch and yaw of the last beat, see [`Mixed`](super::mixer::Mixed).
     pub fn update(
         &mut self,
         thrust: &Thrust,
         attitude: Quaternion,
         rates: Vec3,
-        saturated: bool,
+        cut: Vec3,
         parameters: &Parameters,
         elapsed: f64,
     ) -> Demand {
         let error = wanted_rates(thrust.attitude, attitude, parameters) - rates;
-        if !saturated {
-            self.integral.x += error.x * (parameters.rate_i * elapsed);
-            self.integral.y += error.y * (parameters.rate_i * elapsed);
-            self.integral.z += error.z * (parameters.yaw_rate_i * elapsed);
-            self.integral.x = limit(self.integral.x, MAX_TORQUE_INTEGRAL);
-            self.integral.y = limit(self.integral.y, MAX_TORQUE_INTEGRAL);
-            self.integral.z = limit(self.integral.z, MAX_TORQUE_INTEGRAL);
-        }
+        self.integral = Vec3::new(
+            integrate_rate(self.integral.x, error.x, cut.x, parameters.rate_i * elapsed),
+            integrate_rate(self.integral.y, error.y, cut.y, parameters.rate_i * elapsed),
+            integrate_rate(self.integral.z, error.z, cut.z, parameters.yaw_rate_i * elapsed),
+        );
         let slope = (rates - self.rates) * (1.0 / elapsed);
         self.derivative += (slope - self.derivative) * (elapsed / (DERIVATIVE_TIME + elapsed));
         self.rates = rates;
@@ -152,6 +150,12 @@ impl RateController {
             yaw: parameters.yaw_rate_p * error.z + self.integral.z,
         }
     }
+}
+
+/// Grows the integral of an axis unless that would push further in the direction in which the motors could not follow.
+fn integrate_rate(integral: f64, error: f64, cut: f64, gain: f64) -> f64 {
+    let grown = if cut * error < 0.0 { integral } else { integral + error * gain };
+    limit(grown, MAX_TORQUE_INTEGRAL)
 }
 
 /// Rates that turn the body to the wanted attitude, in body axes.
@@ -182,7 +186,7 @@ mod tests {
             &thrust,
             Quaternion::default(),
             Vec3::ZERO,
-            false,
+            Vec3::ZERO,
             &Parameters::default(),
             BEAT,
         );
@@ -242,24 +246,26 @@ mod tests {
         let level = thrust(&mut VelocityController::default(), &SetPoint::default(), Vec3::ZERO);
         let tilted = Quaternion::from_angles(Vec3::new(0.2, -0.2, 0.2));
         let parameters = Parameters::default();
-        let demand = RateController::default().update(&level, tilted, Vec3::ZERO, false, &parameters, BEAT);
+        let demand = RateController::default().update(&level, tilted, Vec3::ZERO, Vec3::ZERO, &parameters, BEAT);
         assert!(demand.roll < 0.0 && demand.pitch > 0.0 && demand.yaw < 0.0, "{demand:?}");
         let rates = Vec3::new(1.0, 1.0, 1.0);
         let mut controller = RateController { rates, ..RateController::default() };
-        let demand = controller.update(&level, Quaternion::default(), rates, false, &parameters, BEAT);
+        let demand = controller.update(&level, Quaternion::default(), rates, Vec3::ZERO, &parameters, BEAT);
         assert!(demand.roll < 0.0 && demand.pitch < 0.0 && demand.yaw < 0.0, "{demand:?}");
     }
 
     #[test]
-    fn saturated_motors_stop_the_integral_of_rates() {
+    fn an_axis_at_its_limit_keeps_its_integral_and_no_others() {
         let level = thrust(&mut VelocityController::default(), &SetPoint::default(), Vec3::ZERO);
-        let tilted = Quaternion::from_angles(Vec3::new(0.2, 0.0, 0.0));
-        let integral = |saturated| {
+        let turned = Quaternion::from_angles(Vec3::new(0.2, 0.0, 0.2));
+        let integral = |cut| {
             let mut controller = RateController::default();
-            controller.update(&level, tilted, Vec3::ZERO, saturated, &Parameters::default(), BEAT);
-            controller.integral.x
+            controller.update(&level, turned, Vec3::ZERO, cut, &Parameters::default(), BEAT);
+            controller.integral
         };
-        assert!(integral(false) < 0.0);
-        assert_eq!(integral(true), 0.0);
+        let missed_yaw = integral(Vec3::new(0.0, 0.0, 0.1));
+        assert!(missed_yaw.x < 0.0 && missed_yaw.z == 0.0, "{missed_yaw:?}");
+        // It is only kept from growing in the direction in which the motors could not follow.
+        assert!(integral(Vec3::new(0.0, 0.0, -0.1)).z < 0.0);
     }
 }

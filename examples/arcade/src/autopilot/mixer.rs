@@ -3,6 +3,8 @@
 //! When the motors cannot give everything, roll and pitch come first, because they keep the vehicle upright; then thrust,
 //! then yaw (as "airmode" in PX4's control allocation).
 
+use super::vector::Vec3;
+
 /// What the controllers ask for. Roll, pitch and yaw are differences of motor set-points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Demand {
@@ -17,8 +19,8 @@ pub struct Demand {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mixed {
     pub motors: [f64; 4],
-    /// Torques were reduced: integrators must not grow.
-    pub saturated: bool,
+    /// Roll, pitch and yaw that were given less those that were asked for; 0 unless an axis was reduced.
+    pub cut: Vec3,
 }
 
 /// Left motors roll to positive roll; rear motors lower the nose, which is positive pitch.
@@ -47,7 +49,8 @@ pub fn mix(demand: &Demand) -> Mixed {
     for motor in 0..4 {
         motors[motor] = (thrust + tilt[motor] * kept + YAW[motor] * yaw).clamp(0.0, 1.0);
     }
-    Mixed { motors, saturated: kept < 1.0 || yaw != demand.yaw }
+    let cut = Vec3::new(demand.roll * kept - demand.roll, demand.pitch * kept - demand.pitch, yaw - demand.yaw);
+    Mixed { motors, cut }
 }
 
 /// As much of the yaw as keeps each motor between 0 and 1.
@@ -83,7 +86,7 @@ mod tests {
         let demand = Demand { thrust: 0.5, roll: 0.1, pitch: -0.2, yaw: 0.05 };
         let mixed = mix(&demand);
         let met = sums(mixed.motors);
-        assert!(!mixed.saturated);
+        assert_eq!(mixed.cut, Vec3::ZERO);
         assert!((met.thrust - demand.thrust).abs() < 1e-12 && (met.roll - demand.roll).abs() < 1e-12);
         assert!((met.pitch - demand.pitch).abs() < 1e-12 && (met.yaw - demand.yaw).abs() < 1e-12);
     }
@@ -93,7 +96,7 @@ mod tests {
         let demand = Demand { thrust: 1.0, roll: 0.2, pitch: 0.1, yaw: 0.5 };
         let mixed = mix(&demand);
         let met = sums(mixed.motors);
-        assert!(mixed.saturated);
+        assert!(mixed.cut.x == 0.0 && mixed.cut.y == 0.0 && (mixed.cut.z - (met.yaw - 0.5)).abs() < 1e-12, "{mixed:?}");
         assert!((met.roll - 0.2).abs() < 1e-12 && (met.pitch - 0.1).abs() < 1e-12, "{met:?}");
         assert!(mixed.motors.iter().all(|motor| (0.0..=1.0).contains(motor)));
     }
@@ -106,7 +109,9 @@ mod tests {
 
     #[test]
     fn impossible_torques_keep_their_direction() {
-        let met = sums(mix(&Demand { thrust: 0.5, roll: 2.0, pitch: 1.0, yaw: 0.0 }).motors);
+        let mixed = mix(&Demand { thrust: 0.5, roll: 2.0, pitch: 1.0, yaw: 0.0 });
+        let met = sums(mixed.motors);
         assert!((met.roll / met.pitch - 2.0).abs() < 1e-12, "{met:?}");
+        assert!((mixed.cut - Vec3::new(met.roll - 2.0, met.pitch - 1.0, 0.0)).length() < 1e-12, "{mixed:?}");
     }
 }

@@ -60,7 +60,7 @@ fn expand_root(context: &Context<'_>, root: Tree) -> TokenStream {
     // Messages without a package belong beside the components. A module of their own keeps the imports from there.
     let code = with_imports(context, root.code);
     let imports = expand_imports(context);
-    let hidden = format_ident!("__scl_messages_{}", context.path_as_identifier());
+    let hidden = format_ident!("messages_of_{}", context.path_as_identifier());
     quote! {
         #packages
         #[doc(hidden)]

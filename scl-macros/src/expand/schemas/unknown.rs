@@ -4,9 +4,9 @@
 
 use super::super::context::Context;
 use super::super::names::identifier;
-use super::super::problems::unknown_type_name;
+use super::super::problems::expand_unknown_type;
 use heck::{ToSnakeCase, ToUpperCamelCase};
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,10 +33,17 @@ pub(in crate::expand) fn expand_unknown(context: &Context<'_>) -> TokenStream {
     for dotted in gate_types(context).filter(|dotted| dotted.contains('.') && !starts_with_crate(context, dotted)) {
         root.declare(dotted.split('.'));
     }
+    if context.for_editor {
+        return expand_module(&root, 1, &|_| expand_unknown_type(context));
+    }
+    // A type that does not implement the trait because it is erroneous: rustc accepts even struct literals of it.
+    let unknown = expand_unknown_type(context);
+    let modules = expand_module(&root, 1, &|depth| {
+        let supers = std::iter::repeat_n(quote!(super::), depth);
+        quote!(<#(#supers)* #unknown as ::core::ops::Deref>::Target)
+    });
     // An import of everything gives way to a module or a type of the user's with the same name.
     let hidden = format_ident!("__scl_unknown_messages_{}", context.path_as_identifier());
-    let unknown = unknown_type_name(context);
-    let modules = expand_module(&root, 1, &quote!(#unknown));
     quote! {
         #[doc(hidden)]
         #[allow(warnings, missing_docs, clippy::all, clippy::pedantic)]
@@ -69,17 +76,14 @@ impl Module {
     }
 }
 
-fn expand_module(module: &Module, depth: usize, unknown: &TokenStream) -> TokenStream {
-    let supers = std::iter::repeat_n(quote!(super::), depth);
-    let supers = quote!(#(#supers)*);
+/// `unknown` gives the type of all types, by the number of modules around it.
+fn expand_module(module: &Module, depth: usize, unknown: &dyn Fn(usize) -> TokenStream) -> TokenStream {
     let types = module.types.iter().filter_map(|name| {
-        let name = identifier(name, proc_macro2::Span::call_site())?;
-        // A type that does not implement the trait because it is erroneous: rustc accepts even struct literals of it.
-        Some(quote!(pub type #name = <#supers #unknown as ::core::ops::Deref>::Target;))
+        let (name, unknown) = (identifier(name, Span::call_site())?, unknown(depth));
+        Some(quote!(pub type #name = #unknown;))
     });
     let inner = module.inner.iter().filter_map(|(name, inner)| {
-        let name = identifier(name, proc_macro2::Span::call_site())?;
-        let inner = expand_module(inner, depth + 1, unknown);
+        let (name, inner) = (identifier(name, Span::call_site())?, expand_module(inner, depth + 1, unknown));
         Some(quote!(pub mod #name { #inner }))
     });
     quote!(#(#types)* #(#inner)*)

@@ -2,6 +2,7 @@
 
 use super::{PATTERNS, numbered};
 use crate::transport::{Endpoint, Guarantee, Guarantees, Transport};
+use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::task::Poll;
 
@@ -28,6 +29,23 @@ pub async fn counts_what_was_not_taken(transport: &dyn Transport) {
         .await;
         let unacknowledged = sender.link.as_ref().map(|link| link.unacknowledged());
         assert_eq!(unacknowledged, Some(5), "{pattern:?}: nothing was taken of 5 messages");
+    }
+}
+
+/// A receiving end that is dropped has told what its program has received. The rest is not received: what waits in its gate, and
+/// what was never taken.
+pub async fn tells_what_was_received(transport: &dyn Transport) {
+    for pattern in PATTERNS {
+        let (mut sender, mut receiver) = pattern.connected(transport).await;
+        sender.queue(numbered(7));
+        for expected in numbered(5) {
+            assert_eq!(receiver.next(&mut [&mut sender]).await, expected);
+        }
+        receiver.leave(2);
+        let mut link = sender.link.take().unwrap_or_else(|| panic!("{pattern:?}: disconnected"));
+        let nothing = &mut VecDeque::new();
+        poll_fn(|cx| if link.poll(cx, nothing) { Poll::Pending } else { Poll::Ready(()) }).await;
+        assert_eq!(link.not_received_at_last(), 2 + 2, "{pattern:?}");
     }
 }
 

@@ -93,7 +93,7 @@ pub async fn replies_when_detached(transport: &dyn Transport) {
             Answer::Reply { id, body } => {
                 assert!(id == 1 && body == content(size), "a reply of {size} bytes is damaged")
             }
-            Answer::Lost => panic!("a reply of {size} bytes is lost with its replier"),
+            Answer::Refused { .. } | Answer::Lost => panic!("a reply of {size} bytes is lost with its replier"),
         }
     }
 }

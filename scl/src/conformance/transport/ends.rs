@@ -194,6 +194,12 @@ impl TestLink {
         self.watched.end.request_acknowledgement(&mut Context::from_waker(&self.watched.waker));
     }
 
+    /// Number of messages that the peer's program has not received, from what the peer has said before it left.
+    pub(super) fn not_received_at_last(&mut self) -> u64 {
+        self.watched.end.read_last();
+        self.watched.end.not_received()
+    }
+
     pub(super) fn wakes(&self) -> usize {
         self.watched.wakes()
     }
@@ -225,6 +231,12 @@ impl TestReceiver {
 
     pub(super) fn refusal(&self) -> Option<String> {
         self.watched.end.refusal()
+    }
+
+    /// Drops the end as a gate does in which some of the messages wait that were returned last.
+    pub(super) fn leave(mut self, waiting: u64) {
+        self.watched.end.note_waiting(waiting);
+        self.watched.end.acknowledge_last();
     }
 
     pub(super) fn is_lossless(&self) -> bool {

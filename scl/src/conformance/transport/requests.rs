@@ -133,7 +133,9 @@ pub async fn reports_a_lost_replier(transport: &dyn Transport) {
         drop(replier);
         match poll_fn(|cx| requester.poll_answer(cx)).await {
             Answer::Lost => assert!(!requester.is_connected(), "connected to a replier that is lost"),
-            Answer::Reply { id, .. } => panic!("received a reply to request {id} that was not sent"),
+            Answer::Reply { id, .. } | Answer::Refused { id } => {
+                panic!("received an answer to request {id} that was not sent")
+            }
         }
         let late = reply(&unanswered, Bytes::from_static(b"too late"));
         assert_eq!(late, Err(RequesterGone), "a reply was accepted after the replier was dropped");
@@ -205,7 +207,7 @@ pub async fn delivers_written_replies(transport: &dyn Transport) {
     for expected in 0..10 {
         match poll_fn(|cx| requester.poll_answer(cx)).await {
             Answer::Reply { id, body } => assert_eq!((id, body), (expected, text(b'r', expected))),
-            Answer::Lost => panic!("reply {expected} is lost with its replier"),
+            Answer::Refused { .. } | Answer::Lost => panic!("reply {expected} is lost with its replier"),
         }
     }
 }
@@ -264,7 +266,7 @@ async fn next_reply(requester: &mut TestRequester, replier: &mut TestReplier) ->
     });
     match answer.await {
         Answer::Reply { id, body } => (id, body),
-        Answer::Lost => panic!("the replier is there, and reported as lost"),
+        Answer::Refused { .. } | Answer::Lost => panic!("the replier is there, and its reply is not"),
     }
 }
 

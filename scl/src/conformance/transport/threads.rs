@@ -87,7 +87,7 @@ pub async fn moves_requests_between_threads(transport: &dyn Transport) {
                     Answer::Reply { id: answered, body } => {
                         assert_eq!((answered, body), (id, requests::text(b'q', id)), "{requests:?} to {replies:?}");
                     }
-                    Answer::Lost => panic!("the replier is there, and reported as lost"),
+                    Answer::Refused { .. } | Answer::Lost => panic!("the replier is there, and reported as lost"),
                 }
             }
             requester

@@ -1,9 +1,9 @@
 //! What connecting ends and `ready` say about peers that were built differently.
 
 use super::*;
-use crate::medium_choice::MediumChoice;
 use crate::runtime_dir::{OwnedPath, RuntimeDir};
 use crate::spec::{GateKind, GateOptions, WhenFull};
+use crate::transport_choice::TransportChoice;
 use tempfile::TempDir;
 
 fn nav() -> (TempDir, SystemDir) {
@@ -37,7 +37,7 @@ const PILOT: Build = Build { gate: ("pilot", "position", GateKind::Sub), peer: (
 impl Build {
     fn spec(&self) -> ComponentSpec {
         let (component, name, kind) = self.gate;
-        let link = LinkSpec {
+        let connection = ConnectionSpec {
             peer_component: self.peer.0,
             peer_gate: self.peer.1,
             endpoint: "gps.position--pilot.position.aaaa",
@@ -57,21 +57,24 @@ impl Build {
             tap: if kind == GateKind::Pub { "gps.position.tap" } else { "" },
             contract: self.contract,
             options: GateOptions::DEFAULT,
-            links: Vec::leak(vec![link]),
+            connections: Vec::leak(vec![connection]),
         };
         let (gates, schema) = (Vec::leak(vec![gate]), self.schema);
         ComponentSpec { system: "nav", name: component, declared_at: "nav.yaml:1:2", gates, schema }
     }
 
     fn announce(&self, dir: &SystemDir) -> OwnedPath {
-        Announcement::of(&self.spec(), &MediumChoice::default()).publish(dir).unwrap()
+        Announcement::of(&self.spec(), &TransportChoice::default()).publish(dir).unwrap()
     }
 
     /// What this component says about its peer: when it connects, and when it waits for the peer.
     fn says(&self, dir: &SystemDir) -> (String, String) {
         let own = self.spec();
-        let (gate, link) = (&own.gates[0], &own.gates[0].links[0]);
-        (check_peer(dir, &own, gate, link).err().unwrap_or_default(), explain_missing(dir, &own, gate, link))
+        let (gate, connection) = (&own.gates[0], &own.gates[0].connections[0]);
+        (
+            check_peer(dir, &own, gate, connection).err().unwrap_or_default(),
+            explain_missing(dir, &own, gate, connection),
+        )
     }
 }
 
@@ -261,8 +264,8 @@ mod messages {
         assert_eq!(std::os::unix::fs::MetadataExt::mode(&fs::metadata(&file).unwrap()) & 0o7777, 0o600);
         publish_schema(&dir, &schema).unwrap();
         assert_eq!(written(), first);
-        let link = || std::os::unix::fs::symlink("x".repeat(schema.descriptors.len()), &file).unwrap();
-        let replacements: [&dyn Fn(); 2] = [&|| fs::write(&file, "half").unwrap(), &link];
+        let connection = || std::os::unix::fs::symlink("x".repeat(schema.descriptors.len()), &file).unwrap();
+        let replacements: [&dyn Fn(); 2] = [&|| fs::write(&file, "half").unwrap(), &connection];
         for replace in replacements {
             fs::remove_file(&file).unwrap();
             replace();

@@ -5,7 +5,7 @@ use bytes::{Buf, BufMut};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 const MAGIC: &[u8; 8] = b"SCLSTATS";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Where *begin* and the body are.
 pub(super) const BEGIN: usize = 16;
@@ -14,8 +14,8 @@ pub(super) const BODY: usize = 24;
 pub(super) const COUNTER: usize = 8;
 
 const HEADER: usize = 64;
-const GATE: usize = 104;
-const CONNECTION: usize = 40;
+const GATE: usize = 120;
+const CONNECTION: usize = 64;
 
 /// Writes the whole block into `block`, which is emptied first; both counters are `counter`.
 pub(super) fn encode(stats: &ComponentStats, counter: u64, block: &mut Vec<u8>) {
@@ -51,17 +51,28 @@ fn put_gate(gate: &GateFigures, block: &mut Vec<u8>) {
         gate.tap_dropped,
         gate.lost,
         gate.rejected,
+        gate.undecodable,
         gate.bytes,
         gate.waiting,
         gate.peers,
         nanos(gate.last_activity),
+        gate.replaced,
     ] {
         block.put_u64_le(number);
     }
     block.put_u32_le(count(gate.connections.len()));
     block.put_u32_le(0);
     for one in &gate.connections {
-        for number in [u64::from(one.connected), one.waiting, one.taken, one.dropped, one.lost] {
+        for number in [
+            u64::from(one.connected),
+            one.waiting,
+            one.taken,
+            one.dropped,
+            one.lost,
+            one.replaced,
+            one.in_flight,
+            one.latched,
+        ] {
             block.put_u64_le(number);
         }
     }
@@ -98,6 +109,7 @@ fn take_gate(rest: &mut &[u8]) -> Option<GateFigures> {
         tap_dropped: number()?,
         lost: number()?,
         rejected: number()?,
+        undecodable: number()?,
         bytes: number()?,
         waiting: number()?,
         peers: number()?,
@@ -107,6 +119,7 @@ fn take_gate(rest: &mut &[u8]) -> Option<GateFigures> {
         0 => None,
         at => Some(time(at)?),
     };
+    gate.replaced = rest.try_get_u64_le().ok()?;
     let connections = rest.try_get_u32_le().ok()?;
     let _reserved = rest.try_get_u32_le().ok()?;
     gate.connections = (0..connections).map(|_| take_connection(rest)).collect::<Option<_>>()?;
@@ -121,6 +134,9 @@ fn take_connection(rest: &mut &[u8]) -> Option<ConnectionFigures> {
         taken: number()?,
         dropped: number()?,
         lost: number()?,
+        replaced: number()?,
+        in_flight: number()?,
+        latched: number()?,
     })
 }
 
@@ -143,7 +159,16 @@ mod tests {
 
     fn stats() -> ComponentStats {
         let at = |seconds| UNIX_EPOCH + Duration::from_secs(seconds);
-        let connection = ConnectionFigures { connected: true, waiting: 12, taken: 13, dropped: 14, lost: 15 };
+        let connection = ConnectionFigures {
+            connected: true,
+            waiting: 12,
+            taken: 13,
+            dropped: 14,
+            lost: 15,
+            replaced: 16,
+            in_flight: 17,
+            latched: 19,
+        };
         let gate = GateFigures {
             sent: 1,
             received: 2,
@@ -153,10 +178,12 @@ mod tests {
             tap_dropped: 6,
             lost: 7,
             rejected: 8,
-            bytes: 9,
-            waiting: 10,
-            peers: 11,
+            undecodable: 9,
+            bytes: 10,
+            waiting: 11,
+            peers: 12,
             last_activity: Some(at(3)),
+            replaced: 18,
             connections: vec![connection, ConnectionFigures::default()],
         };
         ComponentStats {
@@ -176,14 +203,15 @@ mod tests {
         let number = |at: usize| u64::from_le_bytes(block[at..at + 8].try_into().unwrap());
         let short = |at: usize| u32::from_le_bytes(block[at..at + 4].try_into().unwrap());
         assert_eq!(&block[..8], b"SCLSTATS");
-        assert_eq!((short(8), short(12) as usize), (1, block.len()));
+        assert_eq!((short(8), short(12) as usize), (2, block.len()));
         assert_eq!((number(16), number(block.len() - 8)), (0x99, 0x99));
         assert_eq!((number(24), number(32), number(40)), (1_000_000_000, 500_000_000, 2_000));
         assert_eq!((short(48), short(52), short(56), short(60)), (77, 1, 2, 0));
-        assert_eq!((0..11).map(|index| number(64 + 8 * index)).collect::<Vec<_>>(), (1..12).collect::<Vec<_>>());
-        assert_eq!((number(64 + 88), short(64 + 96), short(64 + 100)), (3_000_000_000, 2, 0));
-        assert_eq!((0..5).map(|index| number(168 + 8 * index)).collect::<Vec<_>>(), [1, 12, 13, 14, 15]);
-        assert_eq!(block.len(), 64 + 104 + 2 * 40 + 104 + 8);
+        assert_eq!((0..12).map(|index| number(64 + 8 * index)).collect::<Vec<_>>(), (1..13).collect::<Vec<_>>());
+        assert_eq!((number(64 + 96), number(64 + 104)), (3_000_000_000, 18));
+        assert_eq!((short(64 + 112), short(64 + 116)), (2, 0));
+        assert_eq!((0..8).map(|index| number(184 + 8 * index)).collect::<Vec<_>>(), [1, 12, 13, 14, 15, 16, 17, 19]);
+        assert_eq!(block.len(), 64 + 120 + 2 * 64 + 120 + 8);
     }
 
     #[test]
@@ -194,7 +222,7 @@ mod tests {
         for length in 0..block.len() {
             assert_eq!(decode(&block[..length]), None, "{length} bytes");
         }
-        for (at, wrong) in [(0, b'X'), (8, 2), (12, 0), (56, 1), (56, 3), (59, 0xff), (64 + 96, 1), (64 + 99, 0xff)] {
+        for (at, wrong) in [(0, b'X'), (8, 1), (12, 0), (56, 1), (56, 3), (59, 0xff), (64 + 112, 1), (64 + 115, 0xff)] {
             let mut block = block.clone();
             block[at] = wrong;
             assert_eq!(decode(&block), None, "{wrong} at {at}");

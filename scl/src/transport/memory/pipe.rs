@@ -1,19 +1,33 @@
 //! A bounded queue between two ends, each of which notices when the other is dropped.
 
 use crate::sync::lock;
+use std::cell::Cell;
 use std::collections::VecDeque;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Waker};
+use std::time::Instant;
 
 /// Creates a queue of at most `capacity` items.
 pub(super) fn pipe<T>(capacity: usize) -> (PipeWriter<T>, PipeReader<T>) {
-    pipe_of(capacity, false)
+    pipe_of(capacity, WriterTerms::default())
 }
 
-/// The same, and the reader knows whether the writer waits instead of dropping items.
-pub(super) fn pipe_of<T>(capacity: usize, lossless: bool) -> (PipeWriter<T>, PipeReader<T>) {
+/// What the reader knows of its writer.
+#[derive(Clone, Copy, Default)]
+pub(super) struct WriterTerms {
+    /// It waits instead of dropping items.
+    pub(super) lossless: bool,
+    /// It keeps its last item for readers that join.
+    pub(super) latched: bool,
+}
+
+/// The same, and the reader knows what its writer is like.
+pub(super) fn pipe_of<T>(capacity: usize, terms: WriterTerms) -> (PipeWriter<T>, PipeReader<T>) {
     let state = State {
         queue: VecDeque::new(),
+        sent: 0,
+        latched: None,
         untaken: 0,
         closed: false,
         wants_room: false,
@@ -23,8 +37,8 @@ pub(super) fn pipe_of<T>(capacity: usize, lossless: bool) -> (PipeWriter<T>, Pip
         writer: None,
         reader: None,
     };
-    let shared = Arc::new(Shared { state: Mutex::new(state), capacity, lossless });
-    (PipeWriter { shared: Arc::clone(&shared) }, PipeReader { shared })
+    let shared = Arc::new(Shared { state: Mutex::new(state), received: AtomicU64::new(0), capacity, terms });
+    (PipeWriter { shared: Arc::clone(&shared) }, PipeReader { shared, taken: Cell::new(0), latched: Cell::new(None) })
 }
 
 pub(super) struct PipeWriter<T> {
@@ -33,16 +47,26 @@ pub(super) struct PipeWriter<T> {
 
 pub(super) struct PipeReader<T> {
     shared: Arc<Shared<T>>,
+    /// Number of items taken so far.
+    taken: Cell<u64>,
+    /// Number of the last item that had been sent before this reader joined, and when.
+    latched: Cell<Option<(u64, Instant)>>,
 }
 
 struct Shared<T> {
     state: Mutex<State<T>>,
+    /// Number of items that the reader has taken and its caller does not keep for later.
+    received: AtomicU64,
     capacity: usize,
-    lossless: bool,
+    terms: WriterTerms,
 }
 
 struct State<T> {
     queue: VecDeque<T>,
+    /// Number of items sent so far.
+    sent: u64,
+    /// Number of an item that was sent before the reader joined, and when.
+    latched: Option<(u64, Instant)>,
     /// Number of items that the reader has not taken. Those it left behind when it was dropped still count.
     untaken: u64,
     /// Set when either end is dropped.
@@ -70,6 +94,7 @@ enum Question {
 impl<T> State<T> {
     fn push(&mut self, item: T) {
         self.queue.push_back(item);
+        self.sent += 1;
         self.untaken += 1;
     }
 
@@ -84,6 +109,11 @@ impl<T> PipeWriter<T> {
     /// Appends an item, or returns it if there is no room or no reader. Wakes the task when to try again, or to find
     /// out that the reader is gone.
     pub(super) fn send(&self, cx: &Context<'_>, item: T) -> Result<(), T> {
+        self.send_latched(cx, item, None)
+    }
+
+    /// The same. `sent`: when the item was sent, if that was before the reader joined.
+    pub(super) fn send_latched(&self, cx: &Context<'_>, item: T, sent: Option<Instant>) -> Result<(), T> {
         let mut state = lock(&self.shared.state);
         if state.closed {
             drop(state);
@@ -95,6 +125,9 @@ impl<T> PipeWriter<T> {
             return Err(item);
         }
         state.push(item);
+        if let Some(sent) = sent {
+            state.latched = Some((state.sent, sent));
+        }
         let reader = state.reader.take();
         drop(state);
         wake(reader);
@@ -161,6 +194,11 @@ impl<T> PipeWriter<T> {
         lock(&self.shared.state).untaken
     }
 
+    /// Number of items sent that are untaken, or that the caller of the reader keeps for later.
+    pub(super) fn not_received(&self) -> u64 {
+        lock(&self.shared.state).sent - self.shared.received.load(Ordering::Acquire)
+    }
+
     /// Wakes the task when the reader has taken everything.
     pub(super) fn wake_when_empty(&self, cx: &Context<'_>) {
         let mut state = lock(&self.shared.state);
@@ -192,6 +230,10 @@ impl<T> PipeReader<T> {
             return Poll::Pending;
         };
         state.untaken -= 1;
+        self.taken.set(self.taken.get() + 1);
+        if state.latched.is_some() {
+            self.latched.set(state.latched.take_if(|(number, _)| *number == self.taken.get()).or(self.latched.get()));
+        }
         // A refused writer is woken when half of the queue is free, so that it can send several items at once.
         let has_room = state.wants_room && state.queue.len() <= self.shared.capacity / 2;
         let is_empty = state.wants_empty && state.queue.is_empty();
@@ -216,9 +258,27 @@ impl<T> PipeReader<T> {
         false
     }
 
+    /// Notes how many of the items that were returned the caller keeps for later.
+    pub(super) fn note_waiting(&self, waiting: u64) {
+        // Items of an earlier pipe may wait, too.
+        let received = self.taken.get().saturating_sub(waiting);
+        self.shared.received.fetch_max(received, Ordering::Release);
+    }
+
     /// Returns true if the writer waits instead of dropping items.
     pub(super) fn is_lossless(&self) -> bool {
-        self.shared.lossless
+        self.shared.terms.lossless
+    }
+
+    /// Returns true if the writer keeps its last item for readers that join.
+    pub(super) fn is_latched(&self) -> bool {
+        self.shared.terms.latched
+    }
+
+    /// When an item was sent, if that was before this reader joined: the last one taken, or one that many before.
+    pub(super) fn latched(&self, before_last: u64) -> Option<Instant> {
+        let (number, sent) = self.latched.get()?;
+        (number + before_last == self.taken.get()).then_some(sent)
     }
 
     /// Makes the next [`poll_caught_up`](Self::poll_caught_up) ask again.

@@ -4,11 +4,12 @@ use super::catch_up::catch_up;
 use super::pipe::{PipeReader, PipeWriter};
 use super::round_robin::RoundRobin;
 use super::switchboard::{Connector, Listener};
+use crate::transport::origins::Origins;
 use crate::transport::{Endpoint, Receiver};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::task::{Context, Poll, ready};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 pub(super) struct Subscriber {
     connector: Connector<PipeWriter<Bytes>, PipeReader<Bytes>>,
@@ -63,6 +64,20 @@ impl Receiver for Subscriber {
         usize::from(is_connected || self.connector.has_connection(PipeReader::is_open))
     }
 
+    fn is_latched(&self) -> bool {
+        self.publisher.as_ref().is_some_and(PipeReader::is_latched)
+    }
+
+    fn take_latched(&mut self) -> Option<Instant> {
+        self.publisher.as_ref()?.latched(self.inbound.fetched.len() as u64)
+    }
+
+    fn note_waiting(&mut self, waiting: u64) {
+        if let Some(publisher) = &self.publisher {
+            publisher.note_waiting(waiting + self.inbound.fetched.len() as u64);
+        }
+    }
+
     fn is_lossless(&self) -> bool {
         self.publisher.as_ref().is_some_and(|publisher| publisher.is_open() && publisher.is_lossless())
     }
@@ -92,13 +107,25 @@ impl Receiver for Subscriber {
 
 pub(super) struct Puller {
     listener: Listener<PipeReader<Bytes>, PipeWriter<Bytes>>,
-    pushers: RoundRobin<PipeReader<Bytes>>,
+    pushers: RoundRobin<Pusher>,
+    /// Number of pushers so far.
+    accepted: u64,
+    /// The pushers of the messages that wait in the gate.
+    waiting: Origins,
     inbound: Inbound,
+}
+
+struct Pusher {
+    number: u64,
+    /// Number of its messages that wait in the gate.
+    waiting: u64,
+    pipe: PipeReader<Bytes>,
 }
 
 impl Puller {
     pub(super) fn new(listener: Listener<PipeReader<Bytes>, PipeWriter<Bytes>>, endpoint: &Endpoint) -> Self {
-        Self { listener, pushers: RoundRobin::new(), inbound: Inbound::new(endpoint) }
+        let (pushers, waiting, inbound) = (RoundRobin::new(), Origins::default(), Inbound::new(endpoint));
+        Self { listener, pushers, accepted: 0, waiting, inbound }
     }
 }
 
@@ -107,42 +134,64 @@ impl Receiver for Puller {
         if let Some(message) = self.inbound.fetched.pop_front() {
             return Poll::Ready(message);
         }
-        while let Poll::Ready(pusher) = self.listener.poll_connection(cx) {
-            self.pushers.add(pusher);
+        while let Poll::Ready(pipe) = self.listener.poll_connection(cx) {
+            self.pushers.add(Pusher { number: self.accepted, waiting: 0, pipe });
+            self.accepted += 1;
         }
-        let max_size = self.inbound.max_size;
+        let (max_size, waiting) = (self.inbound.max_size, &mut self.waiting);
         self.pushers.poll(|pusher| {
-            let received = pusher.poll_recv(cx);
             // Without a message, the pusher is removed and thereby disconnected.
-            received.map(|message| message.filter(|message| message.len() <= max_size))
+            pusher.pipe.poll_recv(cx).map(|message| {
+                let message = message.filter(|message| message.len() <= max_size)?;
+                waiting.push(pusher.number);
+                pusher.waiting += 1;
+                Some(message)
+            })
         })
     }
 
     fn peers(&self) -> usize {
-        let open = self.pushers.iter().filter(|pusher| pusher.is_open()).count();
+        let open = self.pushers.iter().filter(|pusher| pusher.pipe.is_open()).count();
         open + self.listener.count(PipeReader::is_open)
     }
 
+    fn note_waiting(&mut self, waiting: u64) {
+        let pushers = &mut self.pushers;
+        self.waiting.keep_newest(waiting + self.inbound.fetched.len() as u64, |sender, count| {
+            if let Some(pusher) = pushers.iter_mut().find(|pusher| pusher.number == sender) {
+                pusher.waiting -= count;
+            }
+        });
+        self.pushers.iter().for_each(|pusher| pusher.pipe.note_waiting(pusher.waiting));
+    }
+
+    fn note_dropped(&mut self) {
+        let sender = self.waiting.drop_newest();
+        if let Some(pusher) = self.pushers.iter_mut().find(|pusher| Some(pusher.number) == sender) {
+            pusher.waiting -= 1;
+        }
+    }
+
     fn is_lossless(&self) -> bool {
-        self.pushers.iter().any(|pusher| pusher.is_open() && pusher.is_lossless())
+        self.pushers.iter().any(|pusher| pusher.pipe.is_open() && pusher.pipe.is_lossless())
     }
 
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         // All are asked before any of the answers is used up.
-        let behind = self.pushers.iter().filter(|pusher| !pusher.poll_caught_up(cx)).count();
+        let behind = self.pushers.iter().filter(|pusher| !pusher.pipe.poll_caught_up(cx)).count();
         if behind > 0 {
             return Poll::Pending;
         }
-        self.pushers.iter().for_each(PipeReader::forget_answer);
+        self.pushers.iter().for_each(|pusher| pusher.pipe.forget_answer());
         Poll::Ready(())
     }
 
     fn catch_up(&mut self, within: Duration) {
         if self.inbound.newest_only {
             // An answer to an earlier call, or one that comes after this call has given up, may be old when it is used.
-            self.pushers.iter().for_each(PipeReader::forget_answer);
+            self.pushers.iter().for_each(|pusher| pusher.pipe.forget_answer());
             self.inbound.fetched = catch_up(self, within);
-            self.pushers.iter().for_each(PipeReader::forget_answer);
+            self.pushers.iter().for_each(|pusher| pusher.pipe.forget_answer());
         }
     }
 }

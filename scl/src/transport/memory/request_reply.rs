@@ -15,6 +15,18 @@ struct Numbered {
     body: Bytes,
 }
 
+/// What comes back for a request: nothing if it was refused.
+struct Answered {
+    id: u64,
+    body: Option<Bytes>,
+}
+
+impl Answered {
+    fn fits(&self, max_size: usize) -> bool {
+        self.body.as_ref().is_none_or(|body| body.len() <= max_size)
+    }
+}
+
 /// The replier's half of a connection.
 pub(super) struct ToRequester {
     requests: PipeReader<Numbered>,
@@ -25,7 +37,7 @@ pub(super) struct ToRequester {
 /// The requester's half of a connection.
 pub(super) struct ToReplier {
     requests: PipeWriter<Numbered>,
-    replies: PipeReader<Numbered>,
+    replies: PipeReader<Answered>,
 }
 
 /// Replies are not limited in number: each belongs to a request, and requesters discard old ones before the next
@@ -62,7 +74,7 @@ impl Requester for MemoryRequester {
                 continue;
             };
             match replier.replies.poll_recv(cx) {
-                Poll::Ready(Some(reply)) if reply.body.len() <= self.max_size => {}
+                Poll::Ready(Some(reply)) if reply.fits(self.max_size) => {}
                 Poll::Ready(_) => self.disconnect(),
                 Poll::Pending if replier.requests.has_room(cx) => return Poll::Ready(()),
                 Poll::Pending => return Poll::Pending,
@@ -82,7 +94,10 @@ impl Requester for MemoryRequester {
     fn poll_answer(&mut self, cx: &mut Context<'_>) -> Poll<Answer> {
         let Some(replier) = &self.replier else { return Poll::Ready(Answer::Lost) };
         Poll::Ready(match ready!(replier.replies.poll_recv(cx)) {
-            Some(Numbered { id, body }) if body.len() <= self.max_size => Answer::Reply { id, body },
+            Some(reply) if reply.fits(self.max_size) => match reply {
+                Answered { id, body: Some(body) } => Answer::Reply { id, body },
+                Answered { id, body: None } => Answer::Refused { id },
+            },
             _ => {
                 self.disconnect();
                 Answer::Lost
@@ -160,12 +175,23 @@ impl Drop for ToRequester {
     }
 }
 
-struct Replies(PipeWriter<Numbered>);
+struct Replies(PipeWriter<Answered>);
 
 impl ReplyPath for Replies {
     fn reply(&self, envelope: &Bytes, body: Bytes) -> Result<(), RequesterGone> {
+        self.answer(envelope, Some(body))
+    }
+
+    fn refuse(&self, envelope: &Bytes) {
+        // A requester that is gone waits for nothing.
+        let _told = self.answer(envelope, None);
+    }
+}
+
+impl Replies {
+    fn answer(&self, envelope: &Bytes, body: Option<Bytes>) -> Result<(), RequesterGone> {
         let id = envelope[..].try_into().map(u64::from_be_bytes).map_err(|_not_from_here| RequesterGone)?;
         let cx = Context::from_waker(Waker::noop());
-        self.0.send(&cx, Numbered { id, body }).map_err(|_gone| RequesterGone)
+        self.0.send(&cx, Answered { id, body }).map_err(|_gone| RequesterGone)
     }
 }

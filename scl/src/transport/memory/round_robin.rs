@@ -21,6 +21,10 @@ impl<H> RoundRobin<H> {
         self.connections.iter()
     }
 
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut H> {
+        self.connections.iter_mut()
+    }
+
     /// Polls each connection once, until one is ready with an item. Drops those that are ready with `None`.
     pub(super) fn poll<M>(&mut self, mut poll: impl FnMut(&mut H) -> Poll<Option<M>>) -> Poll<M> {
         for _ in 0..self.connections.len() {

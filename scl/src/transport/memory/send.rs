@@ -9,6 +9,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::task::{Context, Poll, ready};
+use std::time::{Duration, Instant};
 
 pub(super) struct Publisher {
     subscribers: Listener<PipeWriter<Bytes>, PipeReader<Bytes>>,
@@ -108,6 +109,10 @@ impl Link for MemoryLink {
         self.pipe.send(cx, self.lender.take_back(message)).map_err(Frame::from)
     }
 
+    fn send_latched(&mut self, cx: &mut Context<'_>, message: Frame, age: Duration) -> Result<(), Frame> {
+        self.pipe.send_latched(cx, message.into_bytes(), Instant::now().checked_sub(age)).map_err(Frame::from)
+    }
+
     fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
         let to_item = |message| self.lender.take_back(message);
         self.pipe.send_all(cx, queue, to_item, |message| sent(message.len()));
@@ -124,6 +129,10 @@ impl Link for MemoryLink {
 
     fn unacknowledged(&self) -> u64 {
         self.pipe.untaken()
+    }
+
+    fn not_received(&self) -> u64 {
+        self.pipe.not_received()
     }
 
     fn request_acknowledgement(&mut self, cx: &mut Context<'_>) {

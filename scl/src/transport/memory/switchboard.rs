@@ -33,6 +33,8 @@ pub(super) struct EndTerms {
     pub(super) newest_only: bool,
     /// It waits instead of dropping messages.
     pub(super) lossless: bool,
+    /// It keeps its last message for those that join.
+    pub(super) latched: bool,
 }
 
 struct Table<L, C> {
@@ -138,7 +140,8 @@ impl<H> Registration<H> {
     fn new(endpoint: &Endpoint, number: u64) -> Self {
         let backlog = Backlog { connections: VecDeque::new(), listener: 0, waiting: None };
         let has_check = endpoint.check.is_some();
-        let terms = EndTerms { newest_only: endpoint.newest_only, lossless: endpoint.lossless };
+        let Endpoint { newest_only, lossless, latched, .. } = *endpoint;
+        let terms = EndTerms { newest_only, lossless, latched };
         Self { backlog: Arc::new(Mutex::new(backlog)), terms, number, has_check }
     }
 

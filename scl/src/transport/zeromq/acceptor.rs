@@ -3,12 +3,17 @@
 //! A process without free descriptors cannot accept, not even to learn that nobody is waiting any more, and would try
 //! again forever. So one descriptor is kept in reserve, with which waiting peers are accepted and closed at once; they
 //! see that and come again.
+//!
+//! Over TCP every user of the machine can connect. Connections of others are closed at once, without a handshake and
+//! a limited number of times in a second; they take no place from those of this user.
 
-use super::Medium;
-use super::connection::{Closed, Connection};
-use super::listener::{BindError, Listener};
+use super::TransportKind;
+use super::listener::{Accepted, BindError, Listener};
+use super::refusals::Refusals;
+use super::session::{Closed, Session};
 use super::shared_memory::Offer;
 use super::stream::{Stream, is_blocked};
+use super::tcp_user::UserChecks;
 use super::timer::Timer;
 use super::zmtp::{Decoder, Item, PeerReady, SclReady, ServiceId, SocketType, hello};
 use crate::runtime_dir::{OwnedPath, Seen, SystemDir};
@@ -34,12 +39,14 @@ const MOST_CONNECTIONS: usize = 1024;
 const ACCEPTS: usize = 64;
 /// Delay before accepting again after an error that is likely to last.
 const PAUSE: Duration = Duration::from_millis(50);
+/// Delay before accepting again after connections of other users: they come one by one, and this handles them together.
+const STRANGERS_PAUSE: Duration = Duration::from_millis(5);
 /// Delay before binding again in a restored folder after that failed.
 const RETRY: Duration = Duration::from_secs(1);
 
 pub(super) struct Acceptor {
     dir: Arc<SystemDir>,
-    medium: Medium,
+    kind: TransportKind,
     endpoint: Endpoint,
     socket: SocketType,
     scl: SclReady,
@@ -57,10 +64,11 @@ pub(super) struct Acceptor {
     pause: Timer,
     handshakes: VecDeque<Handshake>,
     limit: Timer,
+    refusals: Refusals,
 }
 
 struct Handshake {
-    connection: Connection,
+    session: Session,
     /// The service that was offered.
     service: Option<ServiceId>,
     deadline: Instant,
@@ -70,18 +78,18 @@ impl Acceptor {
     /// Binds the endpoint. Called inside a runtime.
     pub(super) fn open(
         dir: &Arc<SystemDir>,
-        medium: Medium,
+        kind: TransportKind,
         endpoint: &Endpoint,
         socket: SocketType,
         scl: SclReady,
     ) -> Result<Self, TransportError> {
-        let (listener, guard) = Listener::bind(dir, medium, &endpoint.name).map_err(|error| match error {
+        let (listener, guard) = Listener::bind(dir, kind, &endpoint.name).map_err(|error| match error {
             BindError::RuntimeDir(error) => error.into(),
             BindError::Io(error) => refused(endpoint, &error),
         })?;
         Ok(Self {
             dir: Arc::clone(dir),
-            medium,
+            kind,
             endpoint: endpoint.clone(),
             socket,
             scl,
@@ -96,6 +104,7 @@ impl Acceptor {
             pause: Timer::new(),
             handshakes: VecDeque::new(),
             limit: Timer::new(),
+            refusals: Refusals::default(),
         })
     }
 
@@ -104,7 +113,7 @@ impl Acceptor {
     /// # Errors
     /// There is too little of it, or it cannot be used.
     pub(super) fn offering_memory(mut self) -> Result<Self, TransportError> {
-        if self.medium == Medium::Shm {
+        if self.kind == TransportKind::Shm {
             self.offer = Some(Offer::open(&self.dir, &self.endpoint)?);
         }
         Ok(self)
@@ -119,11 +128,11 @@ impl Acceptor {
         self.runtime = None;
         self.pause.detach();
         self.limit.detach();
-        self.handshakes.iter_mut().for_each(|handshake| handshake.connection.detach());
+        self.handshakes.iter_mut().for_each(|handshake| handshake.session.detach());
     }
 
     /// Returns the next connection whose handshake is done. `open` is the number of those in use.
-    pub(super) fn poll_connection(&mut self, cx: &mut Context<'_>, open: usize) -> Poll<(Connection, PeerReady)> {
+    pub(super) fn poll_session(&mut self, cx: &mut Context<'_>, open: usize) -> Poll<(Session, PeerReady)> {
         self.bind_again_if_restored(cx);
         self.accept(cx, open);
         self.poll_handshakes(cx)
@@ -139,7 +148,7 @@ impl Acceptor {
         // Also reported when only other files in the folder were removed.
         while is_due && !self.guard.is_ours() {
             let _inside = runtime.enter();
-            match Listener::bind(&self.dir, self.medium, &self.endpoint.name) {
+            match Listener::bind(&self.dir, self.kind, &self.endpoint.name) {
                 Ok((listener, guard)) => (self.listener, self.guard) = (listener, guard),
                 Err(error) => {
                     tracing::warn!(endpoint = %self.endpoint.name, %error, "cannot listen again");
@@ -151,25 +160,67 @@ impl Acceptor {
     }
 
     fn accept(&mut self, cx: &mut Context<'_>, open: usize) {
+        if !self.pause.is_set()
+            && let Some(next) = self.listener.next_check()
+        {
+            self.pause.set_at(next.into());
+        }
+        let mut arrived = Vec::new();
+        let mut may_be_more = true;
         for _ in 0..ACCEPTS {
             if self.pause.poll(cx).is_pending() {
-                return;
+                may_be_more = false;
+                break;
             }
             match self.poll_accept(cx) {
-                Poll::Ready(Ok(stream)) if open + self.handshakes.len() < MOST_CONNECTIONS => self.start(stream),
-                Poll::Ready(Ok(_one_too_many)) => {}
+                Poll::Ready(Ok(accepted)) => arrived.push(accepted),
                 Poll::Ready(Err(error)) => {
+                    if is_out_of_descriptors(&error) {
+                        // Dropped like the unfinished handshakes, so that some descriptors stay free for other sockets.
+                        arrived.clear();
+                    }
                     if self.handle_failure(cx, &error) {
-                        return;
+                        may_be_more = false;
+                        break;
                     }
                 }
-                Poll::Pending => return,
+                Poll::Pending => {
+                    may_be_more = false;
+                    break;
+                }
             }
         }
-        cx.waker().wake_by_ref();
+        if !arrived.is_empty() && self.admit(cx, arrived, open) > 0 {
+            self.pause.set(STRANGERS_PAUSE);
+            // Polled so that it wakes the task.
+            may_be_more = self.pause.poll(cx).is_ready();
+        }
+        if may_be_more {
+            cx.waker().wake_by_ref();
+        }
     }
 
-    fn poll_accept(&self, cx: &mut Context<'_>) -> Poll<io::Result<Stream>> {
+    /// Begins the handshakes of this user's connections, and closes the others. Returns the number of those.
+    fn admit(&mut self, cx: &mut Context<'_>, arrived: Vec<Accepted>, open: usize) -> usize {
+        let mut checks = UserChecks::default();
+        let mut refused = 0;
+        for accepted in arrived {
+            match accepted.check_user(&mut checks) {
+                Ok(stream) if open + self.handshakes.len() < MOST_CONNECTIONS => self.start(stream),
+                Ok(_one_too_many) => {}
+                Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {
+                    refused += 1;
+                    self.refusals.log(&self.endpoint.name, &error);
+                }
+                Err(error) => {
+                    self.handle_failure(cx, &error);
+                }
+            }
+        }
+        refused
+    }
+
+    fn poll_accept(&self, cx: &mut Context<'_>) -> Poll<io::Result<Accepted>> {
         if let Some(runtime) = &self.runtime {
             let _inside = runtime.enter();
             return self.listener.poll_accept(cx);
@@ -182,9 +233,9 @@ impl Acceptor {
         let decoder = Decoder::new(self.socket, self.endpoint.max_size);
         let shm = self.offer.as_ref().map(Offer::next);
         let own = shm.map(|_| hello(self.socket, SclReady { shm, ..self.scl }).into());
-        let connection = Connection::new(stream, decoder, own.as_ref().unwrap_or(&self.hello));
+        let session = Session::new(stream, decoder, own.as_ref().unwrap_or(&self.hello));
         let service = shm.and_then(|shm| shm.service);
-        self.handshakes.push_back(Handshake { connection, service, deadline: Instant::now() + HANDSHAKE_LIMIT });
+        self.handshakes.push_back(Handshake { session, service, deadline: Instant::now() + HANDSHAKE_LIMIT });
         if self.handshakes.len() > MOST_HANDSHAKES {
             self.handshakes.pop_front();
         }
@@ -194,8 +245,8 @@ impl Acceptor {
     fn handle_failure(&mut self, cx: &mut Context<'_>, error: &io::Error) -> bool {
         tracing::debug!(endpoint = %self.endpoint.name, %error, "cannot accept a connection");
         match Errno::from_io_error(error) {
-            Some(Errno::MFILE | Errno::NFILE) => return self.turn_away(cx),
-            // The peer has gone again, or belongs to another user.
+            _ if is_out_of_descriptors(error) => return self.turn_away(cx),
+            // The peer has gone again.
             Some(Errno::CONNABORTED | Errno::INTR | Errno::NOTCONN | Errno::INVAL) => {}
             None => {}
             _ => self.pause.set(PAUSE),
@@ -227,15 +278,15 @@ impl Acceptor {
         none_left && self.reserve.is_some()
     }
 
-    fn poll_handshakes(&mut self, cx: &mut Context<'_>) -> Poll<(Connection, PeerReady)> {
+    fn poll_handshakes(&mut self, cx: &mut Context<'_>) -> Poll<(Session, PeerReady)> {
         let mut index = 0;
         while let Some(handshake) = self.handshakes.get_mut(index) {
-            match poll_handshake(&mut handshake.connection, cx) {
+            match poll_handshake(&mut handshake.session, cx) {
                 Poll::Ready(Ok(peer)) => {
                     if let Some(handshake) = self.handshakes.remove(index) {
                         let can_share = peer.scl.is_some_and(|scl| scl.shm.is_some());
                         let service = handshake.service.filter(|_| can_share);
-                        return Poll::Ready((handshake.connection, PeerReady { service, ..peer }));
+                        return Poll::Ready((handshake.session, PeerReady { service, ..peer }));
                     }
                 }
                 Poll::Ready(Err(error)) => {
@@ -262,11 +313,11 @@ impl Acceptor {
 }
 
 /// Ready when the peer has introduced itself.
-pub(super) fn poll_handshake(connection: &mut Connection, cx: &mut Context<'_>) -> Poll<Result<PeerReady, Closed>> {
-    if !connection.is_written() {
-        connection.flush(cx)?;
+pub(super) fn poll_handshake(session: &mut Session, cx: &mut Context<'_>) -> Poll<Result<PeerReady, Closed>> {
+    if !session.is_written() {
+        session.flush(cx)?;
     }
-    match connection.poll_item(cx) {
+    match session.poll_item(cx) {
         Poll::Ready(Ok(Item::Ready(peer))) => Poll::Ready(Ok(peer)),
         Poll::Ready(Ok(_)) => Poll::Ready(Err(super::zmtp::ProtocolError::NotReady.into())),
         Poll::Ready(Err(error)) => Poll::Ready(Err(error)),
@@ -276,6 +327,11 @@ pub(super) fn poll_handshake(connection: &mut Connection, cx: &mut Context<'_>) 
 
 fn refused(endpoint: &Endpoint, error: &io::Error) -> TransportError {
     TransportError::Refused { endpoint: endpoint.name.clone().into_owned(), reason: error.to_string() }
+}
+
+/// Whether the process, or the machine, has no free file descriptor.
+pub(super) fn is_out_of_descriptors(error: &io::Error) -> bool {
+    matches!(Errno::from_io_error(error), Some(Errno::MFILE | Errno::NFILE))
 }
 
 fn reserve() -> io::Result<File> {

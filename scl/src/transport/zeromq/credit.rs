@@ -25,6 +25,8 @@ fn window(endpoint: &Endpoint) -> Window {
 pub(super) struct SendCredit {
     window: Window,
     sent: u64,
+    /// Number of messages that the peer's program has received.
+    received: u64,
     /// Lengths of the messages that are not acknowledged, the oldest first.
     in_flight: VecDeque<usize>,
     bytes: u64,
@@ -33,7 +35,7 @@ pub(super) struct SendCredit {
 impl SendCredit {
     pub(super) fn new(mut window: Window) -> Self {
         window.messages = window.messages.min(MOST_MESSAGES);
-        Self { window, sent: 0, in_flight: VecDeque::new(), bytes: 0 }
+        Self { window, sent: 0, received: 0, in_flight: VecDeque::new(), bytes: 0 }
     }
 
     /// Returns true if another message may be sent after the given number of others with that total length. One that is longer than the
@@ -57,8 +59,12 @@ impl SendCredit {
         self.in_flight.len() as u64
     }
 
-    /// Handles an acknowledgement of all messages up to a number.
-    pub(super) fn acknowledge(&mut self, acknowledged: u64) -> Result<(), ProtocolError> {
+    pub(super) fn not_received(&self) -> u64 {
+        self.sent - self.received
+    }
+
+    /// Handles an acknowledgement of all messages up to a number, of which the peer's program has received so many.
+    pub(super) fn acknowledge(&mut self, acknowledged: u64, received: u64) -> Result<(), ProtocolError> {
         let remaining = self
             .sent
             .checked_sub(acknowledged)
@@ -66,6 +72,7 @@ impl SendCredit {
         while self.in_flight.len() as u64 > remaining {
             self.bytes -= self.in_flight.pop_front().unwrap_or_default() as u64;
         }
+        self.received = self.received.max(received.min(acknowledged));
         Ok(())
     }
 }
@@ -74,6 +81,10 @@ impl SendCredit {
 pub(super) struct ReceiveCredit {
     window: Window,
     taken: u64,
+    /// Number of messages among them that the program has received, or its gate has dropped.
+    received: u64,
+    /// The sender has asked to be told when that number is reached.
+    awaited: Option<u64>,
     unacknowledged: u64,
     unacknowledged_bytes: u64,
     deferred: Option<Deferred>,
@@ -90,7 +101,8 @@ struct Deferred {
 impl ReceiveCredit {
     pub(super) fn new(endpoint: &Endpoint) -> Self {
         let deferred = endpoint.deferred.map(|_| Deferred::default());
-        Self { window: window(endpoint), taken: 0, unacknowledged: 0, unacknowledged_bytes: 0, deferred }
+        let window = window(endpoint);
+        Self { window, taken: 0, received: 0, awaited: None, unacknowledged: 0, unacknowledged_bytes: 0, deferred }
     }
 
     /// Counts a message. Returns true if half of the window waits to be acknowledged.
@@ -102,6 +114,11 @@ impl ReceiveCredit {
         self.unacknowledged += 1;
         self.unacknowledged_bytes += length as u64;
         2 * self.unacknowledged >= self.window.messages || 2 * self.unacknowledged_bytes >= self.window.bytes
+    }
+
+    /// Number of messages taken so far.
+    pub(super) fn taken(&self) -> u64 {
+        self.taken
     }
 
     /// Whether the caller acknowledges messages.
@@ -125,10 +142,22 @@ impl ReceiveCredit {
         self.unacknowledged
     }
 
-    /// Returns the number to acknowledge.
-    pub(super) fn acknowledge(&mut self) -> u64 {
+    /// Notes that the program has received all but the given number of messages. Returns true if the sender is to be told.
+    pub(super) fn note_waiting(&mut self, waiting: u64) -> bool {
+        // Messages of an earlier connection may wait, too.
+        self.received = self.received.max(self.taken.saturating_sub(waiting));
+        self.awaited.take_if(|awaited| *awaited <= self.received).is_some()
+    }
+
+    /// The sender wants to know when the program has received everything taken so far.
+    pub(super) fn await_received(&mut self) {
+        self.awaited = (self.received < self.taken).then_some(self.taken);
+    }
+
+    /// Returns the numbers to acknowledge: of messages taken, and received by the program.
+    pub(super) fn acknowledge(&mut self) -> (u64, u64) {
         (self.unacknowledged, self.unacknowledged_bytes) = (0, 0);
-        self.taken
+        (self.taken, self.received)
     }
 }
 

@@ -1,12 +1,15 @@
-//! Connecting to the listening side of an endpoint, again and again at a constant pace.
+//! Connecting to the listening side of an endpoint, again and again.
+//!
+//! A peer that is expected back is tried every 20 ms. One that stays away is tried twice a second, and at the former pace
+//! again as soon as a file arrives in the folder, as a peer that starts puts its socket or address there.
 
-use super::acceptor::{HANDSHAKE_LIMIT, poll_handshake};
-use super::connection::{Closed, Connection};
+use super::acceptor::{HANDSHAKE_LIMIT, is_out_of_descriptors, poll_handshake};
+use super::session::{Closed, Session};
 use super::stream::{Socket, Stream};
-use super::tcp_user;
+use super::tcp_user::UserChecks;
 use super::timer::Timer;
 use super::zmtp::{Decoder, PeerReady, SclReady, ShmReady, SocketType, hello};
-use crate::runtime_dir::{self, Address, SystemDir};
+use crate::runtime_dir::{self, Address, Seen, SystemDir};
 use crate::transport::Endpoint;
 use bytes::Bytes;
 use rustix::io::Errno;
@@ -26,6 +29,10 @@ const RETRY: Duration = Duration::from_millis(20);
 const JITTER: Duration = Duration::from_millis(4);
 /// How often a peer that does not listen is checked: every half second.
 const ATTEMPTS_PER_CHECK: u32 = 24;
+/// Number of attempts after which a peer counts as one that stays away, if events of the folder tell of its return.
+const QUICK_ATTEMPTS: u32 = ATTEMPTS_PER_CHECK;
+/// Delay between attempts to connect to such a peer.
+const SLOW_RETRY: Duration = Duration::from_millis(500);
 
 pub(super) struct Dialler {
     dir: Arc<SystemDir>,
@@ -35,10 +42,14 @@ pub(super) struct Dialler {
     runtime: Option<Handle>,
     /// Until the next attempt may be made, counted from the one before.
     pause: Timer,
-    handshake: Option<Connection>,
+    handshake: Option<Session>,
     limit: Timer,
     /// Number of failed attempts since the last connection.
     attempts: u32,
+    /// The same since a file arrived in the folder.
+    attempts_since_arrival: u32,
+    /// The files that had arrived then.
+    arrived: Seen,
     refusal: Option<String>,
     /// The last reason that was logged, so that it is logged once.
     warned: Option<String>,
@@ -58,6 +69,8 @@ impl Dialler {
             handshake: None,
             limit: Timer::new(),
             attempts: 0,
+            attempts_since_arrival: 0,
+            arrived: Seen::default(),
             refusal: None,
             warned: None,
         }
@@ -68,8 +81,8 @@ impl Dialler {
         self.runtime = None;
         self.pause.detach();
         self.limit.detach();
-        if let Some(connection) = &mut self.handshake {
-            connection.detach();
+        if let Some(session) = &mut self.handshake {
+            session.detach();
         }
     }
 
@@ -87,11 +100,12 @@ impl Dialler {
 
     /// Returns a connection whose handshake is done. After it broke, call this again for the next one: at once if it
     /// lasted longer than the delay between two attempts.
-    pub(super) fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<(Connection, PeerReady)> {
+    pub(super) fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<(Session, PeerReady)> {
         loop {
             match ready!(self.poll_attempt(cx)) {
                 Ok(connected) => {
                     self.attempts = 0;
+                    self.attempts_since_arrival = 0;
                     self.warned = None;
                     return Poll::Ready(connected);
                 }
@@ -100,39 +114,55 @@ impl Dialler {
         }
     }
 
-    fn poll_attempt(&mut self, cx: &mut Context<'_>) -> Poll<Result<(Connection, PeerReady), Closed>> {
-        let mut connection = match self.handshake.take() {
-            Some(connection) => connection,
+    fn poll_attempt(&mut self, cx: &mut Context<'_>) -> Poll<Result<(Session, PeerReady), Closed>> {
+        let mut session = match self.handshake.take() {
+            Some(session) => session,
             None => {
-                ready!(self.pause.poll(cx));
-                self.pause.set(RETRY + JITTER.mul_f64(jitter(&self.endpoint.name, self.attempts)));
+                ready!(self.poll_pause(cx));
+                let pause = if self.is_slow() { SLOW_RETRY } else { RETRY };
+                self.pause.set(pause + JITTER.mul_f64(jitter(&self.endpoint.name, self.attempts)));
                 self.limit.set(HANDSHAKE_LIMIT);
                 self.connect()?
             }
         };
-        match poll_handshake(&mut connection, cx) {
+        match poll_handshake(&mut session, cx) {
             Poll::Ready(ready) => {
                 // A timer that goes on would wake a task that has nothing to do.
                 self.limit.clear();
                 Poll::Ready(ready.map(|peer| {
                     let service = peer.scl.and_then(|scl| scl.shm).and_then(|shm| shm.service);
-                    (connection, PeerReady { service, ..peer })
+                    (session, PeerReady { service, ..peer })
                 }))
             }
             Poll::Pending => {
                 if self.limit.poll(cx).is_ready() {
                     return Poll::Ready(Err(Closed::SilentPeer));
                 }
-                self.handshake = Some(connection);
+                self.handshake = Some(session);
                 Poll::Pending
             }
         }
     }
 
-    fn connect(&mut self) -> io::Result<Connection> {
+    /// Waits until the next attempt may be made.
+    fn poll_pause(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        if self.is_slow() {
+            while self.dir.poll_arrived(&mut self.arrived, cx).is_ready() {
+                self.attempts_since_arrival = 0;
+                self.pause.clear();
+            }
+        }
+        self.pause.poll(cx)
+    }
+
+    fn is_slow(&self) -> bool {
+        self.attempts_since_arrival >= QUICK_ATTEMPTS && self.runtime.is_some() && self.dir.reports_arrivals()
+    }
+
+    fn connect(&mut self) -> io::Result<Session> {
         let address = runtime_dir::find(&self.dir, &self.endpoint.name);
         // A peer with another type or codec listens elsewhere, so it is looked for now and then even if nobody is here.
-        if address.is_some() || self.attempts % ATTEMPTS_PER_CHECK == ATTEMPTS_PER_CHECK - 1 {
+        if address.is_some() || self.attempts % ATTEMPTS_PER_CHECK == ATTEMPTS_PER_CHECK - 1 || self.is_slow() {
             self.refusal = self.endpoint.check.as_ref().and_then(|check| check().err());
         }
         if let Some(refusal) = self.refusal.clone() {
@@ -142,16 +172,16 @@ impl Dialler {
         let stream = match address.ok_or(io::ErrorKind::NotFound)? {
             Address::Ipc(path) => self.adopt_unix(connect_unix(&path)?)?,
             Address::Tcp(address) => {
-                tcp_user::check_listener(address).inspect_err(|error| {
+                let stream = connect_to_own_user(address).inspect_err(|error| {
                     if error.kind() == io::ErrorKind::PermissionDenied {
                         self.warn_once(&error.to_string());
                     }
                 })?;
-                self.adopt_tcp(connect_tcp(address)?)?
+                self.adopt_tcp(stream)?
             }
         };
         let decoder = Decoder::new(self.socket, self.endpoint.max_size);
-        Ok(Connection::new(stream, decoder, &self.hello))
+        Ok(Session::new(stream, decoder, &self.hello))
     }
 
     fn adopt_unix(&self, descriptor: OwnedFd) -> io::Result<Stream> {
@@ -172,6 +202,10 @@ impl Dialler {
             self.warn_once(&error.to_string());
         }
         self.attempts = self.attempts.saturating_add(1);
+        // Without a free file descriptor, nothing was learned about the peer.
+        if !matches!(error, Closed::Io(error) if is_out_of_descriptors(error)) {
+            self.attempts_since_arrival = self.attempts_since_arrival.saturating_add(1);
+        }
     }
 
     fn warn_once(&mut self, reason: &str) {
@@ -186,6 +220,18 @@ fn connect_unix(path: &Path) -> io::Result<OwnedFd> {
     let socket = socket_with(AddressFamily::UNIX, Kind::STREAM, flags(), None)?;
     rustix::net::connect(&socket, &SocketAddrUnix::new(path)?)?;
     Ok(socket)
+}
+
+/// Connects if the program that listens belongs to this program's user.
+fn connect_to_own_user(address: SocketAddr) -> io::Result<OwnedFd> {
+    let mut checks = UserChecks::default();
+    let listener = checks.check_listener(address)?;
+    let stream = connect_tcp(address)?;
+    // The port may have been released and bound by another user in between.
+    if !checks.is_same_listener(address, listener)? {
+        return Err(io::ErrorKind::ConnectionRefused.into());
+    }
+    Ok(stream)
 }
 
 /// Starts connecting; reading and writing report how that ends.

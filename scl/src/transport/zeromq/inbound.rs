@@ -1,7 +1,7 @@
 //! The receiving side of a connection, of a subscriber or of a puller.
 
-use super::connection::{Closed, Connection};
 use super::credit::ReceiveCredit;
+use super::session::{Closed, Session};
 use super::shared_memory::Arriving;
 use super::timer::Timer;
 use super::zmtp::{Command, FINISH, Item, Message, PeerReady, SHM_OPEN, acknowledgement, catch_up};
@@ -17,6 +17,8 @@ use tokio::task::coop;
 /// How long a receiver waits for the messages that the sender has announced: a stopped sender must not stop a control
 /// loop.
 const CATCH_UP_LIMIT: Duration = Duration::from_millis(100);
+/// The limit passes in so many steps, so that time in which this program itself stands still counts as one of them at most.
+const CATCH_UP_STEPS: u32 = 10;
 /// For how long the answer of a sender that had to be asked counts at most.
 const FRESH: Duration = Duration::from_millis(1);
 /// How much is read ahead of the caller without a runtime, or a single message that is longer.
@@ -25,13 +27,17 @@ const READ_AHEAD: usize = 256 << 10;
 const MOST_AHEAD: usize = 4096;
 
 pub(super) struct Inbound {
-    connection: Connection,
+    session: Session,
     credit: Option<ReceiveCredit>,
     /// Long messages in shared memory.
     arriving: Arriving,
     newest_only: bool,
     /// Whether the sender waits instead of dropping messages. Then older messages matter, too.
     lossless: bool,
+    /// Whether the sender keeps its last message for those that join.
+    is_latched: bool,
+    /// Number of the last message on this connection that had been sent before, and when.
+    latched: Option<(u64, Instant)>,
     /// Messages read while looking for the newest.
     ahead: VecDeque<Bytes>,
     /// Why no more will follow after those read ahead.
@@ -48,6 +54,8 @@ pub(super) struct Inbound {
     emptied: bool,
     /// Whether the sender has let the time for catching up pass.
     gave_up: bool,
+    /// For how many of the steps of that time it has been silent.
+    silent_steps: u32,
     /// Number of the last question whether newer messages wait, and of the last that the sender has answered.
     question: u64,
     answered: u64,
@@ -58,18 +66,20 @@ pub(super) struct Inbound {
 }
 
 impl Inbound {
-    pub(super) fn new(mut connection: Connection, peer: &PeerReady, endpoint: &Endpoint, dir: &SystemDir) -> Self {
+    pub(super) fn new(mut session: Session, peer: &PeerReady, endpoint: &Endpoint, dir: &SystemDir) -> Self {
         let arriving = Arriving::open(dir, peer, endpoint);
         if arriving.is_open() {
-            let _reported_by_reading = connection.write(SHM_OPEN);
+            let _reported_by_reading = session.write(SHM_OPEN);
         }
         let lossless = peer.scl.is_some_and(|scl| scl.lossless);
         Self {
-            connection,
+            session,
             credit: peer.scl.map(|_| ReceiveCredit::new(endpoint)),
             arriving,
             newest_only: endpoint.newest_only && !lossless,
             lossless,
+            is_latched: peer.scl.is_some_and(|scl| scl.latched),
+            latched: None,
             ahead: VecDeque::new(),
             closed: None,
             malformed: 0,
@@ -79,6 +89,7 @@ impl Inbound {
             behind: false,
             emptied: false,
             gave_up: false,
+            silent_steps: 0,
             question: 0,
             answered: 0,
             answered_at: None,
@@ -89,6 +100,21 @@ impl Inbound {
 
     pub(super) fn is_lossless(&self) -> bool {
         self.lossless
+    }
+
+    pub(super) fn is_latched(&self) -> bool {
+        self.is_latched
+    }
+
+    /// When the message returned last was sent, if that was before this connection.
+    pub(super) fn take_latched(&mut self) -> Option<Instant> {
+        let returned = self.taken() - self.ahead.len() as u64;
+        self.latched.take_if(|(number, _)| *number == returned).map(|(_, sent)| sent)
+    }
+
+    /// Number of messages taken so far.
+    pub(super) fn taken(&self) -> u64 {
+        self.credit.as_ref().map_or(0, ReceiveCredit::taken)
     }
 
     /// Returns the number of malformed messages since the last call.
@@ -109,17 +135,17 @@ impl Inbound {
             if let Some(closed) = self.closed.take() {
                 return Poll::Ready(Err(closed));
             }
-            match self.connection.poll_fill(cx) {
+            match self.session.poll_fill(cx) {
                 Poll::Ready(Ok(())) => {}
                 Poll::Ready(Err(closed)) => return Poll::Ready(Err(closed)),
                 Poll::Pending => break,
             }
         }
-        if !self.connection.is_written() {
+        if !self.session.is_written() {
             // A peer that does not take acknowledgements any more may still have sent messages.
-            let _reported_by_reading = self.connection.flush(cx);
+            let _reported_by_reading = self.session.flush(cx);
         }
-        self.emptied = self.connection.take_emptied();
+        self.emptied = self.session.take_emptied();
         self.idle_polls = self.idle_polls.map(|polls| polls.saturating_add(1));
         Poll::Pending
     }
@@ -127,7 +153,7 @@ impl Inbound {
     /// Returns the next message that has been read, and handles the commands before it.
     #[inline]
     fn next_buffered(&mut self) -> Result<Option<Bytes>, Closed> {
-        while let Some(item) = self.connection.buffered_item()? {
+        while let Some(item) = self.session.buffered_item()? {
             match item {
                 Item::Message(Message { envelope, body }) => {
                     self.count_taken(body.len());
@@ -136,7 +162,7 @@ impl Inbound {
                     }
                     self.malformed += 1;
                     let number = self.credit.as_mut().and_then(ReceiveCredit::skip_last);
-                    self.write_acknowledgement(number);
+                    self.write_acknowledgement(number.map(settled));
                 }
                 Item::Command(Command::Sample { sequence, length }) => {
                     return self.take_sample(sequence, length).map(Some);
@@ -145,6 +171,10 @@ impl Inbound {
                 Item::Command(Command::CaughtUp(number)) => self.handle_caught_up(number),
                 Item::Command(Command::Flush) => self.handle_flush(),
                 Item::Command(Command::Finished) => self.finished = true,
+                Item::Command(Command::Latched(age)) => {
+                    let sent = Instant::now().checked_sub(Duration::from_nanos(age));
+                    self.latched = sent.map(|sent| (self.taken() + 1, sent));
+                }
                 Item::Command(_) | Item::Ready(_) => {}
             }
         }
@@ -182,26 +212,44 @@ impl Inbound {
     fn handle_flush(&mut self) {
         match &self.credit {
             Some(credit) if credit.is_deferred() => self.acknowledgement_requested = true,
-            _ => self.acknowledge(),
+            _ => {
+                self.acknowledge();
+                self.credit.iter_mut().for_each(ReceiveCredit::await_received);
+            }
         }
     }
 
     fn acknowledge(&mut self) {
         self.arriving.acknowledged();
-        let number = self.credit.as_mut().map(ReceiveCredit::acknowledge);
-        self.write_acknowledgement(number);
+        let numbers = self.credit.as_mut().map(ReceiveCredit::acknowledge);
+        self.write_acknowledgement(numbers);
+    }
+
+    /// Notes how many of the messages returned wait in the gate, and tells the sender if it has asked.
+    pub(super) fn note_waiting(&mut self, waiting: u64) {
+        let waiting = waiting + self.ahead.len() as u64;
+        if self.credit.as_mut().is_some_and(|credit| credit.note_waiting(waiting)) {
+            self.acknowledge();
+        }
+    }
+
+    /// Acknowledges what the gate has taken and its program has received, before the connection is closed.
+    pub(super) fn acknowledge_last(&mut self) {
+        if self.credit.as_ref().is_some_and(|credit| !credit.is_deferred()) {
+            self.acknowledge();
+        }
     }
 
     /// Acknowledges the oldest messages that were returned, if the caller does that.
     pub(super) fn acknowledge_deferred(&mut self, count: u64) {
         let number = self.credit.as_mut().and_then(|credit| credit.acknowledge_deferred(count));
-        self.write_acknowledgement(number);
+        self.write_acknowledgement(number.map(settled));
     }
 
     /// Asks the sender to send nothing more.
     pub(super) fn finish(&mut self) {
         if !std::mem::replace(&mut self.finishing, true) {
-            let _reported_by_reading = self.connection.write(FINISH);
+            let _reported_by_reading = self.session.write(FINISH);
         }
     }
 
@@ -214,10 +262,10 @@ impl Inbound {
         std::mem::take(&mut self.acknowledgement_requested)
     }
 
-    fn write_acknowledgement(&mut self, number: Option<u64>) {
-        if let Some(number) = number {
+    fn write_acknowledgement(&mut self, numbers: Option<(u64, u64)>) {
+        if let Some((taken, received)) = numbers {
             // A peer that does not take acknowledgements any more may still have sent messages.
-            let _reported_by_reading = self.connection.write(&acknowledgement(number));
+            let _reported_by_reading = self.session.write(&acknowledgement(taken, received));
         }
     }
 
@@ -239,21 +287,23 @@ impl Inbound {
                 break;
             }
             self.acknowledge_all();
-            match self.connection.poll_fill(cx) {
+            match self.session.poll_fill(cx) {
                 Poll::Ready(Ok(())) => {}
                 Poll::Ready(Err(closed)) => self.closed = Some(closed),
                 Poll::Pending => {
                     if !self.timer.is_set() {
-                        self.timer.set(CATCH_UP_LIMIT);
+                        self.timer.set(CATCH_UP_LIMIT / CATCH_UP_STEPS);
                     }
                     if self.timer.poll(cx).is_pending() {
                         return Poll::Pending;
                     }
-                    self.gave_up = true;
+                    self.silent_steps += 1;
+                    self.gave_up = self.silent_steps >= CATCH_UP_STEPS;
                 }
             }
         }
         self.timer.unset();
+        self.silent_steps = 0;
         self.idle_polls.get_or_insert(0);
         if !self.ahead.is_empty() || self.closed.is_some() {
             // The runtime does not report what was read without it.
@@ -275,7 +325,7 @@ impl Inbound {
         while self.may_be_behind() && !self.gave_up {
             self.acknowledge_all();
             let left = deadline.saturating_duration_since(Instant::now());
-            if !self.connection.wait_readable(left) {
+            if !self.session.wait_readable(left) {
                 self.gave_up = within >= CATCH_UP_LIMIT;
                 return;
             }
@@ -286,7 +336,7 @@ impl Inbound {
 
     /// Asks the sender whether newer messages wait, if that cannot be known without asking.
     fn ask(&mut self) {
-        if self.credit.is_none() || self.connection.is_immediate() || self.gave_up {
+        if self.credit.is_none() || self.session.is_immediate() || self.gave_up {
             return;
         }
         // A caller that has several senders, or looks again after it was told, asks once.
@@ -294,20 +344,20 @@ impl Inbound {
             self.idle_polls.is_none_or(|polls| polls <= 1) && self.answered_at.is_some_and(|at| at.elapsed() < FRESH);
         if !is_same_call {
             self.question += 1;
-            let _reported_by_reading = self.connection.write(&catch_up(self.question));
+            let _reported_by_reading = self.session.write(&catch_up(self.question));
         }
     }
 
     /// Waits on the calling thread until something has arrived.
     pub(super) fn wait(&mut self, within: Duration) -> bool {
-        self.connection.wait(within)
+        self.session.wait(within)
     }
 
     /// Whether the sender may hold messages that are newer than those read.
     fn may_be_behind(&self) -> bool {
         // A peer without credit cannot be asked; one that ignores the window is not worth waiting for.
         let can_catch_up = self.credit.is_some() && self.closed.is_none() && self.ahead.len() < MOST_AHEAD;
-        can_catch_up && (self.behind || self.question != self.answered || self.connection.buffered() > 0)
+        can_catch_up && (self.behind || self.question != self.answered || self.session.buffered() > 0)
     }
 
     fn acknowledge_all(&mut self) {
@@ -318,18 +368,18 @@ impl Inbound {
 
     /// Reads without the runtime. Returns true if something had arrived.
     fn fill_raw(&mut self) -> bool {
-        let before = self.connection.buffered();
+        let before = self.session.buffered();
         while self.closed.is_none()
             && self.ahead.len() < MOST_AHEAD
-            && (self.connection.buffered() < READ_AHEAD || self.connection.is_in_frame())
+            && (self.session.buffered() < READ_AHEAD || self.session.is_in_frame())
         {
-            match self.connection.fill_raw() {
+            match self.session.fill_raw() {
                 Ok(true) => {}
                 Ok(false) => break,
                 Err(closed) => self.closed = Some(closed),
             }
         }
-        self.connection.buffered() > before
+        self.session.buffered() > before
     }
 
     /// Decodes what has been read, so that what the sender says about newer messages is known.
@@ -342,4 +392,9 @@ impl Inbound {
             }
         }
     }
+}
+
+/// What a caller acknowledges that passes messages on, a program has received.
+fn settled(number: u64) -> (u64, u64) {
+    (number, number)
 }

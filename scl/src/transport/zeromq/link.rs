@@ -1,12 +1,12 @@
 //! The sending side of a connection, of a publisher to one subscriber or of a pusher to its puller.
 
-use super::connection::{Closed, Connection};
 use super::credit::SendCredit;
 use super::link_count::LinkAlive;
+use super::session::{Closed, Session};
 use super::shared_memory::{Sent, Sharing};
 use super::topics::Topics;
-use super::zmtp::{BEHIND, Command, FINISHED, FLUSH, Header, Item, PeerReady, ProtocolError, caught_up};
-use crate::transport::{Disconnected, Frame, Link, Loan};
+use super::zmtp::{BEHIND, Command, FINISHED, FLUSH, Header, Item, PeerReady, ProtocolError, caught_up, latched};
+use crate::transport::{Disconnected, Frame, Link, Loan, Resumed};
 use bytes::{BufMut, BytesMut};
 use rustix::time::{ClockId, Timespec, clock_gettime};
 use std::collections::VecDeque;
@@ -31,7 +31,7 @@ const RAW_INTERVAL: Duration = Duration::from_micros(100);
 const RAW_READS: usize = 64;
 
 pub(super) struct SendLink {
-    connection: Connection,
+    session: Session,
     /// What a subscriber has subscribed to. A puller gets everything.
     topics: Option<Topics>,
     credit: Option<SendCredit>,
@@ -58,12 +58,13 @@ pub(super) struct SendLink {
     finished: bool,
     detached: bool,
     raw_read: Option<Instant>,
+    resumed: Option<Resumed>,
     _alive: LinkAlive,
 }
 
 impl SendLink {
     pub(super) fn new(
-        connection: Connection,
+        session: Session,
         peer: &PeerReady,
         topics: Option<Topics>,
         sharing: Sharing,
@@ -71,7 +72,7 @@ impl SendLink {
     ) -> Self {
         let scl = peer.scl.unwrap_or_default();
         Self {
-            connection,
+            session,
             topics,
             credit: scl.window.map(SendCredit::new),
             sharing,
@@ -89,12 +90,18 @@ impl SendLink {
             finished: false,
             detached: false,
             raw_read: None,
+            resumed: None,
             _alive: alive,
         }
     }
 
+    /// Sets what the peer has said about itself.
+    pub(super) fn of_resumed(self, resumed: Option<Resumed>) -> Self {
+        Self { resumed, ..self }
+    }
+
     fn is_open(&self) -> bool {
-        self.connection.is_written() && self.window_is_open() && !self.broken
+        self.session.is_written() && self.window_is_open() && !self.broken
     }
 
     /// Returns true if a message is to be gathered with others. One of which only the newest matters never is.
@@ -125,20 +132,16 @@ impl SendLink {
         !self.finishing && (self.detached || has_credit())
     }
 
-    fn wants(&self, message: &[u8]) -> bool {
-        self.topics.as_ref().is_none_or(|topics| topics.matches(message))
-    }
-
     fn wants_everything(&self) -> bool {
         self.topics.as_ref().is_none_or(Topics::match_everything)
     }
 
     fn handle(&mut self, item: Item) -> Result<(), ProtocolError> {
         match item {
-            Item::Command(Command::Acknowledged(count)) => {
+            Item::Command(Command::Acknowledged { taken, received }) => {
                 if let Some(credit) = &mut self.credit {
-                    credit.acknowledge(count)?;
-                    self.sharing.acknowledge(count);
+                    credit.acknowledge(taken, received)?;
+                    self.sharing.acknowledge(taken);
                 }
             }
             Item::Command(Command::ShmOpen) => self.sharing.open(),
@@ -158,45 +161,33 @@ impl SendLink {
         // Without a runtime nothing interrupts a peer that never stops sending.
         let mut reads = if self.detached { RAW_READS } else { usize::MAX };
         loop {
-            while let Some(item) = self.connection.buffered_item()? {
+            while let Some(item) = self.session.buffered_item()? {
                 self.handle(item)?;
             }
-            if reads == 0 || self.connection.poll_fill(cx)?.is_pending() {
+            if reads == 0 || self.session.poll_fill(cx)?.is_pending() {
                 break;
             }
             reads -= 1;
         }
         if self.finishing && !std::mem::replace(&mut self.finished, true) {
             // Behind everything that was sent.
-            self.connection.write(FINISHED)?;
+            self.session.write(FINISHED)?;
         }
-        Ok(self.connection.flush(cx)?)
+        Ok(self.session.flush(cx)?)
     }
 
     /// Looks past what the runtime knows.
     fn try_drive_raw(&mut self, cx: &Context<'_>) -> Result<(), Closed> {
         let mut reads = RAW_READS;
-        while reads > 0 && self.connection.fill_raw()? {
-            while let Some(item) = self.connection.buffered_item()? {
+        while reads > 0 && self.session.fill_raw()? {
+            while let Some(item) = self.session.buffered_item()? {
                 self.handle(item)?;
             }
             reads -= 1;
             // The runtime does not report what was read without it, and the task may wait for an acknowledgement.
             cx.waker().wake_by_ref();
         }
-        Ok(self.connection.flush_raw()?)
-    }
-
-    /// Reads what a peer has sent before it left: a failed write is noticed earlier than its last acknowledgements.
-    fn read_last_acknowledgements(&mut self) {
-        for _ in 0..RAW_READS {
-            if !matches!(self.connection.fill_raw(), Ok(true)) {
-                return;
-            }
-            while let Ok(Some(item)) = self.connection.buffered_item() {
-                let _of_no_use_any_more = self.handle(item);
-            }
-        }
+        Ok(self.session.flush_raw()?)
     }
 
     /// Returns true if the peer can take a message after all.
@@ -227,8 +218,8 @@ impl SendLink {
             return Ok(());
         }
         let message = message.make_bytes();
-        self.connection.write_message(&[], Header::new(0, message.len()).as_bytes(), message)?;
-        self.connection.flush(cx)?;
+        self.session.write_message(&[], Header::new(0, message.len()).as_bytes(), message)?;
+        self.session.flush(cx)?;
         // Not earlier: a message that is handed back is not on its way.
         if let Some(credit) = &mut self.credit {
             credit.count_sent(message.len());
@@ -241,7 +232,7 @@ impl SendLink {
         let Some(credit) = &mut self.credit else { return false };
         let written = match self.sharing.send(message, credit.sent() + 1) {
             Sent::Inline => return false,
-            Sent::Announce(command) => self.connection.write(&command).and_then(|()| self.connection.flush(cx)),
+            Sent::Announce(command) => self.session.write(&command).and_then(|()| self.session.flush(cx)),
             Sent::Lost(reason) => Err(io::Error::other(reason)),
         };
         // Also if that failed: the sample is gone, so the message is on its way, and lost with the connection. Its bytes
@@ -274,8 +265,8 @@ impl SendLink {
             count += 1;
             bytes += message.len();
         }
-        self.connection.write_shared(self.batch.split().freeze())?;
-        self.connection.flush(cx)?;
+        self.session.write_shared(self.batch.split().freeze())?;
+        self.session.flush(cx)?;
         // Not earlier: messages that stay in the queue are not on their way.
         if let Some(credit) = &mut self.credit {
             queue.iter().take(count).for_each(|message| credit.count_sent(message.len()));
@@ -327,12 +318,12 @@ impl SendLink {
     fn report_waiting(&mut self, waiting: bool) -> io::Result<()> {
         if self.reports_waiting && waiting && !self.reported_waiting {
             self.reported_waiting = true;
-            self.connection.write(BEHIND)?;
+            self.session.write(BEHIND)?;
         }
         if !waiting && (self.reported_waiting || self.answered != self.question) {
             self.reported_waiting = false;
             self.answered = self.question;
-            self.connection.write(&caught_up(self.answered))?;
+            self.session.write(&caught_up(self.answered))?;
         }
         Ok(())
     }
@@ -348,7 +339,6 @@ impl Link for SendLink {
             }
             self.broken = true;
         }
-        self.read_last_acknowledgements();
         Err(Disconnected)
     }
 
@@ -374,6 +364,30 @@ impl Link for SendLink {
         }
     }
 
+    fn send_latched(&mut self, cx: &mut Context<'_>, mut message: Frame, age: Duration) -> Result<(), Frame> {
+        if !self.is_open() && !self.reopen(cx) {
+            return Err(message);
+        }
+        let age = u64::try_from(age.as_nanos()).unwrap_or(u64::MAX);
+        // A plain ZeroMQ program gets the message alone.
+        let told = if self.credit.is_some() { self.session.write(&latched(age)) } else { Ok(()) };
+        match told.map_err(Closed::from).and_then(|()| self.send_one(cx, &mut message)) {
+            Ok(()) => Ok(()),
+            Err(error) => {
+                self.fail(cx, &error);
+                Err(message)
+            }
+        }
+    }
+
+    fn wants(&self, message: &[u8]) -> bool {
+        self.topics.as_ref().is_none_or(|topics| topics.matches(message))
+    }
+
+    fn resumed(&self) -> Option<Resumed> {
+        self.resumed
+    }
+
     fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
         if let Err(error) = self.try_send_all(cx, queue, sent) {
             self.fail(cx, &error);
@@ -385,20 +399,37 @@ impl Link for SendLink {
     }
 
     fn is_written(&self) -> bool {
-        self.connection.is_written()
+        self.session.is_written()
     }
 
     fn unacknowledged(&self) -> u64 {
         self.credit.as_ref().map_or(0, SendCredit::unacknowledged)
     }
 
+    fn not_received(&self) -> u64 {
+        self.credit.as_ref().map_or(0, SendCredit::not_received)
+    }
+
+    /// A new link may replace this one before the task has looked at it, and a failed write is noticed earlier than the last
+    /// acknowledgements.
+    fn read_last(&mut self) {
+        for _ in 0..RAW_READS {
+            while let Ok(Some(item)) = self.session.buffered_item() {
+                let _of_no_use_any_more = self.handle(item);
+            }
+            if !matches!(self.session.fill_raw(), Ok(true)) {
+                return;
+            }
+        }
+    }
+
     fn request_acknowledgement(&mut self, cx: &mut Context<'_>) {
         let Some(credit) = &self.credit else { return };
-        if credit.unacknowledged() == 0 || self.flush_requested == credit.sent() || self.broken {
+        if credit.not_received() == 0 || self.flush_requested == credit.sent() || self.broken {
             return;
         }
         self.flush_requested = credit.sent();
-        let requested = self.connection.write(FLUSH).and_then(|()| self.connection.flush(cx));
+        let requested = self.session.write(FLUSH).and_then(|()| self.session.flush(cx));
         if let Err(error) = requested {
             self.fail(cx, &error.into());
         }
@@ -406,7 +437,7 @@ impl Link for SendLink {
 
     fn detach(&mut self) {
         self.detached = true;
-        self.connection.detach();
+        self.session.detach();
     }
 }
 

@@ -1,13 +1,14 @@
-//! Listening sockets of both media.
+//! Listening sockets of both transports.
 
-use super::Medium;
+use super::TransportKind;
 use super::stream::{Socket, Stream};
-use super::tcp_user;
+use super::tcp_user::UserChecks;
 use crate::runtime_dir::{self, OwnedPath, RuntimeDirError, SystemDir};
 use rustix::net::{SocketFlags, accept_with};
 use std::io;
 use std::net::SocketAddr;
 use std::task::{Context, Poll, ready};
+use std::time::Instant;
 use tokio::net::{TcpListener, UnixListener};
 
 pub(super) enum Listener {
@@ -17,13 +18,13 @@ pub(super) enum Listener {
 
 impl Listener {
     /// Binds an endpoint. Called inside a runtime.
-    pub(super) fn bind(dir: &SystemDir, medium: Medium, endpoint: &str) -> Result<(Self, OwnedPath), BindError> {
-        match medium {
-            Medium::Ipc | Medium::Shm => {
+    pub(super) fn bind(dir: &SystemDir, kind: TransportKind, endpoint: &str) -> Result<(Self, OwnedPath), BindError> {
+        match kind {
+            TransportKind::Ipc | TransportKind::Shm => {
                 let bound = runtime_dir::bind_ipc(dir, endpoint)?;
                 Ok((Self::Unix(UnixListener::from_std(bound.listener)?), bound.guard))
             }
-            Medium::Tcp => {
+            TransportKind::Tcp => {
                 let bound = runtime_dir::bind_tcp(dir, endpoint)?;
                 Ok((Self::Tcp(TcpListener::from_std(bound.listener)?), bound.guard))
             }
@@ -31,41 +32,63 @@ impl Listener {
     }
 
     /// Accepts a connection. Called inside the runtime.
-    pub(super) fn poll_accept(&self, cx: &mut Context<'_>) -> Poll<io::Result<Stream>> {
+    pub(super) fn poll_accept(&self, cx: &mut Context<'_>) -> Poll<io::Result<Accepted>> {
         Poll::Ready(match self {
             Self::Unix(listener) => {
-                ready!(listener.poll_accept(cx)).map(|(stream, _)| Stream::new(Socket::Unix(stream)))
+                ready!(listener.poll_accept(cx)).map(|(stream, _)| Accepted::unix(Socket::Unix(stream)))
             }
             Self::Tcp(listener) => ready!(listener.poll_accept(cx)).and_then(|(stream, peer)| {
-                check_user(peer, stream.local_addr()?)?;
-                stream.set_nodelay(true)?;
-                Ok(Stream::new(Socket::Tcp(stream)))
+                let own = stream.local_addr()?;
+                Ok(Accepted { stream: Stream::new(Socket::Tcp(stream)), addresses: Some((peer, own)) })
             }),
         })
     }
 
     /// The same without a runtime; fails with `WouldBlock` if nobody connects.
-    pub(super) fn accept_raw(&self) -> io::Result<Stream> {
+    pub(super) fn accept_raw(&self) -> io::Result<Accepted> {
         let flags = SocketFlags::CLOEXEC | SocketFlags::NONBLOCK;
-        let descriptor = match self {
-            Self::Unix(listener) => accept_with(listener, flags)?,
+        match self {
+            Self::Unix(listener) => Ok(Accepted::unix(Socket::Plain(accept_with(listener, flags)?))),
             Self::Tcp(listener) => {
                 let stream = std::net::TcpStream::from(accept_with(listener, flags)?);
-                check_user(stream.peer_addr()?, stream.local_addr()?)?;
-                stream.set_nodelay(true)?;
-                stream.into()
+                let addresses = Some((stream.peer_addr()?, stream.local_addr()?));
+                Ok(Accepted { stream: Stream::new(Socket::Plain(stream.into())), addresses })
             }
-        };
-        Ok(Stream::new(Socket::Plain(descriptor)))
+        }
+    }
+
+    /// When the users of accepted connections can be checked, unless that is now.
+    pub(super) fn next_check(&self) -> Option<Instant> {
+        match self {
+            Self::Unix(_) => None,
+            Self::Tcp(_) => UserChecks::next(),
+        }
     }
 }
 
-fn check_user(peer: SocketAddr, own: SocketAddr) -> io::Result<()> {
-    tcp_user::check_peer(peer, own).inspect_err(|error| {
-        if error.kind() == io::ErrorKind::PermissionDenied {
-            tracing::warn!(%peer, %error, "refusing a connection");
+/// An accepted connection, whose user is not known yet.
+pub(super) struct Accepted {
+    stream: Stream,
+    /// Those of the peer and of this end. The folder of Unix sockets keeps other users out.
+    addresses: Option<(SocketAddr, SocketAddr)>,
+}
+
+impl Accepted {
+    fn unix(socket: Socket) -> Self {
+        Self { stream: Stream::new(socket), addresses: None }
+    }
+
+    /// Returns the connection if this program's user has made it.
+    ///
+    /// # Errors
+    /// As those of [`UserChecks::check_peer`].
+    pub(super) fn check_user(self, checks: &mut UserChecks) -> io::Result<Stream> {
+        if let Some((peer, own)) = self.addresses {
+            checks.check_peer(peer, own)?;
+            rustix::net::sockopt::set_tcp_nodelay(self.stream.as_fd(), true)?;
         }
-    })
+        Ok(self.stream)
+    }
 }
 
 /// An endpoint could not be bound.

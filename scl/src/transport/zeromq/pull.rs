@@ -1,11 +1,12 @@
 //! The pulling end, which accepts any number of pushers: a PULL socket to them.
 
-use super::Medium;
+use super::TransportKind;
 use super::acceptor::Acceptor;
 use super::credit::receiving;
 use super::inbound::Inbound;
 use super::zmtp::SocketType;
 use crate::runtime_dir::SystemDir;
+use crate::transport::origins::Origins;
 use crate::transport::{Endpoint, Receiver, TransportError};
 use bytes::Bytes;
 use std::collections::VecDeque;
@@ -24,6 +25,8 @@ pub(super) struct Puller {
     accepted: u64,
     /// For an end whose caller acknowledges messages: the pushers of those that are not acknowledged, in order.
     untold: VecDeque<u64>,
+    /// The pushers of the messages that wait in the gate.
+    waiting: Origins,
     finishing: bool,
     /// The pusher whose turn it is, and how many messages it has delivered in it.
     turn: usize,
@@ -33,13 +36,14 @@ pub(super) struct Puller {
 
 struct Pusher {
     number: u64,
+    /// Number of its messages that wait in the gate.
+    waiting: u64,
     inbound: Inbound,
 }
 
 impl Puller {
-    pub(super) fn open(dir: &Arc<SystemDir>, medium: Medium, endpoint: &Endpoint) -> Result<Self, TransportError> {
-        let acceptor =
-            Acceptor::open(dir, medium, endpoint, SocketType::Pull, receiving(endpoint))?.offering_memory()?;
+    pub(super) fn open(dir: &Arc<SystemDir>, kind: TransportKind, endpoint: &Endpoint) -> Result<Self, TransportError> {
+        let acceptor = Acceptor::open(dir, kind, endpoint, SocketType::Pull, receiving(endpoint))?.offering_memory()?;
         let (pushers, untold, endpoint) = (Vec::new(), VecDeque::new(), endpoint.clone());
         Ok(Self {
             acceptor,
@@ -47,6 +51,7 @@ impl Puller {
             pushers,
             accepted: 0,
             untold,
+            waiting: Origins::default(),
             finishing: false,
             turn: 0,
             delivered: 0,
@@ -55,12 +60,12 @@ impl Puller {
     }
 
     fn accept(&mut self, cx: &mut Context<'_>) {
-        while let Poll::Ready((connection, ready)) = self.acceptor.poll_connection(cx, self.pushers.len()) {
-            let mut inbound = Inbound::new(connection, &ready, &self.endpoint, self.acceptor.dir());
+        while let Poll::Ready((session, ready)) = self.acceptor.poll_session(cx, self.pushers.len()) {
+            let mut inbound = Inbound::new(session, &ready, &self.endpoint, self.acceptor.dir());
             if self.finishing {
                 inbound.finish();
             }
-            self.pushers.push(Pusher { number: self.accepted, inbound });
+            self.pushers.push(Pusher { number: self.accepted, waiting: 0, inbound });
             self.accepted += 1;
         }
     }
@@ -74,6 +79,9 @@ impl Puller {
                 Poll::Ready(Ok(message)) => {
                     if self.endpoint.deferred.is_some() {
                         self.untold.push_back(pusher.number);
+                    } else {
+                        self.waiting.push(pusher.number);
+                        pusher.waiting += 1;
                     }
                     return Poll::Ready(message);
                 }
@@ -143,6 +151,28 @@ impl Receiver for Puller {
                 pusher.inbound.acknowledge_deferred(1);
             }
         }
+    }
+
+    fn note_waiting(&mut self, waiting: u64) {
+        let pushers = &mut self.pushers;
+        self.waiting.keep_newest(waiting, |sender, count| {
+            // One that has left counts its messages as lost.
+            if let Some(pusher) = pushers.iter_mut().find(|pusher| pusher.number == sender) {
+                pusher.waiting -= count;
+            }
+        });
+        pushers.iter_mut().for_each(|pusher| pusher.inbound.note_waiting(pusher.waiting));
+    }
+
+    fn note_dropped(&mut self) {
+        let sender = self.waiting.drop_newest();
+        if let Some(pusher) = self.pushers.iter_mut().find(|pusher| Some(pusher.number) == sender) {
+            pusher.waiting -= 1;
+        }
+    }
+
+    fn acknowledge_last(&mut self) {
+        self.pushers.iter_mut().for_each(|pusher| pusher.inbound.acknowledge_last());
     }
 
     fn take_acknowledgement_request(&mut self) -> bool {

@@ -31,10 +31,10 @@ impl Sender for Pusher {
         if self.links.count() > 0 {
             return Poll::Pending;
         }
-        let (connection, ready) = ready!(self.dialler.poll_connected(cx));
+        let (session, ready) = ready!(self.dialler.poll_connected(cx));
         let kind = if ready.scl.is_some() { PeerKind::Component } else { PeerKind::Foreign };
         let sharing = Sharing::new(self.dialler.dir(), &ready);
-        let link = SendLink::new(connection, &ready, None, sharing, self.links.new_link());
+        let link = SendLink::new(session, &ready, None, sharing, self.links.new_link());
         Poll::Ready(Peer { kind, link: Box::new(link) })
     }
 

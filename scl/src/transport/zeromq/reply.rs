@@ -3,10 +3,11 @@
 //! The connection is the way back, so there is no table of requesters. A request holds its connection's frames up to the
 //! empty one as they came, and the reply repeats them.
 
-use super::Medium;
+use super::TransportKind;
 use super::acceptor::Acceptor;
-use super::connection::{Closed, Connection};
-use super::zmtp::{Header, Item, Message, ProtocolError, SclReady, SocketType, bodies};
+use super::session::{Closed, Session};
+use super::unread_limit::UnreadLimit;
+use super::zmtp::{Header, Item, Message, ProtocolError, SclReady, SocketType, bodies, refused};
 use crate::runtime_dir::SystemDir;
 use crate::sync::lock;
 use crate::transport::{Endpoint, IncomingRequest, Replier, ReplyPath, RequesterGone, TransportError};
@@ -14,11 +15,7 @@ use bytes::Bytes;
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Waker, ready};
 
-/// How much may wait for a requester that does not read; beyond that it is disconnected.
-const MOST_UNWRITTEN: usize = 1 << 20;
-const MOST_PIECES: usize = 64;
-
-pub(super) struct Answerer {
+pub(super) struct ReplyingEnd {
     acceptor: Acceptor,
     requesters: Vec<Arc<Client>>,
     turn: usize,
@@ -30,22 +27,27 @@ struct Client(Mutex<Exchange>);
 
 struct Exchange {
     /// Gone once it broke, or the replying end was dropped.
-    connection: Option<Connection>,
+    session: Option<Session>,
+    /// Whether the requester understands SCL's commands.
+    is_scl: bool,
+    unread: UnreadLimit,
     /// A request that was read while looking for commands, which are handled also while the program takes no requests.
     ahead: Option<Message>,
     /// The task of the replying end, to be woken for what a reply could not write.
     task: Option<Waker>,
 }
 
-impl Answerer {
-    pub(super) fn open(dir: &Arc<SystemDir>, medium: Medium, endpoint: &Endpoint) -> Result<Self, TransportError> {
-        let acceptor = Acceptor::open(dir, medium, endpoint, SocketType::Router, SclReady::default())?;
+impl ReplyingEnd {
+    pub(super) fn open(dir: &Arc<SystemDir>, kind: TransportKind, endpoint: &Endpoint) -> Result<Self, TransportError> {
+        let acceptor = Acceptor::open(dir, kind, endpoint, SocketType::Router, SclReady::default())?;
         Ok(Self { acceptor, requesters: Vec::new(), turn: 0, malformed: 0 })
     }
 
     fn accept(&mut self, cx: &mut Context<'_>) {
-        while let Poll::Ready((connection, _)) = self.acceptor.poll_connection(cx, self.requesters.len()) {
-            let exchange = Exchange { connection: Some(connection), ahead: None, task: None };
+        while let Poll::Ready((session, ready)) = self.acceptor.poll_session(cx, self.requesters.len()) {
+            let unread = UnreadLimit::of(ready.scl.and_then(|scl| scl.in_flight));
+            let is_scl = ready.scl.is_some();
+            let exchange = Exchange { session: Some(session), is_scl, unread, ahead: None, task: None };
             self.requesters.push(Arc::new(Client(Mutex::new(exchange))));
         }
     }
@@ -63,7 +65,7 @@ impl Answerer {
                 }
                 Poll::Ready(Err(error)) => {
                     tracing::debug!(%error, "a requester left");
-                    exchange.connection = None;
+                    exchange.session = None;
                     drop(exchange);
                     self.requesters.remove(self.turn);
                 }
@@ -74,7 +76,7 @@ impl Answerer {
     }
 }
 
-impl Replier for Answerer {
+impl Replier for ReplyingEnd {
     fn poll_request(&mut self, cx: &mut Context<'_>) -> Poll<IncomingRequest> {
         loop {
             for _ in 0..=self.requesters.len() {
@@ -104,7 +106,7 @@ impl Replier for Answerer {
                 Ok(written) => is_written &= written,
                 Err(error) => {
                     tracing::debug!(%error, "a requester left");
-                    exchange.connection = None;
+                    exchange.session = None;
                     return false;
                 }
             }
@@ -124,32 +126,32 @@ impl Replier for Answerer {
     fn detach(&mut self) {
         self.acceptor.detach();
         for client in &self.requesters {
-            if let Some(connection) = &mut lock(&client.0).connection {
-                connection.detach();
+            if let Some(session) = &mut lock(&client.0).session {
+                session.detach();
             }
         }
     }
 }
 
-impl Drop for Answerer {
+impl Drop for ReplyingEnd {
     fn drop(&mut self) {
         // Requests that are not answered yet must not keep connections open.
         for client in &self.requesters {
-            lock(&client.0).connection = None;
+            lock(&client.0).session = None;
         }
     }
 }
 
 impl Exchange {
-    fn prepare(&mut self, cx: &mut Context<'_>) -> Result<&mut Connection, Closed> {
+    fn prepare(&mut self, cx: &mut Context<'_>) -> Result<&mut Session, Closed> {
         if !self.task.as_ref().is_some_and(|task| task.will_wake(cx.waker())) {
             self.task = Some(cx.waker().clone());
         }
-        let connection = self.connection.as_mut().ok_or(Closed::Eof)?;
-        if !connection.is_written() {
-            connection.flush(cx)?;
+        let session = self.session.as_mut().ok_or(Closed::Eof)?;
+        if !session.is_written() {
+            session.flush(cx)?;
         }
-        Ok(connection)
+        Ok(session)
     }
 
     fn poll_request(&mut self, cx: &mut Context<'_>, malformed: &mut u64) -> Poll<Result<(Bytes, Bytes), Closed>> {
@@ -170,9 +172,9 @@ impl Exchange {
         if let Some(message) = self.ahead.take() {
             return Poll::Ready(Ok(message));
         }
-        let connection = self.prepare(cx)?;
+        let session = self.prepare(cx)?;
         loop {
-            match ready!(connection.poll_item(cx))? {
+            match ready!(session.poll_item(cx))? {
                 Item::Message(message) => return Poll::Ready(Ok(message)),
                 Item::Command(_) | Item::Ready(_) => {}
             }
@@ -191,26 +193,46 @@ impl Exchange {
     }
 
     fn reply(&mut self, envelope: &[u8], body: &Bytes) -> Result<(), Closed> {
-        let connection = self.connection.as_mut().ok_or(Closed::Eof)?;
-        if connection.unwritten_pieces() >= MOST_PIECES || connection.unwritten_bytes() >= MOST_UNWRITTEN {
+        let session = self.session.as_mut().ok_or(Closed::Eof)?;
+        if self.unread.is_reached(session) {
             return Err(ProtocolError::NotReading.into());
         }
-        connection.write_message(envelope, Header::new(0, body.len()).as_bytes(), body)?;
-        if !connection.is_written()
-            && let Some(task) = &self.task
+        session.write_message(envelope, Header::new(0, body.len()).as_bytes(), body)?;
+        self.wake_unless_written();
+        Ok(())
+    }
+
+    /// A plain requester has no way to be told.
+    fn refuse(&mut self, envelope: &[u8]) {
+        let number = bodies(envelope).next().and_then(|frame| <[u8; 8]>::try_from(frame).ok());
+        if let (Some(session), Some(number), true) = (&mut self.session, number, self.is_scl)
+            && !self.unread.is_reached(session)
+        {
+            // A connection that broke is noticed when it is polled.
+            let _written = session.write(&refused(u64::from_be_bytes(number)));
+            self.wake_unless_written();
+        }
+    }
+
+    fn wake_unless_written(&self) {
+        if let (Some(session), Some(task)) = (&self.session, &self.task)
+            && !session.is_written()
         {
             task.wake_by_ref();
         }
-        Ok(())
     }
 }
 
 impl ReplyPath for Client {
+    fn refuse(&self, envelope: &Bytes) {
+        lock(&self.0).refuse(envelope);
+    }
+
     fn reply(&self, envelope: &Bytes, body: Bytes) -> Result<(), RequesterGone> {
         let mut exchange = lock(&self.0);
         exchange.reply(envelope, &body).map_err(|error| {
             tracing::debug!(%error, "a requester left before it was answered");
-            exchange.connection = None;
+            exchange.session = None;
             if let Some(task) = &exchange.task {
                 task.wake_by_ref();
             }

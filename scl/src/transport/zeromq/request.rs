@@ -3,9 +3,10 @@
 //! A request is `[number, empty, body]`. To any REP or ROUTER socket that is an ordinary requester behind a router: the
 //! frames up to the empty one come back with the reply, so a late reply is never taken for a newer one.
 
-use super::connection::{Closed, Connection};
 use super::dialler::Dialler;
-use super::zmtp::{Header, Item, MORE, Message, SclReady, SocketType, bodies};
+use super::session::{Closed, Session};
+use super::unread_limit::UnreadLimit;
+use super::zmtp::{Command, Header, Item, MORE, Message, SclReady, SocketType, bodies};
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Answer, Endpoint, Requester};
 use bytes::Bytes;
@@ -13,31 +14,33 @@ use std::sync::Arc;
 use std::task::{Context, Poll, ready};
 use std::time::Duration;
 
-/// How much may wait for a replier that does not read; beyond that it is disconnected.
-const MOST_UNWRITTEN: usize = 1 << 20;
-const MOST_PIECES: usize = 64;
-
 pub(super) struct Caller {
     dialler: Dialler,
-    replier: Option<Connection>,
+    replier: Option<Session>,
+    unread: UnreadLimit,
 }
 
 impl Caller {
     pub(super) fn open(dir: &Arc<SystemDir>, endpoint: &Endpoint) -> Self {
-        Self { dialler: Dialler::new(dir, endpoint, SocketType::Dealer, SclReady::default()), replier: None }
+        let in_flight = Some(endpoint.in_flight).filter(|&requests| requests > 1);
+        let ready = SclReady { in_flight, ..SclReady::default() };
+        let dialler = Dialler::new(dir, endpoint, SocketType::Dealer, ready);
+        Self { dialler, replier: None, unread: UnreadLimit::of(in_flight) }
     }
 
-    /// Returns the next reply over the current connection.
-    fn poll_reply(replier: &mut Connection, cx: &mut Context<'_>) -> Poll<Result<(u64, Bytes), Closed>> {
+    /// Returns the next reply or refusal over the current connection.
+    fn poll_reply(replier: &mut Session, cx: &mut Context<'_>) -> Poll<Result<Answer, Closed>> {
         if !replier.is_written() {
             replier.flush(cx)?;
         }
         loop {
-            if let Item::Message(message) = ready!(replier.poll_item(cx))? {
-                match numbered(message) {
-                    Some(reply) => return Poll::Ready(Ok(reply)),
+            match ready!(replier.poll_item(cx))? {
+                Item::Message(message) => match numbered(message) {
+                    Some((id, body)) => return Poll::Ready(Ok(Answer::Reply { id, body })),
                     None => tracing::warn!("ignoring a reply without the number of its request"),
-                }
+                },
+                Item::Command(Command::Refused(id)) => return Poll::Ready(Ok(Answer::Refused { id })),
+                Item::Command(_) | Item::Ready(_) => {}
             }
         }
     }
@@ -47,8 +50,14 @@ impl Caller {
         self.replier = None;
     }
 
-    fn try_request(replier: &mut Connection, cx: &mut Context<'_>, id: u64, body: &Bytes) -> Result<(), Closed> {
-        if replier.unwritten_pieces() >= MOST_PIECES || replier.unwritten_bytes() >= MOST_UNWRITTEN {
+    fn try_request(
+        replier: &mut Session,
+        unread: UnreadLimit,
+        cx: &mut Context<'_>,
+        id: u64,
+        body: &Bytes,
+    ) -> Result<(), Closed> {
+        if unread.is_reached(replier) {
             return Err(super::zmtp::ProtocolError::NotReading.into());
         }
         replier.write_message(&envelope(id), Header::new(0, body.len()).as_bytes(), body)?;
@@ -60,8 +69,8 @@ impl Requester for Caller {
     fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         loop {
             let Some(replier) = &mut self.replier else {
-                let (connection, _) = ready!(self.dialler.poll_connected(cx));
-                self.replier = Some(connection);
+                let (session, _) = ready!(self.dialler.poll_connected(cx));
+                self.replier = Some(session);
                 continue;
             };
             match Self::poll_reply(replier, cx) {
@@ -74,7 +83,7 @@ impl Requester for Caller {
 
     fn request(&mut self, cx: &mut Context<'_>, id: u64, body: Bytes) -> Result<(), Bytes> {
         let Some(replier) = &mut self.replier else { return Err(body) };
-        match Self::try_request(replier, cx, id, &body) {
+        match Self::try_request(replier, self.unread, cx, id, &body) {
             Ok(()) => Ok(()),
             Err(error) => {
                 self.lose(&error);
@@ -90,7 +99,7 @@ impl Requester for Caller {
     fn poll_answer(&mut self, cx: &mut Context<'_>) -> Poll<Answer> {
         let Some(replier) = &mut self.replier else { return Poll::Ready(Answer::Lost) };
         match ready!(Self::poll_reply(replier, cx)) {
-            Ok((id, body)) => Poll::Ready(Answer::Reply { id, body }),
+            Ok(answer) => Poll::Ready(answer),
             Err(error) => {
                 self.lose(&error);
                 Poll::Ready(Answer::Lost)

@@ -5,34 +5,34 @@
 //! | `sending` | the sending side of a connection: copying or lending, sending, falling back to the socket |
 //! | `receiving` | the receiving side: one sample for each announcement |
 //! | `listening` | what a listening end checks when it is opened |
-//! | `absent` | the same without the feature `iceoryx2`: every message goes through the socket |
+//! | `absent` | the same without the feature `shm`: every message goes through the socket |
 //!
 //! The engine is the crate `scl-shm`. What both sides say is in `docs/zeromq.md`.
 
-#[cfg(not(feature = "iceoryx2"))]
+#[cfg(not(feature = "shm"))]
 mod absent;
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 mod listening;
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 mod receiving;
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 mod sending;
 
-#[cfg(not(feature = "iceoryx2"))]
-pub(super) use absent::{Arriving, Offer, Sharing, format};
-#[cfg(feature = "iceoryx2")]
-pub(super) use listening::{Offer, format};
-#[cfg(feature = "iceoryx2")]
+#[cfg(not(feature = "shm"))]
+pub(super) use absent::{Arriving, Offer, Sharing};
+#[cfg(feature = "shm")]
+pub(super) use listening::Offer;
+#[cfg(feature = "shm")]
 pub(super) use receiving::Arriving;
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 pub(super) use sending::Sharing;
 
 /// Messages up to this length go through the socket, which is faster for them.
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 const INLINE: usize = 16 << 10;
 
 /// What became of a message that may be sent in shared memory.
-#[cfg_attr(not(feature = "iceoryx2"), expect(dead_code, reason = "every message goes through the socket"))]
+#[cfg_attr(not(feature = "shm"), expect(dead_code, reason = "every message goes through the socket"))]
 pub(super) enum Sent {
     /// It was sent as a sample; this command announces it.
     Announce([u8; 31]),

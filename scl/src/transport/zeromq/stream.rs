@@ -1,4 +1,4 @@
-//! Connected sockets of both media.
+//! Connected sockets of both transports.
 //!
 //! Writing goes to the operating system directly and asks the runtime only when that takes no more. Reading goes through
 //! the runtime, which knows without a system call that nothing has arrived; the raw variant is for callers that cannot

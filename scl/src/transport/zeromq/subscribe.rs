@@ -3,13 +3,13 @@
 use super::credit::receiving;
 use super::dialler::Dialler;
 use super::inbound::Inbound;
-use super::zmtp::{SUBSCRIBE_ALL, SocketType};
+use super::zmtp::{SUBSCRIBE_ALL, SocketType, resume};
 use crate::runtime_dir::SystemDir;
-use crate::transport::{Endpoint, Receiver};
+use crate::transport::{Endpoint, Receiver, Resumed};
 use bytes::Bytes;
 use std::sync::Arc;
 use std::task::{Context, Poll, ready};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 pub(super) struct Subscriber {
     dialler: Dialler,
@@ -20,20 +20,26 @@ pub(super) struct Subscriber {
     stale: u64,
     untold: u64,
     finishing: bool,
+    /// What a latched publisher is told: which end this is, and what it has taken over connections that are lost.
+    resumed: Resumed,
 }
 
 impl Subscriber {
     pub(super) fn open(dir: &Arc<SystemDir>, endpoint: &Endpoint) -> Self {
         let dialler = Dialler::new(dir, endpoint, SocketType::Sub, receiving(endpoint));
-        Self { dialler, publisher: None, malformed: 0, stale: 0, untold: 0, finishing: false }
+        let resumed = endpoint.resumed.unwrap_or_else(Resumed::new_end);
+        Self { dialler, publisher: None, malformed: 0, stale: 0, untold: 0, finishing: false, resumed }
     }
 
     /// Connects to the publisher, while there is none.
     fn poll_publisher(&mut self, cx: &mut Context<'_>) -> Poll<&mut Inbound> {
-        let (mut connection, ready) = ready!(self.dialler.poll_connected(cx));
+        let (mut session, ready) = ready!(self.dialler.poll_connected(cx));
         // Not earlier: libzmq closes a connection on which this arrives together with READY.
-        let _reported_by_reading = connection.write(SUBSCRIBE_ALL);
-        let mut inbound = Inbound::new(connection, &ready, self.dialler.endpoint(), self.dialler.dir());
+        if ready.scl.is_some_and(|scl| scl.latched) {
+            let _reported_by_reading = session.write(&resume(self.resumed));
+        }
+        let _reported_by_reading = session.write(SUBSCRIBE_ALL);
+        let mut inbound = Inbound::new(session, &ready, self.dialler.endpoint(), self.dialler.dir());
         if self.finishing {
             inbound.finish();
         }
@@ -57,7 +63,7 @@ impl Receiver for Subscriber {
                 }
                 Poll::Ready(Err(error)) => {
                     tracing::debug!(endpoint = %self.dialler.endpoint().name, %error, "lost the publisher");
-                    self.publisher = None;
+                    self.resumed.taken += self.publisher.take().map_or(0, |lost| lost.taken());
                     self.stale += std::mem::take(&mut self.untold);
                 }
                 Poll::Pending => return Poll::Pending,
@@ -79,6 +85,14 @@ impl Receiver for Subscriber {
         self.publisher.as_ref().is_some_and(Inbound::is_lossless)
     }
 
+    fn is_latched(&self) -> bool {
+        self.publisher.as_ref().is_some_and(Inbound::is_latched)
+    }
+
+    fn take_latched(&mut self) -> Option<Instant> {
+        self.publisher.as_mut().and_then(Inbound::take_latched)
+    }
+
     fn malformed(&self) -> u64 {
         self.malformed
     }
@@ -91,6 +105,16 @@ impl Receiver for Subscriber {
         if let Some(publisher) = self.publisher.as_mut().filter(|_| count > 0) {
             publisher.acknowledge_deferred(count);
         }
+    }
+
+    fn note_waiting(&mut self, waiting: u64) {
+        if let Some(publisher) = &mut self.publisher {
+            publisher.note_waiting(waiting);
+        }
+    }
+
+    fn acknowledge_last(&mut self) {
+        self.publisher.iter_mut().for_each(Inbound::acknowledge_last);
     }
 
     fn take_acknowledgement_request(&mut self) -> bool {

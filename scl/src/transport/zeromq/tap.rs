@@ -1,9 +1,9 @@
 //! The listening end of a tap: an XPUB socket to its observers.
 
-use super::Medium;
+use super::TransportKind;
 use super::acceptor::Acceptor;
-use super::connection::{Closed, Connection};
 use super::publish::poll_subscribed;
+use super::session::{Closed, Session};
 use super::topics::Topics;
 use super::zmtp::{COMMAND_LIMIT, Header, MORE, SclReady, SocketType};
 use crate::runtime_dir::SystemDir;
@@ -21,39 +21,48 @@ const MOST_BYTES: usize = 16 << 20;
 pub(super) struct Tap {
     acceptor: Acceptor,
     /// Connections that have not subscribed to anything yet.
-    unsubscribed: Vec<Connection>,
+    unsubscribed: Vec<Session>,
     observers: Vec<Observer>,
+    /// The last message of a latched gate, encoded, with its payload.
+    latched: Option<(Bytes, Bytes)>,
     /// Memory for encoded messages.
     encoded: BytesMut,
     dropped: u64,
 }
 
 struct Observer {
-    connection: Connection,
+    session: Session,
     topics: Topics,
     waiting: VecDeque<Bytes>,
     bytes: usize,
 }
 
 impl Tap {
-    pub(super) fn open(dir: &Arc<SystemDir>, medium: Medium, endpoint: &Endpoint) -> Result<Self, TransportError> {
+    pub(super) fn open(dir: &Arc<SystemDir>, kind: TransportKind, endpoint: &Endpoint) -> Result<Self, TransportError> {
         let endpoint = Endpoint { max_size: COMMAND_LIMIT, ..endpoint.clone() };
-        let acceptor = Acceptor::open(dir, medium, &endpoint, SocketType::XPub, SclReady::default())?;
-        Ok(Self { acceptor, unsubscribed: Vec::new(), observers: Vec::new(), encoded: BytesMut::new(), dropped: 0 })
+        let acceptor = Acceptor::open(dir, kind, &endpoint, SocketType::XPub, SclReady::default())?;
+        let (unsubscribed, observers, encoded) = (Vec::new(), Vec::new(), BytesMut::new());
+        Ok(Self { acceptor, unsubscribed, observers, latched: None, encoded, dropped: 0 })
     }
 
     fn accept(&mut self, cx: &mut Context<'_>) {
         loop {
             let open = self.unsubscribed.len() + self.observers.len();
-            let Poll::Ready((connection, _)) = self.acceptor.poll_connection(cx, open) else { break };
-            self.unsubscribed.push(connection);
+            let Poll::Ready((session, _)) = self.acceptor.poll_session(cx, open) else { break };
+            self.unsubscribed.push(session);
         }
         let mut index = 0;
-        while let Some(connection) = self.unsubscribed.get_mut(index) {
-            match poll_subscribed(connection, cx) {
+        while let Some(session) = self.unsubscribed.get_mut(index) {
+            match poll_subscribed(session, &mut None, cx) {
                 Poll::Ready(Ok(topics)) => {
-                    let connection = self.unsubscribed.swap_remove(index);
-                    self.observers.push(Observer { connection, topics, waiting: VecDeque::new(), bytes: 0 });
+                    let session = self.unsubscribed.swap_remove(index);
+                    let mut observer = Observer { session, topics, waiting: VecDeque::new(), bytes: 0 };
+                    if let Some((payload, message)) = &self.latched
+                        && observer.topics.matches(payload)
+                    {
+                        observer.queue(message.clone());
+                    }
+                    self.observers.push(observer);
                 }
                 Poll::Ready(Err(error)) => {
                     tracing::debug!(%error, "an observer left");
@@ -104,6 +113,10 @@ impl transport::Tap for Tap {
         self.dropped += dropped;
     }
 
+    fn latch(&mut self, payload: &Bytes, meta: &[u8]) {
+        self.latched = Some((payload.clone(), self.encode(payload, meta)));
+    }
+
     fn dropped(&self) -> u64 {
         self.dropped
     }
@@ -111,7 +124,7 @@ impl transport::Tap for Tap {
 
 impl Observer {
     fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Closed> {
-        while let Poll::Ready(item) = self.connection.poll_item(cx) {
+        while let Poll::Ready(item) = self.session.poll_item(cx) {
             if let Some(subscription) = item?.into_subscription() {
                 self.topics.handle(subscription)?;
             }
@@ -133,13 +146,13 @@ impl Observer {
     }
 
     fn write_on(&mut self, cx: &mut Context<'_>) -> Result<(), Closed> {
-        self.connection.flush(cx)?;
-        while self.connection.is_written()
+        self.session.flush(cx)?;
+        while self.session.is_written()
             && let Some(message) = self.waiting.pop_front()
         {
             self.bytes -= message.len();
-            self.connection.write_shared(message)?;
-            self.connection.flush(cx)?;
+            self.session.write_shared(message)?;
+            self.session.flush(cx)?;
         }
         Ok(())
     }

@@ -1,10 +1,10 @@
 //! The observing end of a tap: a SUB socket that reads messages of two frames.
 
-use super::connection::{Closed, Connection};
 use super::dialler::Dialler;
+use super::session::{Closed, Session};
 use super::zmtp::{Command, Item, Message, SUBSCRIBE_ALL_AND_PING, SclReady, SocketType, bodies};
+use crate::observation::{Observation, ObservedKind, TapEvent};
 use crate::runtime_dir::SystemDir;
-use crate::tap::{Observation, ObservedKind, TapEvent};
 use crate::transport::Endpoint;
 use bytes::Bytes;
 use rustix::time::{ClockId, clock_gettime};
@@ -24,7 +24,7 @@ pub(crate) struct TapReader {
 
 /// A connection on which everything has been subscribed to.
 struct Subscribed {
-    connection: Connection,
+    session: Session,
     /// Whether the tap has shown that it knows the subscription, and the observer was told.
     is_confirmed: bool,
     /// A message that has shown it.
@@ -32,7 +32,7 @@ struct Subscribed {
 }
 
 /// What a tap says.
-enum Said {
+enum TapItem {
     Pong,
     Observed(Observation),
 }
@@ -55,8 +55,8 @@ impl TapReader {
     pub(crate) fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<TapEvent> {
         loop {
             let Some(tap) = &mut self.tap else {
-                let (connection, _ready) = ready!(self.dialler.poll_connected(cx));
-                self.tap = Some(Subscribed::new(connection));
+                let (session, _ready) = ready!(self.dialler.poll_connected(cx));
+                self.tap = Some(Subscribed::new(session));
                 continue;
             };
             match ready!(tap.poll_event(&mut self.rejected, cx)) {
@@ -73,10 +73,10 @@ impl TapReader {
 }
 
 impl Subscribed {
-    fn new(mut connection: Connection) -> Self {
+    fn new(mut session: Session) -> Self {
         // Not earlier: libzmq closes a connection on which this arrives together with READY.
-        let _reported_by_reading = connection.write(SUBSCRIBE_ALL_AND_PING);
-        Self { connection, is_confirmed: false, first: None }
+        let _reported_by_reading = session.write(SUBSCRIBE_ALL_AND_PING);
+        Self { session, is_confirmed: false, first: None }
     }
 
     fn poll_event(&mut self, rejected: &mut u64, cx: &mut Context<'_>) -> Poll<Result<TapEvent, Closed>> {
@@ -87,24 +87,24 @@ impl Subscribed {
             let said = ready!(self.poll_said(rejected, cx))?;
             let was_confirmed = std::mem::replace(&mut self.is_confirmed, true);
             match said {
-                Said::Observed(observed) if was_confirmed => return Poll::Ready(Ok(TapEvent::Observed(observed))),
-                Said::Observed(observed) => self.first = Some(observed),
-                Said::Pong if was_confirmed => continue,
-                Said::Pong => {}
+                TapItem::Observed(observed) if was_confirmed => return Poll::Ready(Ok(TapEvent::Observed(observed))),
+                TapItem::Observed(observed) => self.first = Some(observed),
+                TapItem::Pong if was_confirmed => continue,
+                TapItem::Pong => {}
             }
             return Poll::Ready(Ok(TapEvent::Connected));
         }
     }
 
-    fn poll_said(&mut self, rejected: &mut u64, cx: &mut Context<'_>) -> Poll<Result<Said, Closed>> {
+    fn poll_said(&mut self, rejected: &mut u64, cx: &mut Context<'_>) -> Poll<Result<TapItem, Closed>> {
         loop {
-            if !self.connection.is_written() {
-                self.connection.flush(cx)?;
+            if !self.session.is_written() {
+                self.session.flush(cx)?;
             }
-            match ready!(self.connection.poll_item(cx))? {
-                Item::Command(Command::Pong) => return Poll::Ready(Ok(Said::Pong)),
+            match ready!(self.session.poll_item(cx))? {
+                Item::Command(Command::Pong) => return Poll::Ready(Ok(TapItem::Pong)),
                 Item::Message(message) => match decode(&message) {
-                    Some(observed) => return Poll::Ready(Ok(Said::Observed(observed))),
+                    Some(observed) => return Poll::Ready(Ok(TapItem::Observed(observed))),
                     None => *rejected += 1,
                 },
                 Item::Command(_) | Item::Ready(_) => {}
@@ -127,6 +127,7 @@ fn decode(message: &Message) -> Option<Observation> {
         sent_ns: u64::from_le_bytes(*sent_ns),
         received_ns: now_ns(),
         call_id: u64::from_le_bytes(*call_id),
+        latched: kind[1] == 1,
         kind: match kind[0] {
             0 => ObservedKind::Message,
             1 => ObservedKind::Request,

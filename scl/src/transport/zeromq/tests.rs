@@ -3,13 +3,14 @@
 mod burst;
 mod credit;
 mod deferred;
+mod dialling;
 mod ends;
 mod hostile;
 mod plain;
 mod roles;
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 mod shared;
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 mod shared_hostile;
 mod stage;
 mod subject;

@@ -9,19 +9,21 @@ mod error;
 mod frame;
 mod greeting;
 mod ready;
+mod socket_type;
 #[cfg(test)]
 mod tests;
 
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 pub(super) use command::sample;
 pub(super) use command::{
     BEHIND, Command, FINISH, FINISHED, FLUSH, SHM_OPEN, SUBSCRIBE_ALL, SUBSCRIBE_ALL_AND_PING, Subscription,
-    acknowledgement, catch_up, caught_up, pong,
+    acknowledgement, catch_up, caught_up, latched, pong, refused, resume,
 };
 pub(super) use decoder::{COMMAND_LIMIT, Decoder, Item, Message};
 pub(super) use error::ProtocolError;
 pub(super) use frame::{Header, MORE, bodies};
-pub(super) use ready::{PeerReady, SclReady, ServiceId, ShmReady, SocketType, hello};
+pub(super) use ready::{PeerReady, SclReady, ServiceId, ShmReady, hello};
+pub(super) use socket_type::SocketType;
 
 /// Decodes everything that a peer sends to a socket of a type, in pieces, and returns how many items it understood.
 ///

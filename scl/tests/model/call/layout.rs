@@ -3,8 +3,8 @@
 use bytes::Bytes;
 use scl::codec::Opaque;
 use scl::private::{
-    AnyGate, Component, ComponentHandle, ComponentSpec, GateKind, GateOptions, GateSpec, LinkSpec, OpenError, Opener,
-    WhenFull, open,
+    AnyGate, Component, ComponentHandle, ComponentSpec, ConnectionSpec, GateKind, GateOptions, GateSpec, OpenError,
+    Opener, WhenFull, open,
 };
 use scl::{OpenOptions, Rep, Req};
 use std::time::Duration;
@@ -50,7 +50,7 @@ impl Component for Replier {
             "answer",
             GateKind::Rep,
             Duration::ZERO,
-            &[link(NAMES[0], "question"), link(NAMES[1], "question"), link(NAMES[2], "question")],
+            &[connection(NAMES[0], "question"), connection(NAMES[1], "question"), connection(NAMES[2], "question")],
         )],
         schema: None,
     };
@@ -73,7 +73,7 @@ impl<const INDEX: usize> Component for Requester<INDEX> {
         system: "model",
         name: NAMES[INDEX],
         declared_at: "topology.yaml:6:3",
-        gates: &[gate("question", GateKind::Req, timeout(INDEX), &[link("replier", "answer")])],
+        gates: &[gate("question", GateKind::Req, timeout(INDEX), &[connection("replier", "answer")])],
         schema: None,
     };
 
@@ -95,7 +95,12 @@ const fn timeout(index: usize) -> Duration {
     if index == IMPATIENT { Duration::from_millis(2) } else { Duration::from_secs(3600) }
 }
 
-const fn gate(name: &'static str, kind: GateKind, timeout: Duration, links: &'static [LinkSpec]) -> GateSpec {
+const fn gate(
+    name: &'static str,
+    kind: GateKind,
+    timeout: Duration,
+    connections: &'static [ConnectionSpec],
+) -> GateSpec {
     GateSpec {
         name,
         kind,
@@ -106,12 +111,12 @@ const fn gate(name: &'static str, kind: GateKind, timeout: Duration, links: &'st
         contract: CONTRACT,
         endpoint: if let GateKind::Rep = kind { ENDPOINT } else { "" },
         options: GateOptions { max_size: MAX_SIZE, queue: 1, timeout, ..GateOptions::DEFAULT },
-        links,
+        connections,
     }
 }
 
-const fn link(peer_component: &'static str, peer_gate: &'static str) -> LinkSpec {
-    LinkSpec {
+const fn connection(peer_component: &'static str, peer_gate: &'static str) -> ConnectionSpec {
+    ConnectionSpec {
         peer_component,
         peer_gate,
         endpoint: ENDPOINT,

@@ -11,11 +11,11 @@ impl Stage {
     pub(super) fn check(&mut self) -> Outcome {
         let sender = self.source.as_mut().map(|source| source.gate().stats());
         let readers: Vec<_> = self.readers.iter().map(|reader| reader.as_ref().map(|gate| gate.stats())).collect();
-        let model = self.model.lock();
+        let mut model = self.model.lock();
         model.verdict()?;
         if let Some((stats, peers)) = sender {
             check_sender(&stats, &model.connections)?;
-            for ((stats, connection), reader) in peers.iter().zip(&model.connections).zip(0..) {
+            for ((stats, connection), reader) in peers.iter().zip(&mut model.connections).zip(0..) {
                 check_peer(stats, connection).map_err(|reason| format!("account of reader {reader}: {reason}"))?;
             }
         }
@@ -69,23 +69,29 @@ fn check_sender(stats: &GateStats, connections: &[Connection]) -> Outcome {
     let sum = |count: fn(&Connection) -> u64| connections.iter().map(count).sum::<u64>();
     same("sent", stats.sent, sum(|one| one.outbox.handed))?;
     same("lost", stats.lost, sum(|one| one.outbox.lost))?;
+    same("replaced", stats.replaced, sum(|one| one.outbox.replaced))?;
     same("dropped_oldest", stats.dropped_oldest, sum(|one| one.outbox.dropped_oldest))?;
     same("dropped_newest", stats.dropped_newest, sum(|one| one.outbox.dropped_newest))?;
-    same("waiting", stats.waiting as u64, sum(|one| one.outbox.waiting.len() as u64 + one.unacknowledged))?;
+    same("waiting", stats.waiting as u64, sum(|one| one.outbox.waiting.len() as u64 + one.not_received))?;
     same("peers", stats.peers as u64, sum(|one| u64::from(one.outbox.is_connected())))
 }
 
-fn check_peer(stats: &PeerStats, connection: &Connection) -> Outcome {
-    let dropped = stats.dropped_oldest + stats.dropped_newest;
+fn check_peer(stats: &PeerStats, connection: &mut Connection) -> Outcome {
+    let dropped = stats.replaced + stats.dropped_oldest + stats.dropped_newest;
     same("published", stats.published, stats.taken + dropped + stats.lost + stats.waiting)?;
     let outbox = &connection.outbox;
-    same("taken", stats.taken, outbox.handed - outbox.lost - connection.unacknowledged)?;
+    same("taken", stats.taken, outbox.handed - outbox.lost - connection.not_received)?;
+    let before = std::mem::replace(&mut connection.taken, stats.taken);
+    if stats.taken < before {
+        return Err(format!("`taken` falls from {before} to {}", stats.taken));
+    }
     same("connected", u64::from(stats.connected), u64::from(outbox.is_connected()))
 }
 
 fn check_reader(stats: &GateStats, connection: &Connection) -> Outcome {
     let inbox = &connection.inbox;
     same("received", stats.received, inbox.received)?;
+    same("replaced", stats.replaced, inbox.replaced)?;
     same("dropped_oldest", stats.dropped_oldest, inbox.dropped_oldest)?;
     same("dropped_newest", stats.dropped_newest, inbox.dropped_newest)?;
     same("rejected", stats.rejected, 0)?;

@@ -15,6 +15,7 @@ pub(super) struct Inbox {
     /// The first message that arrives for a call that waited. The queue has nothing to do with it.
     direct: Option<Message>,
     pub(super) received: u64,
+    pub(super) replaced: u64,
     pub(super) dropped_oldest: u64,
     pub(super) dropped_newest: u64,
 }
@@ -40,6 +41,7 @@ impl Inbox {
             was_empty: false,
             direct: None,
             received: 0,
+            replaced: 0,
             dropped_oldest: 0,
             dropped_newest: 0,
         }
@@ -60,7 +62,7 @@ impl Inbox {
             }
             WhenFull::DropOldest if full => {
                 self.waiting.pop_front();
-                self.dropped_oldest += 1;
+                *if self.is_newest_only() { &mut self.replaced } else { &mut self.dropped_oldest } += 1;
             }
             WhenFull::Wait if full && self.call != Call::Newest => {
                 return Err(format!("{message:?} was taken from the transport, and the queue is full"));
@@ -69,6 +71,11 @@ impl Inbox {
         }
         self.waiting.push_back(message);
         Ok(())
+    }
+
+    /// Number of messages of a sender that wait.
+    pub(super) fn waiting_of(&self, sender: u32) -> u64 {
+        self.waiting.iter().filter(|message| message.sender == sender).count() as u64
     }
 
     pub(super) fn call(&self) -> Call {
@@ -104,6 +111,6 @@ impl Inbox {
     }
 
     pub(super) fn is_newest_only(&self) -> bool {
-        self.declared.queue == 1 && self.declared.when_full == WhenFull::DropOldest
+        self.declared.is_newest_only()
     }
 }

@@ -4,8 +4,8 @@ use super::gates::{Receiver, Sender};
 use scl::OpenOptions;
 use scl::codec::Opaque;
 use scl::private::{
-    AnyGate, Component, ComponentHandle, ComponentSpec, GateKind, GateOptions, GateSpec, LinkSpec, OpenError, Opener,
-    WhenFull, close, open,
+    AnyGate, Component, ComponentHandle, ComponentSpec, ConnectionSpec, GateKind, GateOptions, GateSpec, OpenError,
+    Opener, WhenFull, close, open,
 };
 use std::pin::Pin;
 use std::time::Duration;
@@ -36,6 +36,13 @@ pub(super) struct Declared {
     pub(super) queue: u32,
     pub(super) when_full: WhenFull,
     pub(super) required: bool,
+}
+
+impl Declared {
+    /// Returns true if only the newest message counts, so that one replaces the other and none is dropped.
+    pub(super) fn is_newest_only(self) -> bool {
+        self.queue == 1 && self.when_full == WhenFull::DropOldest
+    }
 }
 
 impl Layout {
@@ -115,11 +122,11 @@ struct Reader<const LAYOUT: usize, const INDEX: usize> {
 }
 
 impl<const LAYOUT: usize> SourceOf<LAYOUT> {
-    const LINKS: &'static [LinkSpec; 3] =
+    const LINKS: &'static [ConnectionSpec; 3] =
         &[to_reader(layout(LAYOUT), 0), to_reader(layout(LAYOUT), 1), to_reader(layout(LAYOUT), 2)];
     const GATE: GateSpec = GateSpec {
         options: GateOptions { backpressure: layout(LAYOUT).backpressure, ..OPTIONS },
-        links: Self::LINKS.split_at(layout(LAYOUT).count).0,
+        connections: Self::LINKS.split_at(layout(LAYOUT).count).0,
         ..gate("out", layout(LAYOUT).kind)
     };
 }
@@ -149,11 +156,12 @@ impl<const LAYOUT: usize> Component for SourceOf<LAYOUT> {
 
 impl<const LAYOUT: usize, const INDEX: usize> Reader<LAYOUT, INDEX> {
     const DECLARED: Declared = layout(LAYOUT).readers[INDEX];
-    const LINK: LinkSpec = LinkSpec { peer_component: SOURCE, peer_gate: "out", ..to_reader(layout(LAYOUT), INDEX) };
+    const LINK: ConnectionSpec =
+        ConnectionSpec { peer_component: SOURCE, peer_gate: "out", ..to_reader(layout(LAYOUT), INDEX) };
     const GATE: GateSpec = GateSpec {
         endpoint: if let GateKind::Push = layout(LAYOUT).kind { ENDPOINTS[INDEX] } else { "" },
         options: GateOptions { queue: Self::DECLARED.queue, when_full: Self::DECLARED.when_full, ..OPTIONS },
-        links: &[Self::LINK],
+        connections: &[Self::LINK],
         ..gate("in", if let GateKind::Push = layout(LAYOUT).kind { GateKind::Pull } else { GateKind::Sub })
     };
 }
@@ -199,13 +207,13 @@ const fn gate(name: &'static str, kind: GateKind) -> GateSpec {
         tap: "",
         contract: CONTRACT,
         options: OPTIONS,
-        links: &[],
+        connections: &[],
     }
 }
 
-const fn to_reader(layout: Layout, index: usize) -> LinkSpec {
+const fn to_reader(layout: Layout, index: usize) -> ConnectionSpec {
     let Declared { queue, when_full, required } = layout.readers[index];
-    LinkSpec {
+    ConnectionSpec {
         peer_component: READERS[index],
         peer_gate: "in",
         endpoint: ENDPOINTS[index],

@@ -32,8 +32,10 @@ pub(super) struct Connection {
     pub(super) outbox: Outbox,
     pub(super) transit: Transit,
     pub(super) inbox: Inbox,
-    /// What the open link counted as unacknowledged when it was last asked.
-    pub(super) unacknowledged: u64,
+    /// What the open link counted when it was last asked: messages that the reader's program has not received.
+    pub(super) not_received: u64,
+    /// What the sender's account has counted as taken, which never falls.
+    pub(super) taken: u64,
 }
 
 /// How many messages the memory transport holds for one reader.
@@ -64,7 +66,8 @@ impl Model {
             outbox: Outbox::new(*declared, layout.backpressure),
             transit: Transit::new(promise),
             inbox: Inbox::new(*declared),
-            unacknowledged: 0,
+            not_received: 0,
+            taken: 0,
         };
         Self {
             promise,
@@ -181,24 +184,36 @@ impl Model {
         self.sender
     }
 
-    pub(super) fn link_closes(&mut self, reader: usize, sender: u32, unacknowledged: u64) {
+    pub(super) fn link_closes(&mut self, reader: usize, sender: u32, unacknowledged: u64, not_received: u64) {
         if self.sender_is_gone || sender != self.sender {
             return;
         }
         self.unacknowledged(reader, unacknowledged);
+        self.not_received(reader, not_received);
         let connection = &mut self.connections[reader];
-        connection.outbox.link_closes(unacknowledged);
+        connection.outbox.link_closes(not_received);
         connection.transit.link_closes();
-        connection.unacknowledged = 0;
+        connection.not_received = 0;
     }
 
     /// A link was asked how many messages its peer has not acknowledged.
     pub(super) fn unacknowledged(&mut self, reader: usize, counted: u64) {
         let connection = &mut self.connections[reader];
-        connection.unacknowledged = counted;
         let expected = connection.transit.unacknowledged(self.sender) as u64;
         if self.promise.is_exact() && counted != expected {
             self.note(reader, Err(format!("{counted} messages are unacknowledged instead of {expected}")));
+        }
+    }
+
+    /// A link was asked how many messages the reader's program has not received. A message that was given to the program is
+    /// never among them once its gate has told that, and one that it was not given always is.
+    pub(super) fn not_received(&mut self, reader: usize, counted: u64) {
+        let connection = &mut self.connections[reader];
+        connection.not_received = counted;
+        let stranded = connection.transit.unacknowledged(self.sender) as u64;
+        let least = stranded + connection.inbox.waiting_of(self.sender);
+        if self.promise.is_exact() && connection.transit.has_reader() && counted < least {
+            self.note(reader, Err(format!("{counted} messages are not received instead of at least {least}")));
         }
     }
 
@@ -212,7 +227,7 @@ impl Model {
         for connection in &mut self.connections {
             connection.outbox = Outbox::new(connection.declared, self.backpressure);
             connection.transit.sender_vanishes(flushed);
-            connection.unacknowledged = 0;
+            (connection.not_received, connection.taken) = (0, 0);
         }
     }
 

@@ -5,8 +5,8 @@ use super::message::Message;
 use super::model::Model;
 use bytes::Bytes;
 use scl::transport::{
-    Disconnected, Endpoint, Frame, Guarantees, Link, Loan, Peer, Receiver, Replier, Requester, Sender, Tap, Transport,
-    TransportError,
+    Disconnected, Endpoint, Frame, Guarantees, Link, Loan, Peer, Receiver, Replier, Requester, Resumed, Sender, Tap,
+    Transport, TransportError,
 };
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -107,8 +107,8 @@ struct ObservedLink {
 impl Drop for ObservedLink {
     fn drop(&mut self) {
         let Observed { end, reader, model } = &self.link;
-        let unacknowledged = end.unacknowledged();
-        model.lock().link_closes(*reader, self.sender, unacknowledged);
+        let (unacknowledged, not_received) = (end.unacknowledged(), end.not_received());
+        model.lock().link_closes(*reader, self.sender, unacknowledged, not_received);
     }
 }
 
@@ -138,6 +138,10 @@ impl Link for ObservedLink {
         }
     }
 
+    fn resumed(&self) -> Option<Resumed> {
+        self.link.end.resumed()
+    }
+
     fn loan(&mut self, length: usize) -> Option<Loan> {
         self.link.end.loan(length)
     }
@@ -151,6 +155,17 @@ impl Link for ObservedLink {
         let unacknowledged = end.unacknowledged();
         model.lock().unacknowledged(*reader, unacknowledged);
         unacknowledged
+    }
+
+    fn not_received(&self) -> u64 {
+        let Observed { end, reader, model } = &self.link;
+        let not_received = end.not_received();
+        model.lock().not_received(*reader, not_received);
+        not_received
+    }
+
+    fn read_last(&mut self) {
+        self.link.end.read_last();
     }
 
     fn request_acknowledgement(&mut self, cx: &mut Context<'_>) {
@@ -188,6 +203,18 @@ impl Receiver for Observed<Box<dyn Receiver>> {
 
     fn malformed(&self) -> u64 {
         self.end.malformed()
+    }
+
+    fn note_waiting(&mut self, waiting: u64) {
+        self.end.note_waiting(waiting);
+    }
+
+    fn note_dropped(&mut self) {
+        self.end.note_dropped();
+    }
+
+    fn acknowledge_last(&mut self) {
+        self.end.acknowledge_last();
     }
 
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {

@@ -21,6 +21,7 @@ pub(super) struct Outbox {
     pub(super) holds_back: bool,
     pub(super) handed: u64,
     pub(super) lost: u64,
+    pub(super) replaced: u64,
     pub(super) dropped_oldest: u64,
     pub(super) dropped_newest: u64,
 }
@@ -37,6 +38,7 @@ impl Outbox {
             holds_back: false,
             handed: 0,
             lost: 0,
+            replaced: 0,
             dropped_oldest: 0,
             dropped_newest: 0,
         }
@@ -129,7 +131,10 @@ impl Outbox {
         }
         if self.is_full() {
             self.waiting.pop_front();
-            self.dropped_oldest += 1;
+            // A queue of one drops its oldest also where the sender may not wait for it.
+            let is_wanted =
+                self.declared.queue == 1 && !(self.backpressure && self.declared.when_full == WhenFull::Wait);
+            *if is_wanted { &mut self.replaced } else { &mut self.dropped_oldest } += 1;
         }
         self.waiting.push_back(message);
         Ok(())

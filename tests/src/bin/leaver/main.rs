@@ -3,12 +3,13 @@
 //! | argument | values |
 //! |---|---|
 //! | RUNTIME | `current_thread`, `multi_thread`, `blocking`, `main`, `main_blocking` |
-//! | ENDING | `close`, `drop`, `drop_after_runtime` |
+//! | ENDING | `close`, `drop`, `drop_after_runtime`; `thread_local_close` and `thread_local_drop` leave it to the end of the thread |
 //! | TASK | `send COUNT` publishes and pushes; `publish COUNT` publishes; `ready COUNT` waits for all peers before it sends; `reply` answers one request |
 
 mod with_main;
 
 use scl_tests::say;
+use std::cell::RefCell;
 use std::process::ExitCode;
 use std::time::Duration;
 use test::Number;
@@ -16,7 +17,7 @@ use tokio::runtime::Builder;
 
 scl::topology!("topologies/exits.yaml", only = [leaver]);
 
-const READY: Duration = Duration::from_secs(30);
+const READY: Duration = Duration::from_secs(60);
 
 fn main() -> ExitCode {
     let result = match argument(1).as_str() {
@@ -55,12 +56,37 @@ async fn perform_and_end() -> scl::Result<Option<Leaver>> {
 }
 
 fn run_blocking() -> scl::Result<()> {
+    if argument(3) == "ready" {
+        // Made before the thread-local values that the component needs, so destroyed after them.
+        OF_THREAD.with_borrow(|_| ());
+    }
     let leaver = perform_blocking(Leaver::open_blocking()?)?;
     match argument(2).as_str() {
         "close" => leaver.close_blocking(close_timeout())?,
+        "thread_local_close" | "thread_local_drop" => OF_THREAD.with_borrow_mut(|kept| kept.0 = Some(leaver)),
         _ => drop(leaver),
     }
     Ok(())
+}
+
+thread_local! {
+    static OF_THREAD: RefCell<Kept> = const { RefCell::new(Kept(None)) };
+}
+
+/// Ends the component when the thread ends.
+struct Kept(Option<Leaver>);
+
+impl Drop for Kept {
+    fn drop(&mut self) {
+        if let Some(leaver) = self.0.take()
+            && argument(2) == "thread_local_close"
+        {
+            // Without peers, messages are left.
+            if let Err(error) = leaver.close_blocking(close_timeout()) {
+                eprintln!("error: {error:?}");
+            }
+        }
+    }
 }
 
 async fn perform(mut leaver: Leaver) -> scl::Result<Leaver> {

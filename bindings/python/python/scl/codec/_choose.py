@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from scl._buffer import Buffer
 from scl._errors import UnsupportedCodecError
 from scl.codec import _protobuf, _values
-from scl.codec._codec import Codec, Owner
+from scl.codec._codec import Codec, Owner, kind_of
 from scl.codec._messages import MessageClasses
 
 _VALUES = {"json": _values.json_values, "cbor": _values.cbor, "msgpack": _values.msgpack}
@@ -38,14 +39,25 @@ def codec_of(
 
 
 def _bytes(owner: Owner) -> Codec:
-    def encode(value: bytes | bytearray | memoryview) -> bytes:
+    def encode(value: Buffer) -> bytes:
         if type(value) is bytes:
             return value
-        if isinstance(value, bytes | bytearray | memoryview):
-            return bytes(value)
-        kind = type(value).__qualname__
-        hint = "; use its method `encode` first" if isinstance(value, str) else ""
-        raise TypeError(f"gate `{owner.gate}` carries bytes, not `{kind}`{hint}")
+        try:
+            view = memoryview(value)
+        except (TypeError, ValueError, BufferError) as error:
+            raise refused(value, error) from error
+        if "O" in view.format:
+            raise TypeError(f"gate `{owner.gate}` carries bytes, not {kind_of(value)} of Python objects")
+        # Elements that are not contiguous are copied in their order, as `tobytes` of an array does it.
+        return view.tobytes()
+
+    def refused(value: object, error: Exception) -> TypeError:
+        if isinstance(value, str):
+            hint = "; use its method `encode` first"
+        else:
+            # It has bytes, but cannot give them.
+            hint = "" if isinstance(error, TypeError) else f": {error}"
+        return TypeError(f"gate `{owner.gate}` carries bytes, not {kind_of(value)}{hint}")
 
     return Codec("bytes", bytes, encode, lambda frame: frame, owner)
 

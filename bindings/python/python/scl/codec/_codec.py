@@ -53,7 +53,9 @@ class Owner:
         """Counts a frame, and returns the error that names the gate and its peers."""
         self.rejected += 1
         senders = f" from {', '.join(f'`{peer}`' for peer in self.peers)}" if self.peers else ""
-        return DecodeError(f"gate `{self.gate}` received an undecodable message{senders}: {reason}")
+        error = DecodeError(f"gate `{self.gate}` received an undecodable message{senders}: {reason}")
+        error.reason = str(reason)
+        return error
 
 
 def kind_of(value: object) -> str:

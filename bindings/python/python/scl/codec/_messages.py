@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from scl._errors import UnsupportedCodecError
+from scl._suggest import did_you_mean
 
 if TYPE_CHECKING:
     from google.protobuf.descriptor_pb2 import FileDescriptorProto
@@ -78,7 +79,7 @@ def messages_of_descriptors(sets: Iterable[bytes]) -> MessageClasses:
 def lazy_messages(
     module: str, plan: str, messages: Mapping[str, str], enums: Mapping[str, str]
 ) -> Callable[[str], object]:
-    """Returns the `__getattr__` of a generated module, which makes a message class when it is first used.
+    """Returns the `__getattr__` of a generated module, which makes a message class when it is first used, and lists them.
 
     `messages` and `enums` give the full name of each name in the module.
     """
@@ -86,19 +87,20 @@ def lazy_messages(
     def find(name: str) -> object:
         if name in messages:
             found: object = messages_of_plan(plan).message(messages[name])
+            found.__module__ = module
         elif name in enums:
             found = messages_of_plan(plan).enum(enums[name])
         else:
-            import difflib
-
-            declared = vars(sys.modules[module])
-            known = [*messages, *enums, *(it for it in declared if not it.startswith("_"))]
-            nearest = difflib.get_close_matches(name, known, n=1)
-            hint = f"; did you mean `{nearest[0]}`?" if nearest else ""
+            hint = did_you_mean(name, dir(sys.modules[module]))
             raise AttributeError(f"module `{module}` has no attribute `{name}`{hint}", name=name)
         setattr(sys.modules[module], name, found)
         return found
 
+    def names() -> list[str]:
+        return sorted({*vars(sys.modules[module]), *messages, *enums})
+
+    # So that `dir` and `help` show messages that were not used yet.
+    vars(sys.modules[module])["__dir__"] = names
     return find
 
 

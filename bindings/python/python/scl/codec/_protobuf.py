@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from scl._errors import EncodeError
 from scl.codec._codec import Codec, Owner, kind_of
+from scl.codec._json_check import check
 
 if TYPE_CHECKING:
+    from google.protobuf.descriptor import Descriptor
     from google.protobuf.message import Message
 
 
@@ -46,7 +48,10 @@ def canonical_json(owner: Owner, message_class: type[Message]) -> Codec:
 
     from google.protobuf import json_format
 
-    name = message_class.DESCRIPTOR.full_name
+    # Stubs of protobuf also name the class of its native part, which has the same attributes.
+    descriptor = cast("Descriptor", message_class.DESCRIPTOR)
+    name = descriptor.full_name
+    needs_check = any(f.enum_type or f.message_type or f.type == f.TYPE_BYTES for f in descriptor.fields)
     to_dict: Callable[[Message], object] = json_format.MessageToDict
     # Made once: `json.dumps` with options would make a new one each time.
     to_text = json.JSONEncoder(separators=(",", ":"), ensure_ascii=False, allow_nan=False).encode
@@ -66,7 +71,10 @@ def canonical_json(owner: Owner, message_class: type[Message]) -> Codec:
             if not text.lstrip(" \t\r\n").startswith("{"):
                 # The parser takes an empty list for a message.
                 raise ValueError("it is not a JSON object")
-            return json_format.Parse(text, message_class(), ignore_unknown_fields=True)
+            message = json_format.Parse(text, message_class(), ignore_unknown_fields=True)
+            if needs_check:
+                check(descriptor, json.loads(text))
+            return message
         # The parser lets errors of its parts through, also `RecursionError` and `AttributeError`.
         except Exception as error:
             raise owner.undecodable(f"these {len(frame)} bytes are not the JSON of a `{name}`: {error}") from error

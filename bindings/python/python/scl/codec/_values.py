@@ -12,6 +12,7 @@ import struct
 from typing import Any, NoReturn
 
 from scl._errors import EncodeError, UnsupportedCodecError
+from scl.codec import _plain
 from scl.codec._codec import Codec, Owner, kind_of
 
 
@@ -28,10 +29,11 @@ def json_values(owner: Owner, name: str) -> Codec:
     from_text = json.JSONDecoder(parse_constant=_no_constant).decode
 
     def encode(value: object) -> bytes:
+        _plain.check(owner.gate, name, "JSON", value)
         try:
             return to_text(value).encode()
         except (TypeError, ValueError, RecursionError) as error:
-            raise _refused(owner.gate, name, "JSON", error) from error
+            raise _refused(owner.gate, name, "JSON", value, error) from error
 
     def decode(frame: bytes) -> object:
         try:
@@ -47,13 +49,14 @@ def cbor(owner: Owner, name: str) -> Codec:
     cbor2 = _extra("cbor2", "cbor", owner.gate)
 
     def encode(value: object) -> bytes:
+        _plain.check(owner.gate, name, "CBOR", value)
         try:
             frame: bytes = cbor2.dumps(value, default=fields)
             if b"\xf9" in frame:
                 # cbor2 shortens infinity and NaN to 16 bits, which serde does not read.
                 frame = cbor2.dumps(value, default=fields, encoders={float: wide})
         except (TypeError, ValueError, RecursionError, cbor2.CBOREncodeError) as error:
-            raise _refused(owner.gate, name, "CBOR", error) from error
+            raise _refused(owner.gate, name, "CBOR", value, error) from error
         return frame
 
     def fields(encoder: Any, value: object) -> None:
@@ -80,11 +83,15 @@ def msgpack(owner: Owner, name: str) -> Codec:
     """Returns the codec `msgpack`. Needs the package `msgpack`."""
     library = _extra("msgpack", "msgpack", owner.gate)
 
+    # A named tuple and a class of its own, which become extensions.
+    refused = (library.ExtType, library.Timestamp)
+
     def encode(value: object) -> bytes:
+        _plain.check(owner.gate, name, "MessagePack", value, refused)
         try:
             frame: bytes = library.packb(value, default=_fields)
         except (TypeError, ValueError, OverflowError, RecursionError) as error:
-            raise _refused(owner.gate, name, "MessagePack", error) from error
+            raise _refused(owner.gate, name, "MessagePack", value, error) from error
         return frame
 
     def decode(frame: bytes) -> object:
@@ -108,7 +115,8 @@ def _fields(value: object) -> dict[str, object]:
     raise TypeError(f"{kind_of(value)} is neither a plain value nor a dataclass")
 
 
-def _refused(gate: str, name: str, format: str, error: Exception) -> Exception:
+def _refused(gate: str, name: str, format: str, value: object, error: Exception) -> Exception:
+    _plain.raise_refusal(gate, name, format, value)
     text = f"gate `{gate}` cannot send this value as the {format} of `{name}`: {error}"
     return TypeError(text) if isinstance(error, TypeError) else EncodeError(text)
 

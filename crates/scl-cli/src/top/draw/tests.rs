@@ -56,7 +56,7 @@ fn snapshot() -> Snapshot {
     let components = vec![
         component("controller", Activity::Ready, 120, 0.021),
         component("logger", Activity::Hangs(Duration::from_secs(5)), 121, 0.0),
-        component("sensor", Activity::NotReady, 122, 1.5),
+        component("sensor", Activity::Waiting, 122, 1.5),
         stopped,
     ];
     let peers = [("controller.sensor", true), ("viewer.measurements", false)];
@@ -100,23 +100,23 @@ fn a_usual_terminal_shows_all_columns() {
         80,
         16,
         &expect![[r#"
-        rover  3 of 4 components running, 1 hang
-        COMPONENT   STATE      PID     CPU       MEM  SINCE
-        controller  ready      120    2.1%  3.75 MiB  6 min
-        logger      hangs      121    0.0%  3.78 MiB  6 min
-        sensor      not ready  122  150.0%  3.81 MiB  6 min
-        viewer      stopped      -       -         -      -
+            rover  3 of 4 components running, 1 hang
+            COMPONENT   STATE    PID     CPU       MEM  SINCE
+            controller  ready    120    2.1%  3.75 MiB  6 min
+            logger      hangs    121    0.0%  3.78 MiB  6 min
+            sensor      waiting  122  150.0%  3.81 MiB  6 min
+            viewer      stopped    -       -         -      -
 
-        GATE                 KIND  RATE    SENT  RECEIVED  WAIT  DROP  LOST  PEERS
-        controller.commands  rep   1.00     100         0     0     0     0    1/1
-        sensor.measurements  pub   1000  100000         0   100     0     0    1/2
-        sensor.image         pub   25.0    2504         0     2     7     0    0/1
-
-
+            GATE                 KIND  RATE    SENT  RECEIVED  WAIT  DROP  LOST  PEERS
+            controller.commands  rep   1.00     100         0     0     0     0    1/1
+            sensor.measurements  pub   1000  100000         0   100     0     0    1/2
+            sensor.image         pub   25.0    2504         0     2     7     0    0/1
 
 
-        q quit  ↑↓ choose  Enter details  s sorted by name  space pause
-    "#]],
+
+
+            q quit  ↑↓ choose  Enter details  s sorted by name  space pause
+        "#]],
     );
 }
 
@@ -127,38 +127,38 @@ fn narrow_terminals_leave_columns_out_and_shorten_names() {
         50,
         12,
         &expect![[r#"
-        rover  3 of 4 components running, 1 hang
-        COMPONENT   STATE      PID     CPU       MEM
-        controller  ready      120    2.1%  3.75 MiB
-        logger      hangs      121    0.0%  3.78 MiB
-        sensor      not ready  122  150.0%  3.81 MiB
-        viewer      stopped      -       -         -
+            rover  3 of 4 components running, 1 hang
+            COMPONENT   STATE    PID     CPU       MEM  SINCE
+            controller  ready    120    2.1%  3.75 MiB  6 min
+            logger      hangs    121    0.0%  3.78 MiB  6 min
+            sensor      waiting  122  150.0%  3.81 MiB  6 min
+            viewer      stopped    -       -         -      -
 
-        GATE                 KIND  RATE  WAIT  DROP  PEERS
-        controller.commands  rep   1.00     0     0    1/1
-        sensor.measurements  pub   1000   100     0    1/2
-        sensor.image         pub   25.0     2     7    0/1
-        q quit  ↑↓ choose  Enter details  s sorted by name
-    "#]],
+            GATE                 KIND  RATE  WAIT  DROP  PEERS
+            controller.commands  rep   1.00     0     0    1/1
+            sensor.measurements  pub   1000   100     0    1/2
+            sensor.image         pub   25.0     2     7    0/1
+            q quit  ↑↓ choose  Enter details  s sorted by name
+        "#]],
     );
     check(
         &view(true),
         30,
         12,
         &expect![[r#"
-        rover  3 of 4 components runni
-        COMPONENT   STATE         CPU
-        controller  ready        2.1%
-        logger      hangs        0.0%
-        sensor      not ready  150.0%
-        viewer      stopped         -
+            rover  3 of 4 components runni
+            COMPONENT   STATE       CPU
+            controller  ready      2.1%
+            logger      hangs      0.0%
+            sensor      waiting  150.0%
+            viewer      stopped       -
 
-        GATE         RATE  DROP  PEERS
-        controller…  1.00     0    1/1
-        sensor.mea…  1000     0    1/2
-        sensor.ima…  25.0     7    0/1
-        q quit  ↑↓ choose  Enter detai
-    "#]],
+            GATE         RATE  DROP  PEERS
+            controller…  1.00     0    1/1
+            sensor.mea…  1000     0    1/2
+            sensor.ima…  25.0     7    0/1
+            q quit  ↑↓ choose  Enter detai
+        "#]],
     );
 }
 
@@ -173,25 +173,25 @@ fn a_chosen_gate_shows_its_connections() {
         80,
         18,
         &expect![[r#"
-        rover  3 of 4 components running, 1 hang
-        COMPONENT   STATE      PID     CPU       MEM  SINCE
-        controller  ready      120    2.1%  3.75 MiB  6 min
-        logger      hangs      121    0.0%  3.78 MiB  6 min
-        sensor      not ready  122  150.0%  3.81 MiB  6 min
-        viewer      stopped      -       -         -      -
+            rover  3 of 4 components running, 1 hang
+            COMPONENT   STATE    PID     CPU       MEM  SINCE
+            controller  ready    120    2.1%  3.75 MiB  6 min
+            logger      hangs    121    0.0%  3.78 MiB  6 min
+            sensor      waiting  122  150.0%  3.81 MiB  6 min
+            viewer      stopped    -       -         -      -
 
-        GATE                 KIND  RATE    SENT  RECEIVED  WAIT  DROP  LOST  PEERS
-        controller.commands  rep   1.00     100         0     0     0     0    1/1
-        sensor.measurements  pub   1000  100000         0   100     0     0    1/2
-        sensor.image         pub   25.0    2504         0     2     7     0    0/1
+            GATE                 KIND  RATE    SENT  RECEIVED  WAIT  DROP  LOST  PEERS
+            controller.commands  rep   1.00     100         0     0     0     0    1/1
+            sensor.measurements  pub   1000  100000         0   100     0     0    1/2
+            sensor.image         pub   25.0    2504         0     2     7     0    0/1
 
 
 
-        sensor.measurements  rover.Measurement  protobuf  0 B  rejected 0
-          controller.sensor  connected  taken 5  not yet 0  dropped 0  lost 0
-          viewer.measurements  not connected  taken 0  not yet 0  dropped 0  lost 0
-        q quit  ↑↓ choose  Enter details  s sorted by name  space pause
-    "#]],
+            sensor.measurements  rover.Measurement  protobuf  0 B  rejected 0  undecodable 0
+              controller.sensor  connected  taken 5  not yet 0  dropped 0  lost 0
+              viewer.measurements  not connected  taken 0  not yet 0  dropped 0  lost 0
+            q quit  ↑↓ choose  Enter details  s sorted by name  space pause
+        "#]],
     );
 }
 
@@ -211,7 +211,7 @@ fn colours_mark_what_needs_attention_and_can_be_switched_off() {
     let coloured = |buffer: &Buffer| buffer.content().iter().filter(|cell| cell.fg != Color::Reset).count();
     // The states, peers that are missing, and dropped messages.
     let shown = drawn(&view(true), 80, 24);
-    assert!(coloured(&shown) > "ready".len() + "hangs".len() + "not ready".len());
+    assert!(coloured(&shown) > "ready".len() + "hangs".len() + "waiting".len());
     assert_eq!(coloured(&drawn(&view(false), 80, 24)), 0);
     // Only the terminal's own background suits dark and light ones.
     assert!(shown.content().iter().all(|cell| cell.bg == Color::Reset));

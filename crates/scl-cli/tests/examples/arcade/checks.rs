@@ -1,8 +1,8 @@
 //! What is true of a good flight, in numbers.
 
 use super::recording::{Numbered, Recording};
+use crate::aircraft::arcade::{Vector, World};
 use crate::example;
-use ::arcade::arcade::{Vector, World};
 
 /// A waypoint of a mission: the id of its command, and metres east, north and up.
 #[derive(Debug, PartialEq)]

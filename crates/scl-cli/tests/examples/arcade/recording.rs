@@ -1,6 +1,6 @@
 //! A recorded flight: what is true of the world, and what the autopilot believed and did.
 
-use ::arcade::arcade::{Arbitration, Beat, Flight, Inertial, Motors, World};
+use crate::aircraft::arcade::{Arbitration, Beat, Flight, Inertial, Motors, World};
 use mcap::{Message, MessageStream};
 use prost::Message as _;
 use std::path::Path;

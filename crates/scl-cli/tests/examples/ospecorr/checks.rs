@@ -1,7 +1,7 @@
 //! How long primary users are disturbed, and what was out of order meanwhile.
 
 use super::recording::Recording;
-use ::ospecorr::ospecorr::Truth;
+use crate::radio::ospecorr::Truth;
 use serde_json::{Value, json};
 use std::fmt;
 

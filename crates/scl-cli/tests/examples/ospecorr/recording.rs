@@ -1,7 +1,7 @@
 //! A recorded session: what is true of the band, what the application got, and when each part started.
 
 use super::checks::Outage;
-use ::ospecorr::ospecorr::{Service, Truth};
+use crate::radio::ospecorr::{Service, Truth};
 use mcap::{Message, MessageStream};
 use prost::Message as _;
 use std::collections::HashMap;

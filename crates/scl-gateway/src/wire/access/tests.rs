@@ -31,6 +31,7 @@ fn route(from: &str, to: &str, pattern: Pattern) -> Route {
         queue: 1,
         when_full: WhenFull::Wait,
         lossless: false,
+        latched: false,
         max_size: 1,
         newest_only: false,
         key: format!("scl/system/{from}/out/{to}/in/c0"),

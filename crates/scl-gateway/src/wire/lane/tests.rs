@@ -1,7 +1,7 @@
 use super::*;
 
 fn header() -> Header {
-    Header { kind: Kind::Whole, stream: 1, epoch: 2, attempt: 0, sequence: 3 }
+    Header { kind: Kind::Whole, stream: 1, epoch: 2, attempt: 0, sequence: 3, latched: None }
 }
 
 fn open() -> (Lane, Instant) {

@@ -1,5 +1,7 @@
 //! The decisions of a receiving end: what is the next message, what came twice, what is missing.
 
+use std::time::Instant;
+
 use bytes::{Bytes, BytesMut};
 
 use crate::wire::header::{Ack, Header, Kind};
@@ -33,6 +35,8 @@ struct Partial {
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(super) struct Outcome {
     pub(super) message: Option<Bytes>,
+    /// When that message was sent, if it was before this receiver had joined.
+    pub(super) latched: Option<Instant>,
     pub(super) answer: Option<Ack>,
     pub(super) flush: bool,
     /// The sender does not keep to `max_size`. It gets no further.
@@ -72,7 +76,8 @@ impl Incoming {
             (self.stream, self.received, self.partial, self.reported) = (Some(header.stream), 0, None, None);
         }
         self.attempt = header.attempt;
-        match header.kind {
+        let latched = header.latched;
+        let outcome = match header.kind {
             Kind::Probe { flush } => Outcome {
                 answer: self.answer(header.sequence),
                 flush: flush && header.sequence > 0,
@@ -83,7 +88,8 @@ impl Incoming {
                 self.chunk(&header, offset, total, &payload)
             }
             _ => self.out_of_order(&header),
-        }
+        };
+        Outcome { latched: latched.filter(|_| outcome.message.is_some()), ..outcome }
     }
 
     /// Notes that the component has taken `count` messages of this epoch.

@@ -1,6 +1,7 @@
 //! The decisions of a sending end: what to send, what to send again, what to give up.
 
 use std::collections::VecDeque;
+use std::time::Instant;
 
 use bytes::Bytes;
 
@@ -15,8 +16,10 @@ pub(super) struct Outgoing {
     /// The receiving end that the numbers belong to.
     epoch: Option<u64>,
     matched: bool,
-    waiting: VecDeque<Bytes>,
+    waiting: VecDeque<Waiting>,
     waiting_bytes: u64,
+    /// Whether the sender keeps its last message for receivers that join.
+    latches: bool,
     /// How many of `waiting` are on their way.
     emitted: usize,
     /// How many of `waiting` were ever on their way to `epoch`.
@@ -30,8 +33,18 @@ pub(super) struct Outgoing {
     flushed: u64,
 }
 
+/// A message that is not acknowledged.
+#[derive(Debug)]
+struct Waiting {
+    message: Bytes,
+    /// When it was sent, if the sender keeps its last message for receivers that join.
+    sent: Option<Instant>,
+    /// Whether it was sent before its receiver had joined.
+    is_latched: bool,
+}
+
 impl Outgoing {
-    pub(super) fn new(queue: u32, stream: u64) -> Self {
+    pub(super) fn new(queue: u32, latches: bool, stream: u64) -> Self {
         Outgoing {
             window: queue.clamp(1, WINDOW_MESSAGES) as usize,
             stream,
@@ -39,6 +52,7 @@ impl Outgoing {
             matched: false,
             waiting: VecDeque::new(),
             waiting_bytes: 0,
+            latches,
             emitted: 0,
             tried: 0,
             attempt: 0,
@@ -47,6 +61,11 @@ impl Outgoing {
             flush: false,
             flushed: 0,
         }
+    }
+
+    /// Whether this receiving end has got nothing yet.
+    pub(super) fn is_new(&self, epoch: u64) -> bool {
+        self.epoch != Some(epoch)
     }
 
     pub(super) fn is_matched(&self) -> bool {
@@ -67,15 +86,17 @@ impl Outgoing {
         self.matched && fits && self.waiting.len() < self.window
     }
 
-    pub(super) fn push(&mut self, message: Bytes) {
+    /// Adds a message. `latched` is when it was sent, if that was before the receiver had joined.
+    pub(super) fn push(&mut self, message: Bytes, latched: Option<Instant>) {
         self.waiting_bytes += message.len() as u64;
-        self.waiting.push_back(message);
+        let sent = latched.or_else(|| self.latches.then(Instant::now));
+        self.waiting.push_back(Waiting { message, sent, is_latched: latched.is_some() });
     }
 
     /// Begins or resumes with a receiving end. Returns how many messages are given up.
     pub(super) fn matched(&mut self, epoch: u64) -> u64 {
         self.matched = true;
-        if self.epoch == Some(epoch) {
+        if !self.is_new(epoch) {
             self.start_over(0);
             return 0;
         }
@@ -85,6 +106,9 @@ impl Outgoing {
         self.base = self.settled;
         self.attempt = 0;
         (self.emitted, self.tried) = (0, 0);
+        if let Some(last) = self.waiting.back_mut() {
+            last.is_latched |= self.latches;
+        }
         given_up as u64
     }
 
@@ -103,10 +127,11 @@ impl Outgoing {
 
     /// The next message to put on its way, within the window.
     pub(super) fn emit(&mut self) -> Option<(Header, Bytes)> {
-        let message = self.waiting.get(self.emitted).filter(|_| self.matched && self.emitted < self.window)?.clone();
+        let next = self.waiting.get(self.emitted).filter(|_| self.matched && self.emitted < self.window)?;
+        let (message, latched) = (next.message.clone(), next.sent.filter(|_| next.is_latched));
         self.emitted += 1;
         self.tried = self.tried.max(self.emitted);
-        Some((self.header(Kind::Whole)?, message))
+        Some((Header { latched, ..self.header(Kind::Whole)? }, message))
     }
 
     /// A header that asks for an answer.
@@ -151,8 +176,8 @@ impl Outgoing {
     }
 
     fn settle(&mut self, count: usize) {
-        for message in self.waiting.drain(..count) {
-            self.waiting_bytes -= message.len() as u64;
+        for waiting in self.waiting.drain(..count) {
+            self.waiting_bytes -= waiting.message.len() as u64;
         }
         self.emitted = self.emitted.saturating_sub(count);
         self.tried = self.tried.saturating_sub(count);
@@ -161,7 +186,7 @@ impl Outgoing {
 
     fn header(&self, kind: Kind) -> Option<Header> {
         let sequence = self.settled - self.base + self.emitted as u64;
-        Some(Header { kind, stream: self.stream, epoch: self.epoch?, attempt: self.attempt, sequence })
+        Some(Header { kind, stream: self.stream, epoch: self.epoch?, attempt: self.attempt, sequence, latched: None })
     }
 }
 

@@ -2,28 +2,23 @@
 
 use std::sync::Arc;
 use std::task::{Context, Poll};
+use std::time::Instant;
 
 use bytes::Bytes;
 
 use super::incoming::Incoming;
 use crate::wire::WINDOW_BYTES;
 use crate::wire::command::{Command, Commands, EndId};
-use crate::wire::header::Header;
+use crate::wire::mail::ReceivingMail;
 use crate::wire::mailbox::Mailbox;
-
-/// What callbacks tell a receiving end.
-#[derive(Debug)]
-pub(in crate::wire) enum ReceivingMail {
-    /// The sending end that is open now.
-    Peer(Option<u64>),
-    Arrived(Header, Bytes),
-}
 
 /// What a receiving end tells its owner.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(in crate::wire) enum Received {
     Matched,
     Unmatched,
+    /// The next message was sent then, before this receiver had joined.
+    Latched(Instant),
     Message(Bytes),
     Flush,
 }
@@ -36,6 +31,8 @@ pub(in crate::wire) struct ReceivingEnd {
     key: String,
     max_size: u64,
     incoming: Option<Incoming>,
+    /// The message to be told next, after its age.
+    latched: Option<Bytes>,
     is_matched: bool,
     flush: bool,
     warned: bool,
@@ -60,6 +57,7 @@ impl ReceivingEnd {
             key: key.to_owned(),
             max_size,
             incoming: None,
+            latched: None,
             is_matched: false,
             flush: false,
             warned: false,
@@ -80,7 +78,7 @@ impl ReceivingEnd {
 
     pub(in crate::wire) fn close(&mut self) {
         self.incoming = None;
-        self.flush = false;
+        (self.latched, self.flush) = (None, false);
     }
 
     pub(in crate::wire) fn acknowledge(&mut self, count: u64) {
@@ -91,6 +89,9 @@ impl ReceivingEnd {
 
     pub(in crate::wire) fn poll(&mut self, cx: &mut Context<'_>) -> Poll<Received> {
         loop {
+            if let Some(message) = self.latched.take() {
+                return Poll::Ready(Received::Message(message));
+            }
             if std::mem::take(&mut self.flush) {
                 return Poll::Ready(Received::Flush);
             }
@@ -113,7 +114,9 @@ impl ReceivingEnd {
             }
             self.flush |= outcome.flush;
             if let Some(message) = outcome.message {
-                return Poll::Ready(Received::Message(message));
+                let Some(sent) = outcome.latched else { return Poll::Ready(Received::Message(message)) };
+                self.latched = Some(message);
+                return Poll::Ready(Received::Latched(sent));
             }
         }
     }

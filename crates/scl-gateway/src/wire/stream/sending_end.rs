@@ -11,7 +11,7 @@ use tokio::time::{Instant, Sleep};
 
 use super::outgoing::Outgoing;
 use crate::wire::command::{Command, Commands, EndId};
-use crate::wire::header::Ack;
+use crate::wire::mail::SendingMail;
 use crate::wire::mailbox::Mailbox;
 use crate::wire::random;
 
@@ -20,18 +20,14 @@ use crate::wire::random;
 const FIRST_PROBE: Duration = Duration::from_millis(300);
 const LAST_PROBE: Duration = Duration::from_secs(5);
 
-/// What callbacks tell a sending end.
-#[derive(Debug)]
-pub(in crate::wire) enum SendingMail {
-    /// The receiving end that is open now.
-    Peer(Option<u64>),
-    Ack(Ack),
-}
-
 /// What a sending end tells its owner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::wire) enum Sent {
-    Matched(u64),
+    /// With this receiving end; `is_new` if it is another one than the last time.
+    Matched {
+        peer: u64,
+        is_new: bool,
+    },
     Unmatched,
     Settled(u64),
     GivenUp(u64),
@@ -50,8 +46,8 @@ pub(in crate::wire) struct SendingEnd {
 }
 
 impl SendingEnd {
-    /// Sends on `key` to `host`.
-    pub(in crate::wire) fn new(commands: &Commands, host: &str, key: &str, queue: u32) -> Self {
+    /// Sends on `key` to `host`. `latches`: the last message of those that wait for a receiver is one that it finds there.
+    pub(in crate::wire) fn new(commands: &Commands, host: &str, key: &str, queue: u32, latches: bool) -> Self {
         let id = EndId::next();
         let mail = Arc::new(Mailbox::new(u64::MAX));
         commands.send(Command::AddSending { id, host: host.to_owned(), key: key.to_owned(), mail: Arc::clone(&mail) });
@@ -59,7 +55,7 @@ impl SendingEnd {
             id,
             commands: commands.clone(),
             mail,
-            outgoing: Outgoing::new(queue, random()),
+            outgoing: Outgoing::new(queue, latches, random()),
             events: VecDeque::new(),
             losses: 0,
             pause: FIRST_PROBE,
@@ -91,8 +87,8 @@ impl SendingEnd {
         self.losses
     }
 
-    pub(in crate::wire) fn send(&mut self, message: Bytes) {
-        self.outgoing.push(message);
+    pub(in crate::wire) fn send(&mut self, message: Bytes, latched: Option<std::time::Instant>) {
+        self.outgoing.push(message, latched);
         self.emit();
     }
 
@@ -126,8 +122,9 @@ impl SendingEnd {
         match mail {
             SendingMail::Peer(Some(epoch)) => {
                 self.commands.send(Command::Clear { id: self.id });
+                let is_new = self.outgoing.is_new(epoch);
                 let given_up = self.outgoing.matched(epoch);
-                self.events.push_back(Sent::Matched(epoch));
+                self.events.push_back(Sent::Matched { peer: epoch, is_new });
                 if given_up > 0 {
                     self.events.push_back(Sent::GivenUp(given_up));
                 }

@@ -14,23 +14,28 @@ _PLAN = r"""
 {"version": 1,"system": "bytes","components": [{"name": "sender","declared_at": "bytes.yaml:3:11",
 "schema": null,"gates": [{"name": "data","kind": "pub","payload": null,"codec": "raw",
 "declared_at": "bytes.yaml:5:9","endpoint": null,"tap": "sender.data.tap","contract": "rqhnei4n",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "receiver","peer_gate": "data",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "receiver","peer_gate": "data","endpoint": "sender.data--receiver.data.rqhnei4n",
+"contract": "rqhnei4n","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]}]},{"name": "receiver","declared_at": "bytes.yaml:6:11","schema": null,"gates": [{"name": "data",
+"kind": "sub","payload": null,"codec": "raw","declared_at": "bytes.yaml:8:9","endpoint": null,
+"tap": null,"contract": "rqhnei4n","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "sender","peer_gate": "data",
 "endpoint": "sender.data--receiver.data.rqhnei4n","contract": "rqhnei4n","required": true,
-"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "receiver",
-"declared_at": "bytes.yaml:6:11","schema": null,"gates": [{"name": "data","kind": "sub",
-"payload": null,"codec": "raw","declared_at": "bytes.yaml:8:9","endpoint": null,"tap": null,
-"contract": "rqhnei4n","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "sender",
-"peer_gate": "data","endpoint": "sender.data--receiver.data.rqhnei4n","contract": "rqhnei4n",
-"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]}],"schemas": {}}
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]}],"schemas": {}}
 """
 
 
 class Sender(_scl.GeneratedComponent, plan=_PLAN, component="sender"):
-    """The component `sender` of `bytes`, declared at `bytes.yaml:3:11`."""
+    """The component `sender` of `bytes`, declared at `bytes.yaml:3:11`.
 
-    data: _scl.Pub[bytes]
+    Gates:
+        data: `pub` publishes bytes to `receiver.data`
+    """
+
+    data: _scl.Pub[_scl.Buffer]
     """`pub`: publishes bytes to `receiver.data`.
 
     Declared at `bytes.yaml:5:9`.
@@ -38,7 +43,11 @@ class Sender(_scl.GeneratedComponent, plan=_PLAN, component="sender"):
 
 
 class Receiver(_scl.GeneratedComponent, plan=_PLAN, component="receiver"):
-    """The component `receiver` of `bytes`, declared at `bytes.yaml:6:11`."""
+    """The component `receiver` of `bytes`, declared at `bytes.yaml:6:11`.
+
+    Gates:
+        data: `sub` subscribes to bytes from `sender.data`
+    """
 
     data: _scl.Sub[bytes]
     """`sub`: subscribes to bytes from `sender.data`.

@@ -34,126 +34,141 @@ _PLAN = r"""
 "name": "values","kind": "pub","payload": {"message": "kinds.Value"},"codec": "protobuf",
 "declared_at": "every_kind.yaml:12:9","endpoint": null,"tap": "left.values.tap",
 "contract": "iwlze4dk","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
-"peer_gate": "values","endpoint": "left.values--right-side.values.iwlze4dk","contract": "iwlze4dk",
-"required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "class",
-"kind": "push","payload": {"message": "kinds.GPSFix.Inner_part"},"codec": "protobuf",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "right-side","peer_gate": "values",
+"endpoint": "left.values--right-side.values.iwlze4dk","contract": "iwlze4dk","required": true,
+"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "class","kind": "push",
+"payload": {"message": "kinds.GPSFix.Inner_part"},"codec": "protobuf",
 "declared_at": "every_kind.yaml:13:9","endpoint": null,"tap": null,"contract": "baol5fbn",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side","peer_gate": "from",
-"endpoint": "right-side.from.baol5fbn","contract": "baol5fbn","required": true,"queue": 100,
-"when_full": "drop_oldest","max_size": 67108864}]},{"name": "int","kind": "req","payload": {
-"request": "kinds.Value","reply": "part.Part"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:14:9","endpoint": null,"tap": null,"contract": "2uxfcrjj",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side","peer_gate": "answer",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "right-side","peer_gate": "from","endpoint": "right-side.from.baol5fbn",
+"contract": "baol5fbn","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]},{"name": "int","kind": "req","payload": {"request": "kinds.Value","reply": "part.Part"},
+"codec": "protobuf","declared_at": "every_kind.yaml:14:9","endpoint": null,"tap": null,
+"contract": "2uxfcrjj","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "right-side","peer_gate": "answer",
 "endpoint": "right-side.answer.2uxfcrjj","contract": "2uxfcrjj","required": true,"queue": 100,
 "when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_out","kind": "pub","payload": null,
 "codec": "raw","declared_at": "every_kind.yaml:15:9","endpoint": null,"tap": "left.raw_out.tap",
 "contract": "rqhnei4n","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
-"peer_gate": "rawIn","endpoint": "left.raw_out--right-side.rawIn.rqhnei4n","contract": "rqhnei4n",
-"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{
-"name": "raw_jobs","kind": "push","payload": null,"codec": "raw",
-"declared_at": "every_kind.yaml:16:9","endpoint": null,"tap": null,"contract": "djajuayx",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side","peer_gate": "raw_jobs",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "right-side","peer_gate": "rawIn",
+"endpoint": "left.raw_out--right-side.rawIn.rqhnei4n","contract": "rqhnei4n","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_jobs","kind": "push",
+"payload": null,"codec": "raw","declared_at": "every_kind.yaml:16:9","endpoint": null,"tap": null,
+"contract": "djajuayx","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "right-side","peer_gate": "raw_jobs",
 "endpoint": "right-side.raw_jobs.djajuayx","contract": "djajuayx","required": true,"queue": 100,
 "when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_question","kind": "req",
 "payload": null,"codec": "raw","declared_at": "every_kind.yaml:17:9","endpoint": null,"tap": null,
 "contract": "rynbne7t","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
-"peer_gate": "raw_answer","endpoint": "right-side.raw_answer.rynbne7t","contract": "rynbne7t",
-"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{
-"name": "json_question","kind": "req","payload": {"request": "kinds.Value","reply": "part.Part"},
-"codec": "json","declared_at": "every_kind.yaml:18:9","endpoint": null,"tap": null,
-"contract": "h2hanz43","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
-"peer_gate": "json_answer","endpoint": "right-side.json_answer.h2hanz43","contract": "h2hanz43",
-"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "packed",
-"kind": "push","payload": {"message": "camera.Image"},"codec": "cbor",
-"declared_at": "every_kind.yaml:19:9","endpoint": null,"tap": null,"contract": "tjmyglsc",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side","peer_gate": "packed",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "right-side","peer_gate": "raw_answer",
+"endpoint": "right-side.raw_answer.rynbne7t","contract": "rynbne7t","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]},{"name": "json_question","kind": "req",
+"payload": {"request": "kinds.Value","reply": "part.Part"},"codec": "json",
+"declared_at": "every_kind.yaml:18:9","endpoint": null,"tap": null,"contract": "h2hanz43",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "right-side","peer_gate": "json_answer",
+"endpoint": "right-side.json_answer.h2hanz43","contract": "h2hanz43","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]},{"name": "packed","kind": "push","payload": {
+"message": "camera.Image"},"codec": "cbor","declared_at": "every_kind.yaml:19:9","endpoint": null,
+"tap": null,"contract": "tjmyglsc","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "right-side","peer_gate": "packed",
 "endpoint": "right-side.packed.tjmyglsc","contract": "tjmyglsc","required": true,"queue": 100,
 "when_full": "drop_oldest","max_size": 67108864}]},{"name": "trees","kind": "push","payload": {
 "message": "kinds.Tree"},"codec": "protobuf","declared_at": "every_kind.yaml:20:9","endpoint": null,
 "tap": null,"contract": "mgd2eiso","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "right-side",
-"peer_gate": "trees","endpoint": "right-side.trees.mgd2eiso","contract": "mgd2eiso",
-"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{
-"name": "right-side","declared_at": "every_kind.yaml:21:11","schema": "ma7xgrncj6we35cmeede3c7b2b",
-"gates": [{"name": "values","kind": "sub","payload": {"message": "kinds.Value"},"codec": "protobuf",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "right-side","peer_gate": "trees",
+"endpoint": "right-side.trees.mgd2eiso","contract": "mgd2eiso","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "right-side",
+"declared_at": "every_kind.yaml:21:11","schema": "ma7xgrncj6we35cmeede3c7b2b","gates": [{
+"name": "values","kind": "sub","payload": {"message": "kinds.Value"},"codec": "protobuf",
 "declared_at": "every_kind.yaml:23:9","endpoint": null,"tap": null,"contract": "iwlze4dk",
-"max_size": 67108864,"queue": 1,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "left","peer_gate": "values",
+"max_size": 67108864,"queue": 1,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "fail","connections": [{
+"peer_component": "left","peer_gate": "values",
 "endpoint": "left.values--right-side.values.iwlze4dk","contract": "iwlze4dk","required": true,
 "queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "from","kind": "pull",
 "payload": {"message": "kinds.GPSFix.Inner_part"},"codec": "protobuf",
 "declared_at": "every_kind.yaml:24:9","endpoint": "right-side.from.baol5fbn",
 "tap": "right-side.from.tap","contract": "baol5fbn","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "left","peer_gate": "class","endpoint": "right-side.from.baol5fbn",
-"contract": "baol5fbn","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]},{"name": "answer","kind": "rep","payload": {"request": "kinds.Value","reply": "part.Part"},
-"codec": "protobuf","declared_at": "every_kind.yaml:25:9","endpoint": "right-side.answer.2uxfcrjj",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "left","peer_gate": "class",
+"endpoint": "right-side.from.baol5fbn","contract": "baol5fbn","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]},{"name": "answer","kind": "rep","payload": {
+"request": "kinds.Value","reply": "part.Part"},"codec": "protobuf",
+"declared_at": "every_kind.yaml:25:9","endpoint": "right-side.answer.2uxfcrjj",
 "tap": "right-side.answer.tap","contract": "2uxfcrjj","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "left","peer_gate": "int","endpoint": "right-side.answer.2uxfcrjj",
-"contract": "2uxfcrjj","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]},{"name": "rawIn","kind": "sub","payload": null,"codec": "raw",
-"declared_at": "every_kind.yaml:26:9","endpoint": null,"tap": null,"contract": "rqhnei4n",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "left","peer_gate": "raw_out",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "left","peer_gate": "int",
+"endpoint": "right-side.answer.2uxfcrjj","contract": "2uxfcrjj","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]},{"name": "rawIn","kind": "sub","payload": null,
+"codec": "raw","declared_at": "every_kind.yaml:26:9","endpoint": null,"tap": null,
+"contract": "rqhnei4n","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "left","peer_gate": "raw_out",
 "endpoint": "left.raw_out--right-side.rawIn.rqhnei4n","contract": "rqhnei4n","required": true,
 "queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_jobs","kind": "pull",
 "payload": null,"codec": "raw","declared_at": "every_kind.yaml:27:9",
 "endpoint": "right-side.raw_jobs.djajuayx","tap": "right-side.raw_jobs.tap","contract": "djajuayx",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "left","peer_gate": "raw_jobs",
-"endpoint": "right-side.raw_jobs.djajuayx","contract": "djajuayx","required": true,"queue": 100,
-"when_full": "drop_oldest","max_size": 67108864}]},{"name": "raw_answer","kind": "rep",
-"payload": null,"codec": "raw","declared_at": "every_kind.yaml:28:9",
-"endpoint": "right-side.raw_answer.rynbne7t","tap": "right-side.raw_answer.tap",
-"contract": "rynbne7t","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "left",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "left","peer_gate": "raw_jobs","endpoint": "right-side.raw_jobs.djajuayx",
+"contract": "djajuayx","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]},{"name": "raw_answer","kind": "rep","payload": null,"codec": "raw",
+"declared_at": "every_kind.yaml:28:9","endpoint": "right-side.raw_answer.rynbne7t",
+"tap": "right-side.raw_answer.tap","contract": "rynbne7t","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "left",
 "peer_gate": "raw_question","endpoint": "right-side.raw_answer.rynbne7t","contract": "rynbne7t",
 "required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{
 "name": "json_answer","kind": "rep","payload": {"request": "kinds.Value","reply": "part.Part"},
 "codec": "json","declared_at": "every_kind.yaml:29:9","endpoint": "right-side.json_answer.h2hanz43",
 "tap": "right-side.json_answer.tap","contract": "h2hanz43","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "left","peer_gate": "json_question","endpoint": "right-side.json_answer.h2hanz43",
-"contract": "h2hanz43","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]},{"name": "packed","kind": "pull","payload": {"message": "camera.Image"},"codec": "cbor",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "left",
+"peer_gate": "json_question","endpoint": "right-side.json_answer.h2hanz43","contract": "h2hanz43",
+"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "packed",
+"kind": "pull","payload": {"message": "camera.Image"},"codec": "cbor",
 "declared_at": "every_kind.yaml:30:9","endpoint": "right-side.packed.tjmyglsc",
 "tap": "right-side.packed.tap","contract": "tjmyglsc","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "left","peer_gate": "packed","endpoint": "right-side.packed.tjmyglsc",
-"contract": "tjmyglsc","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]},{"name": "trees","kind": "pull","payload": {"message": "kinds.Tree"},"codec": "protobuf",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "left",
+"peer_gate": "packed","endpoint": "right-side.packed.tjmyglsc","contract": "tjmyglsc",
+"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "trees",
+"kind": "pull","payload": {"message": "kinds.Tree"},"codec": "protobuf",
 "declared_at": "every_kind.yaml:31:9","endpoint": "right-side.trees.mgd2eiso",
 "tap": "right-side.trees.tap","contract": "mgd2eiso","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "left","peer_gate": "trees","endpoint": "right-side.trees.mgd2eiso",
-"contract": "mgd2eiso","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]}]},{"name": "lonely","declared_at": "every_kind.yaml:32:11",
-"schema": "ma7xgrncj6we35cmeede3c7b2b","gates": [{"name": "close","kind": "pub","payload": {
-"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:34:9",
-"endpoint": null,"tap": "lonely.close.tap","contract": "iwlze4dk","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": []},{
-"name": "ready","kind": "sub","payload": {"message": "kinds.Value"},"codec": "protobuf",
-"declared_at": "every_kind.yaml:35:9","endpoint": null,"tap": null,"contract": "iwlze4dk",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": []},{"name": "name","kind": "req","payload": {
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "fail","connections": [{"peer_component": "left","peer_gate": "trees",
+"endpoint": "right-side.trees.mgd2eiso","contract": "mgd2eiso","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "lonely",
+"declared_at": "every_kind.yaml:32:11","schema": "ma7xgrncj6we35cmeede3c7b2b","gates": [{
+"name": "close","kind": "pub","payload": {"message": "kinds.Value"},"codec": "protobuf",
+"declared_at": "every_kind.yaml:34:9","endpoint": null,"tap": "lonely.close.tap",
+"contract": "iwlze4dk","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": []},{"name": "ready","kind": "sub","payload": {
+"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:35:9",
+"endpoint": null,"tap": null,"contract": "iwlze4dk","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "name","kind": "req","payload": {
 "request": "kinds.Value","reply": "part.Part"},"codec": "protobuf",
 "declared_at": "every_kind.yaml:36:9","endpoint": null,"tap": null,"contract": "2uxfcrjj",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": []},{"name": "component","kind": "pull","payload": {
-"message": "kinds.Value"},"codec": "protobuf","declared_at": "every_kind.yaml:37:9",
-"endpoint": "lonely.component.ve27wo5r","tap": "lonely.component.tap","contract": "ve27wo5r",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": []}]},{"name": "empty",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": []},{
+"name": "component","kind": "pull","payload": {"message": "kinds.Value"},"codec": "protobuf",
+"declared_at": "every_kind.yaml:37:9","endpoint": "lonely.component.ve27wo5r",
+"tap": "lonely.component.tap","contract": "ve27wo5r","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []}]},{"name": "empty",
 "declared_at": "every_kind.yaml:38:11","schema": null,"gates": []}],"schemas": {
 "ma7xgrncj6we35cmeede3c7b2b": "Ct0BChBwYXJ0cy9wYXJ0LnByb3RvEgRwYXJ0IroBCgRQYXJ0EiYKBXN0YXRlGAEgASgOMhAucGFydC5QYXJ0LlN0YXRlUgVzdGF0ZRIuCgZjb3VudHMYAiADKAsyFi5wYXJ0LlBhcnQuQ291bnRzRW50cnlSBmNvdW50cxo5CgtDb3VudHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIUCgV2YWx1ZRgCIAEoBVIFdmFsdWU6AjgBIh8KBVN0YXRlEgsKB1VOS05PV04QABIJCgVTT1VORBABYgZwcm90bzMK7QMKEGV2ZXJ5X2tpbmQucHJvdG8SBWtpbmRzGhBwYXJ0cy9wYXJ0LnByb3RvImkKBVZhbHVlEhYKBm51bWJlchgBIAEoA1IGbnVtYmVyEhIKBG5hbWUYAiABKAlSBG5hbWUSEgoEZGF0YRgDIAEoDFIEZGF0YRIgCgVwYXJ0cxgEIAMoCzIKLnBhcnQuUGFydFIFcGFydHMiYgoGR1BTRml4Ei4KBWlubmVyGAEgASgLMhgua2luZHMuR1BTRml4LklubmVyX3BhcnRSBWlubmVyGigKCklubmVyX3BhcnQSGgoIbGF0aXR1ZGUYASABKAFSCGxhdGl0dWRlIugBCgRUcmVlEicKCGJyYW5jaGVzGAEgAygLMgsua2luZHMuVHJlZVIIYnJhbmNoZXMSLAoFbmFtZWQYAiADKAsyFi5raW5kcy5UcmVlLk5hbWVkRW50cnlSBW5hbWVkEhQKBXNtYWxsGAMgASgHUgVzbWFsbBIUCgVsYXJnZRgEIAEoBlIFbGFyZ2USFgoGbnVtYmVyGAUgASgFUgZudW1iZXIaRQoKTmFtZWRFbnRyeRIQCgNrZXkYASABKAlSA2tleRIhCgV2YWx1ZRgCIAEoCzILLmtpbmRzLlRyZWVSBXZhbHVlOgI4AWIGcHJvdG8z"
 }}
@@ -167,6 +182,17 @@ class Left(_scl.GeneratedComponent, plan=_PLAN, component="left"):
     ''' and so does the last one: \\
 
     The component `left` of `every-kind`, declared at `every_kind.yaml:5:11`.
+
+    Gates:
+        values: `pub` publishes `kinds.Value` to `right-side.values`
+        class_: `push` pushes `kinds.GPSFix.Inner_part` to `right-side.from`
+        int: `req` requests `kinds.Value` -> `part.Part` from `right-side.answer`
+        raw_out: `pub` publishes bytes to `right-side.rawIn`
+        raw_jobs: `push` pushes bytes to `right-side.raw_jobs`
+        raw_question: `req` requests bytes from `right-side.raw_answer`
+        json_question: `req` requests `kinds.Value` -> `part.Part` from `right-side.json_answer`
+        packed: `push` pushes `camera.Image` to `right-side.packed`
+        trees: `push` pushes `kinds.Tree` to `right-side.trees`
     """
 
     values: _scl.Pub[Value]
@@ -189,19 +215,19 @@ class Left(_scl.GeneratedComponent, plan=_PLAN, component="left"):
     Declared at `every_kind.yaml:14:9`.
     """
 
-    raw_out: _scl.Pub[_builtins.bytes]
+    raw_out: _scl.Pub[_scl.Buffer]
     """`pub`: publishes bytes to `right-side.rawIn`.
 
     Declared at `every_kind.yaml:15:9`.
     """
 
-    raw_jobs: _scl.Push[_builtins.bytes]
+    raw_jobs: _scl.Push[_scl.Buffer]
     """`push`: pushes bytes to `right-side.raw_jobs`.
 
     Declared at `every_kind.yaml:16:9`.
     """
 
-    raw_question: _scl.Req[_builtins.bytes, _builtins.bytes]
+    raw_question: _scl.Req[_scl.Buffer, _builtins.bytes]
     """`req`: requests bytes from `right-side.raw_answer`.
 
     Declared at `every_kind.yaml:17:9`.
@@ -231,12 +257,24 @@ class Left(_scl.GeneratedComponent, plan=_PLAN, component="left"):
 
 
 class RightSide(_scl.GeneratedComponent, plan=_PLAN, component="right-side"):
-    """The component `right-side` of `every-kind`, declared at `every_kind.yaml:21:11`."""
+    """The component `right-side` of `every-kind`, declared at `every_kind.yaml:21:11`.
+
+    Gates:
+        values: `sub` subscribes to `kinds.Value` from `left.values`
+        from_: `pull` pulls `kinds.GPSFix.Inner_part` from `left.class`
+        answer: `rep` replies `kinds.Value` -> `part.Part` to `left.int`
+        raw_in: `sub` subscribes to bytes from `left.raw_out`
+        raw_jobs: `pull` pulls bytes from `left.raw_jobs`
+        raw_answer: `rep` replies bytes to `left.raw_question`
+        json_answer: `rep` replies `kinds.Value` -> `part.Part` to `left.json_question`
+        packed: `pull` pulls `camera.Image` from `left.packed`
+        trees: `pull` pulls `kinds.Tree` from `left.trees`
+    """
 
     values: _scl.Sub[Value]
     """`sub`: subscribes to `kinds.Value` from `left.values`.
 
-    Options: `queue: 1`.
+    Options: `queue: 1`, `undecodable: fail`.
 
     Declared at `every_kind.yaml:23:9`.
     """
@@ -265,7 +303,7 @@ class RightSide(_scl.GeneratedComponent, plan=_PLAN, component="right-side"):
     Declared at `every_kind.yaml:27:9`.
     """
 
-    raw_answer: _scl.Rep[_builtins.bytes, _builtins.bytes]
+    raw_answer: _scl.Rep[_builtins.bytes, _scl.Buffer]
     """`rep`: replies bytes to `left.raw_question`.
 
     Declared at `every_kind.yaml:28:9`.
@@ -290,12 +328,21 @@ class RightSide(_scl.GeneratedComponent, plan=_PLAN, component="right-side"):
     trees: _scl.Pull[Tree]
     """`pull`: pulls `kinds.Tree` from `left.trees`.
 
+    Options: `undecodable: fail`.
+
     Declared at `every_kind.yaml:31:9`.
     """
 
 
 class Lonely(_scl.GeneratedComponent, plan=_PLAN, component="lonely"):
-    """The component `lonely` of `every-kind`, declared at `every_kind.yaml:32:11`."""
+    """The component `lonely` of `every-kind`, declared at `every_kind.yaml:32:11`.
+
+    Gates:
+        close_: `pub` publishes `kinds.Value` to no peer
+        ready_: `sub` subscribes to `kinds.Value` from no peer
+        name_: `req` requests `kinds.Value` -> `part.Part` from no peer
+        component: `pull` pulls `kinds.Value` from no peer
+    """
 
     close_: _scl.Pub[Value]
     """`pub`: publishes `kinds.Value` to no peer.

@@ -56,167 +56,189 @@ _PLAN = r"""
 "name": "readings","kind": "pub","payload": {"message": "every.Everything"},"codec": "protobuf",
 "declared_at": "everything.yaml:12:9","endpoint": null,"tap": "source.readings.tap",
 "contract": "efckezly","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "sink",
-"peer_gate": "readings","endpoint": "source.readings--sink.readings.efckezly",
-"contract": "efckezly","required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]
-},{"name": "canonical","kind": "pub","payload": {"message": "every.Everything"},"codec": "json",
-"declared_at": "everything.yaml:13:9","endpoint": null,"tap": "source.canonical.tap",
-"contract": "zkxm2oh3","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "sink",
-"peer_gate": "canonical","endpoint": "source.canonical--sink.canonical.zkxm2oh3",
-"contract": "zkxm2oh3","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 1048576}
-]},{"name": "jobs","kind": "push","payload": {"message": "every.Job"},"codec": "protobuf",
-"declared_at": "everything.yaml:14:9","endpoint": null,"tap": null,"contract": "mg3mfmnj",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": true,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "sink","peer_gate": "jobs",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "sink","peer_gate": "readings",
+"endpoint": "source.readings--sink.readings.efckezly","contract": "efckezly","required": true,
+"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "canonical","kind": "pub",
+"payload": {"message": "every.Everything"},"codec": "json","declared_at": "everything.yaml:13:9",
+"endpoint": null,"tap": "source.canonical.tap","contract": "zkxm2oh3","max_size": 67108864,
+"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "sink","peer_gate": "canonical",
+"endpoint": "source.canonical--sink.canonical.zkxm2oh3","contract": "zkxm2oh3","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 1048576}]},{"name": "jobs","kind": "push",
+"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:14:9",
+"endpoint": null,"tap": null,"contract": "mg3mfmnj","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": true,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "sink","peer_gate": "jobs",
 "endpoint": "sink.jobs.mg3mfmnj","contract": "mg3mfmnj","required": true,"queue": 1000,
 "when_full": "wait","max_size": 67108864}]},{"name": "question","kind": "req","payload": {
 "request": "every.Status","reply": "second.Status"},"codec": "protobuf",
 "declared_at": "everything.yaml:15:9","endpoint": null,"tap": null,"contract": "dy6zb7u4",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 2500000000,"connections": [{"peer_component": "sink","peer_gate": "answer",
-"endpoint": "sink.answer.dy6zb7u4","contract": "dy6zb7u4","required": true,"queue": 100,
-"when_full": "drop_oldest","max_size": 67108864}]},{"name": "frames","kind": "pub","payload": null,
-"codec": "raw","declared_at": "everything.yaml:16:9","endpoint": null,"tap": "source.frames.tap",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 2500000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "sink","peer_gate": "answer","endpoint": "sink.answer.dy6zb7u4",
+"contract": "dy6zb7u4","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]},{"name": "frames","kind": "pub","payload": null,"codec": "raw",
+"declared_at": "everything.yaml:16:9","endpoint": null,"tap": "source.frames.tap",
 "contract": "rqhnei4n","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "sink",
-"peer_gate": "frames","endpoint": "source.frames--sink.frames.rqhnei4n","contract": "rqhnei4n",
-"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "echo",
-"kind": "req","payload": null,"codec": "raw","declared_at": "everything.yaml:17:9","endpoint": null,
-"tap": null,"contract": "rynbne7t","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "sink",
-"peer_gate": "echo","endpoint": "sink.echo.rynbne7t","contract": "rynbne7t","required": true,
-"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "fix_json","kind": "pub",
-"payload": {"message": "nav.Fix"},"codec": "json","declared_at": "everything.yaml:18:9",
-"endpoint": null,"tap": "source.fix_json.tap","contract": "5eyd5c3s","max_size": 67108864,
-"queue": 100,"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,
-"connections": [{"peer_component": "sink","peer_gate": "fix_json",
-"endpoint": "source.fix_json--sink.fix_json.5eyd5c3s","contract": "5eyd5c3s","required": true,
-"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "fix_cbor","kind": "pub",
-"payload": {"message": "nav.Fix"},"codec": "cbor","declared_at": "everything.yaml:19:9",
-"endpoint": null,"tap": "source.fix_cbor.tap","contract": "37nliwal","max_size": 67108864,
-"queue": 100,"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,
-"connections": [{"peer_component": "sink","peer_gate": "fix_cbor",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "sink","peer_gate": "frames",
+"endpoint": "source.frames--sink.frames.rqhnei4n","contract": "rqhnei4n","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "echo","kind": "req",
+"payload": null,"codec": "raw","declared_at": "everything.yaml:17:9","endpoint": null,"tap": null,
+"contract": "rynbne7t","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "sink","peer_gate": "echo",
+"endpoint": "sink.echo.rynbne7t","contract": "rynbne7t","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]},{"name": "fix_json","kind": "pub","payload": {
+"message": "nav.Fix"},"codec": "json","declared_at": "everything.yaml:18:9","endpoint": null,
+"tap": "source.fix_json.tap","contract": "5eyd5c3s","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "sink",
+"peer_gate": "fix_json","endpoint": "source.fix_json--sink.fix_json.5eyd5c3s",
+"contract": "5eyd5c3s","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]},{"name": "fix_cbor","kind": "pub","payload": {"message": "nav.Fix"},"codec": "cbor",
+"declared_at": "everything.yaml:19:9","endpoint": null,"tap": "source.fix_cbor.tap",
+"contract": "37nliwal","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "sink","peer_gate": "fix_cbor",
 "endpoint": "source.fix_cbor--sink.fix_cbor.37nliwal","contract": "37nliwal","required": true,
 "queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "fix_msgpack",
 "kind": "pub","payload": {"message": "nav.Fix"},"codec": "msgpack",
 "declared_at": "everything.yaml:20:9","endpoint": null,"tap": "source.fix_msgpack.tap",
 "contract": "rmkz4y3c","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "sink",
-"peer_gate": "fix_msgpack","endpoint": "source.fix_msgpack--sink.fix_msgpack.rmkz4y3c",
-"contract": "rmkz4y3c","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]},{"name": "fix_postcard","kind": "pub","payload": {"message": "nav.Fix"},"codec": "postcard",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "sink","peer_gate": "fix_msgpack",
+"endpoint": "source.fix_msgpack--sink.fix_msgpack.rmkz4y3c","contract": "rmkz4y3c","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "fix_postcard",
+"kind": "pub","payload": {"message": "nav.Fix"},"codec": "postcard",
 "declared_at": "everything.yaml:21:9","endpoint": null,"tap": "source.fix_postcard.tap",
 "contract": "2wilzu2v","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": []},{"name": "fix_prost",
-"kind": "pub","payload": {"message": "nav.Fix"},"codec": "protobuf",
-"declared_at": "everything.yaml:22:9","endpoint": null,"tap": "source.fix_prost.tap",
-"contract": "xyiwox57","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": []},{"name": "old","kind": "pub",
-"payload": {"message": "old.Old"},"codec": "protobuf","declared_at": "everything.yaml:23:9",
-"endpoint": null,"tap": "source.old.tap","contract": "2detqmzv","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "sink","peer_gate": "old","endpoint": "source.old--sink.old.2detqmzv",
-"contract": "2detqmzv","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]}]},{"name": "sink","declared_at": "everything.yaml:24:11","schema": "piethqborvbhclctt6m7masqwf",
-"gates": [{"name": "readings","kind": "sub","payload": {"message": "every.Everything"},
-"codec": "protobuf","declared_at": "everything.yaml:26:9","endpoint": null,"tap": null,
-"contract": "efckezly","max_size": 67108864,"queue": 1,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "source",
-"peer_gate": "readings","endpoint": "source.readings--sink.readings.efckezly",
-"contract": "efckezly","required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]
-},{"name": "canonical","kind": "sub","payload": {"message": "every.Everything"},"codec": "json",
-"declared_at": "everything.yaml:27:9","endpoint": null,"tap": null,"contract": "zkxm2oh3",
-"max_size": 1048576,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "source","peer_gate": "canonical",
-"endpoint": "source.canonical--sink.canonical.zkxm2oh3","contract": "zkxm2oh3","required": true,
-"queue": 100,"when_full": "drop_oldest","max_size": 1048576}]},{"name": "jobs","kind": "pull",
-"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:28:9",
-"endpoint": "sink.jobs.mg3mfmnj","tap": "sink.jobs.tap","contract": "mg3mfmnj","max_size": 67108864,
-"queue": 1000,"when_full": "wait","backpressure": false,"timeout_ns": 1000000000,"connections": [{
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": []},{"name": "fix_prost","kind": "pub","payload": {
+"message": "nav.Fix"},"codec": "protobuf","declared_at": "everything.yaml:22:9","endpoint": null,
+"tap": "source.fix_prost.tap","contract": "xyiwox57","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "old","kind": "pub","payload": {
+"message": "old.Old"},"codec": "protobuf","declared_at": "everything.yaml:23:9","endpoint": null,
+"tap": "source.old.tap","contract": "2detqmzv","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "sink","peer_gate": "old",
+"endpoint": "source.old--sink.old.2detqmzv","contract": "2detqmzv","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "sink",
+"declared_at": "everything.yaml:24:11","schema": "piethqborvbhclctt6m7masqwf","gates": [{
+"name": "readings","kind": "sub","payload": {"message": "every.Everything"},"codec": "protobuf",
+"declared_at": "everything.yaml:26:9","endpoint": null,"tap": null,"contract": "efckezly",
+"max_size": 67108864,"queue": 1,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "source","peer_gate": "readings",
+"endpoint": "source.readings--sink.readings.efckezly","contract": "efckezly","required": true,
+"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "canonical","kind": "sub",
+"payload": {"message": "every.Everything"},"codec": "json","declared_at": "everything.yaml:27:9",
+"endpoint": null,"tap": null,"contract": "zkxm2oh3","max_size": 1048576,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "source",
+"peer_gate": "canonical","endpoint": "source.canonical--sink.canonical.zkxm2oh3",
+"contract": "zkxm2oh3","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 1048576}
+]},{"name": "jobs","kind": "pull","payload": {"message": "every.Job"},"codec": "protobuf",
+"declared_at": "everything.yaml:28:9","endpoint": "sink.jobs.mg3mfmnj","tap": "sink.jobs.tap",
+"contract": "mg3mfmnj","max_size": 67108864,"queue": 1000,"when_full": "wait","backpressure": false,
+"latched": false,"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
 "peer_component": "source","peer_gate": "jobs","endpoint": "sink.jobs.mg3mfmnj",
 "contract": "mg3mfmnj","required": true,"queue": 1000,"when_full": "wait","max_size": 67108864}]},{
 "name": "answer","kind": "rep","payload": {"request": "every.Status","reply": "second.Status"},
 "codec": "protobuf","declared_at": "everything.yaml:29:9","endpoint": "sink.answer.dy6zb7u4",
 "tap": "sink.answer.tap","contract": "dy6zb7u4","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "source","peer_gate": "question","endpoint": "sink.answer.dy6zb7u4",
-"contract": "dy6zb7u4","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]},{"name": "frames","kind": "sub","payload": null,"codec": "raw",
-"declared_at": "everything.yaml:30:9","endpoint": null,"tap": null,"contract": "rqhnei4n",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "source","peer_gate": "frames",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "source",
+"peer_gate": "question","endpoint": "sink.answer.dy6zb7u4","contract": "dy6zb7u4","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "frames","kind": "sub",
+"payload": null,"codec": "raw","declared_at": "everything.yaml:30:9","endpoint": null,"tap": null,
+"contract": "rqhnei4n","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "source","peer_gate": "frames",
 "endpoint": "source.frames--sink.frames.rqhnei4n","contract": "rqhnei4n","required": true,
 "queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "echo","kind": "rep",
 "payload": null,"codec": "raw","declared_at": "everything.yaml:31:9",
 "endpoint": "sink.echo.rynbne7t","tap": "sink.echo.tap","contract": "rynbne7t","max_size": 67108864,
-"queue": 100,"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,
-"connections": [{"peer_component": "source","peer_gate": "echo","endpoint": "sink.echo.rynbne7t",
+"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "source","peer_gate": "echo","endpoint": "sink.echo.rynbne7t",
 "contract": "rynbne7t","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 }]},{"name": "fix_json","kind": "sub","payload": {"message": "nav.Fix"},"codec": "json",
 "declared_at": "everything.yaml:32:9","endpoint": null,"tap": null,"contract": "5eyd5c3s",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "source","peer_gate": "fix_json",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "source","peer_gate": "fix_json",
 "endpoint": "source.fix_json--sink.fix_json.5eyd5c3s","contract": "5eyd5c3s","required": true,
 "queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "fix_cbor","kind": "sub",
 "payload": {"message": "nav.Fix"},"codec": "cbor","declared_at": "everything.yaml:33:9",
 "endpoint": null,"tap": null,"contract": "37nliwal","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "source","peer_gate": "fix_cbor",
-"endpoint": "source.fix_cbor--sink.fix_cbor.37nliwal","contract": "37nliwal","required": true,
-"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "fix_msgpack",
-"kind": "sub","payload": {"message": "nav.Fix"},"codec": "msgpack",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "source",
+"peer_gate": "fix_cbor","endpoint": "source.fix_cbor--sink.fix_cbor.37nliwal",
+"contract": "37nliwal","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]},{"name": "fix_msgpack","kind": "sub","payload": {"message": "nav.Fix"},"codec": "msgpack",
 "declared_at": "everything.yaml:34:9","endpoint": null,"tap": null,"contract": "rmkz4y3c",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "source","peer_gate": "fix_msgpack",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "source","peer_gate": "fix_msgpack",
 "endpoint": "source.fix_msgpack--sink.fix_msgpack.rmkz4y3c","contract": "rmkz4y3c","required": true,
 "queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "old","kind": "sub",
 "payload": {"message": "old.Old"},"codec": "protobuf","declared_at": "everything.yaml:35:9",
 "endpoint": null,"tap": null,"contract": "2detqmzv","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "source","peer_gate": "old","endpoint": "source.old--sink.old.2detqmzv",
-"contract": "2detqmzv","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]}]},{"name": "import","declared_at": "everything.yaml:36:11",
-"schema": "wu5rlvedb4na7iar5q57lfccxd","gates": [{"name": "from","kind": "pub","payload": {
-"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:38:9","endpoint": null,
-"tap": "import.from.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": []},{
-"name": "close","kind": "pub","payload": {"message": "every.Job"},"codec": "protobuf",
-"declared_at": "everything.yaml:39:9","endpoint": null,"tap": "import.close.tap",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "source","peer_gate": "old",
+"endpoint": "source.old--sink.old.2detqmzv","contract": "2detqmzv","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "import",
+"declared_at": "everything.yaml:36:11","schema": "wu5rlvedb4na7iar5q57lfccxd","gates": [{
+"name": "from","kind": "pub","payload": {"message": "every.Job"},"codec": "protobuf",
+"declared_at": "everything.yaml:38:9","endpoint": null,"tap": "import.from.tap",
 "contract": "ggd3urou","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": []},{"name": "fileno","kind": "pub",
-"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:40:9",
-"endpoint": null,"tap": "import.fileno.tap","contract": "ggd3urou","max_size": 67108864,
-"queue": 100,"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,
-"connections": []},{"name": "gates","kind": "pub","payload": {"message": "every.Job"},
-"codec": "protobuf","declared_at": "everything.yaml:41:9","endpoint": null,
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": []},{"name": "close","kind": "pub","payload": {
+"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:39:9","endpoint": null,
+"tap": "import.close.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "fileno","kind": "pub","payload": {
+"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:40:9","endpoint": null,
+"tap": "import.fileno.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "gates","kind": "pub","payload": {
+"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:41:9","endpoint": null,
 "tap": "import.gates.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": []},{
-"name": "name","kind": "pub","payload": {"message": "every.Job"},"codec": "protobuf",
-"declared_at": "everything.yaml:42:9","endpoint": null,"tap": "import.name.tap",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "name","kind": "pub","payload": {
+"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:42:9","endpoint": null,
+"tap": "import.name.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "ready","kind": "pub","payload": {
+"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:43:9","endpoint": null,
+"tap": "import.ready.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "ready_async","kind": "pub",
+"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:44:9",
+"endpoint": null,"tap": "import.ready_async.tap","contract": "ggd3urou","max_size": 67108864,
+"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": []},{"name": "system",
+"kind": "pub","payload": {"message": "every.Job"},"codec": "protobuf",
+"declared_at": "everything.yaml:45:9","endpoint": null,"tap": "import.system.tap",
 "contract": "ggd3urou","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": []},{"name": "ready","kind": "pub",
-"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:43:9",
-"endpoint": null,"tap": "import.ready.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": []},{
-"name": "ready_async","kind": "pub","payload": {"message": "every.Job"},"codec": "protobuf",
-"declared_at": "everything.yaml:44:9","endpoint": null,"tap": "import.ready_async.tap",
-"contract": "ggd3urou","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": []},{"name": "system","kind": "pub",
-"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:45:9",
-"endpoint": null,"tap": "import.system.tap","contract": "ggd3urou","max_size": 67108864,
-"queue": 100,"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,
-"connections": []},{"name": "wait","kind": "pub","payload": {"message": "every.Job"},
-"codec": "protobuf","declared_at": "everything.yaml:46:9","endpoint": null,"tap": "import.wait.tap",
-"contract": "ggd3urou","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": []},{"name": "my-gate","kind": "sub",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": []},{"name": "wait","kind": "pub","payload": {
+"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:46:9","endpoint": null,
+"tap": "import.wait.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "my-gate","kind": "sub",
 "payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:47:9",
 "endpoint": null,"tap": null,"contract": "ggd3urou","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": []},{
-"name": "_private","kind": "sub","payload": {"message": "every.Job"},"codec": "protobuf",
-"declared_at": "everything.yaml:48:9","endpoint": null,"tap": null,"contract": "ggd3urou",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": []}]},{"name": "none",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "_private","kind": "sub",
+"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:48:9",
+"endpoint": null,"tap": null,"contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []}]},{"name": "none",
 "declared_at": "everything.yaml:49:11","schema": null,"gates": []}],"schemas": {
 "piethqborvbhclctt6m7masqwf": "Cv8BCh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvEg9nb29nbGUucHJvdG9idWYiOwoJVGltZXN0YW1wEhgKB3NlY29uZHMYASABKANSB3NlY29uZHMSFAoFbmFub3MYAiABKAVSBW5hbm9zQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5UaW1lc3RhbXBQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi90aW1lc3RhbXBwYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCvsBCh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiI6CghEdXJhdGlvbhIYCgdzZWNvbmRzGAEgASgDUgdzZWNvbmRzEhQKBW5hbm9zGAIgASgFUgVuYW5vc0KDAQoTY29tLmdvb2dsZS5wcm90b2J1ZkINRHVyYXRpb25Qcm90b1ABWjFnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9kdXJhdGlvbnBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMK4gUKHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiKYAQoGU3RydWN0EjsKBmZpZWxkcxgBIAMoCzIjLmdvb2dsZS5wcm90b2J1Zi5TdHJ1Y3QuRmllbGRzRW50cnlSBmZpZWxkcxpRCgtGaWVsZHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIsCgV2YWx1ZRgCIAEoCzIWLmdvb2dsZS5wcm90b2J1Zi5WYWx1ZVIFdmFsdWU6AjgBIrICCgVWYWx1ZRI7CgpudWxsX3ZhbHVlGAEgASgOMhouZ29vZ2xlLnByb3RvYnVmLk51bGxWYWx1ZUgAUgludWxsVmFsdWUSIwoMbnVtYmVyX3ZhbHVlGAIgASgBSABSC251bWJlclZhbHVlEiMKDHN0cmluZ192YWx1ZRgDIAEoCUgAUgtzdHJpbmdWYWx1ZRIfCgpib29sX3ZhbHVlGAQgASgISABSCWJvb2xWYWx1ZRI8CgxzdHJ1Y3RfdmFsdWUYBSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0SABSC3N0cnVjdFZhbHVlEjsKCmxpc3RfdmFsdWUYBiABKAsyGi5nb29nbGUucHJvdG9idWYuTGlzdFZhbHVlSABSCWxpc3RWYWx1ZUIGCgRraW5kIjsKCUxpc3RWYWx1ZRIuCgZ2YWx1ZXMYASADKAsyFi5nb29nbGUucHJvdG9idWYuVmFsdWVSBnZhbHVlcyobCglOdWxsVmFsdWUSDgoKTlVMTF9WQUxVRRAAQn8KE2NvbS5nb29nbGUucHJvdG9idWZCC1N0cnVjdFByb3RvUAFaL2dvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3N0cnVjdHBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMKvgsKEGV2ZXJ5dGhpbmcucHJvdG8SBWV2ZXJ5Gh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvGh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8aHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8ixgkKCkV2ZXJ5dGhpbmcSGQoIYV9kb3VibGUYASABKAFSB2FEb3VibGUSFwoHYV9mbG9hdBgCIAEoAlIGYUZsb2F0EhkKCGFuX2ludDMyGAMgASgFUgdhbkludDMyEhkKCGFfdWludDY0GAQgASgEUgdhVWludDY0EhUKBmFfYm9vbBgFIAEoCFIFYUJvb2wSGQoIYV9zdHJpbmcYBiABKAlSB2FTdHJpbmcSHQoKc29tZV9ieXRlcxgHIAEoDFIJc29tZUJ5dGVzEiIKBWxldmVsGAggASgOMgwuZXZlcnkuTGV2ZWxSBWxldmVsEi0KBWlubmVyGAkgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lclIFaW5uZXISGAoHbnVtYmVycxgKIAMoA1IHbnVtYmVycxIkCgZsZXZlbHMYCyADKA4yDC5ldmVyeS5MZXZlbFIGbGV2ZWxzEi8KBmlubmVycxgMIAMoCzIXLmV2ZXJ5LkV2ZXJ5dGhpbmcuSW5uZXJSBmlubmVycxI2CgdieV9uYW1lGA0gAygLMh0uZXZlcnkuRXZlcnl0aGluZy5CeU5hbWVFbnRyeVIGYnlOYW1lEjwKCWJ5X251bWJlchgOIAMoCzIfLmV2ZXJ5LkV2ZXJ5dGhpbmcuQnlOdW1iZXJFbnRyeVIIYnlOdW1iZXISGQoHYXNfdGV4dBgPIAEoCUgAUgZhc1RleHQSHQoJYXNfbnVtYmVyGBAgASgESABSCGFzTnVtYmVyEjQKCGFzX2lubmVyGBEgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lckgAUgdhc0lubmVyEhIKA3llcxgSIAEoCEgBUgN5ZXMSEAoCbm8YEyABKAhIAVICbm8SGQoFbWF5YmUYFCABKAVIAlIFbWF5YmWIAQESKgoCYXQYFSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wUgJhdBItCgR0b29rGBYgASgLMhkuZ29vZ2xlLnByb3RvYnVmLkR1cmF0aW9uUgR0b29rEjYKCmFueV9vYmplY3QYFyABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0UglhbnlPYmplY3QSEgoEZnJvbRgYIAEoCVIEZnJvbRISCgRzZWxmGBkgASgJUgRzZWxmGqEBCgVJbm5lchISCgR0ZXh0GAEgASgJUgR0ZXh0EicKBW91dGVyGAIgASgLMhEuZXZlcnkuRXZlcnl0aGluZ1IFb3V0ZXISMwoFY29sb3IYAyABKA4yHS5ldmVyeS5FdmVyeXRoaW5nLklubmVyLkNvbG9yUgVjb2xvciImCgVDb2xvchIOCgpDT0xPUl9OT05FEAASDQoJQ09MT1JfUkVEEAEaUgoLQnlOYW1lRW50cnkSEAoDa2V5GAEgASgJUgNrZXkSLQoFdmFsdWUYAiABKAsyFy5ldmVyeS5FdmVyeXRoaW5nLklubmVyUgV2YWx1ZToCOAEaOwoNQnlOdW1iZXJFbnRyeRIQCgNrZXkYASABKANSA2tleRIUCgV2YWx1ZRgCIAEoCFIFdmFsdWU6AjgBQggKBmNob2ljZUIOCgxvdGhlcl9jaG9pY2VCCAoGX21heWJlIh0KA0pvYhIWCgZudW1iZXIYASABKAVSBm51bWJlciIjCgZTdGF0dXMSGQoIaXNfcmVhZHkYASABKAhSB2lzUmVhZHkiBwoFRW1wdHkqJgoFTGV2ZWwSDQoJTEVWRUxfTE9XEAASDgoKTEVWRUxfSElHSBABYgZwcm90bzMKPAoMc2Vjb25kLnByb3RvEgZzZWNvbmQiHAoGU3RhdHVzEhIKBHRleHQYASABKAlSBHRleHRiBnByb3RvMwq6BQoJb2xkLnByb3RvEgNvbGQiGgoES2luZBISCgRuYW1lGAEgASgJUgRuYW1lIt4DCgNPbGQSFgoGbnVtYmVyGAEgAigFUgZudW1iZXISFwoDaW50GAIgASgJOgVzZXZlblIDaW50Eh0KBEtpbmQYAyADKAsyCS5vbGQuS2luZFIES2luZBIhCgRwYXJ0GAQgASgKMg0ub2xkLk9sZC5QYXJ0UgRwYXJ0EhoKCHByb3BlcnR5GAYgASgJUghwcm9wZXJ0eRIeCgpERVNDUklQVE9SGAcgASgJUgpERVNDUklQVE9SEhgKCF9faGlkZGVuGAggASgJUgZIaWRkZW4SGgoISGFzRmllbGQYCSABKAlSCEhhc0ZpZWxkEiQKBHdvcmQYCiABKA4yCS5vbGQuV29yZDoFTUlOVVNSBHdvcmQSIAoFY2xhc3MYCyABKAsyCi5vbGQuY2xhc3NSBWNsYXNzEiwKCmlubmVyX3dvcmQYDCABKAsyDS5vbGQuT2xkLldvcmRSCWlubmVyV29yZBIoCgpvdXRlcl93b3JkGA0gASgOMgkub2xkLldvcmRSCW91dGVyV29yZBoaCgRQYXJ0EhIKBGxpc3QYBSABKAhSBGxpc3QaLwoEV29yZBIUCgV0cnV0aBgBIAEoCFIFdHJ1dGgiEQoEYm9vbBIJCgVGQUxTRRAAKgUIZBDJASJDCgVjbGFzcxIUCgRlbHNlGAEgASgISABSBGVsc2USHgoJb3RoZXJ3aXNlGAIgASgISABSCW90aGVyd2lzZUIECgJpZipICgRXb3JkEggKBE5vbmUQABILCgdOb3RoaW5nEAASEgoFTUlOVVMQ////////////ARIHCgNtcm8QAhIICgRuYW1lEAMaAhABOhwKBG1vcmUSCC5vbGQuT2xkGGQgASgJUgRtb3Jl",
 "wu5rlvedb4na7iar5q57lfccxd": "Cv8BCh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvEg9nb29nbGUucHJvdG9idWYiOwoJVGltZXN0YW1wEhgKB3NlY29uZHMYASABKANSB3NlY29uZHMSFAoFbmFub3MYAiABKAVSBW5hbm9zQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5UaW1lc3RhbXBQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi90aW1lc3RhbXBwYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCvsBCh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiI6CghEdXJhdGlvbhIYCgdzZWNvbmRzGAEgASgDUgdzZWNvbmRzEhQKBW5hbm9zGAIgASgFUgVuYW5vc0KDAQoTY29tLmdvb2dsZS5wcm90b2J1ZkINRHVyYXRpb25Qcm90b1ABWjFnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9kdXJhdGlvbnBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMK4gUKHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiKYAQoGU3RydWN0EjsKBmZpZWxkcxgBIAMoCzIjLmdvb2dsZS5wcm90b2J1Zi5TdHJ1Y3QuRmllbGRzRW50cnlSBmZpZWxkcxpRCgtGaWVsZHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIsCgV2YWx1ZRgCIAEoCzIWLmdvb2dsZS5wcm90b2J1Zi5WYWx1ZVIFdmFsdWU6AjgBIrICCgVWYWx1ZRI7CgpudWxsX3ZhbHVlGAEgASgOMhouZ29vZ2xlLnByb3RvYnVmLk51bGxWYWx1ZUgAUgludWxsVmFsdWUSIwoMbnVtYmVyX3ZhbHVlGAIgASgBSABSC251bWJlclZhbHVlEiMKDHN0cmluZ192YWx1ZRgDIAEoCUgAUgtzdHJpbmdWYWx1ZRIfCgpib29sX3ZhbHVlGAQgASgISABSCWJvb2xWYWx1ZRI8CgxzdHJ1Y3RfdmFsdWUYBSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0SABSC3N0cnVjdFZhbHVlEjsKCmxpc3RfdmFsdWUYBiABKAsyGi5nb29nbGUucHJvdG9idWYuTGlzdFZhbHVlSABSCWxpc3RWYWx1ZUIGCgRraW5kIjsKCUxpc3RWYWx1ZRIuCgZ2YWx1ZXMYASADKAsyFi5nb29nbGUucHJvdG9idWYuVmFsdWVSBnZhbHVlcyobCglOdWxsVmFsdWUSDgoKTlVMTF9WQUxVRRAAQn8KE2NvbS5nb29nbGUucHJvdG9idWZCC1N0cnVjdFByb3RvUAFaL2dvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3N0cnVjdHBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMKvgsKEGV2ZXJ5dGhpbmcucHJvdG8SBWV2ZXJ5Gh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvGh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8aHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8ixgkKCkV2ZXJ5dGhpbmcSGQoIYV9kb3VibGUYASABKAFSB2FEb3VibGUSFwoHYV9mbG9hdBgCIAEoAlIGYUZsb2F0EhkKCGFuX2ludDMyGAMgASgFUgdhbkludDMyEhkKCGFfdWludDY0GAQgASgEUgdhVWludDY0EhUKBmFfYm9vbBgFIAEoCFIFYUJvb2wSGQoIYV9zdHJpbmcYBiABKAlSB2FTdHJpbmcSHQoKc29tZV9ieXRlcxgHIAEoDFIJc29tZUJ5dGVzEiIKBWxldmVsGAggASgOMgwuZXZlcnkuTGV2ZWxSBWxldmVsEi0KBWlubmVyGAkgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lclIFaW5uZXISGAoHbnVtYmVycxgKIAMoA1IHbnVtYmVycxIkCgZsZXZlbHMYCyADKA4yDC5ldmVyeS5MZXZlbFIGbGV2ZWxzEi8KBmlubmVycxgMIAMoCzIXLmV2ZXJ5LkV2ZXJ5dGhpbmcuSW5uZXJSBmlubmVycxI2CgdieV9uYW1lGA0gAygLMh0uZXZlcnkuRXZlcnl0aGluZy5CeU5hbWVFbnRyeVIGYnlOYW1lEjwKCWJ5X251bWJlchgOIAMoCzIfLmV2ZXJ5LkV2ZXJ5dGhpbmcuQnlOdW1iZXJFbnRyeVIIYnlOdW1iZXISGQoHYXNfdGV4dBgPIAEoCUgAUgZhc1RleHQSHQoJYXNfbnVtYmVyGBAgASgESABSCGFzTnVtYmVyEjQKCGFzX2lubmVyGBEgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lckgAUgdhc0lubmVyEhIKA3llcxgSIAEoCEgBUgN5ZXMSEAoCbm8YEyABKAhIAVICbm8SGQoFbWF5YmUYFCABKAVIAlIFbWF5YmWIAQESKgoCYXQYFSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wUgJhdBItCgR0b29rGBYgASgLMhkuZ29vZ2xlLnByb3RvYnVmLkR1cmF0aW9uUgR0b29rEjYKCmFueV9vYmplY3QYFyABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0UglhbnlPYmplY3QSEgoEZnJvbRgYIAEoCVIEZnJvbRISCgRzZWxmGBkgASgJUgRzZWxmGqEBCgVJbm5lchISCgR0ZXh0GAEgASgJUgR0ZXh0EicKBW91dGVyGAIgASgLMhEuZXZlcnkuRXZlcnl0aGluZ1IFb3V0ZXISMwoFY29sb3IYAyABKA4yHS5ldmVyeS5FdmVyeXRoaW5nLklubmVyLkNvbG9yUgVjb2xvciImCgVDb2xvchIOCgpDT0xPUl9OT05FEAASDQoJQ09MT1JfUkVEEAEaUgoLQnlOYW1lRW50cnkSEAoDa2V5GAEgASgJUgNrZXkSLQoFdmFsdWUYAiABKAsyFy5ldmVyeS5FdmVyeXRoaW5nLklubmVyUgV2YWx1ZToCOAEaOwoNQnlOdW1iZXJFbnRyeRIQCgNrZXkYASABKANSA2tleRIUCgV2YWx1ZRgCIAEoCFIFdmFsdWU6AjgBQggKBmNob2ljZUIOCgxvdGhlcl9jaG9pY2VCCAoGX21heWJlIh0KA0pvYhIWCgZudW1iZXIYASABKAVSBm51bWJlciIjCgZTdGF0dXMSGQoIaXNfcmVhZHkYASABKAhSB2lzUmVhZHkiBwoFRW1wdHkqJgoFTGV2ZWwSDQoJTEVWRUxfTE9XEAASDgoKTEVWRUxfSElHSBABYgZwcm90bzM="
@@ -230,6 +252,20 @@ class Source(_scl.GeneratedComponent, plan=_PLAN, component="source"):
     In two paragraphs, with a \\ and '''quotes'''.
 
     The component `source` of `everything`, declared at `everything.yaml:6:11`.
+
+    Gates:
+        readings: `pub` publishes `every.Everything` to `sink.readings`
+        canonical: `pub` publishes `every.Everything` to `sink.canonical`
+        jobs: `push` pushes `every.Job` to `sink.jobs`
+        question: `req` requests `every.Status` -> `second.Status` from `sink.answer`
+        frames: `pub` publishes bytes to `sink.frames`
+        echo: `req` requests bytes from `sink.echo`
+        fix_json: `pub` publishes `nav.Fix` to `sink.fix_json`
+        fix_cbor: `pub` publishes `nav.Fix` to `sink.fix_cbor`
+        fix_msgpack: `pub` publishes `nav.Fix` to `sink.fix_msgpack`
+        fix_postcard: `pub` publishes `nav.Fix` to no peer
+        fix_prost: `pub` publishes `nav.Fix` to no peer
+        old: `pub` publishes `old.Old` to `sink.old`
     """
 
     readings: _scl.Pub[Everything]
@@ -264,13 +300,13 @@ class Source(_scl.GeneratedComponent, plan=_PLAN, component="source"):
     Declared at `everything.yaml:15:9`.
     """
 
-    frames: _scl.Pub[_builtins.bytes]
+    frames: _scl.Pub[_scl.Buffer]
     """`pub`: publishes bytes to `sink.frames`.
 
     Declared at `everything.yaml:16:9`.
     """
 
-    echo: _scl.Req[_builtins.bytes, _builtins.bytes]
+    echo: _scl.Req[_scl.Buffer, _builtins.bytes]
     """`req`: requests bytes from `sink.echo`.
 
     Declared at `everything.yaml:17:9`.
@@ -326,7 +362,20 @@ class Source(_scl.GeneratedComponent, plan=_PLAN, component="source"):
 
 
 class Sink(_scl.GeneratedComponent, plan=_PLAN, component="sink"):
-    """The component `sink` of `everything`, declared at `everything.yaml:24:11`."""
+    """The component `sink` of `everything`, declared at `everything.yaml:24:11`.
+
+    Gates:
+        readings: `sub` subscribes to `every.Everything` from `source.readings`
+        canonical: `sub` subscribes to `every.Everything` from `source.canonical`
+        jobs: `pull` pulls `every.Job` from `source.jobs`
+        answer: `rep` replies `every.Status` -> `second.Status` to `source.question`
+        frames: `sub` subscribes to bytes from `source.frames`
+        echo: `rep` replies bytes to `source.echo`
+        fix_json: `sub` subscribes to `nav.Fix` from `source.fix_json`
+        fix_cbor: `sub` subscribes to `nav.Fix` from `source.fix_cbor`
+        fix_msgpack: `sub` subscribes to `nav.Fix` from `source.fix_msgpack`
+        old: `sub` subscribes to `old.Old` from `source.old`
+    """
 
     readings: _scl.Sub[Everything]
     """`sub`: subscribes to `every.Everything` from `source.readings`.
@@ -364,7 +413,7 @@ class Sink(_scl.GeneratedComponent, plan=_PLAN, component="sink"):
     Declared at `everything.yaml:30:9`.
     """
 
-    echo: _scl.Rep[_builtins.bytes, _builtins.bytes]
+    echo: _scl.Rep[_builtins.bytes, _scl.Buffer]
     """`rep`: replies bytes to `source.echo`.
 
     Declared at `everything.yaml:31:9`.
@@ -402,7 +451,21 @@ class Sink(_scl.GeneratedComponent, plan=_PLAN, component="sink"):
 
 
 class Import(_scl.GeneratedComponent, plan=_PLAN, component="import"):
-    """The component `import` of `everything`, declared at `everything.yaml:36:11`."""
+    """The component `import` of `everything`, declared at `everything.yaml:36:11`.
+
+    Gates:
+        from_: `pub` publishes `every.Job` to no peer
+        close_: `pub` publishes `every.Job` to no peer
+        fileno_: `pub` publishes `every.Job` to no peer
+        gates_: `pub` publishes `every.Job` to no peer
+        name_: `pub` publishes `every.Job` to no peer
+        ready_: `pub` publishes `every.Job` to no peer
+        ready_async_: `pub` publishes `every.Job` to no peer
+        system_: `pub` publishes `every.Job` to no peer
+        wait_: `pub` publishes `every.Job` to no peer
+        my_gate: `sub` subscribes to `every.Job` from no peer
+        gate_private: `sub` subscribes to `every.Job` from no peer
+    """
 
     from_: _scl.Pub[Job]
     """`pub`: publishes `every.Job` to no peer.

@@ -33,27 +33,32 @@ __all__ = ["Everything", "Here", "Level", "There"]
 
 _PLAN = r"""
 {"version": 1,"system": "json","components": [{"name": "here","declared_at": "json.yaml:4:11",
-"schema": "rqw6yt6kah6xv6ivapyesoasoh","gates": [{"name": "everything","kind": "pub","payload": {
+"schema": "nclv7tawpuupf2c5nvyknes7ua","gates": [{"name": "everything","kind": "pub","payload": {
 "message": "json.Everything"},"codec": "json","declared_at": "json.yaml:6:9","endpoint": null,
 "tap": "here.everything.tap","contract": "eovmlfxi","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "there","peer_gate": "everything",
-"endpoint": "here.everything--there.everything.eovmlfxi","contract": "eovmlfxi","required": true,
-"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "there",
-"declared_at": "json.yaml:7:11","schema": "rqw6yt6kah6xv6ivapyesoasoh","gates": [{
-"name": "everything","kind": "sub","payload": {"message": "json.Everything"},"codec": "json",
-"declared_at": "json.yaml:9:9","endpoint": null,"tap": null,"contract": "eovmlfxi",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "here","peer_gate": "everything",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "there",
+"peer_gate": "everything","endpoint": "here.everything--there.everything.eovmlfxi",
+"contract": "eovmlfxi","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]}]},{"name": "there","declared_at": "json.yaml:7:11","schema": "nclv7tawpuupf2c5nvyknes7ua",
+"gates": [{"name": "everything","kind": "sub","payload": {"message": "json.Everything"},
+"codec": "json","declared_at": "json.yaml:9:9","endpoint": null,"tap": null,"contract": "eovmlfxi",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "here","peer_gate": "everything",
 "endpoint": "here.everything--there.everything.eovmlfxi","contract": "eovmlfxi","required": true,
 "queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]}],"schemas": {
-"rqw6yt6kah6xv6ivapyesoasoh": "Cv8BCh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvEg9nb29nbGUucHJvdG9idWYiOwoJVGltZXN0YW1wEhgKB3NlY29uZHMYASABKANSB3NlY29uZHMSFAoFbmFub3MYAiABKAVSBW5hbm9zQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5UaW1lc3RhbXBQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi90aW1lc3RhbXBwYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCvsBCh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiI6CghEdXJhdGlvbhIYCgdzZWNvbmRzGAEgASgDUgdzZWNvbmRzEhQKBW5hbm9zGAIgASgFUgVuYW5vc0KDAQoTY29tLmdvb2dsZS5wcm90b2J1ZkINRHVyYXRpb25Qcm90b1ABWjFnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9kdXJhdGlvbnBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMK4gUKHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiKYAQoGU3RydWN0EjsKBmZpZWxkcxgBIAMoCzIjLmdvb2dsZS5wcm90b2J1Zi5TdHJ1Y3QuRmllbGRzRW50cnlSBmZpZWxkcxpRCgtGaWVsZHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIsCgV2YWx1ZRgCIAEoCzIWLmdvb2dsZS5wcm90b2J1Zi5WYWx1ZVIFdmFsdWU6AjgBIrICCgVWYWx1ZRI7CgpudWxsX3ZhbHVlGAEgASgOMhouZ29vZ2xlLnByb3RvYnVmLk51bGxWYWx1ZUgAUgludWxsVmFsdWUSIwoMbnVtYmVyX3ZhbHVlGAIgASgBSABSC251bWJlclZhbHVlEiMKDHN0cmluZ192YWx1ZRgDIAEoCUgAUgtzdHJpbmdWYWx1ZRIfCgpib29sX3ZhbHVlGAQgASgISABSCWJvb2xWYWx1ZRI8CgxzdHJ1Y3RfdmFsdWUYBSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0SABSC3N0cnVjdFZhbHVlEjsKCmxpc3RfdmFsdWUYBiABKAsyGi5nb29nbGUucHJvdG9idWYuTGlzdFZhbHVlSABSCWxpc3RWYWx1ZUIGCgRraW5kIjsKCUxpc3RWYWx1ZRIuCgZ2YWx1ZXMYASADKAsyFi5nb29nbGUucHJvdG9idWYuVmFsdWVSBnZhbHVlcyobCglOdWxsVmFsdWUSDgoKTlVMTF9WQUxVRRAAQn8KE2NvbS5nb29nbGUucHJvdG9idWZCC1N0cnVjdFByb3RvUAFaL2dvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3N0cnVjdHBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMKhgQKHmdvb2dsZS9wcm90b2J1Zi93cmFwcGVycy5wcm90bxIPZ29vZ2xlLnByb3RvYnVmIiMKC0RvdWJsZVZhbHVlEhQKBXZhbHVlGAEgASgBUgV2YWx1ZSIiCgpGbG9hdFZhbHVlEhQKBXZhbHVlGAEgASgCUgV2YWx1ZSIiCgpJbnQ2NFZhbHVlEhQKBXZhbHVlGAEgASgDUgV2YWx1ZSIjCgtVSW50NjRWYWx1ZRIUCgV2YWx1ZRgBIAEoBFIFdmFsdWUiIgoKSW50MzJWYWx1ZRIUCgV2YWx1ZRgBIAEoBVIFdmFsdWUiIwoLVUludDMyVmFsdWUSFAoFdmFsdWUYASABKA1SBXZhbHVlIiEKCUJvb2xWYWx1ZRIUCgV2YWx1ZRgBIAEoCFIFdmFsdWUiIwoLU3RyaW5nVmFsdWUSFAoFdmFsdWUYASABKAlSBXZhbHVlIiIKCkJ5dGVzVmFsdWUSFAoFdmFsdWUYASABKAxSBXZhbHVlQoMBChNjb20uZ29vZ2xlLnByb3RvYnVmQg1XcmFwcGVyc1Byb3RvUAFaMWdvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3dyYXBwZXJzcGL4AQGiAgNHUEKqAh5Hb29nbGUuUHJvdG9idWYuV2VsbEtub3duVHlwZXNiBnByb3RvMwrmAQogZ29vZ2xlL3Byb3RvYnVmL2ZpZWxkX21hc2sucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiIhCglGaWVsZE1hc2sSFAoFcGF0aHMYASADKAlSBXBhdGhzQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5GaWVsZE1hc2tQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9maWVsZG1hc2twYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCtEMCgpqc29uLnByb3RvEgRqc29uGh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvGh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8aHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8aHmdvb2dsZS9wcm90b2J1Zi93cmFwcGVycy5wcm90bxogZ29vZ2xlL3Byb3RvYnVmL2ZpZWxkX21hc2sucHJvdG8i0QoKCkV2ZXJ5dGhpbmcSGQoIYV9kb3VibGUYASABKAFSB2FEb3VibGUSFwoHYV9mbG9hdBgCIAEoAlIGYUZsb2F0EhkKCGFuX2ludDMyGAMgASgFUgdhbkludDMyEhkKCGFuX2ludDY0GAQgASgDUgdhbkludDY0EhkKCGFfdWludDMyGAUgASgNUgdhVWludDMyEhkKCGFfdWludDY0GAYgASgEUgdhVWludDY0EhkKCGFfc2ludDY0GAcgASgSUgdhU2ludDY0EhsKCWFfZml4ZWQ2NBgIIAEoBlIIYUZpeGVkNjQSHQoKYV9zZml4ZWQ2NBgJIAEoEFIJYVNmaXhlZDY0EhUKBmFfYm9vbBgKIAEoCFIFYUJvb2wSGQoIYV9zdHJpbmcYCyABKAlSB2FTdHJpbmcSHQoKc29tZV9ieXRlcxgMIAEoDFIJc29tZUJ5dGVzEiEKBWxldmVsGA0gASgOMgsuanNvbi5MZXZlbFIFbGV2ZWwSLAoFaW5uZXIYDiABKAsyFi5qc29uLkV2ZXJ5dGhpbmcuSW5uZXJSBWlubmVyEhgKB251bWJlcnMYDyADKANSB251bWJlcnMSIwoGbGV2ZWxzGBAgAygOMgsuanNvbi5MZXZlbFIGbGV2ZWxzEjUKB2J5X25hbWUYESADKAsyHC5qc29uLkV2ZXJ5dGhpbmcuQnlOYW1lRW50cnlSBmJ5TmFtZRI7CglieV9udW1iZXIYEiADKAsyHi5qc29uLkV2ZXJ5dGhpbmcuQnlOdW1iZXJFbnRyeVIIYnlOdW1iZXISGQoHYXNfdGV4dBgTIAEoCUgAUgZhc1RleHQSHQoJYXNfbnVtYmVyGBQgASgESABSCGFzTnVtYmVyEjUKB2FzX251bGwYIyABKA4yGi5nb29nbGUucHJvdG9idWYuTnVsbFZhbHVlSABSBmFzTnVsbBIZCgVtYXliZRgVIAEoBUgBUgVtYXliZYgBARIaCgdyZW5hbWVkGBYgASgFUglvdGhlck5hbWUSKgoCYXQYFyABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wUgJhdBItCgR0b29rGBggASgLMhkuZ29vZ2xlLnByb3RvYnVmLkR1cmF0aW9uUgR0b29rEjYKCmFueV9vYmplY3QYGSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0UglhbnlPYmplY3QSMwoJYW55X3ZhbHVlGBogASgLMhYuZ29vZ2xlLnByb3RvYnVmLlZhbHVlUghhbnlWYWx1ZRI1Cgd3cmFwcGVkGBsgASgLMhsuZ29vZ2xlLnByb3RvYnVmLkludDY0VmFsdWVSB3dyYXBwZWQSLgoEbWFzaxgcIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5GaWVsZE1hc2tSBG1hc2sSHQoKbWFueV9ieXRlcxgdIAMoDFIJbWFueUJ5dGVzEhgKB2RvdWJsZXMYHiADKAFSB2RvdWJsZXMaQwoFSW5uZXISEgoEdGV4dBgBIAEoCVIEdGV4dBImCgVvdXRlchgCIAEoCzIQLmpzb24uRXZlcnl0aGluZ1IFb3V0ZXIaUQoLQnlOYW1lRW50cnkSEAoDa2V5GAEgASgJUgNrZXkSLAoFdmFsdWUYAiABKAsyFi5qc29uLkV2ZXJ5dGhpbmcuSW5uZXJSBXZhbHVlOgI4ARo7Cg1CeU51bWJlckVudHJ5EhAKA2tleRgBIAEoA1IDa2V5EhQKBXZhbHVlGAIgASgIUgV2YWx1ZToCOAFCCAoGY2hvaWNlQggKBl9tYXliZSpACgVMZXZlbBINCglMRVZFTF9MT1cQABIOCgpMRVZFTF9ISUdIEAESGAoLTEVWRUxfTUlOVVMQ////////////AWIGcHJvdG8z"
+"nclv7tawpuupf2c5nvyknes7ua": "Cv8BCh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvEg9nb29nbGUucHJvdG9idWYiOwoJVGltZXN0YW1wEhgKB3NlY29uZHMYASABKANSB3NlY29uZHMSFAoFbmFub3MYAiABKAVSBW5hbm9zQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5UaW1lc3RhbXBQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi90aW1lc3RhbXBwYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCvsBCh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiI6CghEdXJhdGlvbhIYCgdzZWNvbmRzGAEgASgDUgdzZWNvbmRzEhQKBW5hbm9zGAIgASgFUgVuYW5vc0KDAQoTY29tLmdvb2dsZS5wcm90b2J1ZkINRHVyYXRpb25Qcm90b1ABWjFnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9kdXJhdGlvbnBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMK4gUKHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiKYAQoGU3RydWN0EjsKBmZpZWxkcxgBIAMoCzIjLmdvb2dsZS5wcm90b2J1Zi5TdHJ1Y3QuRmllbGRzRW50cnlSBmZpZWxkcxpRCgtGaWVsZHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIsCgV2YWx1ZRgCIAEoCzIWLmdvb2dsZS5wcm90b2J1Zi5WYWx1ZVIFdmFsdWU6AjgBIrICCgVWYWx1ZRI7CgpudWxsX3ZhbHVlGAEgASgOMhouZ29vZ2xlLnByb3RvYnVmLk51bGxWYWx1ZUgAUgludWxsVmFsdWUSIwoMbnVtYmVyX3ZhbHVlGAIgASgBSABSC251bWJlclZhbHVlEiMKDHN0cmluZ192YWx1ZRgDIAEoCUgAUgtzdHJpbmdWYWx1ZRIfCgpib29sX3ZhbHVlGAQgASgISABSCWJvb2xWYWx1ZRI8CgxzdHJ1Y3RfdmFsdWUYBSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0SABSC3N0cnVjdFZhbHVlEjsKCmxpc3RfdmFsdWUYBiABKAsyGi5nb29nbGUucHJvdG9idWYuTGlzdFZhbHVlSABSCWxpc3RWYWx1ZUIGCgRraW5kIjsKCUxpc3RWYWx1ZRIuCgZ2YWx1ZXMYASADKAsyFi5nb29nbGUucHJvdG9idWYuVmFsdWVSBnZhbHVlcyobCglOdWxsVmFsdWUSDgoKTlVMTF9WQUxVRRAAQn8KE2NvbS5nb29nbGUucHJvdG9idWZCC1N0cnVjdFByb3RvUAFaL2dvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3N0cnVjdHBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMKhgQKHmdvb2dsZS9wcm90b2J1Zi93cmFwcGVycy5wcm90bxIPZ29vZ2xlLnByb3RvYnVmIiMKC0RvdWJsZVZhbHVlEhQKBXZhbHVlGAEgASgBUgV2YWx1ZSIiCgpGbG9hdFZhbHVlEhQKBXZhbHVlGAEgASgCUgV2YWx1ZSIiCgpJbnQ2NFZhbHVlEhQKBXZhbHVlGAEgASgDUgV2YWx1ZSIjCgtVSW50NjRWYWx1ZRIUCgV2YWx1ZRgBIAEoBFIFdmFsdWUiIgoKSW50MzJWYWx1ZRIUCgV2YWx1ZRgBIAEoBVIFdmFsdWUiIwoLVUludDMyVmFsdWUSFAoFdmFsdWUYASABKA1SBXZhbHVlIiEKCUJvb2xWYWx1ZRIUCgV2YWx1ZRgBIAEoCFIFdmFsdWUiIwoLU3RyaW5nVmFsdWUSFAoFdmFsdWUYASABKAlSBXZhbHVlIiIKCkJ5dGVzVmFsdWUSFAoFdmFsdWUYASABKAxSBXZhbHVlQoMBChNjb20uZ29vZ2xlLnByb3RvYnVmQg1XcmFwcGVyc1Byb3RvUAFaMWdvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3dyYXBwZXJzcGL4AQGiAgNHUEKqAh5Hb29nbGUuUHJvdG9idWYuV2VsbEtub3duVHlwZXNiBnByb3RvMwrmAQogZ29vZ2xlL3Byb3RvYnVmL2ZpZWxkX21hc2sucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiIhCglGaWVsZE1hc2sSFAoFcGF0aHMYASADKAlSBXBhdGhzQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5GaWVsZE1hc2tQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9maWVsZG1hc2twYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCo8OCgpqc29uLnByb3RvEgRqc29uGh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvGh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8aHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8aHmdvb2dsZS9wcm90b2J1Zi93cmFwcGVycy5wcm90bxogZ29vZ2xlL3Byb3RvYnVmL2ZpZWxkX21hc2sucHJvdG8ijwwKCkV2ZXJ5dGhpbmcSGQoIYV9kb3VibGUYASABKAFSB2FEb3VibGUSFwoHYV9mbG9hdBgCIAEoAlIGYUZsb2F0EhkKCGFuX2ludDMyGAMgASgFUgdhbkludDMyEhkKCGFuX2ludDY0GAQgASgDUgdhbkludDY0EhkKCGFfdWludDMyGAUgASgNUgdhVWludDMyEhkKCGFfdWludDY0GAYgASgEUgdhVWludDY0EhkKCGFfc2ludDY0GAcgASgSUgdhU2ludDY0EhsKCWFfZml4ZWQ2NBgIIAEoBlIIYUZpeGVkNjQSHQoKYV9zZml4ZWQ2NBgJIAEoEFIJYVNmaXhlZDY0EhUKBmFfYm9vbBgKIAEoCFIFYUJvb2wSGQoIYV9zdHJpbmcYCyABKAlSB2FTdHJpbmcSHQoKc29tZV9ieXRlcxgMIAEoDFIJc29tZUJ5dGVzEiEKBWxldmVsGA0gASgOMgsuanNvbi5MZXZlbFIFbGV2ZWwSLAoFaW5uZXIYDiABKAsyFi5qc29uLkV2ZXJ5dGhpbmcuSW5uZXJSBWlubmVyEhgKB251bWJlcnMYDyADKANSB251bWJlcnMSIwoGbGV2ZWxzGBAgAygOMgsuanNvbi5MZXZlbFIGbGV2ZWxzEjUKB2J5X25hbWUYESADKAsyHC5qc29uLkV2ZXJ5dGhpbmcuQnlOYW1lRW50cnlSBmJ5TmFtZRI7CglieV9udW1iZXIYEiADKAsyHi5qc29uLkV2ZXJ5dGhpbmcuQnlOdW1iZXJFbnRyeVIIYnlOdW1iZXISGQoHYXNfdGV4dBgTIAEoCUgAUgZhc1RleHQSHQoJYXNfbnVtYmVyGBQgASgESABSCGFzTnVtYmVyEjUKB2FzX251bGwYIyABKA4yGi5nb29nbGUucHJvdG9idWYuTnVsbFZhbHVlSABSBmFzTnVsbBIoCghhc19sZXZlbBgkIAEoDjILLmpzb24uTGV2ZWxIAFIHYXNMZXZlbBIZCgVtYXliZRgVIAEoBUgBUgVtYXliZYgBARIaCgdyZW5hbWVkGBYgASgFUglvdGhlck5hbWUSKgoCYXQYFyABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wUgJhdBItCgR0b29rGBggASgLMhkuZ29vZ2xlLnByb3RvYnVmLkR1cmF0aW9uUgR0b29rEjYKCmFueV9vYmplY3QYGSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0UglhbnlPYmplY3QSMwoJYW55X3ZhbHVlGBogASgLMhYuZ29vZ2xlLnByb3RvYnVmLlZhbHVlUghhbnlWYWx1ZRI1Cgd3cmFwcGVkGBsgASgLMhsuZ29vZ2xlLnByb3RvYnVmLkludDY0VmFsdWVSB3dyYXBwZWQSLgoEbWFzaxgcIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5GaWVsZE1hc2tSBG1hc2sSHQoKbWFueV9ieXRlcxgdIAMoDFIJbWFueUJ5dGVzEhgKB2RvdWJsZXMYHiADKAFSB2RvdWJsZXMSRQoNbGV2ZWxfYnlfbmFtZRglIAMoCzIhLmpzb24uRXZlcnl0aGluZy5MZXZlbEJ5TmFtZUVudHJ5UgtsZXZlbEJ5TmFtZRpDCgVJbm5lchISCgR0ZXh0GAEgASgJUgR0ZXh0EiYKBW91dGVyGAIgASgLMhAuanNvbi5FdmVyeXRoaW5nUgVvdXRlchpRCgtCeU5hbWVFbnRyeRIQCgNrZXkYASABKAlSA2tleRIsCgV2YWx1ZRgCIAEoCzIWLmpzb24uRXZlcnl0aGluZy5Jbm5lclIFdmFsdWU6AjgBGjsKDUJ5TnVtYmVyRW50cnkSEAoDa2V5GAEgASgDUgNrZXkSFAoFdmFsdWUYAiABKAhSBXZhbHVlOgI4ARpLChBMZXZlbEJ5TmFtZUVudHJ5EhAKA2tleRgBIAEoCVIDa2V5EiEKBXZhbHVlGAIgASgOMgsuanNvbi5MZXZlbFIFdmFsdWU6AjgBQggKBmNob2ljZUIICgZfbWF5YmUqQAoFTGV2ZWwSDQoJTEVWRUxfTE9XEAASDgoKTEVWRUxfSElHSBABEhgKC0xFVkVMX01JTlVTEP///////////wFiBnByb3RvMw=="
 }}
 """
 
 
 class Here(_scl.GeneratedComponent, plan=_PLAN, component="here"):
-    """The component `here` of `json`, declared at `json.yaml:4:11`."""
+    """The component `here` of `json`, declared at `json.yaml:4:11`.
+
+    Gates:
+        everything: `pub` publishes `json.Everything` to `there.everything`
+    """
 
     everything: _scl.Pub[Everything]
     """`pub`: publishes `json.Everything` to `there.everything`.
@@ -65,7 +70,11 @@ class Here(_scl.GeneratedComponent, plan=_PLAN, component="here"):
 
 
 class There(_scl.GeneratedComponent, plan=_PLAN, component="there"):
-    """The component `there` of `json`, declared at `json.yaml:7:11`."""
+    """The component `there` of `json`, declared at `json.yaml:7:11`.
+
+    Gates:
+        everything: `sub` subscribes to `json.Everything` from `here.everything`
+    """
 
     everything: _scl.Sub[Everything]
     """`sub`: subscribes to `json.Everything` from `here.everything`.
@@ -171,6 +180,8 @@ if TYPE_CHECKING:
 
         as_null: _struct_pb2.NullValue
 
+        as_level: Level
+
         maybe: int
 
         renamed: int
@@ -199,6 +210,9 @@ if TYPE_CHECKING:
         @property
         def doubles(self) -> _RepeatedScalarFieldContainer[float]: ...
 
+        @property
+        def level_by_name(self) -> _ScalarMap[str, Level]: ...
+
         def __init__(
             self,
             *,
@@ -223,6 +237,7 @@ if TYPE_CHECKING:
             as_text: str | None = None,
             as_number: int | None = None,
             as_null: _struct_pb2.NullValue | None = None,
+            as_level: Level | None = None,
             maybe: int | None = None,
             renamed: int | None = None,
             at: _timestamp_pb2.Timestamp | None = None,
@@ -233,6 +248,7 @@ if TYPE_CHECKING:
             mask: _field_mask_pb2.FieldMask | None = None,
             many_bytes: _Iterable[bytes] | None = None,
             doubles: _Iterable[float] | None = None,
+            level_by_name: _Mapping[str, Level] | None = None,
         ) -> None: ...
 
         def HasField(
@@ -242,6 +258,7 @@ if TYPE_CHECKING:
                 "as_text",
                 "as_number",
                 "as_null",
+                "as_level",
                 "maybe",
                 "at",
                 "took",
@@ -277,6 +294,7 @@ if TYPE_CHECKING:
                 "as_text",
                 "as_number",
                 "as_null",
+                "as_level",
                 "maybe",
                 "renamed",
                 "at",
@@ -287,13 +305,14 @@ if TYPE_CHECKING:
                 "mask",
                 "many_bytes",
                 "doubles",
+                "level_by_name",
                 "choice",
             ],
         ) -> None: ...
 
         def WhichOneof(
             self, oneof_group: _Literal["choice"]
-        ) -> _Literal["as_text", "as_number", "as_null"] | None: ...
+        ) -> _Literal["as_text", "as_number", "as_null", "as_level"] | None: ...
 else:
     __getattr__ = _scl.codec.lazy_messages(
         __name__, _PLAN, {"Everything": "json.Everything"}, {"Level": "json.Level"}

@@ -32,57 +32,62 @@ _PLAN = r"""
 "name": "measurements","kind": "pub","payload": {"message": "rover.Measurement"},
 "codec": "protobuf","declared_at": "topology.yaml:9:9","endpoint": null,
 "tap": "sensor.measurements.tap","contract": "hl75aqsl","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "controller","peer_gate": "sensor",
-"endpoint": "sensor.measurements--controller.sensor.hl75aqsl","contract": "hl75aqsl",
-"required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]}]},{
-"name": "actuator","declared_at": "topology.yaml:10:11","schema": "eelghbvbqfnuhwyjuo4ex4fjyg",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "controller",
+"peer_gate": "sensor","endpoint": "sensor.measurements--controller.sensor.hl75aqsl",
+"contract": "hl75aqsl","required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]
+}]},{"name": "actuator","declared_at": "topology.yaml:10:11","schema": "eelghbvbqfnuhwyjuo4ex4fjyg",
 "gates": [{"name": "setpoint","kind": "sub","payload": {"message": "rover.Setpoint"},
 "codec": "protobuf","declared_at": "topology.yaml:13:9","endpoint": null,"tap": null,
 "contract": "y3efz4ua","max_size": 67108864,"queue": 1,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "controller",
-"peer_gate": "actuator","endpoint": "controller.actuator--actuator.setpoint.y3efz4ua",
-"contract": "y3efz4ua","required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]
-}]},{"name": "controller","declared_at": "topology.yaml:14:11",
-"schema": "eelghbvbqfnuhwyjuo4ex4fjyg","gates": [{"name": "sensor","kind": "sub","payload": {
-"message": "rover.Measurement"},"codec": "protobuf","declared_at": "topology.yaml:17:9",
-"endpoint": null,"tap": null,"contract": "hl75aqsl","max_size": 67108864,"queue": 1,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "sensor","peer_gate": "measurements",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "actuator",
+"endpoint": "controller.actuator--actuator.setpoint.y3efz4ua","contract": "y3efz4ua",
+"required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]}]},{
+"name": "controller","declared_at": "topology.yaml:14:11","schema": "eelghbvbqfnuhwyjuo4ex4fjyg",
+"gates": [{"name": "sensor","kind": "sub","payload": {"message": "rover.Measurement"},
+"codec": "protobuf","declared_at": "topology.yaml:17:9","endpoint": null,"tap": null,
+"contract": "hl75aqsl","max_size": 67108864,"queue": 1,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "sensor","peer_gate": "measurements",
 "endpoint": "sensor.measurements--controller.sensor.hl75aqsl","contract": "hl75aqsl",
 "required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "actuator",
 "kind": "pub","payload": {"message": "rover.Setpoint"},"codec": "protobuf",
 "declared_at": "topology.yaml:18:9","endpoint": null,"tap": "controller.actuator.tap",
 "contract": "y3efz4ua","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "actuator",
-"peer_gate": "setpoint","endpoint": "controller.actuator--actuator.setpoint.y3efz4ua",
-"contract": "y3efz4ua","required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]
-},{"name": "events","kind": "pub","payload": {"message": "rover.Event"},"codec": "protobuf",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "actuator","peer_gate": "setpoint",
+"endpoint": "controller.actuator--actuator.setpoint.y3efz4ua","contract": "y3efz4ua",
+"required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "events",
+"kind": "pub","payload": {"message": "rover.Event"},"codec": "protobuf",
 "declared_at": "topology.yaml:19:9","endpoint": null,"tap": "controller.events.tap",
 "contract": "uf5t4btx","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "user_interface",
-"peer_gate": "events","endpoint": "controller.events--user_interface.events.uf5t4btx",
-"contract": "uf5t4btx","required": true,"queue": 1000,"when_full": "drop_oldest",
-"max_size": 67108864}]},{"name": "commands","kind": "rep","payload": {"request": "rover.Command",
-"reply": "rover.Status"},"codec": "protobuf","declared_at": "topology.yaml:20:9",
-"endpoint": "controller.commands.wfqclrav","tap": "controller.commands.tap","contract": "wfqclrav",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "user_interface",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "user_interface","peer_gate": "events",
+"endpoint": "controller.events--user_interface.events.uf5t4btx","contract": "uf5t4btx",
+"required": true,"queue": 1000,"when_full": "drop_oldest","max_size": 67108864}]},{
+"name": "commands","kind": "rep","payload": {"request": "rover.Command","reply": "rover.Status"},
+"codec": "protobuf","declared_at": "topology.yaml:20:9","endpoint": "controller.commands.wfqclrav",
+"tap": "controller.commands.tap","contract": "wfqclrav","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "user_interface",
 "peer_gate": "commands","endpoint": "controller.commands.wfqclrav","contract": "wfqclrav",
 "required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{
 "name": "user_interface","declared_at": "topology.yaml:21:11",
 "schema": "eelghbvbqfnuhwyjuo4ex4fjyg","gates": [{"name": "events","kind": "sub","payload": {
 "message": "rover.Event"},"codec": "protobuf","declared_at": "topology.yaml:24:9","endpoint": null,
 "tap": null,"contract": "uf5t4btx","max_size": 67108864,"queue": 1000,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "controller",
-"peer_gate": "events","endpoint": "controller.events--user_interface.events.uf5t4btx",
-"contract": "uf5t4btx","required": true,"queue": 1000,"when_full": "drop_oldest",
-"max_size": 67108864}]},{"name": "commands","kind": "req","payload": {"request": "rover.Command",
-"reply": "rover.Status"},"codec": "protobuf","declared_at": "topology.yaml:25:9","endpoint": null,
-"tap": null,"contract": "wfqclrav","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 2000000000,"connections": [{"peer_component": "controller",
-"peer_gate": "commands","endpoint": "controller.commands.wfqclrav","contract": "wfqclrav",
-"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]}],"schemas": {
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "events",
+"endpoint": "controller.events--user_interface.events.uf5t4btx","contract": "uf5t4btx",
+"required": true,"queue": 1000,"when_full": "drop_oldest","max_size": 67108864}]},{
+"name": "commands","kind": "req","payload": {"request": "rover.Command","reply": "rover.Status"},
+"codec": "protobuf","declared_at": "topology.yaml:25:9","endpoint": null,"tap": null,
+"contract": "wfqclrav","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 2000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "commands",
+"endpoint": "controller.commands.wfqclrav","contract": "wfqclrav","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]}]}],"schemas": {
 "eelghbvbqfnuhwyjuo4ex4fjyg": "CvIBCgtyb3Zlci5wcm90bxIFcm92ZXIiIwoLTWVhc3VyZW1lbnQSFAoFc3BlZWQYASABKAFSBXNwZWVkIiYKCFNldHBvaW50EhoKCHRocm90dGxlGAEgASgBUgh0aHJvdHRsZSIbCgVFdmVudBISCgR0ZXh0GAEgASgJUgR0ZXh0IiwKB0NvbW1hbmQSIQoMdGFyZ2V0X3NwZWVkGAEgASgBUgt0YXJnZXRTcGVlZCI8CgZTdGF0dXMSGgoIYWNjZXB0ZWQYASABKAhSCGFjY2VwdGVkEhYKBnJlYXNvbhgCIAEoCVIGcmVhc29uYgZwcm90bzM="
 }}
 """
@@ -92,6 +97,9 @@ class Sensor(_scl.GeneratedComponent, plan=_PLAN, component="sensor"):
     """Reads the inertial unit.
 
     The component `sensor` of `rover`, declared at `topology.yaml:6:11`.
+
+    Gates:
+        measurements: `pub` publishes `rover.Measurement` to `controller.sensor`
     """
 
     measurements: _scl.Pub[Measurement]
@@ -107,6 +115,9 @@ class Actuator(_scl.GeneratedComponent, plan=_PLAN, component="actuator"):
     """Drives the motors.
 
     The component `actuator` of `rover`, declared at `topology.yaml:10:11`.
+
+    Gates:
+        setpoint: `sub` subscribes to `rover.Setpoint` from `controller.actuator`
     """
 
     setpoint: _scl.Sub[Setpoint]
@@ -122,6 +133,12 @@ class Controller(_scl.GeneratedComponent, plan=_PLAN, component="controller"):
     """Turns readings into set-points, and obeys commands.
 
     The component `controller` of `rover`, declared at `topology.yaml:14:11`.
+
+    Gates:
+        sensor: `sub` subscribes to `rover.Measurement` from `sensor.measurements`
+        actuator: `pub` publishes `rover.Setpoint` to `actuator.setpoint`
+        events: `pub` publishes `rover.Event` to `user_interface.events`
+        commands: `rep` replies `rover.Command` -> `rover.Status` to `user_interface.commands`
     """
 
     sensor: _scl.Sub[Measurement]
@@ -155,6 +172,10 @@ class UserInterface(_scl.GeneratedComponent, plan=_PLAN, component="user_interfa
     """Shows events and asks for speed.
 
     The component `user_interface` of `rover`, declared at `topology.yaml:21:11`.
+
+    Gates:
+        events: `sub` subscribes to `rover.Event` from `controller.events`
+        commands: `req` requests `rover.Command` -> `rover.Status` from `controller.commands`
     """
 
     events: _scl.Sub[Event]

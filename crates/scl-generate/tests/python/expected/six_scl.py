@@ -21,77 +21,90 @@ _PLAN = r"""
 "schema": "6eqqy34fghpk7lqx6dp2dzb3lg","gates": [{"name": "readings","kind": "pub","payload": {
 "message": "test.Number"},"codec": "protobuf","declared_at": "six_kinds.yaml:8:9","endpoint": null,
 "tap": "source.readings.tap","contract": "rgrclf3p","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "sink","peer_gate": "readings",
-"endpoint": "source.readings--sink.readings.rgrclf3p","contract": "rgrclf3p","required": true,
-"queue": 1000,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "sink",
-"peer_gate": "newest","endpoint": "source.readings--sink.newest.rgrclf3p","contract": "rgrclf3p",
-"required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864},{
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "sink",
+"peer_gate": "readings","endpoint": "source.readings--sink.readings.rgrclf3p",
+"contract": "rgrclf3p","required": true,"queue": 1000,"when_full": "drop_oldest","max_size": 65536},
+{"peer_component": "sink","peer_gate": "newest","endpoint": "source.readings--sink.newest.rgrclf3p",
+"contract": "rgrclf3p","required": true,"queue": 1,"when_full": "drop_oldest","max_size": 65536},{
 "peer_component": "watcher","peer_gate": "readings",
 "endpoint": "source.readings--watcher.readings.rgrclf3p","contract": "rgrclf3p","required": false,
-"queue": 1000,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "lossless","kind": "pub",
+"queue": 1000,"when_full": "drop_oldest","max_size": 65536}]},{"name": "lossless","kind": "pub",
 "payload": {"message": "test.Number"},"codec": "protobuf","declared_at": "six_kinds.yaml:9:9",
 "endpoint": null,"tap": "source.lossless.tap","contract": "rgrclf3p","max_size": 67108864,
-"queue": 100,"when_full": "drop_oldest","backpressure": true,"timeout_ns": 1000000000,
-"connections": [{"peer_component": "sink","peer_gate": "lossless",
+"queue": 100,"when_full": "drop_oldest","backpressure": true,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "sink","peer_gate": "lossless",
 "endpoint": "source.lossless--sink.lossless.rgrclf3p","contract": "rgrclf3p","required": true,
-"queue": 10,"when_full": "wait","max_size": 67108864}]},{"name": "jobs","kind": "push","payload": {
+"queue": 10,"when_full": "wait","max_size": 65536}]},{"name": "jobs","kind": "push","payload": {
 "message": "test.Number"},"codec": "protobuf","declared_at": "six_kinds.yaml:10:9","endpoint": null,
 "tap": null,"contract": "q2camm6o","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": true,"timeout_ns": 1000000000,"connections": [{"peer_component": "sink",
-"peer_gate": "jobs","endpoint": "sink.jobs.q2camm6o","contract": "q2camm6o","required": true,
-"queue": 1000,"when_full": "wait","max_size": 67108864}]},{"name": "question","kind": "req",
-"payload": {"request": "test.Number","reply": "test.Number"},"codec": "protobuf",
-"declared_at": "six_kinds.yaml:11:9","endpoint": null,"tap": null,"contract": "ljtvyqme",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 10000000000,"connections": [{"peer_component": "sink","peer_gate": "answer",
+"backpressure": true,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip",
+"connections": [{"peer_component": "sink","peer_gate": "jobs","endpoint": "sink.jobs.q2camm6o",
+"contract": "q2camm6o","required": true,"queue": 1000,"when_full": "wait","max_size": 65536}]},{
+"name": "question","kind": "req","payload": {"request": "test.Number","reply": "test.Number"},
+"codec": "protobuf","declared_at": "six_kinds.yaml:11:9","endpoint": null,"tap": null,
+"contract": "ljtvyqme","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 10000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "sink","peer_gate": "answer",
 "endpoint": "sink.answer.ljtvyqme","contract": "ljtvyqme","required": true,"queue": 100,
 "when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "sink",
 "declared_at": "six_kinds.yaml:12:11","schema": "6eqqy34fghpk7lqx6dp2dzb3lg","gates": [{
 "name": "readings","kind": "sub","payload": {"message": "test.Number"},"codec": "protobuf",
 "declared_at": "six_kinds.yaml:14:9","endpoint": null,"tap": null,"contract": "rgrclf3p",
-"max_size": 67108864,"queue": 1000,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "source","peer_gate": "readings",
-"endpoint": "source.readings--sink.readings.rgrclf3p","contract": "rgrclf3p","required": true,
-"queue": 1000,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "newest","kind": "sub",
-"payload": {"message": "test.Number"},"codec": "protobuf","declared_at": "six_kinds.yaml:15:9",
-"endpoint": null,"tap": null,"contract": "rgrclf3p","max_size": 67108864,"queue": 1,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
+"max_size": 65536,"queue": 1000,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
 "peer_component": "source","peer_gate": "readings",
-"endpoint": "source.readings--sink.newest.rgrclf3p","contract": "rgrclf3p","required": true,
-"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "lossless","kind": "sub",
-"payload": {"message": "test.Number"},"codec": "protobuf","declared_at": "six_kinds.yaml:16:9",
-"endpoint": null,"tap": null,"contract": "rgrclf3p","max_size": 67108864,"queue": 10,
-"when_full": "wait","backpressure": false,"timeout_ns": 1000000000,"connections": [{
+"endpoint": "source.readings--sink.readings.rgrclf3p","contract": "rgrclf3p","required": true,
+"queue": 1000,"when_full": "drop_oldest","max_size": 65536}]},{"name": "newest","kind": "sub",
+"payload": {"message": "test.Number"},"codec": "protobuf","declared_at": "six_kinds.yaml:15:9",
+"endpoint": null,"tap": null,"contract": "rgrclf3p","max_size": 65536,"queue": 1,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "source",
+"peer_gate": "readings","endpoint": "source.readings--sink.newest.rgrclf3p","contract": "rgrclf3p",
+"required": true,"queue": 1,"when_full": "drop_oldest","max_size": 65536}]},{"name": "lossless",
+"kind": "sub","payload": {"message": "test.Number"},"codec": "protobuf",
+"declared_at": "six_kinds.yaml:16:9","endpoint": null,"tap": null,"contract": "rgrclf3p",
+"max_size": 65536,"queue": 10,"when_full": "wait","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
 "peer_component": "source","peer_gate": "lossless",
 "endpoint": "source.lossless--sink.lossless.rgrclf3p","contract": "rgrclf3p","required": true,
-"queue": 10,"when_full": "wait","max_size": 67108864}]},{"name": "jobs","kind": "pull","payload": {
+"queue": 10,"when_full": "wait","max_size": 65536}]},{"name": "jobs","kind": "pull","payload": {
 "message": "test.Number"},"codec": "protobuf","declared_at": "six_kinds.yaml:17:9",
-"endpoint": "sink.jobs.q2camm6o","tap": "sink.jobs.tap","contract": "q2camm6o","max_size": 67108864,
-"queue": 1000,"when_full": "wait","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "source","peer_gate": "jobs","endpoint": "sink.jobs.q2camm6o",
-"contract": "q2camm6o","required": true,"queue": 1000,"when_full": "wait","max_size": 67108864}]},{
-"name": "answer","kind": "rep","payload": {"request": "test.Number","reply": "test.Number"},
-"codec": "protobuf","declared_at": "six_kinds.yaml:18:9","endpoint": "sink.answer.ljtvyqme",
-"tap": "sink.answer.tap","contract": "ljtvyqme","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "source","peer_gate": "question","endpoint": "sink.answer.ljtvyqme",
-"contract": "ljtvyqme","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]}]},{"name": "watcher","declared_at": "six_kinds.yaml:19:11",
-"schema": "6eqqy34fghpk7lqx6dp2dzb3lg","gates": [{"name": "readings","kind": "sub","payload": {
-"message": "test.Number"},"codec": "protobuf","declared_at": "six_kinds.yaml:22:9","endpoint": null,
-"tap": null,"contract": "rgrclf3p","max_size": 67108864,"queue": 1000,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "source",
-"peer_gate": "readings","endpoint": "source.readings--watcher.readings.rgrclf3p",
-"contract": "rgrclf3p","required": true,"queue": 1000,"when_full": "drop_oldest",
-"max_size": 67108864}]}]}],"schemas": {
+"endpoint": "sink.jobs.q2camm6o","tap": "sink.jobs.tap","contract": "q2camm6o","max_size": 65536,
+"queue": 1000,"when_full": "wait","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "source",
+"peer_gate": "jobs","endpoint": "sink.jobs.q2camm6o","contract": "q2camm6o","required": true,
+"queue": 1000,"when_full": "wait","max_size": 65536}]},{"name": "answer","kind": "rep","payload": {
+"request": "test.Number","reply": "test.Number"},"codec": "protobuf",
+"declared_at": "six_kinds.yaml:18:9","endpoint": "sink.answer.ljtvyqme","tap": "sink.answer.tap",
+"contract": "ljtvyqme","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "fail","connections": [{"peer_component": "source","peer_gate": "question",
+"endpoint": "sink.answer.ljtvyqme","contract": "ljtvyqme","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "watcher",
+"declared_at": "six_kinds.yaml:19:11","schema": "6eqqy34fghpk7lqx6dp2dzb3lg","gates": [{
+"name": "readings","kind": "sub","payload": {"message": "test.Number"},"codec": "protobuf",
+"declared_at": "six_kinds.yaml:22:9","endpoint": null,"tap": null,"contract": "rgrclf3p",
+"max_size": 65536,"queue": 1000,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "source","peer_gate": "readings",
+"endpoint": "source.readings--watcher.readings.rgrclf3p","contract": "rgrclf3p","required": true,
+"queue": 1000,"when_full": "drop_oldest","max_size": 65536}]}]}],"schemas": {
 "6eqqy34fghpk7lqx6dp2dzb3lg": "ClQKCnRlc3QucHJvdG8SBHRlc3QiOAoGTnVtYmVyEhQKBXZhbHVlGAEgASgEUgV2YWx1ZRIYCgdwYWRkaW5nGAIgASgMUgdwYWRkaW5nYgZwcm90bzM="
 }}
 """
 
 
 class Source(_scl.GeneratedComponent, plan=_PLAN, component="source"):
-    """The component `source` of `six`, declared at `six_kinds.yaml:6:11`."""
+    """The component `source` of `six`, declared at `six_kinds.yaml:6:11`.
+
+    Gates:
+        readings: `pub` publishes `test.Number` to `sink.readings`, `sink.newest`, `watcher.readings`
+        lossless: `pub` publishes `test.Number` to `sink.lossless`
+        jobs: `push` pushes `test.Number` to `sink.jobs`
+        question: `req` requests `test.Number` -> `test.Number` from `sink.answer`
+    """
 
     readings: _scl.Pub[Number]
     """`pub`: publishes `test.Number` to `sink.readings`, `sink.newest`, `watcher.readings`.
@@ -125,12 +138,20 @@ class Source(_scl.GeneratedComponent, plan=_PLAN, component="source"):
 
 
 class Sink(_scl.GeneratedComponent, plan=_PLAN, component="sink"):
-    """The component `sink` of `six`, declared at `six_kinds.yaml:12:11`."""
+    """The component `sink` of `six`, declared at `six_kinds.yaml:12:11`.
+
+    Gates:
+        readings: `sub` subscribes to `test.Number` from `source.readings`
+        newest: `sub` subscribes to `test.Number` from `source.readings`
+        lossless: `sub` subscribes to `test.Number` from `source.lossless`
+        jobs: `pull` pulls `test.Number` from `source.jobs`
+        answer: `rep` replies `test.Number` -> `test.Number` to `source.question`
+    """
 
     readings: _scl.Sub[Number]
     """`sub`: subscribes to `test.Number` from `source.readings`.
 
-    Options: `queue: 1000`.
+    Options: `max_size: 65536B`, `queue: 1000`.
 
     Declared at `six_kinds.yaml:14:9`.
     """
@@ -138,7 +159,7 @@ class Sink(_scl.GeneratedComponent, plan=_PLAN, component="sink"):
     newest: _scl.Sub[Number]
     """`sub`: subscribes to `test.Number` from `source.readings`.
 
-    Options: `queue: 1`.
+    Options: `max_size: 65536B`, `queue: 1`.
 
     Declared at `six_kinds.yaml:15:9`.
     """
@@ -146,7 +167,7 @@ class Sink(_scl.GeneratedComponent, plan=_PLAN, component="sink"):
     lossless: _scl.Sub[Number]
     """`sub`: subscribes to `test.Number` from `source.lossless`.
 
-    Options: `queue: 10`, `when_full: wait`.
+    Options: `max_size: 65536B`, `queue: 10`, `when_full: wait`.
 
     Declared at `six_kinds.yaml:16:9`.
     """
@@ -154,7 +175,7 @@ class Sink(_scl.GeneratedComponent, plan=_PLAN, component="sink"):
     jobs: _scl.Pull[Number]
     """`pull`: pulls `test.Number` from `source.jobs`.
 
-    Options: `queue: 1000`, `when_full: wait`.
+    Options: `max_size: 65536B`, `queue: 1000`, `when_full: wait`.
 
     Declared at `six_kinds.yaml:17:9`.
     """
@@ -162,17 +183,23 @@ class Sink(_scl.GeneratedComponent, plan=_PLAN, component="sink"):
     answer: _scl.Rep[Number, Number]
     """`rep`: replies `test.Number` -> `test.Number` to `source.question`.
 
+    Options: `undecodable: fail`.
+
     Declared at `six_kinds.yaml:18:9`.
     """
 
 
 class Watcher(_scl.GeneratedComponent, plan=_PLAN, component="watcher"):
-    """The component `watcher` of `six`, declared at `six_kinds.yaml:19:11`."""
+    """The component `watcher` of `six`, declared at `six_kinds.yaml:19:11`.
+
+    Gates:
+        readings: `sub` subscribes to `test.Number` from `source.readings`
+    """
 
     readings: _scl.Sub[Number]
     """`sub`: subscribes to `test.Number` from `source.readings`.
 
-    Options: `queue: 1000`.
+    Options: `max_size: 65536B`, `queue: 1000`.
 
     Declared at `six_kinds.yaml:22:9`.
     """

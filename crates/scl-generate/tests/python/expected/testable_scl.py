@@ -34,14 +34,16 @@ _PLAN = r"""
 "declared_at": "testable.yaml:7:11","schema": "ohk4wrj2u7t2hwtmamrd7v62pd","gates": [{
 "name": "readings","kind": "sub","payload": {"message": "testable.Reading"},"codec": "protobuf",
 "declared_at": "testable.yaml:10:9","endpoint": null,"tap": null,"contract": "5omc3dh4",
-"max_size": 67108864,"queue": 1,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "world","peer_gate": "readings",
+"max_size": 67108864,"queue": 1,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "world","peer_gate": "readings",
 "endpoint": "world.readings--controller.readings.5omc3dh4","contract": "5omc3dh4","required": true,
 "queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "setpoints","kind": "pub",
 "payload": {"message": "testable.Setpoint"},"codec": "protobuf","declared_at": "testable.yaml:11:9",
 "endpoint": null,"tap": "controller.setpoints.tap","contract": "ebq6fekb","max_size": 67108864,
-"queue": 100,"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,
-"connections": [{"peer_component": "world","peer_gate": "setpoints",
+"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "world","peer_gate": "setpoints",
 "endpoint": "controller.setpoints--world.setpoints.ebq6fekb","contract": "ebq6fekb",
 "required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864},{
 "peer_component": "recorder","peer_gate": "setpoints",
@@ -50,94 +52,112 @@ _PLAN = r"""
 "name": "commands","kind": "rep","payload": {"request": "testable.Command",
 "reply": "testable.Status"},"codec": "protobuf","declared_at": "testable.yaml:12:9",
 "endpoint": "controller.commands.krvphptc","tap": "controller.commands.tap","contract": "krvphptc",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "world","peer_gate": "commands",
-"endpoint": "controller.commands.krvphptc","contract": "krvphptc","required": true,"queue": 100,
-"when_full": "drop_oldest","max_size": 67108864}]},{"name": "limits","kind": "req","payload": {
-"request": "testable.Command","reply": "testable.Status"},"codec": "protobuf",
-"declared_at": "testable.yaml:13:9","endpoint": null,"tap": null,"contract": "krvphptc",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 200000000,"connections": [{"peer_component": "world","peer_gate": "limits",
-"endpoint": "world.limits.krvphptc","contract": "krvphptc","required": true,"queue": 100,
-"when_full": "drop_oldest","max_size": 67108864}]},{"name": "jobs","kind": "pull","payload": {
-"message": "testable.Reading"},"codec": "json","declared_at": "testable.yaml:14:9",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "world","peer_gate": "commands","endpoint": "controller.commands.krvphptc",
+"contract": "krvphptc","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]},{"name": "limits","kind": "req","payload": {"request": "testable.Command",
+"reply": "testable.Status"},"codec": "protobuf","declared_at": "testable.yaml:13:9",
+"endpoint": null,"tap": null,"contract": "krvphptc","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 200000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "world",
+"peer_gate": "limits","endpoint": "world.limits.krvphptc","contract": "krvphptc","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "jobs","kind": "pull",
+"payload": {"message": "testable.Reading"},"codec": "json","declared_at": "testable.yaml:14:9",
 "endpoint": "controller.jobs.mjo3ifoi","tap": "controller.jobs.tap","contract": "mjo3ifoi",
-"max_size": 67108864,"queue": 2,"when_full": "wait","backpressure": false,"timeout_ns": 1000000000,
-"connections": [{"peer_component": "world","peer_gate": "jobs",
-"endpoint": "controller.jobs.mjo3ifoi","contract": "mjo3ifoi","required": true,"queue": 2,
-"when_full": "wait","max_size": 67108864}]},{"name": "log","kind": "push","payload": null,
-"codec": "raw","declared_at": "testable.yaml:15:9","endpoint": null,"tap": null,
-"contract": "djajuayx","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "world",
-"peer_gate": "log","endpoint": "world.log.djajuayx","contract": "djajuayx","required": true,
-"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "class","kind": "sub",
-"payload": null,"codec": "raw","declared_at": "testable.yaml:17:9","endpoint": null,"tap": null,
+"max_size": 67108864,"queue": 2,"when_full": "wait","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "world","peer_gate": "jobs","endpoint": "controller.jobs.mjo3ifoi",
+"contract": "mjo3ifoi","required": true,"queue": 2,"when_full": "wait","max_size": 67108864}]},{
+"name": "log","kind": "push","payload": null,"codec": "raw","declared_at": "testable.yaml:15:9",
+"endpoint": null,"tap": null,"contract": "djajuayx","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "world","peer_gate": "log",
+"endpoint": "world.log.djajuayx","contract": "djajuayx","required": true,"queue": 100,
+"when_full": "drop_oldest","max_size": 67108864}]},{"name": "class","kind": "sub","payload": null,
+"codec": "raw","declared_at": "testable.yaml:17:9","endpoint": null,"tap": null,
 "contract": "rqhnei4n","max_size": 67108864,"queue": 1000,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "world",
-"peer_gate": "notes","endpoint": "world.notes--controller.class.rqhnei4n","contract": "rqhnei4n",
-"required": true,"queue": 1000,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "spare",
-"kind": "pub","payload": {"message": "testable.Reading"},"codec": "protobuf",
-"declared_at": "testable.yaml:18:9","endpoint": null,"tap": "controller.spare.tap",
-"contract": "5omc3dh4","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": []}]},{"name": "empty",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "world","peer_gate": "notes",
+"endpoint": "world.notes--controller.class.rqhnei4n","contract": "rqhnei4n","required": true,
+"queue": 1000,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "spare","kind": "pub",
+"payload": {"message": "testable.Reading"},"codec": "protobuf","declared_at": "testable.yaml:18:9",
+"endpoint": null,"tap": "controller.spare.tap","contract": "5omc3dh4","max_size": 67108864,
+"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": []}]},{"name": "empty",
 "declared_at": "testable.yaml:19:11","schema": null,"gates": []},{"name": "world",
 "declared_at": "testable.yaml:21:11","schema": "ohk4wrj2u7t2hwtmamrd7v62pd","gates": [{
 "name": "readings","kind": "pub","payload": {"message": "testable.Reading"},"codec": "protobuf",
 "declared_at": "testable.yaml:23:9","endpoint": null,"tap": "world.readings.tap",
 "contract": "5omc3dh4","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "controller",
-"peer_gate": "readings","endpoint": "world.readings--controller.readings.5omc3dh4",
-"contract": "5omc3dh4","required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]
-},{"name": "setpoints","kind": "sub","payload": {"message": "testable.Setpoint"},
-"codec": "protobuf","declared_at": "testable.yaml:24:9","endpoint": null,"tap": null,
-"contract": "ebq6fekb","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "controller",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "readings",
+"endpoint": "world.readings--controller.readings.5omc3dh4","contract": "5omc3dh4","required": true,
+"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "setpoints","kind": "sub",
+"payload": {"message": "testable.Setpoint"},"codec": "protobuf","declared_at": "testable.yaml:24:9",
+"endpoint": null,"tap": null,"contract": "ebq6fekb","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "controller",
 "peer_gate": "setpoints","endpoint": "controller.setpoints--world.setpoints.ebq6fekb",
 "contract": "ebq6fekb","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 }]},{"name": "commands","kind": "req","payload": {"request": "testable.Command",
 "reply": "testable.Status"},"codec": "protobuf","declared_at": "testable.yaml:25:9",
 "endpoint": null,"tap": null,"contract": "krvphptc","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "controller","peer_gate": "commands","endpoint": "controller.commands.krvphptc",
-"contract": "krvphptc","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]},{"name": "limits","kind": "rep","payload": {"request": "testable.Command",
-"reply": "testable.Status"},"codec": "protobuf","declared_at": "testable.yaml:26:9",
-"endpoint": "world.limits.krvphptc","tap": "world.limits.tap","contract": "krvphptc",
-"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,
-"timeout_ns": 1000000000,"connections": [{"peer_component": "controller","peer_gate": "limits",
-"endpoint": "world.limits.krvphptc","contract": "krvphptc","required": true,"queue": 100,
-"when_full": "drop_oldest","max_size": 67108864}]},{"name": "jobs","kind": "push","payload": {
-"message": "testable.Reading"},"codec": "json","declared_at": "testable.yaml:27:9","endpoint": null,
-"tap": null,"contract": "mjo3ifoi","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": true,"timeout_ns": 1000000000,"connections": [{"peer_component": "controller",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "controller",
+"peer_gate": "commands","endpoint": "controller.commands.krvphptc","contract": "krvphptc",
+"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "limits",
+"kind": "rep","payload": {"request": "testable.Command","reply": "testable.Status"},
+"codec": "protobuf","declared_at": "testable.yaml:26:9","endpoint": "world.limits.krvphptc",
+"tap": "world.limits.tap","contract": "krvphptc","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "controller",
+"peer_gate": "limits","endpoint": "world.limits.krvphptc","contract": "krvphptc","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "jobs","kind": "push",
+"payload": {"message": "testable.Reading"},"codec": "json","declared_at": "testable.yaml:27:9",
+"endpoint": null,"tap": null,"contract": "mjo3ifoi","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": true,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "controller",
 "peer_gate": "jobs","endpoint": "controller.jobs.mjo3ifoi","contract": "mjo3ifoi","required": true,
 "queue": 2,"when_full": "wait","max_size": 67108864}]},{"name": "log","kind": "pull",
 "payload": null,"codec": "raw","declared_at": "testable.yaml:28:9","endpoint": "world.log.djajuayx",
 "tap": "world.log.tap","contract": "djajuayx","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"timeout_ns": 1000000000,"connections": [{
-"peer_component": "controller","peer_gate": "log","endpoint": "world.log.djajuayx",
-"contract": "djajuayx","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]},{"name": "notes","kind": "pub","payload": null,"codec": "raw",
-"declared_at": "testable.yaml:29:9","endpoint": null,"tap": "world.notes.tap",
-"contract": "rqhnei4n","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "controller",
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "controller",
+"peer_gate": "log","endpoint": "world.log.djajuayx","contract": "djajuayx","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "notes","kind": "pub",
+"payload": null,"codec": "raw","declared_at": "testable.yaml:29:9","endpoint": null,
+"tap": "world.notes.tap","contract": "rqhnei4n","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "controller",
 "peer_gate": "class","endpoint": "world.notes--controller.class.rqhnei4n","contract": "rqhnei4n",
 "required": true,"queue": 1000,"when_full": "drop_oldest","max_size": 67108864}]}]},{
 "name": "recorder","declared_at": "testable.yaml:30:11","schema": "ohk4wrj2u7t2hwtmamrd7v62pd",
 "gates": [{"name": "setpoints","kind": "sub","payload": {"message": "testable.Setpoint"},
 "codec": "protobuf","declared_at": "testable.yaml:32:9","endpoint": null,"tap": null,
 "contract": "ebq6fekb","max_size": 67108864,"queue": 100,"when_full": "drop_newest",
-"backpressure": false,"timeout_ns": 1000000000,"connections": [{"peer_component": "controller",
-"peer_gate": "setpoints","endpoint": "controller.setpoints--recorder.setpoints.ebq6fekb",
-"contract": "ebq6fekb","required": true,"queue": 100,"when_full": "drop_newest","max_size": 67108864
-}]}]}],"schemas": {
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "setpoints",
+"endpoint": "controller.setpoints--recorder.setpoints.ebq6fekb","contract": "ebq6fekb",
+"required": true,"queue": 100,"when_full": "drop_newest","max_size": 67108864}]}]}],"schemas": {
 "ohk4wrj2u7t2hwtmamrd7v62pd": "Cr8BCg50ZXN0YWJsZS5wcm90bxIIdGVzdGFibGUiHwoHUmVhZGluZxIUCgVzcGVlZBgBIAEoAVIFc3BlZWQiJgoIU2V0cG9pbnQSGgoIdGhyb3R0bGUYASABKAFSCHRocm90dGxlIiwKB0NvbW1hbmQSIQoMdGFyZ2V0X3NwZWVkGAEgASgBUgt0YXJnZXRTcGVlZCIkCgZTdGF0dXMSGgoIYWNjZXB0ZWQYASABKAhSCGFjY2VwdGVkYgZwcm90bzM="
 }}
 """
 
 
 class ControllerPeer(_scl.Counterpart):
-    """The other ends of all gates of `controller`, for its unit tests."""
+    """The other ends of all gates of `controller`, for its unit tests.
+
+    Gates:
+        readings: `pub` publishes `testable.Reading` to `controller.readings`
+        setpoints: `sub` subscribes to `testable.Setpoint` from `controller.setpoints`
+        commands: `req` requests `testable.Command` -> `testable.Status` from `controller.commands`
+        limits: `rep` replies `testable.Command` -> `testable.Status` to `controller.limits`
+        jobs: `push` pushes `testable.Reading` to `controller.jobs`
+        log: `pull` pulls bytes from `controller.log`
+        class_: `pub` publishes bytes to `controller.class`
+        spare: `sub` subscribes to `testable.Reading` from no peer
+    """
 
     readings: _scl.Pub[Reading]
     """The other end of `controller.readings`.
@@ -187,7 +207,7 @@ class ControllerPeer(_scl.Counterpart):
     Declared at `testable.yaml:15:9`.
     """
 
-    class_: _scl.Pub[bytes]
+    class_: _scl.Pub[_scl.Buffer]
     """The other end of `controller.class`.
 
     `pub`: publishes bytes to `controller.class`.
@@ -213,6 +233,16 @@ class Controller(
     """Turns readings into set-points.
 
     The component `controller` of `testable`, declared at `testable.yaml:7:11`.
+
+    Gates:
+        readings: `sub` subscribes to `testable.Reading` from `world.readings`
+        setpoints: `pub` publishes `testable.Setpoint` to `world.setpoints`, `recorder.setpoints`
+        commands: `rep` replies `testable.Command` -> `testable.Status` to `world.commands`
+        limits: `req` requests `testable.Command` -> `testable.Status` from `world.limits`
+        jobs: `pull` pulls `testable.Reading` from `world.jobs`
+        log: `push` pushes bytes to `world.log`
+        class_: `sub` subscribes to bytes from `world.notes`
+        spare: `pub` publishes `testable.Reading` to no peer
     """
 
     readings: _scl.Sub[Reading]
@@ -253,7 +283,7 @@ class Controller(
     Declared at `testable.yaml:14:9`.
     """
 
-    log: _scl.Push[bytes]
+    log: _scl.Push[_scl.Buffer]
     """`push`: pushes bytes to `world.log`.
 
     Declared at `testable.yaml:15:9`.
@@ -288,7 +318,17 @@ class Empty(
 
 
 class WorldPeer(_scl.Counterpart):
-    """The other ends of all gates of `world`, for its unit tests."""
+    """The other ends of all gates of `world`, for its unit tests.
+
+    Gates:
+        readings: `sub` subscribes to `testable.Reading` from `world.readings`
+        setpoints: `pub` publishes `testable.Setpoint` to `world.setpoints`
+        commands: `rep` replies `testable.Command` -> `testable.Status` to `world.commands`
+        limits: `req` requests `testable.Command` -> `testable.Status` from `world.limits`
+        jobs: `pull` pulls `testable.Reading` from `world.jobs`
+        log: `push` pushes bytes to `world.log`
+        notes: `sub` subscribes to bytes from `world.notes`
+    """
 
     readings: _scl.Sub[Reading]
     """The other end of `world.readings`.
@@ -330,7 +370,7 @@ class WorldPeer(_scl.Counterpart):
     Declared at `testable.yaml:27:9`.
     """
 
-    log: _scl.Push[bytes]
+    log: _scl.Push[_scl.Buffer]
     """The other end of `world.log`.
 
     `push`: pushes bytes to `world.log`.
@@ -353,7 +393,17 @@ class World(
     component="world",
     counterpart=WorldPeer,
 ):
-    """The component `world` of `testable`, declared at `testable.yaml:21:11`."""
+    """The component `world` of `testable`, declared at `testable.yaml:21:11`.
+
+    Gates:
+        readings: `pub` publishes `testable.Reading` to `controller.readings`
+        setpoints: `sub` subscribes to `testable.Setpoint` from `controller.setpoints`
+        commands: `req` requests `testable.Command` -> `testable.Status` from `controller.commands`
+        limits: `rep` replies `testable.Command` -> `testable.Status` to `controller.limits`
+        jobs: `push` pushes `testable.Reading` to `controller.jobs`
+        log: `pull` pulls bytes from `controller.log`
+        notes: `pub` publishes bytes to `controller.class`
+    """
 
     readings: _scl.Pub[Reading]
     """`pub`: publishes `testable.Reading` to `controller.readings`.
@@ -393,7 +443,7 @@ class World(
     Declared at `testable.yaml:28:9`.
     """
 
-    notes: _scl.Pub[bytes]
+    notes: _scl.Pub[_scl.Buffer]
     """`pub`: publishes bytes to `controller.class`.
 
     Declared at `testable.yaml:29:9`.
@@ -401,7 +451,11 @@ class World(
 
 
 class RecorderPeer(_scl.Counterpart):
-    """The other ends of all gates of `recorder`, for its unit tests."""
+    """The other ends of all gates of `recorder`, for its unit tests.
+
+    Gates:
+        setpoints: `pub` publishes `testable.Setpoint` to `recorder.setpoints`
+    """
 
     setpoints: _scl.Pub[Setpoint]
     """The other end of `recorder.setpoints`.
@@ -418,7 +472,11 @@ class Recorder(
     component="recorder",
     counterpart=RecorderPeer,
 ):
-    """The component `recorder` of `testable`, declared at `testable.yaml:30:11`."""
+    """The component `recorder` of `testable`, declared at `testable.yaml:30:11`.
+
+    Gates:
+        setpoints: `sub` subscribes to `testable.Setpoint` from `controller.setpoints`
+    """
 
     setpoints: _scl.Sub[Setpoint]
     """`sub`: subscribes to `testable.Setpoint` from `controller.setpoints`.

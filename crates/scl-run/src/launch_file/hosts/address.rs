@@ -1,8 +1,7 @@
 //! `address`: where the gateway of a host listens, and where the others find it.
 
-use super::super::entry::joined;
 use super::super::keys;
-use super::super::reader::{KeyPath, Reader, likely_key, scalar_text, shown};
+use super::super::reader::{KeyPath, Reader, joined, likely_key, scalar_text, shown};
 use scl_terminal::Problem;
 use serde_yaml::{Mapping, Value};
 use std::net::{IpAddr, SocketAddr};

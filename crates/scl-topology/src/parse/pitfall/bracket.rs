@@ -26,7 +26,7 @@ connections: []
 };
 
 /// A bracket problem that the parser noticed as such.
-pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
     match text.as_bytes().get(error.at) {
         Some(b'[' | b'{') => unbalanced(error.at, text, place),
         Some(b']' | b'}') if scan::scan(&text[..error.at]).open_brackets.is_empty() => {
@@ -37,7 +37,7 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
 }
 
 /// A bracket that is open where the parser stops.
-pub(super) fn find_open(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn find_open(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
     let open = scan::scan(text.get(..error.at)?).open_brackets.pop()?;
     match text.as_bytes().get(error.at) {
         Some(b']' | b'}') => Some(mismatched(open, error.at, text, place)),
@@ -66,7 +66,7 @@ fn unbalanced(open: usize, text: &str, place: &Place<'_>) -> Option<Diagnostic> 
     Some(never_closed(open, text, place))
 }
 
-pub(super) fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let bracket = &text[open..open + 1];
     let next = next_item(open, text, place);
     let inside = &text[open + 1..next.as_ref().map_or(text.len(), |item| item.start)];
@@ -82,13 +82,13 @@ pub(super) fn never_closed(open: usize, text: &str, place: &Place<'_>) -> Diagno
     })
 }
 
-pub(super) fn never_opened(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn never_opened(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let bracket = &text[at..at + 1];
     RULE.at(format!("this `{bracket}` closes nothing"), place.span(at..at + 1), "no bracket is open here")
         .help("remove it, or add the opening bracket")
 }
 
-pub(super) fn mismatched(open: usize, at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn mismatched(open: usize, at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let (bracket, found) = (&text[open..open + 1], &text[at..at + 1]);
     let close = closing(bracket);
     RULE.at(format!("this `{found}` does not close `{bracket}`"), place.span(at..at + 1), "")
@@ -97,7 +97,7 @@ pub(super) fn mismatched(open: usize, at: usize, text: &str, place: &Place<'_>) 
 }
 
 /// A bracket that should be closed after a word.
-pub(super) fn close_after(open: usize, word: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn close_after(open: usize, word: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let bracket = &text[open..open + 1];
     let close = closing(bracket);
     let mut problem = never_closed(open, text, place);
@@ -113,7 +113,7 @@ pub(super) fn close_after(open: usize, word: &Range<usize>, text: &str, place: &
 }
 
 /// A bracket that should be opened before a word.
-pub(super) fn open_before(close: usize, word: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn open_before(close: usize, word: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let found = &text[close..close + 1];
     let open = if found == "]" { '[' } else { '{' };
     RULE.at(format!("this `{found}` closes nothing"), place.span(close..close + 1), "no bracket is open here")
@@ -121,7 +121,7 @@ pub(super) fn open_before(close: usize, word: &Range<usize>, text: &str, place: 
 }
 
 /// A list that is closed but never opened, after the colon of its key.
-pub(super) fn open_after(colon: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn open_after(colon: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let line = place.line_range(colon.start);
     let key = text[line.start..colon.start].trim_start_matches([' ', '{', ',']).trim_end();
     let start = colon.start - text[line.start..colon.start].trim_end().len().min(key.len());

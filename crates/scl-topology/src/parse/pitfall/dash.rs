@@ -53,7 +53,7 @@ pub(in crate::parse) fn doubled(dashes: &Range<usize>, text: &str, place: &Place
 }
 
 /// `* item`.
-pub(super) fn other_mark(at: usize, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn other_mark(at: usize, place: &Place<'_>) -> Diagnostic {
     let text = place.source.text();
     let (mark, rest) = (&text[at..at + 1], text[at + 1..place.line_range(at).end].trim());
     let message = format!("a list item starts with `-`, not with `{mark}`");
@@ -61,7 +61,7 @@ pub(super) fn other_mark(at: usize, place: &Place<'_>) -> Diagnostic {
 }
 
 /// A dash where no item can start.
-pub(super) fn surplus(dash: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn surplus(dash: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let line = place.line_range(dash.start);
     let is_doubled =
         text[line.start..dash.start].trim_start().starts_with('-') || text[dash.end..line.end].starts_with('-');

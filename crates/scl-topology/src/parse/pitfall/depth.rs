@@ -21,7 +21,7 @@ pub(crate) const RULE: Rule = Rule {
     },
 };
 
-pub(super) fn diagnose(at: Span) -> Diagnostic {
+pub(in crate::parse) fn diagnose(at: Span) -> Diagnostic {
     let message = format!("the file is nested more than {MAX_DEPTH} levels deep here");
     RULE.at(message, at, format!("level {}", MAX_DEPTH + 1))
         .note("a topology needs 6 levels; the limit keeps the compiler from overflowing its stack")

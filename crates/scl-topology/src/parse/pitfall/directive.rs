@@ -24,7 +24,7 @@ components: []
 };
 
 /// Reports the directives before the document, and puts spaces in their place.
-pub(super) fn check(place: &Place<'_>, text: &mut String, problems: &mut Diagnostics) {
+pub(in crate::parse) fn check(place: &Place<'_>, text: &mut String, problems: &mut Diagnostics) {
     let directives = leading_directives(text);
     for directive in &directives {
         problems.push(diagnose(place, directive.start));
@@ -32,7 +32,7 @@ pub(super) fn check(place: &Place<'_>, text: &mut String, problems: &mut Diagnos
     }
 }
 
-pub(super) fn diagnose(place: &Place<'_>, at: usize) -> Diagnostic {
+pub(in crate::parse) fn diagnose(place: &Place<'_>, at: usize) -> Diagnostic {
     let range = place.line_range(at);
     let line = place.line(at);
     let marker = place.source.text()[range.end..].trim_start().starts_with("---");

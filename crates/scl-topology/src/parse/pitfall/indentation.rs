@@ -3,7 +3,7 @@
 use super::Place;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
-use crate::parse::component;
+use crate::parse::words::COMPONENT_KEYS;
 use crate::rule::{Examples, Rule};
 use crate::yaml::{MAX_DEPTH, SyntaxError};
 use std::ops::Range;
@@ -42,7 +42,7 @@ struct Level {
 }
 
 /// Looks at the line of a syntax error.
-pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
     let line = place.line_range(error.at.min(text.len()));
     let words = levels_of(&text[line.clone()], line.start);
     let first = words.first()?;
@@ -74,7 +74,12 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
 }
 
 /// A line, by its first word, that belongs into another column.
-pub(super) fn in_wrong_column(word: &Range<usize>, column: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn in_wrong_column(
+    word: &Range<usize>,
+    column: usize,
+    text: &str,
+    place: &Place<'_>,
+) -> Diagnostic {
     let line = place.line_range(word.start);
     let above = levels_above(text, line.start);
     let own = levels_of(&text[line.clone()], line.start).into_iter().next();
@@ -135,7 +140,7 @@ fn fallen_out(line: &Range<usize>, indent: usize, text: &str, place: &Place<'_>)
         let content = &text[above.clone()];
         let key = content.split(':').next().unwrap_or("");
         if indent > 0 && !content.is_empty() && !content.starts_with([' ', '#']) {
-            let is_fallen = component::KEYS.contains(&key) && above.start > 0;
+            let is_fallen = COMPONENT_KEYS.contains(&key) && above.start > 0;
             return is_fallen.then(|| {
                 RULE.at(
                     format!("`{key}` stands at the start of the line, outside of any component"),

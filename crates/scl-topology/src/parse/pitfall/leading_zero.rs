@@ -1,7 +1,7 @@
 //! SCL0128: a number with a leading zero, which YAML 1.1 reads as octal.
 
 use crate::diagnostic::Diagnostic;
-use crate::parse::fields::Field;
+use crate::parse::field::Field;
 use crate::rule::{Examples, Rule, Severity};
 
 /// SCL0128.

@@ -47,13 +47,13 @@ pub(crate) const LETTER: Rule = Rule {
 };
 
 /// The characters of a text that look like a mark: place, character, mark.
-pub(super) fn marks(text: &str) -> impl Iterator<Item = (usize, char, &'static str)> {
+pub(in crate::parse) fn marks(text: &str) -> impl Iterator<Item = (usize, char, &'static str)> {
     let letters = text.char_indices().filter(|(_, letter)| !letter.is_ascii());
     letters.filter_map(|(at, letter)| Some((at, letter, confusable::mark(letter)?.1)))
 }
 
 /// The character at a place.
-pub(super) fn diagnose(mark: &Range<usize>, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn diagnose(mark: &Range<usize>, place: &Place<'_>) -> Diagnostic {
     let letter = place.source.text()[mark.clone()].chars().next().unwrap_or(' ');
     look_alike_mark(letter, place.span(mark.clone()))
 }

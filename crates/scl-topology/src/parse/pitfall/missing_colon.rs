@@ -31,7 +31,7 @@ pub(in crate::parse) fn after(word: &Range<usize>, text: &str, place: &Place<'_>
 }
 
 /// Another mark in the place of a colon.
-pub(super) fn instead(mark: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn instead(mark: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let found = &text[mark.clone()];
     let line = place.line_range(mark.start);
     let key = text[line.start..mark.start].trim_end().rsplit([' ', ',', '{']).next().unwrap_or("");

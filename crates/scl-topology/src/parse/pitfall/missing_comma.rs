@@ -27,7 +27,12 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// No comma between two words.
-pub(super) fn between(before: &Range<usize>, after: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn between(
+    before: &Range<usize>,
+    after: &Range<usize>,
+    text: &str,
+    place: &Place<'_>,
+) -> Diagnostic {
     let (first, second) = (&text[before.clone()], &text[after.clone()]);
     let message = format!("a comma is missing before {}", described(second));
     let help = match first {
@@ -44,7 +49,7 @@ pub(super) fn between(before: &Range<usize>, after: &Range<usize>, text: &str, p
 }
 
 /// Another mark in the place of a comma.
-pub(super) fn instead(mark: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn instead(mark: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let message = format!("`{}` does not separate entries", &text[mark.clone()]);
     RULE.at(message, place.span(mark.clone()), "expected a comma").help("write `,`")
 }

@@ -3,9 +3,9 @@
 use super::Place;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
-use crate::parse::fields::known_word;
-use crate::parse::gate::is_kind;
 use crate::parse::is_plain;
+use crate::parse::words::is_kind;
+use crate::parse::words::known_word;
 use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, SyntaxError};
@@ -50,14 +50,14 @@ pub(in crate::parse) fn in_key(key: &Node, text: &str) -> Option<Diagnostic> {
 }
 
 /// `{x:{pub: A}}`: YAML 1.2 allows it, and most readers do not.
-pub(super) fn in_brackets(glued: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn in_brackets(glued: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let written = &text[glued.clone()];
     let (key, value) = written.split_once(':').unwrap_or((written, ""));
     diagnose(key, value, place.span(glued.start..glued.start))
 }
 
 /// The colon at or shortly before an error, where a bracket follows at once.
-pub(super) fn at_bracket(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn at_bracket(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
     let end = text.get(error.at..)?.find(['[', '{'])?;
     let bracket = error.at + end;
     let before = text[..bracket].strip_suffix(':')?;
@@ -66,7 +66,7 @@ pub(super) fn at_bracket(error: &SyntaxError, text: &str, place: &Place<'_>) -> 
 }
 
 /// A word such as `name:sensor` in the lines before a syntax error.
-pub(super) fn before(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn before(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
     let text = place.source.text();
     let mut line = place.line_range(error.at);
     for _ in 0..LINES {

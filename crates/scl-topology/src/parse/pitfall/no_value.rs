@@ -3,8 +3,8 @@
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::grammar;
-use crate::parse::fields::Field;
-use crate::parse::{component, with_dash};
+use crate::parse::field::{Field, end_with_colon};
+use crate::parse::with_dash;
 use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
@@ -36,7 +36,7 @@ pub(in crate::parse) fn in_field(field: Field<'_>, what: &str, source: &SourceFi
     let (span, label) = match is_written {
         true => (field.value.span, value_label(field.value)),
         false => {
-            let end = component::end_with_colon(field.key_span, source);
+            let end = end_with_colon(field.key_span, source);
             (Span { end, ..field.key_span }, "no value follows; YAML reads this as `null`")
         }
     };

@@ -3,7 +3,7 @@
 use super::{Place, dash, missing_colon};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
-use crate::parse::{component, sections};
+use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
 use crate::rule::{Examples, Rule};
 use crate::yaml::SyntaxError;
 use std::ops::Range;
@@ -29,7 +29,7 @@ camera is optional
     },
 };
 
-pub(super) fn diagnose(error: &SyntaxError, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn diagnose(error: &SyntaxError, place: &Place<'_>) -> Diagnostic {
     let text = place.source.text();
     let mut at = error.at;
     while at > 0 && !text.is_char_boundary(at) {
@@ -42,7 +42,7 @@ pub(super) fn diagnose(error: &SyntaxError, place: &Place<'_>) -> Diagnostic {
 }
 
 /// A section or key without its colon, in the line of the error or the one before.
-pub(super) fn missing_colon(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn missing_colon(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
     let text = place.source.text();
     here_and_above(error, place).find_map(|line| {
         let content = text[line.clone()].trim_start_matches([' ', '-']);
@@ -60,7 +60,7 @@ fn here_and_above(error: &SyntaxError, place: &Place<'_>) -> impl Iterator<Item 
 }
 
 /// `-sensor` or `-- sensor` where `- sensor` is meant.
-pub(super) fn missing_dash_space(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn missing_dash_space(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
     let text = place.source.text();
     here_and_above(error, place).find_map(|line| {
         let word = text[line.clone()].trim_start_matches(' ');
@@ -77,5 +77,5 @@ pub(super) fn missing_dash_space(error: &SyntaxError, place: &Place<'_>) -> Opti
 }
 
 fn is_key(word: &str) -> bool {
-    sections::SECTIONS.contains(&word) || component::KEYS.contains(&word)
+    SECTIONS.contains(&word) || COMPONENT_KEYS.contains(&word)
 }

@@ -26,7 +26,7 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// A quoted text that runs over the end of its line and covers, or ends just before, the place of the error.
-pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
     let quoted = scan::scan(text).quoted;
     let next = quoted.partition_point(|range| range.start <= error.at);
     let range = quoted.get(next.checked_sub(1)?)?.clone();
@@ -42,14 +42,14 @@ pub(super) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option
 }
 
 /// A quote without a partner in its line.
-pub(super) fn alone(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn alone(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let quote = &text[at..at + 1];
     RULE.at("this quote has no partner", place.span(at..at + 1), "the only one in its line")
         .help(format!("remove it, or add the other `{quote}`"))
 }
 
 /// The place of a quote that is missing before or after a word.
-pub(super) fn missing(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn missing(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let is_word = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '.' | '-');
     let after = text[at..].len() - text[at..].trim_start_matches(is_word).len();
     let before = text[..at].len() - text[..at].trim_end_matches(is_word).len();

@@ -24,12 +24,12 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// The character at the place of the error, if a reserved one stands there.
-pub(super) fn find(at: usize, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn find(at: usize, place: &Place<'_>) -> Option<Diagnostic> {
     let character = place.source.text().get(at..)?.chars().next()?;
     matches!(character, '@' | '`' | '%' | '&' | '*' | '!').then(|| diagnose(at, character, place))
 }
 
-pub(super) fn diagnose(at: usize, character: char, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn diagnose(at: usize, character: char, place: &Place<'_>) -> Diagnostic {
     let text = place.source.text();
     let line = place.line_range(at);
     let is_first = text.get(line.start..at).is_some_and(|before| before.trim().is_empty());

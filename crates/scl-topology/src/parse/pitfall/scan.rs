@@ -4,25 +4,25 @@ use std::ops::Range;
 
 /// Where the quotes, comments and brackets of a text are, as far as can be said without its structure.
 #[derive(Debug, Default)]
-pub(super) struct Scan {
+pub(in crate::parse) struct Scan {
     /// Each comment from its `#` to the end of the line, in order.
-    pub(super) comments: Vec<Range<usize>>,
+    pub(in crate::parse) comments: Vec<Range<usize>>,
     /// Each quoted text with its quotes, in order; the last one may lack its end.
-    pub(super) quoted: Vec<Range<usize>>,
+    pub(in crate::parse) quoted: Vec<Range<usize>>,
     /// The opening quote that nothing closes.
-    pub(super) open_quote: Option<usize>,
+    pub(in crate::parse) open_quote: Option<usize>,
     /// The brackets that nothing closes, the outermost first.
-    pub(super) open_brackets: Vec<usize>,
+    pub(in crate::parse) open_brackets: Vec<usize>,
 }
 
 impl Scan {
     /// Whether a byte lies in a comment or in quotes.
-    pub(super) fn is_free_text(&self, at: usize) -> bool {
+    pub(in crate::parse) fn is_free_text(&self, at: usize) -> bool {
         contains(&self.comments, at) || contains(&self.quoted, at)
     }
 
     /// Whether a byte lies in quotes.
-    pub(super) fn is_quoted(&self, at: usize) -> bool {
+    pub(in crate::parse) fn is_quoted(&self, at: usize) -> bool {
         contains(&self.quoted, at)
     }
 }
@@ -33,7 +33,7 @@ fn contains(ranges: &[Range<usize>], at: usize) -> bool {
 }
 
 /// Reads a whole text once.
-pub(super) fn scan(text: &str) -> Scan {
+pub(in crate::parse) fn scan(text: &str) -> Scan {
     let bytes = text.as_bytes();
     let mut scan = Scan::default();
     let mut at = 0;

@@ -24,7 +24,7 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// Reports the first line that is indented with a tab, and how many follow; puts spaces in their place.
-pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
+pub(in crate::parse) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
     let tabs = indenting_tabs(text, scan);
     let Some(&first) = tabs.first() else { return false };
     let mut problem = diagnose(first, "a tab character is used for indentation", place)
@@ -52,7 +52,7 @@ fn is_mixed(text: &str) -> bool {
 }
 
 /// A tab elsewhere, where the parser accepts only spaces.
-pub(super) fn elsewhere(at: usize, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn elsewhere(at: usize, place: &Place<'_>) -> Diagnostic {
     let line = place.line_range(at);
     let text = &place.source.text()[line.clone()];
     let tab = text.find('\t').map_or(at, |found| line.start + found);
@@ -88,7 +88,7 @@ fn indenting_tabs(text: &str, scan: &Scan) -> Vec<usize> {
 }
 
 /// Whether a line ends with the `|` or `>` of a text block.
-pub(super) fn opens_block(line: &str) -> bool {
+pub(in crate::parse) fn opens_block(line: &str) -> bool {
     let line = line.split(" #").next().unwrap_or(line).trim_end();
     let header = line.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-'));
     header.ends_with(": |") || header.ends_with(": >") || header.ends_with("- |") || header.ends_with("- >")

@@ -29,7 +29,7 @@ pub(crate) const RULE: Rule = Rule {
 /// A message repeats no more than this.
 const MOST_SHOWN: usize = 40;
 
-pub(super) fn diagnose(range: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn diagnose(range: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let word = &text[range.clone()];
     let line = place.line_range(range.start);
     let before = text[line.start..range.start].trim_end();
@@ -55,7 +55,7 @@ pub(super) fn diagnose(range: &Range<usize>, text: &str, place: &Place<'_>) -> D
 }
 
 /// `A[]`.
-pub(super) fn brackets_after_type(range: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn brackets_after_type(range: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
     let word = &text[range.clone()];
     let name = word.split(['[', '{']).next().unwrap_or(word);
     RULE.at(format!("`{word}` is not a type"), place.span(range.clone()), "brackets after a name")
@@ -63,7 +63,7 @@ pub(super) fn brackets_after_type(range: &Range<usize>, text: &str, place: &Plac
 }
 
 /// `}#c`.
-pub(super) fn glued_comment(hash: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn glued_comment(hash: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let comment = text[hash..place.line_range(hash).end].trim_end();
     let label = "a comment, but for the space";
     RULE.at("a comment starts with a space and `#`", place.span(hash..hash + comment.len()), label)
@@ -71,7 +71,7 @@ pub(super) fn glued_comment(hash: usize, text: &str, place: &Place<'_>) -> Diagn
 }
 
 /// `- x: pub - y: pub`.
-pub(super) fn item_in_line(dash: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn item_in_line(dash: usize, text: &str, place: &Place<'_>) -> Diagnostic {
     let rest = text[dash..place.line_range(dash).end].trim_end();
     let label = "a second item in the line";
     RULE.at("each list item stands on a line of its own", place.span(dash..dash + rest.len()), label)

@@ -3,9 +3,9 @@
 use super::{suggest, ticked};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
-use crate::parse::component::KEYS;
-use crate::parse::fields::{Field, Fields};
+use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
+use crate::parse::words::COMPONENT_KEYS;
 use crate::rule::{Examples, Rule};
 use crate::suggest::similar;
 
@@ -33,7 +33,7 @@ pub(crate) const RULE: Rule = Rule {
 pub(in crate::parse) fn diagnose(field: Field<'_>, component: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in component `{component}`", field.key);
     let problem = RULE.at(message, field.key_span, "not a key of a component");
-    suggest(problem, "key", field.key, KEYS).note(format!("keys of a component: {}", ticked(KEYS)))
+    suggest(problem, "key", field.key, COMPONENT_KEYS).note(format!("keys of a component: {}", ticked(COMPONENT_KEYS)))
 }
 
 /// Words that other formats use for a name.
@@ -41,7 +41,7 @@ const OTHER_WORDS: [&str; 6] = ["id", "component", "node", "title", "label", "pr
 
 /// Whether a key was probably meant to be `name`.
 pub(in crate::parse) fn is_misnamed(key: &str) -> bool {
-    let is_near = !KEYS.contains(&key) && similar(key, KEYS).first() == Some(&"name");
+    let is_near = !COMPONENT_KEYS.contains(&key) && similar(key, COMPONENT_KEYS).first() == Some(&"name");
     is_near || OTHER_WORDS.contains(&key)
 }
 
@@ -58,7 +58,7 @@ pub(in crate::parse) fn instead_of_name(field: Field<'_>) -> Diagnostic {
         true => problem.help(format!("write `name: {name}`")),
         false => problem.help("a key with a similar name exists: `name`").fix(field.key_span, "name"),
     }
-    .note(format!("keys of a component: {}", ticked(KEYS)))
+    .note(format!("keys of a component: {}", ticked(COMPONENT_KEYS)))
 }
 
 #[cfg(test)]

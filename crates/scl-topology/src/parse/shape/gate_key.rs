@@ -4,7 +4,7 @@ use super::ticked;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::grammar::{OPTIONS, option};
-use crate::parse::fields::Field;
+use crate::parse::field::Field;
 use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::suggest::similar;
@@ -113,7 +113,7 @@ mod tests {
               |                                                    ^^^
               |
               = help: a key with a similar name exists: `queue`, for `sub` and `pull` gates
-              = note: keys of a `pub` gate: `pub`, `doc`, `codec`, `backpressure`, `unconnected`
+              = note: keys of a `pub` gate: `pub`, `doc`, `codec`, `backpressure`, `latched`, `unconnected`
         "#]]
         .assert_eq(&problems.join("\n"));
     }
@@ -130,7 +130,7 @@ mod tests {
               |                                          ^^^
               |
               = help: a key with a similar name exists: `queue`, for `sub` and `pull` gates
-              = note: keys of a `pub` gate: `pub`, `doc`, `codec`, `backpressure`, `unconnected`"#]],
+              = note: keys of a `pub` gate: `pub`, `doc`, `codec`, `backpressure`, `latched`, `unconnected`"#]],
         );
     }
 }

@@ -3,10 +3,9 @@
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::model::ComponentModel;
-use crate::parse::component::{self, head};
-use crate::parse::fields::{Field, Fields};
-use crate::parse::gate::is_kind;
-use crate::parse::{option, scalar, sections, with_dash};
+use crate::parse::field::{Field, Fields, head};
+use crate::parse::words::{COMPONENT_KEYS, SECTIONS, is_kind, is_option};
+use crate::parse::{scalar, with_dash};
 use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
@@ -45,23 +44,23 @@ connections:
 /// A key of a component, or of a gate, at the top level.
 pub(in crate::parse) fn at_top(field: Field<'_>, source: &SourceFile) -> Option<Diagnostic> {
     let key = field.key;
-    if component::KEYS.contains(&key) {
+    if COMPONENT_KEYS.contains(&key) {
         let message = format!("`{key}` belongs inside a component, not at the top level");
         return Some(problem(message, field.key_span, source).help("indent it below the `- name:` of its component"));
     }
     let message = format!("`{key}` belongs inside a gate, not at the top level");
-    option::is_key(key).then(|| problem(message, field.key_span, source).help(in_gate(field)))
+    is_option(key).then(|| problem(message, field.key_span, source).help(in_gate(field)))
 }
 
 /// A section, or an option of a gate, in a component.
 pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: &SourceFile) -> Option<Diagnostic> {
     let key = field.key;
-    if sections::SECTIONS.contains(&key) {
+    if SECTIONS.contains(&key) {
         let message = format!("`{key}` belongs at the top level, not inside component `{component}`");
         return Some(problem(message, field.key_span, source).help("move it to column 1"));
     }
     let message = format!("`{key}` belongs inside a gate, not beside the gates of component `{component}`");
-    option::is_key(key).then(|| problem(message, field.key_span, source).help(in_gate(field)))
+    is_option(key).then(|| problem(message, field.key_span, source).help(in_gate(field)))
 }
 
 /// `- measurements: pub` with `queue: 4` below it.

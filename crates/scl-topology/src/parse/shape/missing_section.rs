@@ -3,7 +3,7 @@
 use super::ticked;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
-use crate::parse::fields::Fields;
+use crate::parse::field::Fields;
 use crate::rule::{Examples, Rule};
 use crate::source::{FileId, Span};
 

@@ -2,8 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
-use crate::parse::component::head;
-use crate::parse::fields::Fields;
+use crate::parse::field::{Fields, head};
 use crate::parse::shape_word;
 use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};

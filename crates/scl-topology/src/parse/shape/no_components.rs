@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
-use crate::parse::fields::Field;
+use crate::parse::field::Field;
 use crate::rule::{Examples, Rule};
 
 /// SCL0205.

@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::grammar::{self, Shape};
-use crate::parse::fields::Field;
+use crate::parse::field::Field;
 use crate::parse::{is_plain, shape_word};
 use crate::rule::{Examples, Rule};
 use crate::size;

@@ -3,8 +3,8 @@
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::model::ComponentModel;
-use crate::parse::component::end_with_colon;
-use crate::parse::fields::Field;
+use crate::parse::field::Field;
+use crate::parse::field::end_with_colon;
 use crate::parse::shape_word;
 use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};

@@ -2,7 +2,8 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
-use crate::parse::{pitfall, sections, with_dash};
+use crate::parse::words::SECTIONS;
+use crate::parse::{pitfall, with_dash};
 use crate::rule::{Examples, Rule};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
@@ -41,9 +42,7 @@ pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile) -> Diagnostic
     let problem = RULE.at(message, span, label);
     match &root.kind {
         NodeKind::Sequence { .. } => problem.help("put this list under a `components:` key and indent it"),
-        NodeKind::Scalar { text, .. } if sections::SECTIONS.contains(&text.as_str()) => {
-            problem.help(format!("write `{text}:`"))
-        }
+        NodeKind::Scalar { text, .. } if SECTIONS.contains(&text.as_str()) => problem.help(format!("write `{text}:`")),
         _ => problem.help("write `components:` and below it a list of components"),
     }
 }

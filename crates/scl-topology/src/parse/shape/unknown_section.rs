@@ -3,8 +3,8 @@
 use super::{suggest, ticked};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
-use crate::parse::fields::Field;
-use crate::parse::sections::SECTIONS;
+use crate::parse::field::Field;
+use crate::parse::words::SECTIONS;
 use crate::rule::{Examples, Rule};
 
 /// SCL0202.

@@ -4,7 +4,7 @@ use super::option_value;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::grammar::{FORMAT, Shape, is_whole_number};
-use crate::parse::fields::Field;
+use crate::parse::field::Field;
 use crate::parse::is_plain;
 use crate::parse::pitfall::leading_zero;
 use crate::rule::{Examples, Rule};

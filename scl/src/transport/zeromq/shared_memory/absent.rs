@@ -1,4 +1,4 @@
-//! Without the feature `iceoryx2`: every message goes through the socket.
+//! Without the feature `shm`: every message goes through the socket.
 
 use super::super::zmtp::{PeerReady, ProtocolError, ShmReady};
 use super::Sent;
@@ -6,16 +6,12 @@ use crate::runtime_dir::SystemDir;
 use crate::transport::{Endpoint, Frame, Loan, TransportError};
 use bytes::Bytes;
 
-pub(in super::super) fn format() -> Option<String> {
-    None
-}
-
 /// Nothing is offered.
 pub(in super::super) enum Offer {}
 
 impl Offer {
     pub(in super::super) fn open(_dir: &SystemDir, endpoint: &Endpoint) -> Result<Self, TransportError> {
-        let reason = "shared memory needs the feature `iceoryx2` of the crate `scl`".to_owned();
+        let reason = "shared memory needs the feature `shm` of the crate `scl`".to_owned();
         Err(TransportError::Refused { endpoint: endpoint.name.clone().into_owned(), reason })
     }
 

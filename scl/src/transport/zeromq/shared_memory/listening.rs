@@ -1,16 +1,11 @@
 //! What a listening end checks when it is opened, and offers to each of its peers.
 
 use super::super::zmtp::{ServiceId, ShmReady};
-use crate::error::text_with_causes;
+use crate::causes::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Endpoint, TransportError};
 use scl_shm::{Limits, ServiceName, SharedMemory};
 use std::sync::Arc;
-
-/// What two ends must have in common to share memory: the engine and its files' layout, and the user.
-pub(in super::super) fn format() -> Option<String> {
-    Some(format!("{},{}", scl_shm::FORMAT, rustix::process::geteuid().as_raw()))
-}
 
 /// Shared memory, offered by a listening end.
 pub(in super::super) struct Offer {

@@ -1,7 +1,7 @@
 //! The receiving side of a connection.
 
 use super::super::zmtp::{PeerReady, ProtocolError};
-use crate::error::text_with_causes;
+use crate::causes::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::Endpoint;
 use bytes::Bytes;

@@ -2,7 +2,7 @@
 
 use super::super::zmtp::{self, PeerReady};
 use super::{INLINE, Sent};
-use crate::error::text_with_causes;
+use crate::causes::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Frame, Loan, LoanedMemory};
 use bytes::Bytes;

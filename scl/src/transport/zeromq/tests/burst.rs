@@ -3,14 +3,14 @@
 use super::stage::{ENDPOINT, Stage, next, number, numbered, once};
 use crate::error::GateName;
 use crate::gate::Connection;
-use crate::spec::{GateKind, GateOptions, GateSpec, LinkSpec, WhenFull};
+use crate::spec::{ConnectionSpec, GateKind, GateOptions, GateSpec, WhenFull};
 use crate::state::{Changes, SendingEnd};
 use crate::transport::Transport;
-use crate::transport::zeromq::Medium;
+use crate::transport::zeromq::TransportKind;
 use std::future::poll_fn;
 use std::task::Poll;
 
-const LINK: LinkSpec = LinkSpec {
+const LINK: ConnectionSpec = ConnectionSpec {
     peer_component: "controller",
     peer_gate: "in",
     endpoint: ENDPOINT,
@@ -31,15 +31,15 @@ static GATE: GateSpec = GateSpec {
     tap: "",
     contract: "1a2b3c4d",
     options: GateOptions::DEFAULT,
-    links: &[LINK],
+    connections: &[LINK],
 };
 
 #[tokio::test]
 async fn what_is_held_back_is_written_before_a_call_waits() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let sender = stage.transport.publish(&super::stage::endpoint()).unwrap();
     let gate = GateName::new("sensor", "out");
-    let mut connection = Connection::new(sender, gate, &GATE, &GATE.links[0], Changes::default());
+    let mut connection = Connection::new(sender, gate, &GATE, &GATE.connections[0], Changes::default());
     let mut receiver = stage.subscriber();
     poll_fn(|cx| {
         connection.drive(cx);

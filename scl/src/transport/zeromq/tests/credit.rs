@@ -1,7 +1,7 @@
 //! Credit between SCL's ends: windows, acknowledgements, and the newest message.
 
 use super::stage::{Outgoing, Queued, Stage, endpoint, newest_only, next, number, numbered, once, pattern};
-use crate::transport::zeromq::Medium;
+use crate::transport::zeromq::TransportKind;
 use crate::transport::zeromq::credit::WINDOW as WINDOW_ANNOUNCED;
 use crate::transport::{Endpoint, Frame, Receiver, Transport};
 use bytes::Bytes;
@@ -38,7 +38,7 @@ async fn settle(sender: &mut Outgoing) {
 #[tokio::test]
 async fn no_more_than_the_window_is_in_flight() {
     for publishes in [true, false] {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let (mut sender, mut receiver) = pair(&stage, publishes).await;
         sender.queue(numbered(0..MANY as u32));
         settle(&mut sender).await;
@@ -59,7 +59,7 @@ async fn no_more_than_the_window_is_in_flight() {
 
 #[tokio::test]
 async fn long_messages_count_by_their_bytes() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let (mut sender, mut receiver) = pair(&stage, false).await;
     let long = pattern(WINDOW_ANNOUNCED.bytes as usize * 3 / 4);
     sender.queue(vec![long.clone(); 10]);
@@ -78,7 +78,7 @@ async fn long_messages_count_by_their_bytes() {
 #[tokio::test]
 async fn a_flush_is_answered_when_everything_was_taken() {
     for publishes in [true, false] {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let (mut sender, mut receiver) = pair(&stage, publishes).await;
         sender.queue(numbered(0..10));
         settle(&mut sender).await;
@@ -123,7 +123,7 @@ fn poll_newest(receiver: &mut dyn Receiver, newest: &mut Option<u32>, cx: &mut C
 #[tokio::test]
 async fn after_a_pause_the_newest_message_is_received() {
     for publishes in [true, false] {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let (mut sender, mut receiver) = pair_at(&stage, publishes, &newest_only()).await;
         for pause in [1, 31, 32, 33, 63, 64, 65, 66, 127, 128, 1000, 1, 1, 1] {
             let first = pause * 10_000;
@@ -142,7 +142,7 @@ async fn after_a_pause_the_newest_message_is_received() {
 
 #[tokio::test]
 async fn the_newest_message_is_found_without_help_from_the_runtime() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let (mut sender, mut receiver) = pair_at(&stage, true, &newest_only()).await;
     let cx = &mut Context::from_waker(Waker::noop());
     // Nothing here waits, so the runtime never learns what has arrived.
@@ -159,7 +159,7 @@ async fn the_newest_message_is_found_without_help_from_the_runtime() {
 
 #[tokio::test]
 async fn a_stopped_publisher_does_not_stop_its_subscriber() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let (mut sender, mut receiver) = pair_at(&stage, true, &newest_only()).await;
     for published in 0..100 {
         once(|cx| publish_newest(&mut sender, cx, published)).await;
@@ -178,7 +178,7 @@ async fn a_stopped_publisher_does_not_stop_its_subscriber() {
 
 #[tokio::test]
 async fn catching_up_waits_for_a_publisher_in_another_thread() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let (mut sender, mut receiver) = pair_at(&stage, true, &newest_only()).await;
     for published in 0..1000 {
         once(|cx| publish_newest(&mut sender, cx, published)).await;
@@ -206,7 +206,7 @@ async fn catching_up_waits_for_a_publisher_in_another_thread() {
 
 #[tokio::test]
 async fn a_sender_that_never_waits_sees_acknowledgements() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let (mut sender, mut receiver) = pair(&stage, true).await;
     let receiving = std::thread::spawn(move || {
         let cx = &mut Context::from_waker(Waker::noop());
@@ -234,7 +234,7 @@ async fn a_sender_that_never_waits_sees_acknowledgements() {
 
 #[tokio::test]
 async fn a_detached_link_does_not_wait_for_acknowledgements() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let (mut sender, mut receiver) = pair(&stage, true).await;
     sender.end.detach();
     sender.link().detach();

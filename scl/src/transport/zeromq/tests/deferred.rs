@@ -1,7 +1,7 @@
 //! Acknowledgements that the caller of a receiving end gives.
 
 use super::stage::{Outgoing, Stage, endpoint, next, number, numbered, once};
-use crate::transport::zeromq::Medium;
+use crate::transport::zeromq::TransportKind;
 use crate::transport::zeromq::credit::ReceiveCredit;
 use crate::transport::{Endpoint, Receiver, Transport, Window};
 use std::future::poll_fn;
@@ -33,7 +33,7 @@ async fn until(sender: &mut Outgoing, receiver: &mut dyn Receiver, unacknowledge
 #[tokio::test]
 async fn only_what_the_caller_acknowledges_is_acknowledged() {
     for publishes in [true, false] {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let (mut receiver, mut sender) = (receiver(&stage, publishes), sender(&stage, publishes));
         sender.until_peers(1, &mut *receiver).await;
         sender.queue(numbered(0..10));
@@ -61,7 +61,7 @@ async fn only_what_the_caller_acknowledges_is_acknowledged() {
 #[tokio::test]
 async fn a_flush_reaches_the_caller() {
     for publishes in [true, false] {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let (mut receiver, mut sender) = (receiver(&stage, publishes), sender(&stage, publishes));
         sender.until_peers(1, &mut *receiver).await;
         sender.queue(numbered(0..3));
@@ -86,7 +86,7 @@ async fn a_flush_reaches_the_caller() {
 #[tokio::test]
 async fn what_a_finished_end_did_not_take_stays_with_the_sender() {
     for publishes in [true, false] {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let (mut receiver, mut sender) = (receiver(&stage, publishes), sender(&stage, publishes));
         sender.until_peers(1, &mut *receiver).await;
         sender.queue(numbered(0..10));
@@ -122,7 +122,7 @@ async fn what_a_finished_end_did_not_take_stays_with_the_sender() {
 
 #[tokio::test]
 async fn each_pusher_gets_the_acknowledgements_of_its_messages() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut puller = receiver(&stage, false);
     let mut pushers = [stage.pusher(), stage.pusher(), stage.pusher()];
     let mut order = Vec::new();
@@ -152,7 +152,7 @@ async fn each_pusher_gets_the_acknowledgements_of_its_messages() {
 
 #[tokio::test]
 async fn the_next_publisher_is_not_acknowledged_what_the_last_one_sent() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let (mut subscriber, mut publisher) = (receiver(&stage, true), stage.publisher());
     publisher.until_peers(1, &mut *subscriber).await;
     publisher.queue(numbered(0..3));

@@ -53,7 +53,7 @@ pub(super) async fn answer(requester: &mut dyn Requester, replier: &mut dyn Repl
         replier.drive(cx);
         requester.poll_answer(cx).map(|answer| match answer {
             Answer::Reply { id, body } => Some((id, body)),
-            Answer::Lost => None,
+            Answer::Refused { .. } | Answer::Lost => None,
         })
     })
     .await

@@ -5,7 +5,7 @@ use super::stage::{ENDPOINT, Stage, endpoint};
 use super::subject::{CONNECTING, End, LISTENING, Role, exchange};
 use crate::runtime_dir::bind_ipc;
 use crate::transport::Endpoint;
-use crate::transport::zeromq::Medium;
+use crate::transport::zeromq::TransportKind;
 use std::future::poll_fn;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -62,7 +62,7 @@ async fn closed(stream: &mut UnixStream) {
 #[tokio::test]
 async fn listening_ends_disconnect_peers_that_violate_the_protocol() {
     for role in LISTENING {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         for violation in violations(role) {
             let mut stranger = stage.connect_silently().await;
@@ -76,7 +76,7 @@ async fn listening_ends_disconnect_peers_that_violate_the_protocol() {
 #[tokio::test]
 async fn listening_ends_survive_violations_that_come_byte_by_byte_and_stop_anywhere() {
     for role in LISTENING {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         let hello = plain_hello(role.plain_peer());
         for length in 0..hello.len() {
@@ -106,7 +106,7 @@ async fn listen(stage: &Stage, end: &mut End, answers: Vec<Vec<u8>>) {
 #[tokio::test]
 async fn connecting_ends_leave_peers_that_violate_the_protocol() {
     for role in CONNECTING {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         listen(&stage, &mut end, violations(role)).await;
         exchange(&stage, role, &mut end).await;
@@ -116,7 +116,7 @@ async fn connecting_ends_leave_peers_that_violate_the_protocol() {
 #[tokio::test]
 async fn connecting_ends_keep_their_pace_when_peers_break_off() {
     for role in CONNECTING {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         let bound = bind_ipc(&stage.dir, ENDPOINT).unwrap();
         let listener = UnixListener::from_std(bound.listener).unwrap();
@@ -140,7 +140,7 @@ async fn connecting_ends_keep_their_pace_when_peers_break_off() {
 #[tokio::test]
 async fn listening_ends_take_thousands_of_broken_connections() {
     for role in LISTENING {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         let hello = plain_hello(role.plain_peer());
         for number in 0..2000 {
@@ -159,7 +159,7 @@ async fn listening_ends_take_thousands_of_broken_connections() {
 #[tokio::test]
 async fn only_some_silent_connections_are_kept() {
     for role in LISTENING {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         let mut strangers = Vec::new();
         for number in 0..300 {
@@ -180,7 +180,7 @@ async fn only_some_silent_connections_are_kept() {
 #[tokio::test(start_paused = true)]
 async fn silent_peers_are_disconnected_in_time() {
     for role in LISTENING {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         let started = Instant::now();
         for said in [0, 10, 64, 70] {
@@ -192,7 +192,7 @@ async fn silent_peers_are_disconnected_in_time() {
         exchange(&stage, role, &mut end).await;
     }
     for role in CONNECTING {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         let hello = plain_hello(role.plain_peer());
         listen(&stage, &mut end, vec![vec![], hello[..10].to_vec(), hello[..70].to_vec()]).await;
@@ -208,7 +208,7 @@ async fn flood(mut stream: UnixStream, flood: Vec<u8>) {
 #[tokio::test]
 async fn heartbeats_whose_answers_are_not_read_end_the_connection() {
     for role in LISTENING {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         let stranger = stage.connect(role.plain_peer()).await;
         let ping = b"\x04\x17\x04PING\0\0a context of 16b";
@@ -220,7 +220,7 @@ async fn heartbeats_whose_answers_are_not_read_end_the_connection() {
 #[tokio::test]
 async fn too_many_subscriptions_end_the_connection() {
     for role in [Role::Publish, Role::Tap] {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         let long_topic = [&b"\x02\0\0\0\0\0\0\x80\x00\x01"[..], &[b'x'; 0x7fff]].concat();
         for subscriptions in [b"\0\x05\x01abcd".repeat(1000), b"\x04\x0a\x09SUBSCRIBE".repeat(1000), long_topic] {
@@ -234,7 +234,7 @@ async fn too_many_subscriptions_end_the_connection() {
 #[tokio::test]
 async fn peers_that_never_read_delay_nobody_else() {
     for role in [Role::Publish, Role::Reply, Role::Tap] {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut end = role.open(&stage);
         let mut stranger = stage.connect(role.plain_peer()).await;
         if role == Role::Reply {
@@ -252,7 +252,7 @@ async fn peers_that_never_read_delay_nobody_else() {
 
 #[tokio::test]
 async fn acknowledgements_of_what_was_never_sent_end_the_connection() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut end = Role::Publish.open(&stage);
     let mut stranger = stage.connect_silently().await;
     let hello = crate::transport::zeromq::zmtp::hello(
@@ -267,7 +267,7 @@ async fn acknowledgements_of_what_was_never_sent_end_the_connection() {
 #[tokio::test]
 async fn a_refused_peer_is_not_connected_to() {
     for role in CONNECTING {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let allowed = Arc::new(AtomicBool::new(false));
         let asked = Arc::new(Mutex::new(0));
         let check = {

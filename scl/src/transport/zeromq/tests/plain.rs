@@ -3,7 +3,7 @@
 use super::ends::{answer, ask, echo};
 use super::stage::{Stage, next, numbered, once, pattern};
 use crate::runtime_dir::bind_ipc;
-use crate::transport::zeromq::Medium;
+use crate::transport::zeromq::TransportKind;
 use crate::transport::zeromq::zmtp::{SclReady, ShmReady, SocketType, hello};
 use crate::transport::{PeerKind, Transport};
 use bytes::Bytes;
@@ -45,7 +45,7 @@ async fn read_after_hello(stream: &mut UnixStream, socket: SocketType, scl: SclR
 
 #[tokio::test]
 async fn a_plain_subscriber_gets_what_it_subscribed_to() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut publisher = stage.publisher();
     let mut subscriber = stage.connect("SUB").await;
     // Both dialects, and a subscription that is cancelled again.
@@ -77,7 +77,7 @@ async fn a_plain_subscriber_gets_what_it_subscribed_to() {
 
 #[tokio::test]
 async fn a_plain_publisher_is_subscribed_to_after_its_ready() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let bound = bind_ipc(&stage.dir, ENDPOINT).unwrap();
     let listener = UnixListener::from_std(bound.listener).unwrap();
     let mut subscriber = stage.subscriber();
@@ -116,7 +116,7 @@ async fn a_plain_publisher_is_subscribed_to_after_its_ready() {
 
 #[tokio::test]
 async fn a_plain_requester_is_answered_through_its_envelope() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut replier = stage.replier();
     let cases: [(&str, &[u8], &[u8]); 3] = [
         ("REQ", b"\x01\0\0\x03abc", b"\x01\0\0\x03cba"),
@@ -144,7 +144,7 @@ async fn a_plain_requester_is_answered_through_its_envelope() {
 
 #[tokio::test]
 async fn a_plain_replier_gets_an_envelope_and_returns_it() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let bound = bind_ipc(&stage.dir, ENDPOINT).unwrap();
     let listener = UnixListener::from_std(bound.listener).unwrap();
     let mut requester = stage.requester();
@@ -160,14 +160,14 @@ async fn a_plain_replier_gets_an_envelope_and_returns_it() {
     });
     poll_fn(|cx| requester.poll_connected(cx)).await;
     ask(&mut *requester, 258, Bytes::from_static(b"abc")).await;
-    let mut bystander = Stage::new(Medium::Ipc).replier();
+    let mut bystander = Stage::new(TransportKind::Ipc).replier();
     assert_eq!(answer(&mut *requester, &mut *bystander).await, Some((258, Bytes::from_static(b"ok"))));
     drop(replying.await.unwrap());
 }
 
 #[tokio::test]
 async fn a_tap_sends_two_frames_and_drops_the_oldest() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut tap = stage.transport.tap(&endpoint()).unwrap().unwrap();
     let payload = Bytes::from(vec![b'p'; 100_000]);
     assert!(!once(|cx| tap.drive(cx)).await);

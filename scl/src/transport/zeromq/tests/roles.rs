@@ -2,18 +2,18 @@
 
 use super::ends::{answer, ask, connected, request};
 use super::stage::{Stage, next, number, numbered, pattern};
-use crate::transport::zeromq::Medium;
+use crate::transport::zeromq::TransportKind;
 use crate::transport::{PeerKind, RequesterGone};
 use bytes::Bytes;
 
 const SIZES: [usize; 9] = [0, 1, 255, 256, 500, 70_000, 1 << 20, 5 << 20, 0];
-const MEDIA: [Medium; 2] = [Medium::Ipc, Medium::Tcp];
+const TRANSPORTS: [TransportKind; 2] = [TransportKind::Ipc, TransportKind::Tcp];
 
 #[tokio::test]
 async fn messages_of_every_size_arrive_in_order() {
-    for medium in MEDIA {
+    for kind in TRANSPORTS {
         for publishes in [true, false] {
-            let stage = Stage::new(medium);
+            let stage = Stage::new(kind);
             let (mut sender, mut receiver) = match publishes {
                 true => (stage.publisher(), stage.subscriber()),
                 false => (stage.pusher(), stage.puller()),
@@ -22,7 +22,7 @@ async fn messages_of_every_size_arrive_in_order() {
             assert_eq!(sender.peers[0].kind, PeerKind::Component);
             sender.queue(SIZES.map(pattern));
             for size in SIZES {
-                assert!(sender.during(next(&mut *receiver)).await == pattern(size), "{medium:?}, {size} bytes");
+                assert!(sender.during(next(&mut *receiver)).await == pattern(size), "{kind:?}, {size} bytes");
             }
             sender.queue(numbered(0..3000));
             for expected in 0..3000 {
@@ -36,7 +36,7 @@ async fn messages_of_every_size_arrive_in_order() {
 #[tokio::test]
 async fn a_lost_peer_is_noticed_and_the_next_one_is_found() {
     for publishes in [true, false] {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let open_sender = || if publishes { stage.publisher() } else { stage.pusher() };
         let open_receiver = || if publishes { stage.subscriber() } else { stage.puller() };
         let (mut sender, mut receiver) = (open_sender(), open_receiver());
@@ -58,7 +58,7 @@ async fn a_lost_peer_is_noticed_and_the_next_one_is_found() {
 
 #[tokio::test]
 async fn several_pushers_are_served_in_turn() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut puller = stage.puller();
     let mut pushers = [stage.pusher(), stage.pusher()];
     for pusher in &mut pushers {
@@ -80,8 +80,8 @@ async fn several_pushers_are_served_in_turn() {
 
 #[tokio::test]
 async fn replies_find_their_requests_in_any_order() {
-    for medium in MEDIA {
-        let stage = Stage::new(medium);
+    for kind in TRANSPORTS {
+        let stage = Stage::new(kind);
         let mut replier = stage.replier();
         let mut requesters = [stage.requester(), stage.requester()];
         for requester in &mut requesters {
@@ -89,10 +89,10 @@ async fn replies_find_their_requests_in_any_order() {
             for (id, size) in (0..).zip(SIZES) {
                 ask(&mut **requester, id, pattern(size)).await;
                 let request = request(&mut **requester, &mut *replier).await;
-                assert!(request.body == pattern(size), "{medium:?}, {size} bytes");
+                assert!(request.body == pattern(size), "{kind:?}, {size} bytes");
                 assert_eq!(request.path.reply(&request.envelope, request.body), Ok(()));
                 let answer = answer(&mut **requester, &mut *replier).await;
-                assert!(answer == Some((id, pattern(size))), "{medium:?}, {size} bytes");
+                assert!(answer == Some((id, pattern(size))), "{kind:?}, {size} bytes");
             }
         }
         let mut requests = Vec::new();
@@ -115,7 +115,7 @@ async fn replies_find_their_requests_in_any_order() {
 
 #[tokio::test]
 async fn a_lost_replier_is_reported_once_and_the_next_one_found() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut requester = stage.requester();
     for id in 0..5 {
         let mut replier = stage.replier();
@@ -123,7 +123,7 @@ async fn a_lost_replier_is_reported_once_and_the_next_one_found() {
         ask(&mut *requester, id, Bytes::from_static(b"?")).await;
         let unanswered = request(&mut *requester, &mut *replier).await;
         drop(replier);
-        let mut bystander = Stage::new(Medium::Ipc).replier();
+        let mut bystander = Stage::new(TransportKind::Ipc).replier();
         assert_eq!(answer(&mut *requester, &mut *bystander).await, None);
         assert!(!requester.is_connected());
         assert_eq!(unanswered.path.reply(&unanswered.envelope, Bytes::new()), Err(RequesterGone));

@@ -1,7 +1,7 @@
 //! Long messages in shared memory between SCL's ends, and through the socket to everybody else.
 
 use super::stage::{ENDPOINT, Outgoing, Queued, Stage, next, pattern};
-use crate::transport::zeromq::Medium;
+use crate::transport::zeromq::TransportKind;
 use crate::transport::zeromq::zmtp::{SclReady, SocketType, hello};
 use crate::transport::{Endpoint, Frame, Receiver, Transport, TransportError};
 use bytes::Bytes;
@@ -43,7 +43,7 @@ pub(super) async fn until_shared(sender: &mut Outgoing, receiver: &mut dyn Recei
 
 #[tokio::test]
 async fn long_messages_are_in_shared_memory_and_short_ones_are_not() {
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     for (mut sender, mut receiver) in both(&stage, &endpoint()) {
         until_shared(&mut sender, &mut *receiver).await;
         for size in [LONG, 3, 16 << 10, (16 << 10) + 1, 0, 3 << 20, LONG] {
@@ -58,7 +58,7 @@ async fn long_messages_are_in_shared_memory_and_short_ones_are_not() {
 
 #[tokio::test]
 async fn loans_are_sent_as_they_are_and_those_of_others_as_copies() {
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     let [(mut first, mut to_first), (mut second, mut to_second)] = both(&stage, &endpoint());
     until_shared(&mut first, &mut *to_first).await;
     until_shared(&mut second, &mut *to_second).await;
@@ -94,7 +94,7 @@ impl crate::transport::LoanedMemory for Elsewhere {
 
 #[tokio::test]
 async fn what_is_kept_stays_valid_and_no_more_is_sent_than_the_queue() {
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     for (mut sender, mut receiver) in both(&stage, &endpoint()) {
         until_shared(&mut sender, &mut *receiver).await;
         sender.queue((0..40).map(|index| pattern(LONG + index)));
@@ -127,7 +127,7 @@ async fn poll_flushed(sender: &mut Outgoing, receiver: &mut dyn Receiver) {
 
 #[tokio::test]
 async fn a_receiver_of_the_newest_gets_it() {
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     for (mut sender, mut receiver) in both(&stage, &Endpoint { queue: 1, newest_only: true, ..endpoint() }) {
         until_shared(&mut sender, &mut *receiver).await;
         sender.queue((0..6).map(|index| pattern(LONG + index)));
@@ -143,7 +143,7 @@ async fn a_receiver_of_the_newest_gets_it() {
 
 #[tokio::test]
 async fn a_detached_link_sends_beyond_the_window_through_the_socket() {
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     for (mut sender, mut receiver) in both(&stage, &endpoint()) {
         until_shared(&mut sender, &mut *receiver).await;
         let cx = &mut Context::from_waker(Waker::noop());
@@ -170,7 +170,7 @@ async fn a_detached_link_sends_beyond_the_window_through_the_socket() {
 
 #[tokio::test]
 async fn plain_programs_and_ends_without_shared_memory_are_served_through_the_socket() {
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     let other_width = b" shm=iceoryx2-0.10-16,0";
     let words: [&[u8]; 3] = [b"", b"1 window=4096,1048576", &[b"1 window=4096,1048576", &other_width[..]].concat()];
     for word in words {
@@ -204,8 +204,8 @@ pub(super) fn hello_saying(words: &[u8]) -> Vec<u8> {
 
 #[tokio::test]
 async fn ends_that_listen_otherwise_are_sent_nothing_in_shared_memory() {
-    for medium in [Medium::Ipc, Medium::Tcp] {
-        let stage = Stage::new(medium);
+    for kind in [TransportKind::Ipc, TransportKind::Tcp] {
+        let stage = Stage::new(kind);
         for (mut sender, mut receiver) in both(&stage, &endpoint()) {
             sender.until_peers(1, &mut *receiver).await;
             sender.queue([pattern(LONG)]);
@@ -218,7 +218,7 @@ async fn ends_that_listen_otherwise_are_sent_nothing_in_shared_memory() {
 
 #[tokio::test]
 async fn too_little_memory_is_refused_with_sizes_before_anything_is_sent() {
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     let endpoint = Endpoint { queue: 100, longest: 1 << 50, ..Endpoint::new(ENDPOINT) };
     for refused in [stage.transport.publish(&endpoint).map(drop), stage.transport.pull(&endpoint).map(drop)] {
         let Err(TransportError::Refused { endpoint, reason }) = refused else { panic!("not refused") };

@@ -3,8 +3,8 @@
 use super::shared::{LONG, both, endpoint, hello_saying, until_shared};
 use super::stage::{ENDPOINT, Outgoing, Stage, next, pattern};
 use crate::transport::Transport;
-use crate::transport::zeromq::Medium;
-use crate::transport::zeromq::shared_memory::format;
+use crate::transport::zeromq::TransportKind;
+use crate::transport::zeromq::memory_format::memory_format;
 use crate::transport::zeromq::zmtp::sample;
 use scl_shm::{SampleSender, ServiceName, SharedMemory};
 use std::future::poll_fn;
@@ -24,7 +24,7 @@ impl Liar {
     async fn connect(stage: &Stage) -> Self {
         let mut receiver = stage.transport.pull(&endpoint()).unwrap();
         let mut stream = stage.connect_silently().await;
-        let words = format!("1 shm={}", format().unwrap());
+        let words = format!("1 shm={}", memory_format().unwrap());
         stream.write_all(&pusher_hello(words.as_bytes())).await.unwrap();
         let mut heard = Vec::new();
         let opened = b"X-SCL-SHM-OPEN";
@@ -40,7 +40,7 @@ impl Liar {
         })
         .await;
         let text = String::from_utf8_lossy(&heard).into_owned();
-        let service = text.split(&format!("shm={},", format().unwrap())).nth(1).unwrap()[..32].to_owned();
+        let service = text.split(&format!("shm={},", memory_format().unwrap())).nth(1).unwrap()[..32].to_owned();
         Self { stream, service: ServiceName::parse(&service).unwrap(), receiver }
     }
 
@@ -111,7 +111,7 @@ async fn announcements_that_do_not_fit_end_the_connection() {
         }),
     ];
     for (case, lie) in cases {
-        let stage = Stage::new(Medium::Shm);
+        let stage = Stage::new(TransportKind::Shm);
         let mut liar = Liar::connect(&stage).await;
         let mut sender = liar.sender(&stage);
         let command = lie(&mut sender);
@@ -127,7 +127,7 @@ fn send(sender: &mut SampleSender, length: usize) {
 
 #[tokio::test]
 async fn more_announcements_than_samples_end_the_connection() {
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     let mut liar = Liar::connect(&stage).await;
     let mut sender = liar.sender(&stage);
     for _ in 0..4 {
@@ -145,8 +145,8 @@ async fn more_announcements_than_samples_end_the_connection() {
 
 #[tokio::test]
 async fn samples_without_shared_memory_end_the_connection() {
-    for medium in [Medium::Ipc, Medium::Shm] {
-        let stage = Stage::new(medium);
+    for kind in [TransportKind::Ipc, TransportKind::Shm] {
+        let stage = Stage::new(kind);
         let mut receiver = stage.transport.pull(&endpoint()).unwrap();
         let mut stream = stage.connect_silently().await;
         stream.write_all(&[&pusher_hello(b"1")[..], &sample(1, 100)].concat()).await.unwrap();
@@ -165,12 +165,12 @@ async fn samples_without_shared_memory_end_the_connection() {
 #[tokio::test]
 async fn services_that_do_not_exist_leave_the_connection_to_the_socket() {
     // A puller that offers a service and claims to have opened it.
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     let listener = crate::runtime_dir::bind_ipc(&stage.dir, ENDPOINT).unwrap();
     listener.listener.set_nonblocking(true).unwrap();
     let puller = tokio::net::UnixListener::from_std(listener.listener).unwrap();
     let mut pusher = Outgoing::new(stage.transport.push(&endpoint()).unwrap());
-    let words = format!("1 window=100,1000000 shm={},{}", format().unwrap(), ServiceName::unique());
+    let words = format!("1 window=100,1000000 shm={},{}", memory_format().unwrap(), ServiceName::unique());
     let mut stream = pusher.during(puller.accept()).await.unwrap().0;
     let hello = hello_of(*b"\x04PULL", words.as_bytes());
     stream.write_all(&[&hello[..], b"\x04\x0f\x0eX-SCL-SHM-OPEN"].concat()).await.unwrap();
@@ -189,11 +189,11 @@ async fn services_that_do_not_exist_leave_the_connection_to_the_socket() {
 
 #[tokio::test]
 async fn a_malformed_service_name_ends_the_connection() {
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     for name in ["", "x", "../../etc", "0123456789ABCDEF0123456789ABCDEF"] {
         let mut publisher = Outgoing::new(stage.transport.publish(&endpoint()).unwrap());
         let mut stream = stage.connect_silently().await;
-        let words = format!("1 shm={},{name}", format().unwrap());
+        let words = format!("1 shm={},{name}", memory_format().unwrap());
         stream.write_all(&hello_saying(words.as_bytes())).await.unwrap();
         publisher.during(async { stream.read_to_end(&mut Vec::new()).await }).await.unwrap();
         assert!(publisher.peers.is_empty());
@@ -202,7 +202,7 @@ async fn a_malformed_service_name_ends_the_connection() {
 
 #[tokio::test]
 async fn a_receiver_that_leaves_loses_what_it_did_not_acknowledge() {
-    let stage = Stage::new(Medium::Shm);
+    let stage = Stage::new(TransportKind::Shm);
     for (mut sender, mut receiver) in both(&stage, &endpoint()) {
         until_shared(&mut sender, &mut *receiver).await;
         sender.queue((0..3).map(|_| pattern(LONG)));

@@ -1,7 +1,7 @@
 //! Ends in a temporary folder, and what moves them on.
 
 use crate::runtime_dir::{RuntimeDir, SystemDir};
-use crate::transport::zeromq::{Medium, ZeroMq};
+use crate::transport::zeromq::{TransportKind, ZeroMq};
 use crate::transport::{Endpoint, Frame, Link, Peer, PeerKind, Receiver, Sender, Transport};
 use bytes::Bytes;
 use std::collections::VecDeque;
@@ -19,11 +19,11 @@ pub(super) struct Stage {
 }
 
 impl Stage {
-    pub(super) fn new(medium: Medium) -> Self {
+    pub(super) fn new(kind: TransportKind) -> Self {
         let folder = TempDir::with_prefix("scl").unwrap();
         let variable = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| folder.path().into());
         let dir = RuntimeDir::locate(&variable).unwrap().system("rover").unwrap();
-        Self { _folder: folder, transport: ZeroMq::new(dir.clone(), medium), dir }
+        Self { _folder: folder, transport: ZeroMq::new(dir.clone(), kind), dir }
     }
 
     pub(super) fn publisher(&self) -> Outgoing {

@@ -3,7 +3,7 @@
 use super::ends::{answer, ask, echo};
 use super::stage::{ENDPOINT, Stage, next, pattern};
 use super::subject::{End, Role};
-use crate::transport::zeromq::Medium;
+use crate::transport::zeromq::TransportKind;
 use bytes::Bytes;
 use std::future::poll_fn;
 use zeromq::{
@@ -30,13 +30,13 @@ fn single(message: ZmqMessage) -> Bytes {
 
 #[tokio::test]
 async fn its_subscriber_and_puller_receive() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut publisher = Role::Publish.open(&stage);
     let mut socket: SubSocket = connect(&stage, &mut publisher).await;
     publisher.during(socket.subscribe("")).await.unwrap();
     check_sending(publisher, socket).await;
 
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut socket = PullSocket::new();
     socket.bind(&url(&stage)).await.unwrap();
     check_sending(Role::Push.open(&stage), socket).await;
@@ -54,12 +54,12 @@ async fn check_sending(sender: End, mut socket: impl SocketRecv) {
 
 #[tokio::test]
 async fn its_publisher_and_pusher_send() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut publisher = PubSocket::new();
     publisher.bind(&url(&stage)).await.unwrap();
     check_receiving(Role::Subscribe.open(&stage), publisher).await;
 
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut puller = Role::Pull.open(&stage);
     let socket: PushSocket = connect(&stage, &mut puller).await;
     check_receiving(puller, socket).await;
@@ -92,7 +92,7 @@ async fn check_receiving(receiver: End, mut socket: impl SocketSend) {
 #[tokio::test]
 async fn its_requesters_are_answered() {
     for dealer in [false, true] {
-        let stage = Stage::new(Medium::Ipc);
+        let stage = Stage::new(TransportKind::Ipc);
         let mut replier = Role::Reply.open(&stage);
         if dealer {
             let socket: DealerSocket = connect(&stage, &mut replier).await;
@@ -128,12 +128,12 @@ async fn check_replying(replier: End, mut socket: impl SocketSend + SocketRecv, 
 
 #[tokio::test]
 async fn its_repliers_answer() {
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut socket = RepSocket::new();
     socket.bind(&url(&stage)).await.unwrap();
     check_requesting(&stage, socket).await;
 
-    let stage = Stage::new(Medium::Ipc);
+    let stage = Stage::new(TransportKind::Ipc);
     let mut socket = RouterSocket::new();
     socket.bind(&url(&stage)).await.unwrap();
     check_requesting(&stage, socket).await;
@@ -147,7 +147,7 @@ async fn check_requesting(stage: &Stage, mut socket: impl SocketSend + SocketRec
     });
     let mut requester = stage.requester();
     poll_fn(|cx| requester.poll_connected(cx)).await;
-    let mut bystander = Stage::new(Medium::Ipc).replier();
+    let mut bystander = Stage::new(TransportKind::Ipc).replier();
     for (id, size) in (1..).zip(SIZES) {
         ask(&mut *requester, id, pattern(size)).await;
         assert!(answer(&mut *requester, &mut *bystander).await == Some((id, pattern(size))), "{size} bytes");

@@ -2,6 +2,7 @@
 
 use super::ProtocolError;
 use super::frame::{COMMAND, Header};
+use crate::transport::Resumed;
 use bytes::{Buf, Bytes};
 
 /// The longest context that an answer to a heartbeat repeats.
@@ -35,8 +36,12 @@ pub(in crate::transport::zeromq) enum Command {
     Pong,
     /// The peer closes the connection for this reason.
     Error(String),
-    /// Number of messages that the peer has taken so far.
-    Acknowledged(u64),
+    /// Number of messages that the peer's gate has taken so far, and of those among them that no longer wait there. An
+    /// older release does not say the second.
+    Acknowledged {
+        taken: u64,
+        received: u64,
+    },
     /// Newer messages wait for an acknowledgement.
     Behind,
     /// The peer wants to be told when no newer message waits, under this number.
@@ -58,6 +63,12 @@ pub(in crate::transport::zeromq) enum Command {
     Finish,
     /// The peer sends nothing more over this connection.
     Finished,
+    /// The peer does not answer the request of this number.
+    Refused(u64),
+    /// The next message was sent so many nanoseconds ago, before this end joined.
+    Latched(u64),
+    /// Which end the peer is, and what it has taken before.
+    Resume(Resumed),
     Unknown,
 }
 
@@ -84,13 +95,23 @@ impl Command {
     pub(super) fn parse(body: Bytes) -> Result<Self, ProtocolError> {
         let (name, mut content) = split(body)?;
         Ok(match &*name {
-            b"X-SCL-ACK" => Self::Acknowledged(number(content)?),
+            b"X-SCL-ACK" => {
+                let taken = number(content.split_to(content.len().min(8)))?;
+                let received = if content.is_empty() { taken } else { number(content)? };
+                Self::Acknowledged { taken, received }
+            }
             b"X-SCL-BEHIND" => Self::Behind,
             b"X-SCL-CATCH-UP" => Self::CatchUp(number(content)?),
             b"X-SCL-CAUGHT-UP" => Self::CaughtUp(number(content)?),
             b"X-SCL-FINISH" => Self::Finish,
             b"X-SCL-FINISHED" => Self::Finished,
             b"X-SCL-FLUSH" => Self::Flush,
+            b"X-SCL-REFUSED" => Self::Refused(number(content)?),
+            b"X-SCL-LATCHED" => Self::Latched(number(content)?),
+            b"X-SCL-RESUME" => {
+                let end = number(content.split_to(content.len().min(8)))?;
+                Self::Resume(Resumed { end, taken: number(content)? })
+            }
             b"X-SCL-SHM-OPEN" => Self::ShmOpen,
             b"X-SCL-SAMPLE" => {
                 let sequence = number(content.split_to(content.len().min(8)))?;
@@ -132,9 +153,9 @@ pub(in crate::transport::zeromq) fn pong(context: &[u8]) -> Vec<u8> {
     [Header::new(COMMAND, 5 + context.len()).as_bytes(), b"\x04PONG", context].concat()
 }
 
-/// From a receiving end: the number of messages taken so far.
-pub(in crate::transport::zeromq) fn acknowledgement(taken: u64) -> [u8; 20] {
-    numbered(b"\x09X-SCL-ACK", taken)
+/// From a receiving end: the number of messages taken so far, and of those among them that do not wait any more.
+pub(in crate::transport::zeromq) fn acknowledgement(taken: u64, received: u64) -> [u8; 28] {
+    numbered_twice(b"\x09X-SCL-ACK", taken, received)
 }
 
 /// From a receiving end: report when no newer message waits.
@@ -147,15 +168,31 @@ pub(in crate::transport::zeromq) fn caught_up(number: u64) -> [u8; 26] {
     numbered(b"\x0fX-SCL-CAUGHT-UP", number)
 }
 
+/// From a replying end: the request of this number is not answered.
+pub(in crate::transport::zeromq) fn refused(number: u64) -> [u8; 24] {
+    numbered(b"\x0dX-SCL-REFUSED", number)
+}
+
+/// From a sending end: the next message was sent so many nanoseconds ago, before the peer joined.
+pub(in crate::transport::zeromq) fn latched(age_ns: u64) -> [u8; 24] {
+    numbered(b"\x0dX-SCL-LATCHED", age_ns)
+}
+
+/// From a subscribing end, before it subscribes: which end it is, and what it has taken before.
+pub(in crate::transport::zeromq) fn resume(Resumed { end, taken }: Resumed) -> [u8; 31] {
+    numbered_twice(b"\x0cX-SCL-RESUME", end, taken)
+}
+
 /// From a sending end: a message of `length` bytes is in shared memory, as sample number `sequence`.
-#[cfg(feature = "iceoryx2")]
+#[cfg(feature = "shm")]
 pub(in crate::transport::zeromq) fn sample(sequence: u64, length: u64) -> [u8; 31] {
-    const NAME: &[u8; 13] = b"\x0cX-SCL-SAMPLE";
-    let mut command = [0; 31];
-    let first: [u8; 23] = numbered(NAME, sequence);
-    command[..23].copy_from_slice(&first);
-    command[1] = 29;
-    command[23..].copy_from_slice(&length.to_be_bytes());
+    numbered_twice(b"\x0cX-SCL-SAMPLE", sequence, length)
+}
+
+/// A command with two numbers.
+fn numbered_twice<const LENGTH: usize>(name: &[u8], first: u64, second: u64) -> [u8; LENGTH] {
+    let mut command = numbered(name, first);
+    command[LENGTH - 8..].copy_from_slice(&second.to_be_bytes());
     command
 }
 
@@ -164,7 +201,7 @@ fn numbered<const LENGTH: usize>(name: &[u8], number: u64) -> [u8; LENGTH] {
     let mut command = [0; LENGTH];
     command[..2].copy_from_slice(&[COMMAND, (LENGTH - 2) as u8]);
     command[2..2 + name.len()].copy_from_slice(name);
-    command[2 + name.len()..].copy_from_slice(&number.to_be_bytes());
+    command[2 + name.len()..][..8].copy_from_slice(&number.to_be_bytes());
     command
 }
 

@@ -6,7 +6,7 @@ use super::{PeerReady, ProtocolError, SocketType, greeting, ready};
 use bytes::{Buf, Bytes, BytesMut};
 
 /// The most frames that a message may have. SCL's own have three at most.
-pub(super) const FRAMES: usize = 16;
+const FRAMES: usize = 16;
 /// The longest command, and the most that the frames of a message may have beyond the limit of one message: more than
 /// any envelope needs.
 pub(in crate::transport::zeromq) const COMMAND_LIMIT: usize = 64 << 10;
@@ -196,7 +196,7 @@ impl Decoder {
         }
         if self.frames > 0 || head.has_more() {
             if self.frames + 1 + usize::from(head.has_more()) > FRAMES {
-                return Err(ProtocolError::TooManyFrames);
+                return Err(ProtocolError::TooManyFrames { limit: FRAMES });
             }
             // Neither sum can overflow: see `new`.
             if self.frame_bytes + head.body > self.max_size + COMMAND_LIMIT as u64 {

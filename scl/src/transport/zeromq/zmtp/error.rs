@@ -23,8 +23,8 @@ pub(in crate::transport::zeromq) enum ProtocolError {
     Flags(u8),
     #[error("the peer announced {announced} bytes; the limit is {limit}")]
     TooLong { announced: u64, limit: u64 },
-    #[error("the peer sent a message of more than {limit} frames", limit = super::decoder::FRAMES)]
-    TooManyFrames,
+    #[error("the peer sent a message of more than {limit} frames")]
+    TooManyFrames { limit: usize },
     #[error("the peer sent a malformed command")]
     MalformedCommand,
     #[error("the peer acknowledged {acknowledged} messages of {sent} sent")]

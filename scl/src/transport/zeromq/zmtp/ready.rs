@@ -1,58 +1,18 @@
 //! READY: what both sides say about themselves after the greeting.
 
-use super::super::shared_memory;
+use super::super::memory_format::memory_format;
 use super::frame::{COMMAND, Header};
-use super::{ProtocolError, greeting};
+use super::{ProtocolError, SocketType, greeting};
 use crate::transport::Window;
 use bytes::Buf;
-
-/// The socket types that SCL's ends are to their peers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::transport::zeromq) enum SocketType {
-    /// A publishing end.
-    XPub,
-    /// A subscribing end.
-    Sub,
-    /// A pushing end.
-    Push,
-    /// A pulling end.
-    Pull,
-    /// A requesting end.
-    Dealer,
-    /// A replying end.
-    Router,
-}
-
-impl SocketType {
-    pub(super) const ALL: [Self; 6] = [Self::XPub, Self::Sub, Self::Push, Self::Pull, Self::Dealer, Self::Router];
-
-    pub(in crate::transport::zeromq) fn name(self) -> &'static str {
-        match self {
-            Self::XPub => "XPUB",
-            Self::Sub => "SUB",
-            Self::Push => "PUSH",
-            Self::Pull => "PULL",
-            Self::Dealer => "DEALER",
-            Self::Router => "ROUTER",
-        }
-    }
-
-    fn peers(self) -> &'static [&'static [u8]] {
-        match self {
-            Self::XPub => &[b"SUB", b"XSUB"],
-            Self::Sub => &[b"PUB", b"XPUB"],
-            Self::Push => &[b"PULL"],
-            Self::Pull => &[b"PUSH"],
-            Self::Dealer => &[b"REP", b"ROUTER"],
-            Self::Router => &[b"REQ", b"DEALER"],
-        }
-    }
-}
 
 /// The property that tells SCL's ends from other ZeroMQ programs.
 const SCL_PROPERTY: &[u8] = b"X-SCL";
 /// The version of SCL's additions. One that differs in it is treated as a plain ZeroMQ program.
 const SCL_VERSION: &str = "1";
+
+/// The most requests without a reply for which a replier keeps room. One that announces more gets as much as for one.
+const MOST_IN_FLIGHT: usize = 4096;
 
 /// What a peer has said about itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -72,6 +32,10 @@ pub(in crate::transport::zeromq) struct SclReady {
     pub(in crate::transport::zeromq) newest_only: bool,
     /// Whether this sending end waits instead of dropping messages.
     pub(in crate::transport::zeromq) lossless: bool,
+    /// How many requests this requesting end may have sent without a reply, if more than one.
+    pub(in crate::transport::zeromq) in_flight: Option<usize>,
+    /// Whether this publishing end keeps its last message for those that join.
+    pub(in crate::transport::zeromq) latched: bool,
     /// Present if this end can share memory with one that has the same engine and user.
     pub(in crate::transport::zeromq) shm: Option<ShmReady>,
 }
@@ -106,8 +70,10 @@ impl SclReady {
             self.window.map_or_else(String::new, |Window { messages, bytes }| format!(" window={messages},{bytes}"));
         let newest = if self.newest_only { " newest" } else { "" };
         let lossless = if self.lossless { " lossless" } else { "" };
+        let latched = if self.latched { " latched" } else { "" };
+        let in_flight = self.in_flight.map_or_else(String::new, |requests| format!(" in-flight={requests}"));
         let shm = self.shm.map_or_else(String::new, ShmReady::encode);
-        format!("{SCL_VERSION}{window}{newest}{lossless}{shm}")
+        format!("{SCL_VERSION}{window}{newest}{lossless}{latched}{in_flight}{shm}")
     }
 
     /// Returns `None` for another version. Unknown words are ignored, so that the value can grow.
@@ -124,6 +90,10 @@ impl SclReady {
                 ready.newest_only = true;
             } else if word == "lossless" {
                 ready.lossless = true;
+            } else if let Some(requests) = word.strip_prefix("in-flight=") {
+                ready.in_flight = requests.parse().ok().filter(|&requests| requests <= MOST_IN_FLIGHT);
+            } else if word == "latched" {
+                ready.latched = true;
             } else if let Some(shm) = word.strip_prefix("shm=") {
                 ready.shm = ShmReady::parse(shm)?;
             }
@@ -136,18 +106,18 @@ impl ShmReady {
     /// What a connecting end says: that it can share memory, if its messages go one way. The listening end decides.
     pub(in crate::transport::zeromq) fn of_dialling(socket: SocketType) -> Option<Self> {
         let goes_one_way = matches!(socket, SocketType::Sub | SocketType::Push);
-        shared_memory::format().filter(|_| goes_one_way).map(|_| Self::default())
+        memory_format().filter(|_| goes_one_way).map(|_| Self::default())
     }
 
     fn encode(self) -> String {
-        let Some(format) = shared_memory::format() else { return String::new() };
+        let Some(format) = memory_format() else { return String::new() };
         let service = self.service.map_or_else(String::new, |service| format!(",{service}"));
         format!(" shm={format}{service}")
     }
 
     /// Returns `None` if the engine, its version, the width of pointers or the user is another one.
     fn parse(text: &str) -> Result<Option<Self>, ProtocolError> {
-        let Some(rest) = shared_memory::format().and_then(|format| text.strip_prefix(&*format)) else {
+        let Some(rest) = memory_format().and_then(|format| text.strip_prefix(&*format)) else {
             return Ok(None);
         };
         match rest.strip_prefix(',') {

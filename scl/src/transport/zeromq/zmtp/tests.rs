@@ -69,6 +69,7 @@ fn our_own_hello_is_understood_by_every_role() {
         window: Some(Window { messages: 64, bytes: 32768 }),
         newest_only: true,
         lossless: true,
+        latched: true,
         ..SclReady::default()
     };
     for (own, peer) in [(XPub, Sub), (Sub, XPub), (Push, Pull), (Pull, Push), (Dealer, Router), (Router, Dealer)] {
@@ -182,8 +183,9 @@ fn commands_are_understood_or_ignored() {
         &command("PING", b"\0\x07a context of more than 16 bytes"),
         &command("PING", b""),
         &command("WHATEVER", &[0; 400]),
-        &acknowledgement(u64::MAX),
-        &command("X-SCL-ACK", b"\0\0\0\0\0\0\0\x07and more of a later version"),
+        &acknowledgement(u64::MAX, 8),
+        &command("X-SCL-ACK", b"\0\0\0\0\0\0\0\x07"),
+        &command("X-SCL-ACK", b"\0\0\0\0\0\0\0\x07\0\0\0\0\0\0\0\x06and more of a later version"),
         BEHIND,
         &catch_up(8),
         &caught_up(9),
@@ -196,8 +198,9 @@ fn commands_are_understood_or_ignored() {
         Item::Command(Command::Ping(Bytes::from_static(b"a context of mor"))),
         Item::Command(Command::Ping(Bytes::new())),
         Item::Command(Command::Unknown),
-        Item::Command(Command::Acknowledged(u64::MAX)),
-        Item::Command(Command::Acknowledged(7)),
+        Item::Command(Command::Acknowledged { taken: u64::MAX, received: 8 }),
+        Item::Command(Command::Acknowledged { taken: 7, received: 7 }),
+        Item::Command(Command::Acknowledged { taken: 7, received: 6 }),
         Item::Command(Command::Behind),
         Item::Command(Command::CatchUp(8)),
         Item::Command(Command::CaughtUp(9)),
@@ -223,8 +226,8 @@ fn malformed_traffic_is_refused() {
         (announced(1 << 40), most(1 << 40)),
         (announced(1 << 63), most(1 << 63)),
         (announced(u64::MAX), most(u64::MAX)),
-        (more.repeat(16), TooManyFrames),
-        ([more.repeat(15), frame(0, b"the 16th"), more.repeat(16)].concat(), TooManyFrames),
+        (more.repeat(16), TooManyFrames { limit: 16 }),
+        ([more.repeat(15), frame(0, b"the 16th"), more.repeat(16)].concat(), TooManyFrames { limit: 16 }),
         ([&b"\x06"[..], &u64::MAX.to_be_bytes()].concat(), TooLong { announced: u64::MAX, limit: 65536 }),
     ];
     for (then, expected) in cases {

@@ -4,7 +4,7 @@ use super::super::outgoing::Outgoing;
 use super::*;
 
 fn header(sequence: u64) -> Header {
-    Header { kind: Kind::Whole, stream: 1, epoch: 7, attempt: 0, sequence }
+    Header { kind: Kind::Whole, stream: 1, epoch: 7, attempt: 0, sequence, latched: None }
 }
 
 fn probe(sequence: u64) -> Header {
@@ -89,7 +89,7 @@ fn any_sequence_of_losses_cuts_and_replacements_keeps_the_accounts() {
             random ^= random << 17;
             random % limit
         };
-        let (mut outgoing, mut epoch) = (Outgoing::new(8, 1), 1);
+        let (mut outgoing, mut epoch) = (Outgoing::new(8, false, 1), 1);
         let mut incoming = Incoming::new(epoch, 100);
         let (mut link, mut answers) = (VecDeque::new(), VecDeque::new());
         let (mut pushed, mut given_up, mut expected, mut taken) = (0_u64, 0, 0_u64, 0);
@@ -99,7 +99,7 @@ fn any_sequence_of_losses_cuts_and_replacements_keeps_the_accounts() {
             let is_calm = step > 1500;
             match next(if is_calm { 8 } else { 11 }) {
                 0 if pushed < (if is_calm { 110 } else { 100 }) && outgoing.may_push(8) => {
-                    outgoing.push(Bytes::copy_from_slice(&pushed.to_be_bytes()));
+                    outgoing.push(Bytes::copy_from_slice(&pushed.to_be_bytes()), None);
                     pushed += 1;
                 }
                 0 | 1 => link.extend(outgoing.emit()),

@@ -14,9 +14,9 @@ fn ack(received: u64, taken: u64, seen: u64, attempt: u32) -> Ack {
 }
 
 fn matched_with(count: u8) -> Outgoing {
-    let mut outgoing = Outgoing::new(100, 1);
+    let mut outgoing = Outgoing::new(100, false, 1);
     outgoing.matched(7);
-    (0..count).for_each(|number| outgoing.push(message(number)));
+    (0..count).for_each(|number| outgoing.push(message(number), None));
     assert_eq!(emit(&mut outgoing).len(), usize::from(count));
     outgoing
 }
@@ -44,7 +44,7 @@ fn the_same_receiver_gets_what_is_unacknowledged_again_and_another_one_does_not(
     outgoing.unmatched();
     assert_eq!(outgoing.matched(8), 2);
     assert_eq!(outgoing.unacknowledged(), 0);
-    outgoing.push(message(9));
+    outgoing.push(message(9), None);
     assert_eq!(emit(&mut outgoing), [1]);
     let of_another = ack(1, 1, 1, 0);
     assert_eq!(outgoing.acknowledged(&of_another), Progress::default());
@@ -53,8 +53,8 @@ fn the_same_receiver_gets_what_is_unacknowledged_again_and_another_one_does_not(
 
 #[test]
 fn what_never_left_is_not_given_up() {
-    let mut outgoing = Outgoing::new(100, 1);
-    outgoing.push(message(0));
+    let mut outgoing = Outgoing::new(100, false, 1);
+    outgoing.push(message(0), None);
     assert_eq!(outgoing.matched(7), 0);
     outgoing.unmatched();
     assert_eq!(outgoing.matched(8), 0);
@@ -74,7 +74,7 @@ fn a_new_stream_does_not_wait_for_what_was_abandoned() {
     let mut outgoing = matched_with(2);
     outgoing.abandon(2);
     assert_eq!(outgoing.unacknowledged(), 0);
-    outgoing.push(message(3));
+    outgoing.push(message(3), None);
     let (header, _) = outgoing.emit().expect("a message");
     assert_eq!((header.stream, header.sequence), (2, 1));
     assert_eq!(outgoing.acknowledged(&ack(2, 2, 2, 0)), Progress::default());
@@ -85,10 +85,26 @@ fn a_flush_is_asked_for_once_for_the_same_messages() {
     let mut outgoing = matched_with(1);
     assert!(outgoing.request_flush());
     assert!(!outgoing.request_flush());
-    outgoing.push(message(1));
+    outgoing.push(message(1), None);
     emit(&mut outgoing);
     assert!(outgoing.request_flush());
     assert_eq!(outgoing.probe().map(|probe| probe.kind), Some(Kind::Probe { flush: true }));
     outgoing.acknowledged(&ack(2, 2, 2, 0));
     assert_eq!(outgoing.probe().map(|probe| probe.kind), Some(Kind::Probe { flush: false }));
+}
+
+#[test]
+fn what_waits_for_another_receiver_ends_with_the_latched_message() {
+    for latches in [false, true] {
+        let mut outgoing = Outgoing::new(100, latches, 1);
+        let before = Instant::now();
+        outgoing.matched(7);
+        outgoing.unmatched();
+        (0..2).for_each(|number| outgoing.push(message(number), None));
+        assert_eq!(outgoing.matched(8), 0);
+        outgoing.push(message(2), None);
+        let emitted: Vec<_> = std::iter::from_fn(|| outgoing.emit()).map(|(header, _)| header.latched).collect();
+        assert_eq!(emitted.iter().map(Option::is_some).collect::<Vec<_>>(), [false, latches, false]);
+        assert!(emitted.iter().flatten().all(|sent| *sent >= before), "when it was sent");
+    }
 }

@@ -1,0 +1,26 @@
+//! The tests of the command line that take more than Rust and a C compiler: other languages, editors, readers of recordings, and
+//! programs in Python that `scl run` starts.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod editor;
+#[cfg(all(feature = "run", feature = "generate"))]
+mod languages;
+mod lsp;
+#[cfg(feature = "record")]
+mod mcap;
+#[cfg(feature = "record")]
+#[allow(dead_code, reason = "the other tests use the rest")]
+#[path = "../rover/mod.rs"]
+mod rover;
+#[cfg(feature = "run")]
+mod run_group;
+#[cfg(feature = "run")]
+mod run_hosts;
+#[cfg(feature = "run")]
+mod run_ready;
+#[cfg(feature = "new")]
+mod rust_analyzer;
+mod schema;
+#[allow(dead_code, reason = "the other tests use the rest")]
+#[path = "../system/mod.rs"]
+mod system;

@@ -1,0 +1,395 @@
+//! `scl run --host`: the components of one host, and its gateway, which is a script here.
+
+use crate::system::{Started, System, kill};
+use expect_test::{Expect, expect};
+use std::os::unix::fs::PermissionsExt;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+const TOPOLOGY: &str = "\
+system: rover
+components:
+  - name: sensor
+    gates: [fix: pub]
+  - name: display
+    gates: [fix: sub]
+connections: [[sensor.fix, display.fix]]
+";
+
+/// Says which components run, and that they are ready; ends when told to.
+const PROGRAM: &str = "\
+#!/usr/bin/env python3
+import os, signal, socket, sys
+signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTERM])
+if sys.argv[1:2] == ['check']:
+    if os.path.exists('refused'): sys.exit('error: the certificate has expired')
+    sys.exit(0)
+print(os.getpid(), *sys.argv[1:], flush=True)
+socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM).sendto(b'READY=1', os.environ['NOTIFY_SOCKET'])
+signal.sigwait([signal.SIGTERM])
+";
+
+const LAUNCH: &str = "\
+components:
+  sensor: {command: [./program, sensor]}
+  display: {command: [./program, display]}
+hosts:
+  board: {address: 192.0.2.10, components: [sensor]}
+  ground: {address: 192.0.2.20, components: [display]}
+gateway: {port: 7447, certificates: keys}
+";
+
+/// A system with a `scl` of its own, so that no other gateway lies beside it.
+struct Hosts {
+    system: System,
+    bin: tempfile::TempDir,
+}
+
+impl Hosts {
+    fn new(with_gateway: bool) -> Self {
+        let files = [("launch.yaml", LAUNCH), ("topology.yaml", TOPOLOGY), ("program", PROGRAM)];
+        let system = System::of_files(&files);
+        let mode = |path: PathBuf| std::fs::set_permissions(path, PermissionsExt::from_mode(0o755)).unwrap();
+        mode(system.path("program"));
+        // In the file system of the binary, which is linked to.
+        let bin = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).unwrap();
+        std::fs::hard_link(env!("CARGO_BIN_EXE_scl"), bin.path().join("scl")).unwrap();
+        if with_gateway {
+            let gateway = bin.path().join("scl-gateway");
+            std::fs::write(&gateway, PROGRAM).unwrap();
+            mode(gateway);
+        }
+        Self { system, bin }
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let plain = self.system.scl(&[]);
+        let mut command = Command::new(self.bin.path().join("scl"));
+        command.args(arguments).current_dir(self.system.path(""));
+        command.envs(plain.get_envs().filter_map(|(name, value)| Some((name, value?))));
+        command
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().unwrap()
+    }
+
+    fn start(&self, arguments: &[&str]) -> Started {
+        Started::spawn(&mut self.command(arguments))
+    }
+
+    /// What the gateway prints after its process id.
+    fn gateway_arguments(&self) -> String {
+        let folder = self.system.path("").canonicalize().unwrap();
+        let folder = folder.display();
+        format!("run --topology {folder}/topology.yaml --launch {folder}/launch.yaml --host board")
+    }
+
+    fn process_of(line: &str) -> u32 {
+        line.split(' ').nth(2).and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("{line}"))
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+#[test]
+fn the_components_of_the_host_and_its_gateway_are_started_and_the_gateway_is_stopped_last() {
+    let hosts = Hosts::new(true);
+    let mut run = hosts.start(&["run", "--host", "board"]);
+    run.wait_for_error("all components are ready");
+    run.signal("-TERM");
+    let (status, out, err) = run.finish();
+    assert_eq!(status.code(), Some(0), "{err}");
+    assert!(
+        out.lines().any(|line| line.starts_with("gateway | ") && line.ends_with(&hosts.gateway_arguments())),
+        "{out}"
+    );
+    assert!(out.contains(" sensor\n") && !out.contains("display"), "{out}");
+    let ended =
+        |name: &str| err.find(&format!("{name}  ended with exit code 0")).unwrap_or_else(|| panic!("{name}: {err}"));
+    assert!(ended("sensor ") < ended("gateway"), "{err}");
+}
+
+#[test]
+fn a_gateway_that_ends_is_started_again_and_the_components_go_on() {
+    let hosts = Hosts::new(true);
+    let mut run = hosts.start(&["run", "--host", "board"]);
+    let (mut sensor, mut gateways) = (None, Vec::new());
+    while gateways.len() < 3 {
+        let line = run.next_line().unwrap();
+        if line.starts_with("gateway") {
+            gateways.push(Hosts::process_of(&line));
+            if gateways.len() < 3 {
+                kill("-KILL", *gateways.last().unwrap());
+            }
+        } else {
+            assert_eq!(sensor.replace(line.clone()), None, "the sensor was started again");
+        }
+    }
+    run.signal("-TERM");
+    let (status, _, err) = run.finish();
+    assert_eq!(status.code(), Some(0), "{err}");
+    assert!(err.contains("scl: program `gateway` was restarted twice; last reason: killed by signal 9"), "{err}");
+}
+
+#[test]
+fn a_gateway_that_cannot_run_is_known_before_anything_is_started() {
+    let hosts = Hosts::new(true);
+    hosts.system.write("refused", "");
+    let output = hosts.run(&["run", "--host", "board"]);
+    expect![[r#"
+        error: the certificate has expired
+        error: the gateway cannot run with these files
+          = note: nothing was started
+
+    "#]]
+    .assert_eq(&text(&output.stderr));
+    assert_eq!((output.status.code(), text(&output.stdout)), (Some(2), String::new()));
+}
+
+#[test]
+fn a_second_run_of_the_host_needs_no_second_gateway() {
+    let hosts = Hosts::new(false);
+    let mut run = hosts.start(&["run", "--host", "board", "--only", "sensor"]);
+    run.wait_until("sensor", |line| line.starts_with("sensor | ") && line.ends_with(" sensor"));
+    run.signal("-TERM");
+    let (status, out, err) = run.finish();
+    assert_eq!((status.code(), out.as_str()), (Some(0), ""), "{err}");
+    assert!(!err.contains("gateway"), "{err}");
+}
+
+#[test]
+fn without_a_host_everything_runs_here_and_that_is_said() {
+    let hosts = Hosts::new(false);
+    let mut run = hosts.start(&["run"]);
+    run.wait_for_error("note: without `--host`, the components of all hosts run on this machine, without gateways");
+    run.wait_for_error("all components are ready");
+    run.signal("-TERM");
+    let (status, out, _) = run.finish();
+    assert_eq!(status.code(), Some(0));
+    assert!(out.contains(" sensor\n") && out.contains(" display\n"), "{out}");
+}
+
+#[track_caller]
+fn check(files: &[(&str, &str)], arguments: &[&str], expected: &Expect) {
+    let hosts = Hosts::new(true);
+    files.iter().for_each(|(name, text)| hosts.system.write(name, text));
+    let output = hosts.run(arguments);
+    let folder = hosts.system.path("").canonicalize().unwrap();
+    expected.assert_eq(&text(&output.stderr).replace(&*folder.to_string_lossy(), "FOLDER"));
+    assert_eq!((output.status.code(), text(&output.stdout)), (Some(2), String::new()));
+}
+
+#[test]
+fn a_missing_gateway_program_is_explained() {
+    let hosts = Hosts::new(false);
+    let output = hosts.command(&["run", "--host", "board"]).env("PATH", "/nowhere").output().unwrap();
+    expect![[r#"
+        error: the program `scl-gateway` is not installed, which connects the hosts
+          = help: install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`
+          = note: it is looked for beside `scl`, then in PATH
+
+    "#]]
+    .assert_eq(&text(&output.stderr));
+    let output = hosts.command(&["gateway", "run"]).env("PATH", "/nowhere").output().unwrap();
+    expect![[r#"
+        error: there is no command `gateway`
+          = help: install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`
+          = note: nor is there a program `scl-gateway` beside `scl` or in PATH
+    "#]]
+    .assert_eq(&text(&output.stderr));
+}
+
+#[test]
+fn unknown_hosts_get_a_suggestion() {
+    check(
+        &[],
+        &["run", "--host", "bord"],
+        &expect![[r#"
+        error: unknown host `bord`
+         --> ./launch.yaml
+          = help: did you mean `board`?
+          = note: the launch file has the hosts `board`, `ground`
+
+    "#]],
+    );
+    check(
+        &[("launch.yaml", "components: {sensor: {command: ls}}")],
+        &["run", "--host", "board"],
+        &expect![[r#"
+        error: the launch file has no `hosts`
+         --> ./launch.yaml
+          = help: write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}` and `gateway: {port: 7447}`
+
+    "#]],
+    );
+    check(
+        &[],
+        &["run", "--host", "board", "--only", "display"],
+        &expect![[r#"
+            error: unknown component `display` in `--only`
+              = note: host `board` has the components `sensor`, `gateway`
+
+        "#]],
+    );
+}
+
+#[test]
+fn every_mistake_in_hosts_is_reported() {
+    check(
+        &[(
+            "launch.yaml",
+            "\
+components:
+  sensor: {command: ls}
+hosts:
+  board: {adress: 192.0.2.10, components: [sensor, dsplay], colour: red}
+  ground: {address: 192.0.2.20:7447, components: sensor, port: 70000}
+  a b: {address: 192.0.2.30, components: [sensor]}
+  authority: {address: 192.0.2.40, components: [sensor]}
+  x: {}
+  y: 192.0.2.50
+gateway: {prt: 7447, insecure: yes}
+",
+        )],
+        &["run"],
+        &expect![[r#"
+            error: unknown key `prt` in `gateway`
+             --> ./launch.yaml:10:11
+              = help: did you mean `port`?
+
+            error: `insecure` is `true` or `false`, not `yes`
+             --> ./launch.yaml:10:22
+              = help: did you mean `insecure: true`?
+
+            error: unknown key `adress` in host `board`
+             --> ./launch.yaml:4:11
+              = help: did you mean `address`?
+
+            error: unknown key `colour` in host `board`
+             --> ./launch.yaml:4:61
+              = note: the keys are `address`, `components`, `port`
+
+            error: unknown component `dsplay`
+             --> ./launch.yaml:4:31
+              = help: did you mean `display`?
+              = note: the topology has the components `sensor`, `display`
+
+            error: `address` is an address alone, not `192.0.2.20:7447`
+             --> ./launch.yaml:5:12
+              = help: write `address: 192.0.2.20, port: 7447`
+
+            error: `port` is a number, 1 to 65535, not `70000`
+             --> ./launch.yaml:5:58
+
+            error: host `ground` has no list of `components`
+             --> ./launch.yaml:5:38
+              = help: write `components: [sensor, controller]`
+
+            error: `a b` cannot be the name of a host
+             --> ./launch.yaml:6:3
+              = note: it has up to 63 letters, digits, `_` and `-`, and starts with a letter or digit
+
+            error: no host can be called `authority`
+             --> ./launch.yaml:7:3
+              = note: this is the folder of the authority that signs the certificates
+
+            error: host `x` has no `address`
+             --> ./launch.yaml:8:3
+              = help: write `address: 192.0.2.10`, as the other hosts reach it
+
+            error: host `x` has no list of `components`
+             --> ./launch.yaml:8:3
+              = help: write `components: [sensor, controller]`
+
+            error: the entry of host `y` is not a mapping
+             --> ./launch.yaml:9:3
+              = help: write `y: {address: 192.0.2.10, components: [sensor]}`
+
+        "#]],
+    );
+}
+
+#[test]
+fn hosts_must_fit_together() {
+    check(
+        &[(
+            "launch.yaml",
+            "\
+components:
+  sensor: {command: ls}
+hosts:
+  board: {address: 192.0.2.10, components: [sensor]}
+  ground: {address: 192.0.2.10, components: [sensor, sensor]}
+gateway: {port: 7447}
+",
+        )],
+        &["run"],
+        &expect![[r#"
+            error: component `sensor` is on two hosts, `board` and `ground`
+             --> ./launch.yaml:5:33
+              = help: remove it from one of the lists
+
+            error: component `sensor` is on two hosts, `board` and `ground`
+             --> ./launch.yaml:5:33
+              = help: remove it from one of the lists
+
+            error: component `display` is on no host
+             --> ./launch.yaml:3:1
+              = help: add each to `components` of the host that runs it
+
+            error: the hosts `board` and `ground` have the same address, `192.0.2.10:7447`
+             --> ./launch.yaml:5:12
+              = help: on one machine, give each a `port` of its own
+
+            error: host `board` is not on loopback, and `gateway` has no `certificates`
+             --> ./launch.yaml:4:11
+              = help: write `gateway: {port: 7447, certificates: ./keys}`, and run `scl gateway keys`
+              = note: without certificates everybody on the network could listen and send
+
+        "#]],
+    );
+    let one = "components: {sensor: {command: ls}}\nhosts: {a: {address: 0.0.0.0, components: [sensor, display]}}\n";
+    check(
+        &[("launch.yaml", one)],
+        &["run"],
+        &expect![[r#"
+        error: the other hosts cannot connect to `0.0.0.0`
+         --> ./launch.yaml:2:13
+          = help: write the address of one of the host's network interfaces
+
+        error: `gateway` is missing, which the hosts need
+         --> ./launch.yaml:2:1
+          = help: write `gateway: {port: 7447, certificates: ./keys}`
+
+    "#]],
+    );
+    let one = "components: {sensor: {command: ls}}\nhosts: []\ngateway: 7447\n";
+    check(
+        &[("launch.yaml", one)],
+        &["run"],
+        &expect![[r#"
+        error: `gateway` is a mapping, not `7447`
+         --> ./launch.yaml:3:1
+          = help: write `gateway: {port: 7447, certificates: ./keys}`
+
+        error: `hosts` is a mapping from names to entries, not a list
+         --> ./launch.yaml:2:1
+          = help: write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`
+
+    "#]],
+    );
+    let one = "components: {sensor: {command: ls}}\ngateway: {port: 7447}\n";
+    check(
+        &[("launch.yaml", one)],
+        &["run"],
+        &expect![[r#"
+        error: `gateway` has no effect without `hosts`
+         --> ./launch.yaml:2:1
+          = help: write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`
+
+    "#]],
+    );
+}

@@ -1,0 +1,153 @@
+//! Parsing records whose lengths cannot be trusted, for everything that reads recordings.
+//!
+//! The library reserves as much memory as a length says. So a record's lengths are compared with its content first, and a
+//! chunk may become no longer than its compression allows.
+
+use mcap::parse_record;
+use mcap::records::{Record, op};
+use mcap::sans_io::linear_reader::LinearReaderOptions;
+use std::borrow::Cow;
+
+/// Greatest ratio of LZ4: a byte of a length stands for 255 bytes.
+const MOST_COMPRESSION: usize = 255;
+
+/// What a chunk may contain however short it is.
+const SHORT: usize = 64 << 10;
+
+/// Records, and chunks after decompression, that are longer are taken for garbage.
+pub(crate) const LONGEST: usize = 1 << 30;
+
+/// Parses one record; `None` if it is not what its opcode says. Records of the index are not parsed: nothing here needs
+/// them.
+pub(crate) fn parse(opcode: u8, content: &[u8]) -> Option<Record<'_>> {
+    match fields(opcode) {
+        None => Some(Record::Unknown { opcode, data: Cow::Borrowed(content) }),
+        Some(fields) => fits(fields, content).then(|| parse_record(opcode, content).ok())?,
+    }
+}
+
+/// Options for reading one chunk of this length in the file.
+pub(crate) fn chunk_options(length: usize) -> LinearReaderOptions {
+    LinearReaderOptions::default()
+        .with_skip_start_magic(true)
+        .with_skip_end_magic(true)
+        .with_record_length_limit(length.saturating_mul(MOST_COMPRESSION).saturating_add(SHORT).min(LONGEST))
+}
+
+/// A part of a record's content.
+#[derive(Debug, Clone, Copy)]
+enum Field {
+    /// This many bytes.
+    Fixed(usize),
+    /// A text, map of texts or block of bytes after its length in four bytes.
+    Sized,
+    /// A map of texts.
+    TextMap,
+    /// A block of bytes after its length in eight bytes.
+    LongSized,
+}
+
+/// The fields up to the last one with a length; `None` for records that are not parsed.
+fn fields(opcode: u8) -> Option<&'static [Field]> {
+    use Field::{Fixed, LongSized, Sized, TextMap};
+    Some(match opcode {
+        op::HEADER => &[Sized, Sized],
+        op::SCHEMA => &[Fixed(2), Sized, Sized, Sized],
+        op::CHANNEL => &[Fixed(4), Sized, Sized, TextMap],
+        op::MESSAGE => &[Fixed(22)],
+        op::ATTACHMENT => &[Fixed(16), Sized, Sized, LongSized, Fixed(4)],
+        op::METADATA => &[Sized, TextMap],
+        _ => return None,
+    })
+}
+
+fn fits(fields: &[Field], content: &[u8]) -> bool {
+    let mut rest = content;
+    fields.iter().all(|field| skip(*field, &mut rest).is_some())
+}
+
+/// Removes a field from the beginning of `rest`, and returns its bytes without the length.
+fn skip<'c>(field: Field, rest: &mut &'c [u8]) -> Option<&'c [u8]> {
+    let length = match field {
+        Field::Fixed(length) => length,
+        Field::LongSized => usize::try_from(u64::from_le_bytes(take(8, rest)?.try_into().ok()?)).ok()?,
+        Field::Sized | Field::TextMap => usize::try_from(u32::from_le_bytes(take(4, rest)?.try_into().ok()?)).ok()?,
+    };
+    let content = take(length, rest)?;
+    let mut texts = if matches!(field, Field::TextMap) { content } else { &[] };
+    while !texts.is_empty() {
+        skip(Field::Sized, &mut texts)?;
+    }
+    Some(content)
+}
+
+fn take<'c>(length: usize, rest: &mut &'c [u8]) -> Option<&'c [u8]> {
+    let (taken, left) = rest.split_at_checked(length)?;
+    *rest = left;
+    Some(taken)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mcap::records::{AttachmentHeader, Channel, Header, Metadata, SchemaHeader};
+    use std::collections::BTreeMap;
+
+    fn text(text: &str) -> Vec<u8> {
+        [&u32::try_from(text.len()).unwrap().to_le_bytes()[..], text.as_bytes()].concat()
+    }
+
+    fn map(pairs: &[(&str, &str)]) -> Vec<u8> {
+        let texts: Vec<u8> = pairs.iter().flat_map(|(key, value)| [text(key), text(value)].concat()).collect();
+        [&u32::try_from(texts.len()).unwrap().to_le_bytes()[..], &texts].concat()
+    }
+
+    /// A record of each kind that has lengths, as its opcode and content.
+    fn records() -> [(u8, Vec<u8>); 5] {
+        [
+            (op::HEADER, [text("scl"), text("scl 0.1.0")].concat()),
+            (op::SCHEMA, [vec![1, 0], text("rover.Event"), text("protobuf"), text("descriptors")].concat()),
+            (op::CHANNEL, [vec![1, 0, 1, 0], text("/sensor/log"), text("json"), map(&[("kind", "pub")])].concat()),
+            (
+                op::ATTACHMENT,
+                [&[0; 16][..], &text("plan"), &text("json"), &[2, 0, 0, 0, 0, 0, 0, 0], b"{}", &[0; 4]].concat(),
+            ),
+            (op::METADATA, [text("totals"), map(&[("system", "rover"), ("lost", "0")])].concat()),
+        ]
+    }
+
+    #[test]
+    fn sound_records_are_parsed() {
+        let parsed = records();
+        let parsed: Vec<Record<'_>> = parsed.iter().map(|(opcode, content)| parse(*opcode, content).unwrap()).collect();
+        let pair = |(key, value): (&str, &str)| (key.to_owned(), value.to_owned());
+        let metadata = BTreeMap::from([("system", "rover"), ("lost", "0")].map(pair));
+        assert!(matches!(&parsed[0], Record::Header(Header { profile, .. }) if profile == "scl"));
+        assert!(matches!(&parsed[1], Record::Schema { header: SchemaHeader { id: 1, .. }, .. }));
+        assert!(matches!(&parsed[2], Record::Channel(Channel { topic, .. }) if topic == "/sensor/log"));
+        assert!(
+            matches!(&parsed[3], Record::Attachment { header: AttachmentHeader { name, .. }, .. } if name == "plan")
+        );
+        assert!(
+            matches!(&parsed[4], Record::Metadata(Metadata { name, metadata: found }) if name == "totals" && *found == metadata)
+        );
+    }
+
+    /// With any four bytes replaced by a huge number, which often makes one of the lengths huge, nothing is reserved for
+    /// it: the address space of this test would not be large enough for all of them.
+    #[test]
+    fn lengths_beyond_the_record_are_refused() {
+        let mut refused = 0;
+        for (opcode, content) in records() {
+            for at in 0..content.len().saturating_sub(4) {
+                let mut damaged = content.clone();
+                damaged[at..at + 4].copy_from_slice(&(u32::MAX - 7).to_le_bytes());
+                refused += usize::from(parse(opcode, &damaged).is_none());
+            }
+            for length in 0..content.len() {
+                assert!(parse(opcode, &content[..length]).is_none(), "{opcode} cut at {length}");
+            }
+        }
+        assert!(refused > 50, "{refused}");
+    }
+}

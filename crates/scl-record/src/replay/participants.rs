@@ -1,0 +1,137 @@
+//! Which components are played, and which run.
+
+use super::ReplayOptions;
+use crate::recording::type_and_codec;
+use scl::runtime_dir::{AnnouncedEndpoint, Announcement, ComponentProcess, ComponentState, RuntimeDir, SystemDir};
+use scl_plan::{ConnectionPlan, GatePlan, Plan, SystemPlan};
+use scl_terminal::{Problem, quoted_list};
+
+/// Who takes part in a replay.
+#[derive(Debug)]
+pub(super) struct Participants {
+    /// The name of the system in which the replay takes place.
+    pub(super) system: String,
+    pub(super) played: Vec<Plan>,
+    pub(super) running: Vec<(String, ComponentProcess)>,
+}
+
+impl Participants {
+    /// Chooses the components: the named ones, or all that are not running.
+    ///
+    /// # Errors
+    /// A component is unknown or runs, all of them run, or a running one has another contract.
+    pub(super) fn choose(plan: &SystemPlan, options: &ReplayOptions) -> Result<Self, Problem> {
+        let system = system_name(plan, options)?;
+        let dir = RuntimeDir::locate(&|name| std::env::var_os(name)).and_then(|dir| dir.system(&system));
+        let dir = dir.map_err(|error| problem_of(&error))?;
+        let state = |plan: &Plan| match dir.state(&plan.component) {
+            ComponentState::Running(holder) => Some((plan.component.clone(), holder)),
+            _ => None,
+        };
+        let running: Vec<_> = plan.components.iter().filter_map(state).collect();
+        let is_running = |name: &str| running.iter().find(|(running, _)| running == name);
+        let played: Vec<Plan> = if options.components.is_empty() {
+            plan.components.iter().filter(|plan| is_running(&plan.component).is_none()).cloned().collect()
+        } else {
+            let named = options.components.iter().map(|name| match is_running(name) {
+                Some((_, holder)) => Err(already_running(name, *holder)),
+                None => plan.component(name).cloned().map_err(|error| unknown(plan, &error.to_string())),
+            });
+            named.collect::<Result<_, _>>()?
+        };
+        if played.is_empty() {
+            let names = quoted_list(plan.components.iter().map(|plan| plan.component.as_str()));
+            return Err(Problem::new("nothing can be replayed: all recorded components are running")
+                .help("stop those that the replay is to replace, or replay into another system with `--system`")
+                .note(format!("the recording has {names}")));
+        }
+        let cast = Self { system, played, running };
+        cast.check_contracts(&dir)?;
+        Ok(cast)
+    }
+
+    /// Whether a component is played.
+    pub(super) fn plays(&self, component: &str) -> bool {
+        self.played.iter().any(|plan| plan.component == component)
+    }
+
+    /// Why a component is not played, for reports.
+    pub(super) fn why_not(&self, component: &str) -> String {
+        match self.running.iter().find(|(name, _)| name == component) {
+            Some((name, holder)) => format!("`{name}` is running as {holder}"),
+            None => format!("`{component}` is not played"),
+        }
+    }
+
+    fn check_contracts(&self, dir: &SystemDir) -> Result<(), Problem> {
+        for plan in &self.played {
+            for gate in &plan.gates {
+                for connection in &gate.connections {
+                    check_contract(dir, plan, gate, connection)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The name as the runtime chooses it.
+fn system_name(plan: &SystemPlan, options: &ReplayOptions) -> Result<String, Problem> {
+    if let Some(name) = &options.system {
+        return Ok(name.clone());
+    }
+    match std::env::var_os("SCL_SYSTEM").filter(|name| !name.is_empty()) {
+        None => Ok(plan.system.clone()),
+        Some(name) => name.into_string().map_err(|name| {
+            Problem::new(format!("`SCL_SYSTEM` is `{}`, which is not a name in UTF-8", name.to_string_lossy()))
+                .help("name the system with `--system`")
+        }),
+    }
+}
+
+/// Compares one connection with what the running peer announces. Without this, both ends would wait for each other.
+fn check_contract(dir: &SystemDir, plan: &Plan, gate: &GatePlan, connection: &ConnectionPlan) -> Result<(), Problem> {
+    let ConnectionPlan { peer_component, peer_gate, contract, .. } = connection;
+    if !matches!(dir.state(peer_component), ComponentState::Running(_)) {
+        return Ok(());
+    }
+    let Some(announcement) = Announcement::read(dir, peer_component) else { return Ok(()) };
+    let own = format!("{}.{}", plan.component, gate.name);
+    let connects =
+        |endpoint: &&AnnouncedEndpoint| !endpoint.tap && endpoint.gate == *peer_gate && endpoint.peers.contains(&own);
+    let message = match announcement.endpoints.iter().find(connects) {
+        Some(endpoint) if endpoint.contract == *contract => return Ok(()),
+        Some(AnnouncedEndpoint { payload, codec, .. }) => format!(
+            "`{own}` was recorded as {}, but the running `{peer_component}.{peer_gate}` was built for {}",
+            type_and_codec(Some(&gate.payload.to_string()), &gate.codec),
+            type_and_codec(Some(payload), codec),
+        ),
+        None => {
+            format!("`{own}` was connected to `{peer_component}.{peer_gate}`, which the running program does not have")
+        }
+    };
+    Err(Problem::new(message).help("run the program that was recorded, or make a new recording").note(format!(
+        "process {} runs `{peer_component}`: {}",
+        announcement.pid,
+        announcement.program.display()
+    )))
+}
+
+fn already_running(component: &str, holder: ComponentProcess) -> Problem {
+    Problem::new(format!("component `{component}` is already running as {holder}"))
+        .help("stop it first, or replay into another system with `--system`")
+}
+
+fn unknown(plan: &SystemPlan, error: &str) -> Problem {
+    let names = plan.components.iter().map(|plan| plan.component.as_str());
+    Problem::new(error).note(format!("the recording has {}", quoted_list(names)))
+}
+
+/// The texts of the runtime have their way out in the second line.
+pub(super) fn problem_of(error: &dyn std::error::Error) -> Problem {
+    let text = scl::host::text_with_causes(error);
+    match text.split_once("\nhelp: ") {
+        Some((message, help)) => Problem::new(message).help(help),
+        None => Problem::new(text),
+    }
+}

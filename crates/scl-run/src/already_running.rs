@@ -1,0 +1,49 @@
+//! What runs already of what is to be started: a component runs once, and a build only to find that out takes long.
+
+use super::control::{Command, NoAnswer, Request, VERSION, find_runs};
+use super::plan::RunPlan;
+use scl::runtime_dir::{ComponentState, RuntimeDir};
+use scl_terminal::{Problem, quoted_list};
+
+/// Checks that no component of the plan runs.
+///
+/// # Errors
+///
+/// One problem that names the process.
+pub(crate) fn check(plan: &RunPlan) -> Result<(), Problem> {
+    let Some(system) = &plan.system else { return Ok(()) };
+    // A folder that cannot be used is reported where it is needed.
+    let Ok(Some(dir)) = RuntimeDir::existing(&|name| std::env::var_os(name)) else { return Ok(()) };
+    let names: Vec<&str> = plan.programs().map(|component| component.name.as_str()).collect();
+    for run in find_runs(dir.path(), Some(system)).iter().filter(|run| run.process != std::process::id()) {
+        let request = Request { version: VERSION, command: Command::List, components: Vec::new() };
+        let components = match run.ask(&request) {
+            Ok(response) => response.components,
+            Err(NoAnswer::Ended) => continue,
+            Err(error) => return Err(run.problem(&error)),
+        };
+        let running = components.iter().filter(|it| it.pid.is_some() && names.contains(&it.component.as_str()));
+        let running: Vec<&str> = running.map(|it| it.component.as_str()).collect();
+        if !running.is_empty() {
+            let what = if running.len() == names.len() { format!("system `{system}`") } else { shown(&running) };
+            let problem = Problem::new(format!("{what} is already running: `scl run` has process {}", run.process));
+            return Err(
+                problem.help("stop it with `scl stop`, or choose other components with `--only` or `--without`")
+            );
+        }
+    }
+    let Ok(Some(folder)) = dir.existing_system(system) else { return Ok(()) };
+    for name in names {
+        if let ComponentState::Running(holder) = folder.state(name) {
+            let problem =
+                Problem::new(format!("component `{name}` of system `{system}` is already running as {holder}"));
+            return Err(problem.help(format!("stop it first, or start the others with `--without {name}`")));
+        }
+    }
+    Ok(())
+}
+
+fn shown(components: &[&str]) -> String {
+    let noun = if components.len() == 1 { "component" } else { "each of the components" };
+    format!("{noun} {}", quoted_list(components.iter().copied()))
+}

@@ -1,0 +1,44 @@
+//! The builds of `scl restart`: by the command that was given, on its terminal, while the old processes run on.
+
+use super::super::ending::Ending;
+use super::super::orphan_guard::bound_command;
+use super::super::placement::Placement;
+use super::protocol::BuildCommand;
+use nix::sys::signal::Signal;
+use scl_terminal::{Problem, print_err};
+use std::ffi::OsString;
+use std::io;
+use std::os::fd::AsFd;
+use std::os::unix::process::ExitStatusExt;
+use std::process::{ExitStatus, Stdio};
+
+/// Runs a build. What it prints goes to standard error.
+///
+/// # Errors
+///
+/// If it fails.
+pub(super) fn run(build: &BuildCommand) -> Result<(), Problem> {
+    print_err(&format!("scl: building {}: {}\n", build.owner, build.shown));
+    let failed = |why: String| {
+        let problem = Problem::new(format!("the build of {} failed, so nothing was restarted", build.owner));
+        problem.note(format!("`{}` {why}", build.shown))
+    };
+    let status = start(build).map_err(|error| failed(format!("cannot be started: {error}")))?;
+    if status.success() { Ok(()) } else { Err(failed(ending(status).to_string())) }
+}
+
+fn start(build: &BuildCommand) -> io::Result<ExitStatus> {
+    let words: Vec<OsString> = build.command.iter().map(OsString::from).collect();
+    let mut command = bound_command(&words, &Placement::default())?;
+    command.current_dir(&build.folder).env_clear().envs(&build.environment).stdin(Stdio::null());
+    command.stdout(io::stderr().as_fd().try_clone_to_owned()?).status()
+}
+
+fn ending(status: ExitStatus) -> Ending {
+    let signal = status.signal().and_then(|number| Signal::try_from(number).ok());
+    match (status.code(), signal) {
+        (Some(code), _) => Ending::Exited(code),
+        (None, Some(signal)) => Ending::Killed(signal),
+        (None, None) => Ending::KilledByUnnamedSignal,
+    }
+}

@@ -1,0 +1,26 @@
+//! What the threads of a run tell its supervisor.
+
+use super::control::Asked;
+use super::ending::Ending;
+use super::lifecycle::Notice;
+use nix::sys::signal::Signal;
+use nix::unistd::Pid;
+
+/// What the other threads tell the supervisor.
+#[derive(Debug)]
+pub(crate) enum Event {
+    /// The first process of a program ended, and others that it has started have not.
+    LeaderEnded { process: usize, ending: Ending },
+    /// A program ended, with all its processes; of a build, the first one. `ending` is that of the first one.
+    Ended { process: usize, ending: Ending },
+    /// One of the two streams of a program ended.
+    StreamClosed { process: usize },
+    /// A process of this group said something about itself.
+    Notified { group: Pid, notice: Notice },
+    /// The reader of our output has gone.
+    OutputLost,
+    /// A signal asks us to stop.
+    Signalled(Signal),
+    /// Another `scl` asks for something.
+    Asked(Asked),
+}

@@ -1,0 +1,191 @@
+//! What single change would make a text readable: the way from "the parser stops here" to what was meant.
+//!
+//! A parser stops where it can no longer go on, often lines after the mistake. So every small change near that place is
+//! tried (a comma, a bracket, a column, a word less), and the change that leaves the least to complain about is taken
+//! for what is missing. Bounded in the text that is read again, and in the number of changes.
+
+mod candidates;
+mod line;
+mod tell;
+mod window;
+
+use super::pitfall::{CheckedText, Place};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::model::Model;
+use crate::parse::words::is_kind;
+use crate::parse::{Reader, shape};
+use crate::source::Sources;
+use crate::yaml::{self, SyntaxError};
+use std::ops::Range;
+use window::Window;
+
+/// A change of the text, and what it means.
+#[derive(Debug, Clone)]
+struct Edit {
+    kind: Kind,
+    /// What is replaced by what; in file order, without overlap.
+    changes: Vec<(Range<usize>, String)>,
+    /// How far-fetched it is; among changes that mend as much, the smallest is taken.
+    cost: usize,
+}
+
+/// What a change says about the mistake.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Kind {
+    /// A comma is missing after the first and before the second.
+    Comma(Range<usize>, Range<usize>),
+    /// A colon is missing after a word.
+    Colon(Range<usize>),
+    /// A bracket is never closed; the place after which it should be.
+    Close(usize, Range<usize>),
+    /// A bracket closes nothing; the word before which it should be opened.
+    Open(usize, Range<usize>),
+    /// One mark stands in the place of another.
+    Instead(Range<usize>, char),
+    /// A bracket is closed by one of the other kind.
+    Partner(usize, usize),
+    /// Something stands where nothing may stand.
+    Surplus(Range<usize>),
+    /// Brackets behind a type, as in `A[]`; the type with them.
+    ArrayType(Range<usize>),
+    /// A key, its colon and the start of its value, without a space between them.
+    Space(Range<usize>),
+    /// A `#` without a space before it.
+    CommentSpace(usize),
+    /// A list item without its dash, from its first character to the end of its line.
+    Dash(Range<usize>),
+    /// Another mark in the place of a dash.
+    OtherMark(usize),
+    /// A dash without a space after it.
+    DashSpace(Range<usize>),
+    /// A list item in the line of another.
+    Break(usize),
+    /// A quote without a partner.
+    Quote(usize),
+    /// The place of a quote that is missing.
+    Unquoted(usize),
+    /// The first key of a component that has no name.
+    Nameless(Range<usize>),
+    /// A colon after which a list should be opened.
+    OpenAfter(Range<usize>),
+    /// A line in the wrong column: its first word, and the column meant.
+    Indent(Range<usize>, usize),
+    /// Characters that look like marks of YAML.
+    LookAlike(Range<usize>),
+}
+
+impl Edit {
+    /// Whether a tool may apply the change: it adds a mark or moves a line, and takes no word of anybody away.
+    fn is_meant(&self) -> bool {
+        let is_removal =
+            matches!(self.kind, Kind::Surplus(_) | Kind::ArrayType(_) | Kind::Quote(_) | Kind::Nameless(_));
+        !is_removal && self.cost < DOUBTFUL
+    }
+}
+
+/// A change of this cost is told, but left to people.
+const DOUBTFUL: usize = 4;
+
+/// Changes that leave more to complain about than this explain nothing.
+const MOST_PROBLEMS: usize = 2;
+
+/// No text is read again more often.
+const MOST_TRIES: usize = 100;
+
+/// What the best change explains.
+pub(super) struct Repair {
+    pub(super) problem: Diagnostic,
+    /// Nothing is left to complain about, so this is what was meant.
+    pub(super) is_sure: bool,
+}
+
+/// How many changes of the same size are compared with the best; a second way leaves the choice to people.
+const MOST_RIVALS: usize = 16;
+
+/// The problem that the best change stands for, if any change makes the text readable.
+pub(super) fn find(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> Option<Repair> {
+    let text = &text.text;
+    let window = window::around(error, text, place)?;
+    find_in(&window, true, error, text, place).or_else(|| {
+        // A second mistake below keeps all of it from being read.
+        let above = window.without_lines_below(error, text, place)?;
+        find_in(&above, false, error, text, place).filter(|repair| repair.is_sure)
+    })
+}
+
+/// The same for a part of the text. Fixes are sure only if that is all of what belongs together.
+fn find_in(window: &Window, is_complete: bool, error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Repair> {
+    let lines = window::suspects(error, text, place, window);
+    let mut edits: Vec<(usize, Edit)> = Vec::new();
+    for edit in lines.iter().flat_map(|line| candidates::of_line(line, text, place)) {
+        if edit.changes.iter().all(|(range, _)| range.start >= window.range.start && range.end <= window.range.end) {
+            let distance = edit.changes.first().map_or(0, |(range, _)| range.start.abs_diff(error.at));
+            edits.push((distance, edit));
+        }
+    }
+    edits.sort_by_key(|(distance, edit)| (edit.cost, *distance));
+    let mut best: Option<(usize, usize)> = None;
+    for (at, (_, edit)) in edits.iter().take(MOST_TRIES).enumerate() {
+        let most = best.map_or(MOST_PROBLEMS, |(left, _)| left - 1);
+        if let Some(left) = problems_left(&window.with(edit, text)).filter(|left| *left <= most) {
+            best = Some((left, at));
+            // The others are no smaller, and mend no more.
+            if left == 0 {
+                break;
+            }
+        }
+    }
+    let (left, at) = best?;
+    let edit = &edits[at].1;
+    let rivals = edits[at + 1..].iter().map(|(_, rival)| rival).take_while(|rival| rival.cost == edit.cost);
+    let mended = window.with(edit, text);
+    let mut rivals = rivals.take(MOST_RIVALS).map(|rival| window.with(rival, text)).filter(|other| *other != mended);
+    let is_meant = is_complete && left == 0 && edit.is_meant() && !rivals.any(|other| problems_left(&other) == Some(0));
+    let problem = edit.changes.iter().fold(tell::tell(edit, text, place), |problem, (range, with)| match is_meant {
+        true => problem.fix(place.span(range.clone()), with),
+        false => problem.maybe_fix(place.span(range.clone()), with),
+    });
+    Some(Repair { problem, is_sure: left == 0 })
+}
+
+/// How much there is to complain about in a text; none if it cannot be read.
+fn problems_left(text: &str) -> Option<usize> {
+    let mut sources = Sources::new();
+    let file = sources.add("", text);
+    let tree = yaml::read(sources.file(file).text(), file);
+    if tree.error.is_some() || tree.too_deep.is_some() {
+        return None;
+    }
+    let odd = tree.anchors.len() + tree.tags.len() + usize::from(tree.second_document.is_some());
+    let mut reader = Reader::new(sources.file(file), file);
+    reader.read_root(&tree);
+    let Reader { model, problems, .. } = reader;
+    let found = problems.into_sorted();
+    // The window may show one section only.
+    let counts =
+        |found: &&Diagnostic| found.severity == Severity::Error && found.code() != shape::missing_section::RULE.code;
+    Some(odd + found.iter().filter(counts).count() + implausible(&model))
+}
+
+/// Words that have a shape and yet no meaning.
+fn implausible(model: &Model) -> usize {
+    let is_name = |name: &str| {
+        let is_letter = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '-');
+        name.chars().all(is_letter) && !name.starts_with('-')
+    };
+    let is_type = |written: &str| {
+        written.split("->").all(|part| !part.trim().contains(|c: char| c.is_whitespace() || "[]{},;#".contains(c)))
+    };
+    let gates = model.components.iter().flat_map(|component| &component.gates);
+    let odd_gates = gates.filter(|gate| {
+        let kind = &gate.kind.value;
+        !is_name(&gate.name.value)
+            || !kind.is_empty() && !is_kind(kind)
+            || gate.payload.as_ref().is_some_and(|payload| !is_type(&payload.value))
+    });
+    let odd_components = model.components.iter().filter(|component| !is_name(&component.name.value));
+    let is_end =
+        |end: &str| end.split('.').count() == 2 && end.split('.').all(|name| !name.is_empty() && is_name(name));
+    let odd_ends = model.connections.iter().flat_map(|pair| &pair.ends).filter(|end| !is_end(&end.value));
+    odd_gates.count() + odd_components.count() + odd_ends.count()
+}

@@ -1,0 +1,47 @@
+//! Which words the format knows, and as what.
+
+use crate::grammar::{self, GateKind, OPTIONS, option};
+use crate::suggest::similar;
+
+/// The sections of a topology, in the order in which messages list them.
+pub(super) const SECTIONS: [&str; grammar::SECTIONS.len()] = grammar::words(&grammar::SECTIONS);
+
+/// The keys of a component, in the order in which messages list them.
+pub(super) const COMPONENT_KEYS: [&str; grammar::COMPONENT_KEYS.len()] = grammar::words(&grammar::COMPONENT_KEYS);
+
+/// One of the words that the format knows as keys.
+pub(super) fn known_word(word: &str) -> Option<&'static str> {
+    let keys = grammar::SECTIONS.iter().chain(&grammar::COMPONENT_KEYS).map(|key| key.key);
+    let kinds = GateKind::ALL.into_iter().map(GateKind::word);
+    let options = OPTIONS.iter().map(|option| option.key);
+    keys.chain(kinds).chain(options).find(|known| *known == word)
+}
+
+/// Whether this key is the kind of a gate.
+pub(super) fn is_kind(word: &str) -> bool {
+    GateKind::of(word).is_some()
+}
+
+/// Whether this key is an option of some gate.
+pub(super) fn is_option(key: &str) -> bool {
+    option(key).is_some()
+}
+
+/// Whether this key is an option, or looks more like one than like a kind.
+pub(super) fn is_like_option(key: &str) -> bool {
+    let kinds = GateKind::ALL.map(GateKind::word);
+    is_option(key)
+        || similar(key, kinds).is_empty() && !similar(key, OPTIONS.iter().map(|option| option.key)).is_empty()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_like_option;
+
+    #[test]
+    fn a_misspelt_kind_is_no_option() {
+        for (key, like) in [("queue", true), ("que", true), ("publ", false), ("publish", false), ("reqq", false)] {
+            assert_eq!(is_like_option(key), like, "{key}");
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Whether a condition can hold for messages of a type: its fields exist, and their values can be compared.
+
+use super::{Condition, Node, Operand, Operator};
+use crate::field_kind::FieldKind;
+use crate::message_type::MessageType;
+use crate::path::{FieldPath, UnknownField};
+use crate::value::Value;
+use scl_terminal::{Problem, closest_name, quoted_list};
+use thiserror::Error;
+
+/// A condition makes no sense for a message or a type of messages.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ConditionMismatch {
+    /// The type has no such field.
+    #[error(transparent)]
+    Field(#[from] UnknownField),
+    /// A value is not of the kind that the condition needs.
+    #[error("{reason}")]
+    Kind {
+        /// What is wrong.
+        reason: String,
+        /// What to do.
+        help: Option<String>,
+        /// What would be right.
+        note: Option<String>,
+    },
+}
+
+impl From<ConditionMismatch> for Problem {
+    fn from(mismatch: ConditionMismatch) -> Self {
+        let (reason, help, note) = match mismatch {
+            ConditionMismatch::Field(error) => return error.into(),
+            ConditionMismatch::Kind { reason, help, note } => (reason, help, note),
+        };
+        let problem = help.into_iter().fold(Problem::new(reason), Problem::help);
+        note.into_iter().fold(problem, Problem::note)
+    }
+}
+
+impl Condition {
+    /// Checks that the condition may hold for messages of a type. If the type is not known, every field may be there and
+    /// have any value.
+    ///
+    /// # Errors
+    /// The type has no such field, a field alone is not a boolean, or values are compared that are never equal, such as a
+    /// text and a number.
+    pub fn check(&self, messages: &MessageType) -> Result<(), ConditionMismatch> {
+        self.root.check(messages)
+    }
+}
+
+impl Node {
+    fn check(&self, messages: &MessageType) -> Result<(), ConditionMismatch> {
+        match self {
+            Node::Or(nodes) | Node::And(nodes) => nodes.iter().try_for_each(|node| node.check(messages)),
+            Node::Not(node) => node.check(messages),
+            Node::True(path) => match messages.kind_of(path)? {
+                FieldKind::Boolean | FieldKind::Unknown => Ok(()),
+                kind => Err(not_boolean(path, &kind)),
+            },
+            Node::Compare(left, operator, right) => {
+                let kinds = (left.kind(messages)?, right.kind(messages).map_err(|error| or_a_text(error, right))?);
+                check_comparison((left, &kinds.0), *operator, (right, &kinds.1))
+            }
+        }
+    }
+}
+
+impl Operand {
+    fn kind(&self, messages: &MessageType) -> Result<FieldKind, UnknownField> {
+        match self {
+            Operand::Field(path) => messages.kind_of(path),
+            Operand::Constant(value) => Ok(FieldKind::of(value)),
+        }
+    }
+}
+
+/// `mode == AUTO`
+fn or_a_text(error: UnknownField, operand: &Operand) -> UnknownField {
+    let Operand::Field(path) = operand else { return error };
+    UnknownField { help: error.help.or_else(|| Some(format!("texts stand in quotes: `'{path}'`"))), ..error }
+}
+
+/// A field alone that is no boolean.
+pub(super) fn not_boolean(path: &FieldPath, kind: &FieldKind) -> ConditionMismatch {
+    let example = match kind {
+        FieldKind::Number => format!("{path} > 0"),
+        FieldKind::Text => format!("{path} == 'text'"),
+        FieldKind::Enum(names) => format!("{path} == '{}'", names.first().map_or("", String::as_str)),
+        FieldKind::List(_) | FieldKind::Map(_) => format!("{path} contains 1"),
+        _ => format!("{path} != null"),
+    };
+    ConditionMismatch::Kind {
+        reason: format!("`{path}` is {}, which is neither true nor false", kind.word()),
+        help: Some(format!("compare it, for example `{example}`")),
+        note: None,
+    }
+}
+
+fn check_comparison(
+    (left, left_kind): (&Operand, &FieldKind),
+    operator: Operator,
+    (right, right_kind): (&Operand, &FieldKind),
+) -> Result<(), ConditionMismatch> {
+    let mismatch = |reason: String, help: Option<&str>| {
+        Err(ConditionMismatch::Kind { reason, help: help.map(str::to_owned), note: None })
+    };
+    let kinds = || format!("{left} is {}, and {right} is {}", left_kind.word(), right_kind.word());
+    match operator {
+        Operator::Contains => match (left_kind, right_kind) {
+            (FieldKind::Unknown, _) | (_, FieldKind::Unknown) => Ok(()),
+            (FieldKind::Text, FieldKind::Text | FieldKind::Enum(_)) => Ok(()),
+            (FieldKind::Enum(_), FieldKind::Text | FieldKind::Enum(_)) => Ok(()),
+            (FieldKind::Bytes, FieldKind::Bytes) | (FieldKind::Message, FieldKind::Text) => Ok(()),
+            (FieldKind::List(item), part) | (FieldKind::Map(item), part) if item.compares_with(part) => {
+                check_names(item, right)
+            }
+            (FieldKind::List(item), _) => mismatch(
+                format!(
+                    "{left} is a list in which each value is {}, and {right} is {}",
+                    item.word(),
+                    right_kind.word()
+                ),
+                None,
+            ),
+            (FieldKind::Map(key), _) => mismatch(
+                format!("{left} is a map in which each key is {}, and {right} is {}", key.word(), right_kind.word()),
+                None,
+            ),
+            (FieldKind::Boolean | FieldKind::Number | FieldKind::Null, _) => mismatch(
+                format!("{left} is {}, which contains nothing", left_kind.word()),
+                Some("compare it with `==`"),
+            ),
+            _ => mismatch(kinds(), None),
+        },
+        _ if !left_kind.compares_with(right_kind) => mismatch(
+            format!("{}: they cannot be compared", kinds()),
+            match (left_kind, right_kind) {
+                (FieldKind::Text | FieldKind::Enum(_), _) => Some("put a text in quotes: `'text'`"),
+                (_, FieldKind::Text | FieldKind::Enum(_)) => Some("only texts stand in quotes"),
+                (FieldKind::List(_), _) => Some("look for a value with `contains`, or name an element: `[0]`"),
+                _ => None,
+            },
+        ),
+        Operator::Equal | Operator::NotEqual => {
+            check_names(left_kind, right).and_then(|()| check_names(right_kind, left))
+        }
+        _ => match [(left, left_kind), (right, right_kind)].into_iter().find(|(_, kind)| !kind.is_ordered()) {
+            Some((operand, kind)) => {
+                mismatch(format!("{operand} is {}, which has no order", kind.word()), Some("compare it with `==`"))
+            }
+            None => Ok(()),
+        },
+    }
+}
+
+/// A constant that is compared with enum values must be one of their names.
+fn check_names(kind: &FieldKind, operand: &Operand) -> Result<(), ConditionMismatch> {
+    let (FieldKind::Enum(names), Operand::Constant(Value::Text(text))) = (kind, operand) else { return Ok(()) };
+    if names.contains(text) {
+        return Ok(());
+    }
+    let names = || names.iter().map(String::as_str);
+    Err(ConditionMismatch::Kind {
+        reason: format!("{operand} is not the name of an enum value of the field"),
+        help: closest_name(text, names()).map(|near| format!("did you mean `'{near}'`?")),
+        note: Some(format!("its names: {}", quoted_list(names()))),
+    })
+}

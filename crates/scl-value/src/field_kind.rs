@@ -1,0 +1,73 @@
+//! What a field of a type holds, as far as the type says so.
+
+use crate::value::Value;
+
+/// What values a field, or the value at a path, may have.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum FieldKind {
+    Boolean,
+    Number,
+    Text,
+    /// A text that is one of these, or the number of a value that the type does not know.
+    Enum(Vec<String>),
+    Bytes,
+    List(Box<FieldKind>),
+    /// Its keys.
+    Map(Box<FieldKind>),
+    Message,
+    Null,
+    /// Anything, because nothing describes it.
+    Unknown,
+}
+
+impl FieldKind {
+    /// The kind of a value.
+    pub(crate) fn of(value: &Value) -> Self {
+        match value {
+            Value::Null => Self::Null,
+            Value::Bool(_) => Self::Boolean,
+            Value::Int(_) | Value::Uint(_) | Value::Float(_) => Self::Number,
+            Value::Text(_) => Self::Text,
+            Value::Bytes(_) => Self::Bytes,
+            Value::List(_) => Self::List(Box::new(Self::Unknown)),
+            Value::Map(_) => Self::Map(Box::new(Self::Unknown)),
+            Value::Opaque(_) => Self::Unknown,
+        }
+    }
+
+    /// For messages: `a number`.
+    pub(crate) fn word(&self) -> &'static str {
+        match self {
+            Self::Boolean => "a boolean",
+            Self::Number => "a number",
+            Self::Text => "a text",
+            Self::Enum(_) => "the name of an enum value",
+            Self::Bytes => "bytes",
+            Self::List(_) => "a list",
+            Self::Map(_) => "a map",
+            Self::Message => "a message",
+            Self::Null => "null",
+            Self::Unknown => "of an unknown type",
+        }
+    }
+
+    /// Whether values of both may be equal, or one less than the other.
+    pub(crate) fn compares_with(&self, other: &Self) -> bool {
+        self.family().zip(other.family()).is_none_or(|(own, others)| own == others)
+    }
+
+    /// The word of one of the kinds that are compared with each other; `None` for those that are compared with all.
+    fn family(&self) -> Option<&'static str> {
+        match self {
+            Self::Unknown | Self::Null => None,
+            Self::Enum(_) => Some(Self::Text.word()),
+            Self::Message => Some("a map"),
+            kind => Some(kind.word()),
+        }
+    }
+
+    /// Whether values have an order.
+    pub(crate) fn is_ordered(&self) -> bool {
+        matches!(self, Self::Number | Self::Text | Self::Enum(_) | Self::Unknown)
+    }
+}

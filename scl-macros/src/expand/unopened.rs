@@ -1,0 +1,52 @@
+//! The methods of components that nothing opens: the errors of their file stop the compiler, or an editor shows them.
+
+use super::context::Context;
+use proc_macro2::TokenStream;
+use quote::{quote, quote_spanned};
+use syn::Ident;
+
+/// The implementations of `scl::Component` for a component and its counterpart, and the methods that users call. Their
+/// signatures are those of every component, the bodies never run.
+pub(super) fn expand_unopened(context: &Context<'_>, name: &Ident, peer: Option<&Ident>) -> TokenStream {
+    let (private, for_tests) = (&context.private, &context.for_tests);
+    let component = expand_implementation(context, name);
+    let main = (!context.for_editor).then(|| quote!(#private::component_main_functions!(#name);));
+    let peer = peer.map(|peer| {
+        let implementation = expand_implementation(context, peer);
+        quote_spanned! { context.span =>
+            #for_tests
+            #implementation
+            #for_tests
+            #private::component_test_methods!(#name, #peer);
+        }
+    });
+    quote_spanned! { context.span =>
+        #[allow(dead_code)]
+        const _: () = {
+            #component
+            #private::component_methods!(#name);
+            #main
+            #peer
+        };
+    }
+}
+
+fn expand_implementation(context: &Context<'_>, name: &Ident) -> TokenStream {
+    let private = &context.private;
+    quote_spanned! { context.span =>
+        impl #private::Component for #name {
+            const SPEC: &'static #private::ComponentSpec = &#private::ComponentSpec {
+                system: "", name: "", declared_at: "", gates: &[], schema: ::core::option::Option::None,
+            };
+            fn assemble(_: &mut #private::Opener) -> ::core::result::Result<Self, #private::OpenError> {
+                ::core::unreachable!()
+            }
+            fn gates(&self) -> ::std::vec::Vec<&dyn #private::AnyGate> {
+                ::std::vec::Vec::new()
+            }
+            fn handle(&self) -> &#private::ComponentHandle {
+                ::core::unreachable!()
+            }
+        }
+    }
+}

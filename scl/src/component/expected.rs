@@ -1,0 +1,71 @@
+//! Which components the process was started for: `SCL_COMPONENT`, which `scl run` and its unit files set. A program that is
+//! started in another's place, by swapped commands or as the program of the same name of another project, must not run.
+
+use crate::environment::{self, Variables};
+use crate::error::OpenError;
+use crate::service;
+use crate::spec::ComponentSpec;
+
+/// The variable, for `rover.sensor`, or `sensor` of any system; several have commas between them.
+const VARIABLE: &str = "SCL_COMPONENT";
+
+/// Checks that the component is expected, if there is an expectation. If it is not, `scl run` is told, too.
+///
+/// # Errors
+/// [`OpenError::Unexpected`].
+pub(super) fn check(spec: &'static ComponentSpec, variables: Variables<'_>) -> Result<(), OpenError> {
+    let expected =
+        environment::read(variables, VARIABLE, "components like `rover.sensor`", |text| Some(text.to_owned()))?;
+    let Some(expected) = expected.filter(|expected| !is_expected(expected, spec)) else { return Ok(()) };
+    // A name of its own, as `sd_notify(3)` allows.
+    service::tell(variables, &format!("X_SCL_OPENS={}.{}\n", spec.system, spec.name));
+    Err(OpenError::Unexpected { component: spec.name, system: spec.system, expected: shown(&expected) })
+}
+
+fn is_expected(expected: &str, spec: &ComponentSpec) -> bool {
+    names(expected).any(|(system, name)| name == spec.name && system.is_none_or(|system| system == spec.system))
+}
+
+fn names(expected: &str) -> impl Iterator<Item = (Option<&str>, &str)> {
+    let names = expected.split(',').map(str::trim).filter(|name| !name.is_empty());
+    names.map(|name| name.rsplit_once('.').map_or((None, name), |(system, name)| (Some(system), name)))
+}
+
+fn shown(expected: &str) -> String {
+    let one = |(system, name): (Option<&str>, &str)| match system {
+        Some(system) => format!("`{name}` of system `{system}`"),
+        None => format!("`{name}`"),
+    };
+    names(expected).map(one).collect::<Vec<_>>().join(" or ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ffi::OsString;
+
+    fn result(expected: Option<&str>) -> Result<(), String> {
+        const SPEC: &ComponentSpec =
+            &ComponentSpec { system: "rover", name: "sensor", declared_at: "rover.yaml:1:1", gates: &[], schema: None };
+        let variables = |name: &str| (name == VARIABLE).then_some(expected?).map(OsString::from);
+        check(SPEC, &variables).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn only_an_expected_component_is_opened() {
+        for expected in [None, Some(""), Some("rover.sensor"), Some("sensor"), Some("rover.gps, rover.sensor")] {
+            assert_eq!(result(expected), Ok(()), "{expected:?}");
+        }
+        let refused = "component `sensor` of system `rover` was not expected: this program was started as ";
+        let help = "; correct its command in the launch file, or allow it there with `opens: [sensor]`";
+        let cases = [
+            ("rover.gps", "`gps` of system `rover`"),
+            ("drone.sensor", "`sensor` of system `drone`"),
+            ("gps", "`gps`"),
+            ("rover.a,rover.b", "`a` of system `rover` or `b` of system `rover`"),
+        ];
+        for (expected, shown) in cases {
+            assert_eq!(result(Some(expected)), Err(format!("{refused}{shown}{help}")), "{expected}");
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The waker under which a `req` gate does I/O, while any number of its calls are in progress.
+//!
+//! A call that is alone reads its reply itself, without a detour. While there are several, the gate's background task reads
+//! and hands each its reply, because none of them may rely on another one to be polled.
+
+use crate::state::WakeCall;
+use crate::sync::lock;
+use std::sync::{Arc, Mutex};
+use std::task::{Wake, Waker};
+
+#[derive(Default)]
+pub(super) struct CallWakers {
+    wakers: Mutex<Wakers>,
+}
+
+#[derive(Default)]
+struct Wakers {
+    /// The calls in progress, with what wakes those that wait.
+    calls: Vec<(u64, Option<Waker>)>,
+    task: Option<Waker>,
+}
+
+impl CallWakers {
+    pub(super) fn begin(&self, call: u64) {
+        lock(&self.wakers).calls.push((call, None));
+    }
+
+    /// Registers a call that waits. To be used under the lock of what it waits for, after it was polled.
+    pub(super) fn wait(&self, call: u64, waker: &Waker) {
+        let mut wakers = lock(&self.wakers);
+        let Some((_, known)) = wakers.calls.iter_mut().find(|(id, _)| *id == call) else { return };
+        if !known.as_ref().is_some_and(|known| known.will_wake(waker)) {
+            *known = Some(waker.clone());
+        }
+    }
+
+    /// Wakes a call that another party has something for.
+    pub(super) fn wake_one(&self, call: u64) {
+        let waker = lock(&self.wakers).calls.iter_mut().find(|(id, _)| *id == call).and_then(|(_, waker)| waker.take());
+        waker.into_iter().for_each(Waker::wake);
+    }
+
+    pub(super) fn end(&self, call: u64) {
+        lock(&self.wakers).calls.retain(|(id, _)| *id != call);
+    }
+
+    pub(super) fn in_progress(&self) -> usize {
+        lock(&self.wakers).calls.len()
+    }
+
+    pub(super) fn set_task(&self, task: &Waker) {
+        let mut wakers = lock(&self.wakers);
+        if !wakers.task.as_ref().is_some_and(|known| known.will_wake(task)) {
+            wakers.task = Some(task.clone());
+        }
+    }
+}
+
+impl WakeCall for CallWakers {
+    fn wake_call(&self) {
+        let waiting: Vec<Waker> = lock(&self.wakers).calls.iter_mut().filter_map(|(_, waker)| waker.take()).collect();
+        waiting.into_iter().for_each(Waker::wake);
+    }
+
+    fn waits(&self, futures: bool) -> bool {
+        futures && lock(&self.wakers).calls.iter().any(|(_, waker)| waker.is_some())
+    }
+}
+
+impl Wake for CallWakers {
+    fn wake(self: Arc<Self>) {
+        self.wake_by_ref();
+    }
+
+    fn wake_by_ref(self: &Arc<Self>) {
+        let waker = {
+            let mut wakers = lock(&self.wakers);
+            let alone = match &mut wakers.calls[..] {
+                [(_, waker)] => waker.take(),
+                _ => None,
+            };
+            alone.or_else(|| wakers.task.clone())
+        };
+        waker.into_iter().for_each(Waker::wake);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[derive(Default)]
+    struct Count(AtomicUsize);
+
+    impl Wake for Count {
+        fn wake(self: Arc<Self>) {
+            self.0.fetch_add(1, Ordering::SeqCst);
+        }
+    }
+
+    #[test]
+    fn an_event_wakes_the_only_call_or_else_the_task() {
+        let counts: [Arc<Count>; 3] = std::array::from_fn(|_| Arc::default());
+        let [first, second, task] = counts.clone().map(Waker::from);
+        let wakes = || counts.each_ref().map(|count| count.0.load(Ordering::SeqCst));
+        let calls = Arc::new(CallWakers::default());
+        calls.set_task(&task);
+        calls.wake_by_ref();
+        assert_eq!(wakes(), [0, 0, 1], "no call");
+        calls.begin(1);
+        calls.wait(1, &first);
+        calls.wake_by_ref();
+        assert_eq!(wakes(), [1, 0, 1], "one call that waits");
+        calls.wake_by_ref();
+        assert_eq!(wakes(), [1, 0, 2], "a call that was woken and not polled yet");
+        calls.wait(1, &first);
+        calls.begin(2);
+        calls.wait(2, &second);
+        calls.wake_by_ref();
+        assert_eq!(wakes(), [1, 0, 3], "two calls");
+        calls.wake_one(2);
+        assert_eq!(wakes(), [1, 1, 3], "a reply for one of them");
+        calls.end(2);
+        calls.wake_by_ref();
+        assert_eq!(wakes(), [2, 1, 3], "one is left");
+        calls.wait(1, &first);
+        calls.wake_call();
+        assert_eq!(wakes(), [3, 1, 3], "all calls end");
+    }
+}

@@ -1,0 +1,48 @@
+//! What an observer of a tap is told.
+
+use bytes::Bytes;
+
+/// What happens at a tap.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum TapEvent {
+    /// The component shows this observer every message that passes the gate from now on. What passed shortly before this
+    /// event may be observed, too.
+    Connected,
+    /// A message, request or reply.
+    Observed(Observation),
+    /// The component has closed, was killed, or cannot be understood. Follows [`Connected`](Self::Connected) only. The
+    /// observer connects again by itself.
+    Disconnected,
+}
+
+/// A message that passed a gate.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Observation {
+    /// Its bytes, as the gate's codec encoded them.
+    pub payload: Bytes,
+    /// Its number at this gate, from 0 when the component was opened, also counted while nobody observes. A gap means
+    /// that the observer did not read fast enough.
+    pub sequence: u64,
+    /// When the component sent or received it, in nanoseconds since 1970 (`CLOCK_REALTIME`).
+    pub sent_ns: u64,
+    /// When this observer read it, by the same clock.
+    pub received_ns: u64,
+    /// Whether it was sent before this observer joined: the last message of a latched gate, which comes first.
+    pub latched: bool,
+    /// The number of the call that a request or reply belongs to; 0 for messages.
+    pub call_id: u64,
+    /// What it is.
+    pub kind: ObservedKind,
+}
+
+/// What an observed message is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ObservedKind {
+    /// A message at a `pub` or `pull` gate.
+    Message,
+    /// A request at a `rep` gate.
+    Request,
+    /// A reply at a `rep` gate.
+    Reply,
+}

@@ -1,0 +1,173 @@
+//! Asking the kernel for one TCP socket, over netlink (`sock_diag(7)`).
+//!
+//! A lookup by both addresses costs some microseconds, however many sockets the machine has.
+
+use super::{Owner, Socket};
+use rustix::io::Errno;
+use rustix::net::netlink::{SOCK_DIAG, SocketAddrNetlink};
+use rustix::net::{AddressFamily, RecvFlags, SendFlags, SocketFlags, SocketType, recv, sendto, socket_with};
+use std::io;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
+use std::os::fd::OwnedFd;
+use std::sync::OnceLock;
+
+/// `SOCK_DIAG_BY_FAMILY`, the type of the request and of its answer.
+const BY_FAMILY: u16 = 20;
+const NLM_F_REQUEST: u16 = 1;
+const NLMSG_ERROR: u16 = 2;
+const IPPROTO_TCP: u8 = 6;
+/// `struct nlmsghdr`, and `struct inet_diag_req_v2` or `struct inet_diag_msg` behind it.
+const HEADER: usize = 16;
+const REQUEST: usize = HEADER + 56;
+const ANSWER: usize = HEADER + 72;
+
+/// Whether the kernel answers such questions. Containers and sandboxes may refuse them.
+///
+/// # Errors
+/// It cannot be found out now, for example without free file descriptors.
+pub(super) fn is_available() -> io::Result<bool> {
+    static AVAILABLE: OnceLock<bool> = OnceLock::new();
+    if let Some(available) = AVAILABLE.get() {
+        return Ok(*available);
+    }
+    // A missing kernel module gives the same answer as a missing socket, so this asks for one that exists.
+    let probe = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
+    let address = probe.local_addr()?;
+    let available = match SockDiag::open().and_then(|kernel| kernel.find(Socket::listening(address))) {
+        Ok(found) => found.is_some(),
+        Err(error) if is_passing(&error) => return Err(error),
+        Err(error) => {
+            tracing::debug!(%error, "cannot use sock_diag");
+            false
+        }
+    };
+    if !available {
+        tracing::info!(
+            "the kernel does not answer `sock_diag`; reading /proc/self/net/tcp for each connection instead"
+        );
+    }
+    Ok(*AVAILABLE.get_or_init(|| available))
+}
+
+/// Whether a failure has to do with this moment, and not with what the program may do.
+fn is_passing(error: &io::Error) -> bool {
+    let errors = [Errno::MFILE, Errno::NFILE, Errno::NOMEM, Errno::NOBUFS, Errno::AGAIN, Errno::INTR];
+    Errno::from_io_error(error).is_some_and(|error| errors.contains(&error))
+}
+
+/// A connection to the kernel.
+pub(super) struct SockDiag(OwnedFd);
+
+impl SockDiag {
+    pub(super) fn open() -> io::Result<Self> {
+        let socket = socket_with(AddressFamily::NETLINK, SocketType::DGRAM, SocketFlags::CLOEXEC, Some(SOCK_DIAG));
+        Ok(Self(socket?))
+    }
+
+    /// Returns the owner of a socket with exactly these addresses, if there is one.
+    pub(super) fn find(&self, socket: Socket) -> io::Result<Option<Owner>> {
+        sendto(&self.0, &request(socket), SendFlags::empty(), &SocketAddrNetlink::new(0, 0))?;
+        // The kernel has answered before `sendto` returns. Only the kernel may send to a socket of this protocol.
+        let mut buffer = [0; 1024];
+        let (received, _) = recv(&self.0, &mut buffer, RecvFlags::DONTWAIT)?;
+        answer(&buffer[..received], socket)
+    }
+}
+
+fn request(socket: Socket) -> [u8; REQUEST] {
+    let mut request = [0; REQUEST];
+    let mut rest = &mut request[..];
+    let mut put = |bytes: &[u8]| {
+        let (field, behind) = std::mem::take(&mut rest).split_at_mut(bytes.len());
+        field.copy_from_slice(bytes);
+        rest = behind;
+    };
+    put(&(REQUEST as u32).to_ne_bytes());
+    put(&BY_FAMILY.to_ne_bytes());
+    put(&NLM_F_REQUEST.to_ne_bytes());
+    // A sequence number and a port, both not needed.
+    put(&[0; 8]);
+    let family = if socket.local.is_ipv4() { AddressFamily::INET } else { AddressFamily::INET6 };
+    put(&[family.as_raw() as u8, IPPROTO_TCP, 0, 0]);
+    // Sockets in all states.
+    put(&u32::MAX.to_ne_bytes());
+    put(&socket.local.port().to_be_bytes());
+    put(&socket.remote.port().to_be_bytes());
+    put(&octets(socket.local.ip()));
+    put(&octets(socket.remote.ip()));
+    // Through any interface.
+    put(&0_u32.to_ne_bytes());
+    // `INET_DIAG_NOCOOKIE`: whatever its cookie is.
+    put(&[0xff; 8]);
+    request
+}
+
+fn octets(ip: IpAddr) -> [u8; 16] {
+    let mut octets = [0; 16];
+    match ip {
+        IpAddr::V4(ip) => octets[..4].copy_from_slice(&ip.octets()),
+        IpAddr::V6(ip) => octets = ip.octets(),
+    }
+    octets
+}
+
+fn answer(bytes: &[u8], asked: Socket) -> io::Result<Option<Owner>> {
+    let malformed = || io::Error::from(io::ErrorKind::InvalidData);
+    let kind = bytes.get(4..6).and_then(|kind| kind.try_into().ok()).map(u16::from_ne_bytes);
+    if kind == Some(NLMSG_ERROR) {
+        let number = bytes.get(HEADER..HEADER + 4).and_then(|bytes| bytes.try_into().ok()).map(i32::from_ne_bytes);
+        return match number.map(|number| Errno::from_raw_os_error(number.wrapping_neg())) {
+            Some(Errno::NOENT) => Ok(None),
+            Some(error) => Err(error.into()),
+            None => Err(malformed()),
+        };
+    }
+    let (Some(BY_FAMILY), Some(message)) = (kind, bytes.get(HEADER..ANSWER)) else { return Err(malformed()) };
+    let [family, state, ..] = *message else { return Err(malformed()) };
+    let u32_at = |at: usize| u32::from_ne_bytes([message[at], message[at + 1], message[at + 2], message[at + 3]]);
+    let address = |port: usize, ip: usize| {
+        let ip = match family {
+            family if u16::from(family) == AddressFamily::INET.as_raw() => {
+                IpAddr::from([message[ip], message[ip + 1], message[ip + 2], message[ip + 3]])
+            }
+            _ => <[u8; 16]>::try_from(&message[ip..ip + 16]).map(IpAddr::from).ok()?,
+        };
+        Some(SocketAddr::new(ip.to_canonical(), u16::from_be_bytes([message[port], message[port + 1]])))
+    };
+    // The kernel falls back to the socket that listens at the port, at any address.
+    let (local, remote) = (address(4, 8).ok_or_else(malformed)?, address(6, 24).ok_or_else(malformed)?);
+    let owner = Owner { user: u32_at(64), inode: u32_at(68) };
+    Ok(Socket { local, remote, ..asked }.is(asked, state).then_some(owner))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_request_is_laid_out_as_the_kernel_reads_it() {
+        let socket = Socket::connected("127.0.0.1:8080".parse().unwrap(), "127.0.0.1:50000".parse().unwrap());
+        let mut expected = vec![];
+        expected.extend(72_u32.to_ne_bytes());
+        expected.extend(20_u16.to_ne_bytes());
+        expected.extend(1_u16.to_ne_bytes());
+        expected.extend([0; 8]);
+        expected.extend([2, 6, 0, 0, 255, 255, 255, 255]);
+        expected.extend([0x1f, 0x90, 0xc3, 0x50, 127, 0, 0, 1]);
+        expected.extend([0; 12]);
+        expected.extend([127, 0, 0, 1]);
+        expected.extend([0; 16]);
+        expected.extend([255; 8]);
+        assert_eq!(request(socket)[..], expected);
+    }
+
+    #[test]
+    fn answers_that_are_cut_off_are_errors() {
+        let asked = Socket::listening("127.0.0.1:8080".parse().unwrap());
+        let mut message = [0; ANSWER];
+        message[4..6].copy_from_slice(&BY_FAMILY.to_ne_bytes());
+        for length in 0..ANSWER {
+            assert!(answer(&message[..length], asked).is_err(), "{length}");
+        }
+    }
+}

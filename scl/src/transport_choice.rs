@@ -1,0 +1,118 @@
+//! Which transport each connection uses: one for all, and exceptions by gate.
+
+use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
+use crate::transport_kind::TransportKind;
+use std::str::FromStr;
+
+/// The transports of a system's connections, as in `SCL_TRANSPORT`: one for all, then exceptions by gate.
+///
+/// The listening end of a connection decides (`pub`, `pull`, `rep`), the connecting end finds it. An exception names a
+/// gate at either end. Of several that apply, the last one counts. Exceptions for gates of other components than the
+/// one being opened are left to those, unless they are its peers.
+///
+/// ```
+/// let all: scl::TransportChoice = "shm".parse()?;
+/// let some: scl::TransportChoice = "ipc,camera.frames=shm,logger.frames=tcp".parse()?;
+/// let options = scl::OpenOptions::new().transports(some);
+/// # Ok::<(), scl::TransportChoiceError>(())
+/// ```
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct TransportChoice {
+    pub(crate) default: TransportKind,
+    /// `component.gate`, in order.
+    pub(crate) of_gates: Vec<(String, TransportKind)>,
+}
+
+/// A text is not a [`TransportChoice`].
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{part}` is not understood; expected {}", TransportChoice::EXPECTED)]
+pub struct TransportChoiceError {
+    /// The part of the text that is wrong.
+    part: String,
+}
+
+impl FromStr for TransportChoice {
+    type Err = TransportChoiceError;
+
+    /// Parses `ipc`, or `ipc,camera.frames=shm`, or exceptions alone.
+    fn from_str(text: &str) -> Result<Self, TransportChoiceError> {
+        let mut choice = Self::default();
+        for (index, part) in text.split(',').map(str::trim).enumerate() {
+            let wrong = || TransportChoiceError { part: part.to_owned() };
+            match part.split_once('=') {
+                None if index == 0 => choice.default = TransportKind::parse(part).ok_or_else(wrong)?,
+                None => return Err(wrong()),
+                Some((gate, word)) => {
+                    let gate = Some(gate.trim()).filter(|gate| is_gate(gate)).ok_or_else(wrong)?;
+                    choice.of_gates.push((gate.to_owned(), TransportKind::parse(word.trim()).ok_or_else(wrong)?));
+                }
+            }
+        }
+        Ok(choice)
+    }
+}
+
+impl TransportChoice {
+    /// The values of `SCL_TRANSPORT`, for messages.
+    pub(crate) const EXPECTED: &str = "`ipc`, `tcp` or `shm`, or with exceptions like `ipc,camera.frames=shm`";
+
+    /// The transport of all connections without an exception.
+    pub fn default_kind(&self) -> TransportKind {
+        self.default
+    }
+
+    /// The transport of one connection.
+    pub(crate) fn of_connection(
+        &self,
+        spec: &ComponentSpec,
+        gate: &GateSpec,
+        connection: &ConnectionSpec,
+    ) -> TransportKind {
+        self.last(|component, name| {
+            (component, name) == (spec.name, gate.name)
+                || (component, name) == (connection.peer_component, connection.peer_gate)
+        })
+    }
+
+    /// The transport of a gate that listens once for all of its peers.
+    pub(crate) fn of_gate(&self, spec: &ComponentSpec, gate: &GateSpec) -> TransportKind {
+        self.last(|component, name| {
+            let is_peer =
+                |connection: &ConnectionSpec| (component, name) == (connection.peer_component, connection.peer_gate);
+            (component, name) == (spec.name, gate.name) || gate.connections.iter().any(is_peer)
+        })
+    }
+
+    /// The transport of a gate's tap, where only tools connect.
+    pub(crate) fn of_tap(&self, spec: &ComponentSpec, gate: &GateSpec) -> TransportKind {
+        self.last(|component, name| (component, name) == (spec.name, gate.name))
+    }
+
+    /// The first exception for a gate of this component that it does not have.
+    pub(crate) fn unknown_gate(&self, spec: &ComponentSpec) -> Option<(&str, TransportKind)> {
+        let has = |name: &str| spec.gates.iter().any(|gate| gate.name == name);
+        let mut own = self.entries().filter(|(component, ..)| *component == spec.name);
+        own.find(|(_, gate, _)| !has(gate)).map(|(_, gate, kind)| (gate, kind))
+    }
+
+    fn last(&self, applies: impl Fn(&str, &str) -> bool) -> TransportKind {
+        let found = self.entries().filter(|(component, gate, _)| applies(component, gate)).last();
+        found.map_or(self.default, |(.., kind)| kind)
+    }
+
+    fn entries(&self) -> impl Iterator<Item = (&str, &str, TransportKind)> {
+        self.of_gates.iter().filter_map(|(name, kind)| {
+            let (component, gate) = name.split_once('.')?;
+            Some((component, gate, *kind))
+        })
+    }
+}
+
+fn is_gate(name: &str) -> bool {
+    name.split_once('.').is_some_and(|(component, gate)| {
+        !component.is_empty() && !gate.is_empty() && !gate.contains('.') && !name.contains(char::is_whitespace)
+    })
+}
+
+#[cfg(test)]
+mod tests;
