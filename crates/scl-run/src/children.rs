@@ -132,9 +132,10 @@ impl Running {
 
     /// Asks every process of the program to end.
     pub(crate) fn ask_to_end(&self, signal: Signal) {
-        self.signal(signal);
         let group = self.group;
-        thread::spawn(move || process_group::repeat_where_missed(group, signal));
+        let reached = process_group::programs(group);
+        self.signal(signal);
+        thread::spawn(move || process_group::repeat_where_missed(group, signal, reached));
     }
 }
 

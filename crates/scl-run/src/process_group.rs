@@ -6,6 +6,7 @@ use rustix::event::{PollFd, PollFlags, poll};
 use rustix::process::{PidfdFlags, pidfd_open};
 use std::collections::HashSet;
 use std::fs;
+use std::path::PathBuf;
 use std::thread;
 use std::time::Duration;
 
@@ -30,34 +31,77 @@ pub(crate) fn wait_until_empty(group: Pid) {
 /// Sees that each process of the group gets a signal that was sent to it and that asks it to end; returns when all have ended.
 ///
 /// One signal to the group is not enough: a shell may start a program after it has noted the signal, or note it in the copy of
-/// itself that becomes the program. So a process that would have been ended by the signal gets it again. One that handles it
-/// does not: a second signal would end a program of SCL at once. When the first process has ended, those that ignore the
-/// signal get SIGTERM: a shell lets its background processes ignore SIGINT.
-pub(crate) fn repeat_where_missed(group: Pid, signal: Signal) {
-    let mut terminated = HashSet::new();
+/// itself that becomes the program. So a program that was not there ([`programs`]) when the signal was sent, and that would be
+/// ended by it, gets it too. None gets it twice: a second signal would end a program of SCL at once, and others restore the
+/// default action after the first.
+pub(crate) fn repeat_where_missed(group: Pid, signal: Signal, reached: HashSet<Program>) {
+    let mut repeats = Repeats { group, signal, reached, terminated: HashSet::new() };
     let mut pause = PAUSE;
-    loop {
-        // Another look, as in `is_empty`.
-        let mut processes = members(group);
-        if processes.is_empty() {
-            processes = members(group);
-        }
-        if processes.is_empty() {
-            return;
-        }
-        for process in processes.iter().copied() {
-            // It may end at this moment.
-            let _ = match disposition(process, signal) {
-                Disposition::Ends => kill(process, signal),
-                Disposition::Ignores if !processes.contains(&group) && terminated.insert(process) => {
-                    kill(process, Signal::SIGTERM)
-                }
-                Disposition::Ignores | Disposition::Handles => Ok(()),
-            };
-        }
+    while repeats.look() {
         thread::sleep(pause);
         pause = MAX_PAUSE.min(2 * pause);
     }
+}
+
+struct Repeats {
+    group: Pid,
+    signal: Signal,
+    /// Those that have got the signal, or have been seen to block or catch it.
+    reached: HashSet<Program>,
+    /// Those that ignore the signal and got SIGTERM when the first process had ended: a shell lets its background processes
+    /// ignore SIGINT.
+    terminated: HashSet<Pid>,
+}
+
+impl Repeats {
+    /// Repeats the signal where it was missed. Returns false if every process has ended.
+    fn look(&mut self) -> bool {
+        // Another look, as in `is_empty`.
+        let mut processes = members(self.group);
+        if processes.is_empty() {
+            processes = members(self.group);
+        }
+        for process in processes.iter().copied() {
+            let Some(program) = program(process) else { continue };
+            let repeated = match disposition(process, self.signal) {
+                Disposition::Ends => self.reached.insert(program).then_some(self.signal),
+                Disposition::Handles => {
+                    self.reached.insert(program);
+                    None
+                }
+                Disposition::Ignores => {
+                    let is_left = !processes.contains(&self.group);
+                    (is_left && self.terminated.insert(process)).then_some(Signal::SIGTERM)
+                }
+            };
+            // It may end at this moment.
+            let _ = repeated.map(|signal| kill(process, signal));
+        }
+        !processes.is_empty()
+    }
+}
+
+/// What a process executes: another value after `exec`, which starts the program with a stack elsewhere.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct Program {
+    process: Pid,
+    executable: PathBuf,
+    stack: String,
+}
+
+/// The programs of the group.
+pub(crate) fn programs(group: Pid) -> HashSet<Program> {
+    members(group).into_iter().filter_map(program).collect()
+}
+
+/// `None` if the process has ended.
+fn program(process: Pid) -> Option<Program> {
+    // Empty if it is another user's.
+    let executable = fs::read_link(format!("/proc/{process}/exe")).unwrap_or_default();
+    let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    // `startstack`, the 28th field; the state is the third.
+    let stack = stat.rsplit_once(')')?.1.split_ascii_whitespace().nth(25)?.to_owned();
+    Some(Program { process, executable, stack })
 }
 
 fn members(group: Pid) -> Vec<Pid> {
@@ -121,7 +165,7 @@ fn disposition(process: Pid, signal: Signal) -> Disposition {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::Read;
+    use std::io::{Read, Write};
     use std::os::unix::process::CommandExt;
     use std::process::{Command, Stdio};
 
@@ -174,10 +218,39 @@ mod tests {
             }
         };
         kill(group, Signal::SIGTERM).unwrap();
-        let ended = thread::spawn(move || repeat_where_missed(group, Signal::SIGTERM));
+        let ended = thread::spawn(move || repeat_where_missed(group, Signal::SIGTERM, HashSet::new()));
         while members(group) != [deaf] {}
         kill(deaf, Signal::SIGKILL).unwrap();
         ended.join().unwrap();
         leader.wait().unwrap();
+    }
+
+    /// A program that restores the default action after the signal, so that a second one ends it at once.
+    #[test]
+    fn a_program_that_has_got_the_signal_does_not_get_it_again() {
+        let script = "\
+trap 'trap - TERM; echo asked; read line; echo closed; exit 0' TERM
+echo ready
+while :; do :; done";
+        let mut program = Command::new("/bin/sh");
+        let program = program.args(["-c", script]).process_group(0).stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut program = program.spawn().unwrap();
+        let group = Pid::from_raw(program.id().cast_signed());
+        let (mut output, mut input) = (program.stdout.take().unwrap(), program.stdin.take().unwrap());
+        output.read_exact(&mut [0; 6]).unwrap();
+        let reached = programs(group);
+        kill(group, Signal::SIGTERM).unwrap();
+        output.read_exact(&mut [0; 6]).unwrap();
+        assert_eq!(disposition(group, Signal::SIGTERM), Disposition::Ends);
+        let mut repeats = Repeats { group, signal: Signal::SIGTERM, reached, terminated: HashSet::new() };
+        for _ in 0..3 {
+            assert!(repeats.look());
+        }
+        input.write_all(b"end\n").unwrap();
+        let mut rest = String::new();
+        output.read_to_string(&mut rest).unwrap();
+        assert_eq!(rest, "closed\n");
+        assert!(program.wait().unwrap().success());
+        assert!(!repeats.look());
     }
 }
