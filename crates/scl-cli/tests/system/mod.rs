@@ -5,26 +5,30 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStderr, ChildStdout, Command, ExitStatus, Output, Stdio};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A program that never ends by itself. (`tail` would notice the end of a pipe to which it writes.)
 pub(crate) const FOREVER: &str = "exec tail -f /dev/null >/dev/null";
 
 /// The folder that the tests themselves were built into, so that little has to be built again, for one test at a time:
 /// several build programs called `sensor` there and start them.
-pub(crate) struct BuildFolder(#[expect(dead_code, reason = "is held")] MutexGuard<'static, ()>);
+pub(crate) struct BuildFolder(#[expect(dead_code, reason = "is held")] File);
 
 impl BuildFolder {
-    /// Waits until no other test has it.
+    /// Waits until no other test has it, of this process or another one.
     pub(crate) fn lock() -> Self {
-        static FOLDER: Mutex<()> = Mutex::new(());
-        // A test that failed does not make others fail.
-        Self(FOLDER.lock().unwrap_or_else(PoisonError::into_inner))
+        Self(lock_file(&build_folder_without_programs().join("programs.lock")))
     }
 
     pub(crate) fn path(&self) -> PathBuf {
         build_folder_without_programs()
     }
+}
+
+/// Locks a file until it is dropped. A test that fails, or is killed, does not keep others out.
+pub(crate) fn lock_file(path: &Path) -> File {
+    let file = File::create(path).unwrap();
+    file.lock().unwrap();
+    file
 }
 
 /// The same folder, for what builds no programs in it.

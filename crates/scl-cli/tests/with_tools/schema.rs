@@ -3,7 +3,7 @@
 mod agreement;
 
 use crate::lsp::Server;
-use crate::system::System;
+use crate::system::{System, lock_file};
 use scl_needs::needs;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -113,16 +113,19 @@ fn a_file_adds_its_gates_even_with_errors() {
 
 /// The server's program, installed below the target folder once.
 fn language_server() -> PathBuf {
-    // Tests that install it at the same time would leave half of each.
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(install_language_server).clone()
 }
 
 fn install_language_server() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("yaml-language-server-1.25.0");
+    // Tests that install it at the same time would leave half of each.
+    let _lock = lock_file(&folder.with_extension("lock"));
     let program = folder.join("node_modules/yaml-language-server/bin/yaml-language-server");
     if !program.is_file() {
         let installed = folder.with_extension("new");
+        // What an installation that was cut off has left.
+        let _nothing_there = std::fs::remove_dir_all(&installed);
         let mut install = Command::new("npm");
         install.args(["install", "--no-audit", "--no-fund", "yaml-language-server@1.25.0", "--prefix"]).arg(&installed);
         let output = install.output().unwrap();
