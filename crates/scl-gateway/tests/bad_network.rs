@@ -39,7 +39,7 @@ fn check(shape: Shape) -> Fleet {
     let answer = fleet.player("source").counts("question", "call 3 10000");
     println!("{shape:?}: {answer:?}");
     assert_eq!(answer.get("wrong"), 0);
-    reference.compare(&mut fleet, &format!("{shape:?}"));
+    let _longest_call = reference.compare(&mut fleet, &format!("{shape:?}"));
     for connection in CONNECTIONS {
         println!("{shape:?}, {connection:?}: {:?}", fleet.account(connection));
     }

@@ -1,6 +1,7 @@
 //! Control loops keep their period, whatever the network does.
 
 use crate::fleet::Fleet;
+use crate::long::is_long;
 use crate::player::pace::Pace;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -30,14 +31,17 @@ impl Reference {
     }
 
     /// Compares the loops. The control loop of `source` publishes for the other host 500 times in a second; one that ever
-    /// waited for the network would have far fewer rounds.
+    /// waited for the network would have far fewer rounds. Returns the time of its longest call.
     #[track_caller]
-    pub(crate) fn compare(self, fleet: &mut Fleet, during: &str) {
+    pub(crate) fn compare(self, fleet: &mut Fleet, during: &str) -> Duration {
         let answer = fleet.player("source").counts("control", "pace");
         self.ends.store(true, Ordering::Relaxed);
         let reference = self.thread.join().unwrap().take();
         println!("{during}: control loop {answer}; without gates {reference}");
         let (rounds, expected) = (answer.get("rounds"), reference.rounds as u64);
-        assert!(rounds >= expected * 3 / 4, "{rounds} rounds, {expected} in a loop without gates");
+        if is_long() {
+            assert!(rounds >= expected * 3 / 4, "{rounds} rounds, {expected} in a loop without gates");
+        }
+        Duration::from_micros(answer.get("longest_call_us"))
     }
 }

@@ -24,7 +24,8 @@ fn check(length: Duration) {
     let reference = Reference::start(&mut fleet);
     fleet.network.cable.cut(0);
     sleep(length);
-    reference.compare(&mut fleet, "during the cut");
+    let longest_call = reference.compare(&mut fleet, "during the cut");
+    assert!(longest_call < length, "a call waited for the network: {longest_call:?}");
     fleet.mend_and_measure(0, &format!("cut of {length:?}"));
     fleet.stop_all();
     fleet.exact_accounts();

@@ -33,7 +33,7 @@ fn check(host: &str) {
         longest = longest.max(started.elapsed());
     }
     println!("{kills} kills of the gateway of `{host}`: all resumed within {longest:?}");
-    reference.compare(&mut fleet, "during the kills");
+    let _longest_call = reference.compare(&mut fleet, "during the kills");
     fleet.stop_all();
     for connection in CONNECTIONS {
         let account = fleet.account_after(connection);
@@ -103,7 +103,7 @@ fn a_receiving_component_that_is_killed() {
         }
         println!("a new `sink` gets messages within {:?}", started.elapsed());
     }
-    reference.compare(&mut fleet, "during the kills");
+    let _longest_call = reference.compare(&mut fleet, "during the kills");
     fleet.stop_all();
     for connection in CONNECTIONS {
         let account = fleet.account(connection);

