@@ -22,7 +22,8 @@ fn bytes(length: usize) -> Bytes {
 #[tokio::test]
 async fn a_message_of_the_longest_length_arrives() {
     for kind in [TransportKind::Ipc, TransportKind::Tcp] {
-        let (mut giver, mut taker) = pair(&System::over(kind)).await;
+        let system = System::over(kind);
+        let (mut giver, mut taker) = pair(&system).await;
         giver.values.send(&bytes(2048)).await.expect("sent");
         assert_eq!(taker.values.recv().await.expect("received").len(), 2048);
         giver.jobs.send(&bytes(3072)).await.expect("pushed");
@@ -39,7 +40,8 @@ async fn a_message_of_the_longest_length_arrives() {
 
 #[tokio::test]
 async fn a_longer_message_is_refused_with_both_sizes_and_the_next_one_arrives() {
-    let (mut giver, mut taker) = pair(&System::new()).await;
+    let system = System::new();
+    let (mut giver, mut taker) = pair(&system).await;
     let error = giver.values.send(&bytes(2049)).await.expect_err("too long").to_string();
     assert_names(&error, ["giver.values", "taker.values", "2049", "2048"]);
     let error = giver.values.try_send(&bytes(2049)).expect_err("too long").to_string();
@@ -64,7 +66,8 @@ async fn a_longer_message_is_refused_with_both_sizes_and_the_next_one_arrives() 
 
 #[tokio::test]
 async fn a_longer_reply_is_refused_with_both_sizes() {
-    let (mut giver, mut taker) = pair(&System::new()).await;
+    let system = System::new();
+    let (mut giver, mut taker) = pair(&system).await;
     let request = bytes(5);
     tokio::select! {
         _ = giver.question.call(&request) => unreachable!("there is no reply"),

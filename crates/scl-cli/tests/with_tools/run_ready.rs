@@ -132,12 +132,16 @@ fn a_program_that_is_not_ready_yet_is_not_watched() {
 #[test]
 fn only_processes_of_the_component_count() {
     check(
+        // The stranger, which nobody else ends, ends with the component.
         "\
+component_ends, _component_runs = os.pipe()
 if os.fork() == 0:
+    os.close(_component_runs)
     os.setsid()
     say('READY=1')
     say('STATUS=from a stranger')
-    hang()
+    os.read(component_ends, 1)
+    os._exit(0)
 hang()",
         "ready_within: 2s",
         1,

@@ -14,8 +14,13 @@ fn programs_in_every_language_are_seen() {
         // Rust's program has a main function of its own, without a service manager.
         let notifies = language != super::program::Language::Rust;
         let mut left = Program::start_with(&system, language, "left", if notifies { &more } else { &[] });
+        left.tell("ready 300000");
+        if notifies {
+            // Until it first calls a gate; later not while it waits for commands.
+            manager.expect("WATCHDOG=1");
+        }
         let mut right = Program::start(&system, language, "right");
-        left.ask("ready 30000", "ready");
+        left.expect("ready");
         left.ask("send pub_bytes 0 7", "sent");
         right.ask("take sub_bytes 7", "0..7");
 
@@ -32,8 +37,6 @@ fn programs_in_every_language_are_seen() {
             });
         }
         if notifies {
-            // Until its first call, and not while it waits for commands.
-            manager.expect("WATCHDOG=1");
             manager.expect("READY=1");
             left.signal(Signal::TERM);
             // Before its input is closed, which ends it as well.
