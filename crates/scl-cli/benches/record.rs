@@ -2,6 +2,7 @@
 //!
 //! `cargo bench -p scl-cli --bench record`. Two processes, a source and a sink, are connected by ten gates; a recorder
 //! runs in every second phase.
+#![expect(clippy::disallowed_methods, reason = "what is left of a failed benchmark is seen")]
 
 use scl::plan::SystemPlan;
 use scl::untyped::Component;

@@ -2,6 +2,7 @@
 
 use crate::publish::{elsewhere, open};
 use crate::rover::Rover;
+use crate::system::SpawnGuarded;
 use expect_test::{Expect, expect};
 use std::process::Stdio;
 
@@ -24,12 +25,12 @@ fn the_request_is_what_was_written() {
     let mut controller = open(&rover, "controller");
     let mut commands = controller.replier("commands").unwrap();
     let arguments = ["call", "controller.commands", "{target_speed: -1.5}", "--timeout", "60s"];
-    let process = rover.scl(&arguments).stdout(Stdio::piped()).spawn().unwrap();
+    let process = rover.scl(&arguments).stdout(Stdio::piped()).spawn_guarded();
     let request = commands.recv_blocking().unwrap();
     assert_eq!(request.message()[..], [&[9][..], &(-1.5_f64).to_le_bytes()].concat());
     // A reply that cannot be decoded is shown.
     request.reply(&"\u{1}".into()).unwrap();
-    let output = process.wait_with_output().unwrap();
+    let output = process.wait_with_output();
     assert_eq!(output.status.code(), Some(0));
     expect![[r#"
         length: 1
@@ -70,11 +71,11 @@ fn without_a_request_nothing_is_sent() {
     );
     // The first request that arrives is the one that was written.
     let arguments = ["call", "controller.commands", "{target_speed: 2}", "--timeout", "60s"];
-    let process = rover.scl(&arguments).stdout(Stdio::null()).spawn().unwrap();
+    let process = rover.scl(&arguments).stdout(Stdio::null()).spawn_guarded();
     let request = commands.recv_blocking().unwrap();
     assert_eq!(request.message()[..], [&[9][..], &2_f64.to_le_bytes()].concat());
     request.reply(&"".into()).unwrap();
-    assert!(process.wait_with_output().unwrap().status.success());
+    assert!(process.wait_with_output().status.success());
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `scl check --fix` on real files: what is written, what is printed, and the exit codes.
 
-use crate::system::System;
+use crate::system::{SpawnGuarded, System};
 use expect_test::{Expect, expect};
 use std::fs;
 use std::io::Write;
@@ -148,9 +148,9 @@ fn a_difference_is_what_patch_reads() {
 #[test]
 fn standard_input_comes_out_fixed() {
     let system = System::of_files(&[]);
-    let mut child = system.scl(&["check", "--fix", "-"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut child = system.scl(&["check", "--fix", "-"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn_guarded();
     child.stdin.take().unwrap().write_all(WRONG.as_bytes()).unwrap();
-    let output = child.wait_with_output().unwrap();
+    let output = child.wait_with_output();
     assert_eq!(String::from_utf8(output.stdout).unwrap(), fixed());
     assert_eq!(output.status.code(), Some(1));
 }

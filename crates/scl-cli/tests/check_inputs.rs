@@ -1,6 +1,6 @@
 //! What `scl check` does with everything that may stand behind a path, and with `--deny`.
 
-use crate::system::System;
+use crate::system::{SpawnGuarded, System};
 use std::fs::{self, File, Permissions};
 use std::io::Write;
 use std::os::unix::fs::{PermissionsExt, symlink};
@@ -39,10 +39,10 @@ fn check(system: &System, arguments: &[&str], code: i32, part: &str) {
 #[track_caller]
 fn check_stdin(system: &System, input: &[u8], arguments: &[&str], code: i32, part: &str) {
     let mut command = system.scl(&[&["check"], arguments].concat());
-    let mut process = command.stdin(Stdio::piped()).stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut process = command.stdin(Stdio::piped()).stderr(Stdio::piped()).stdout(Stdio::piped()).spawn_guarded();
     // A refused input is not read to its end, so writing it may fail.
     let _ = process.stdin.take().unwrap().write_all(input);
-    let output = process.wait_with_output().unwrap();
+    let output = process.wait_with_output();
     let (found, text) = told(&output);
     let text = text + &String::from_utf8(output.stdout).unwrap();
     assert_eq!(found, Some(code), "{text}");

@@ -1,9 +1,9 @@
 //! `scl check --watch` on files that change, vanish and come back. The tests wait for its lines, never for a time.
 
-use crate::system::{System, kill};
+use crate::system::{ChildGuard, SpawnGuarded, System, kill};
 use std::fs;
 use std::io::{BufRead, BufReader};
-use std::process::{Child, ChildStderr, ExitStatus, Stdio};
+use std::process::{ChildStderr, ExitStatus, Stdio};
 
 const CLEAN: &str = "\
 components:
@@ -19,14 +19,14 @@ connections:
 
 /// A running `scl check --watch`.
 struct Watch {
-    process: Child,
+    process: ChildGuard,
     lines: BufReader<ChildStderr>,
 }
 
 impl Watch {
     fn start(system: &System, arguments: &[&str]) -> Self {
         let mut command = system.scl(&[&["check", "--watch"], arguments].concat());
-        let mut process = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut process = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn_guarded();
         let lines = BufReader::new(process.stderr.take().unwrap());
         Self { process, lines }
     }

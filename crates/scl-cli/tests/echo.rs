@@ -1,20 +1,20 @@
 //! `scl echo` on running processes.
 
 use crate::rover::Rover;
-use crate::system::kill;
+use crate::system::{ChildGuard, SpawnGuarded, kill};
 use expect_test::{Expect, expect};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStdout, Stdio};
+use std::process::{ChildStdout, Stdio};
 use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
 /// Starts `scl`, whose lines are read one by one.
-fn start(rover: &Rover, arguments: &[&str]) -> (Child, BufReader<ChildStdout>) {
+fn start(rover: &Rover, arguments: &[&str]) -> (ChildGuard, BufReader<ChildStdout>) {
     let mut command = rover.scl(arguments);
-    let mut process = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut process = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded();
     let lines = BufReader::new(process.stdout.take().unwrap());
     (process, lines)
 }
@@ -25,7 +25,7 @@ fn next_json(lines: &mut impl BufRead) -> Value {
     serde_json::from_str(&line).unwrap_or_else(|error| panic!("{error}: `{line}`"))
 }
 
-fn standard_error(process: &mut Child) -> String {
+fn standard_error(process: &mut ChildGuard) -> String {
     let mut text = String::new();
     process.stderr.take().unwrap().read_to_string(&mut text).unwrap();
     text

@@ -1,8 +1,8 @@
 //! `scl generate` as people and build systems run it. What it generates, `scl-generate` tests.
 
-use crate::system::System;
+use crate::system::{ChildGuard, SpawnGuarded, System};
 use expect_test::{Expect, expect};
-use std::process::{Child, Output, Stdio};
+use std::process::{Output, Stdio};
 
 const ROVER: &str = "\
 system: rover
@@ -245,15 +245,15 @@ fn build_systems_learn_what_a_file_depends_on() {
 #[test]
 fn any_number_of_programs_generate_into_one_folder_at_once() {
     let system = rover();
-    let start = || -> Vec<Child> {
+    let start = || -> Vec<ChildGuard> {
         let one = || {
             let arguments = ["generate", "--for", "c", "-o", "gen"];
-            system.scl(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+            system.scl(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded()
         };
         (0..16).map(|_| one()).collect()
     };
-    let finish = |processes: Vec<Child>| -> usize {
-        let outputs = processes.into_iter().map(|process| process.wait_with_output().unwrap());
+    let finish = |processes: Vec<ChildGuard>| -> usize {
+        let outputs = processes.into_iter().map(|process| process.wait_with_output());
         let written = |output: Output| {
             assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
             String::from_utf8(output.stdout).unwrap().matches("wrote").count()

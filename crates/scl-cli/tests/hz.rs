@@ -1,7 +1,7 @@
 //! What `scl hz` says about gates whose messages are known.
 
 use crate::rover::Rover;
-use crate::system::kill;
+use crate::system::{SpawnGuarded, kill};
 use crate::ticker::{Reports, Ticker};
 
 #[test]
@@ -105,7 +105,7 @@ fn a_component_that_restarts_is_measured_again() {
 #[test]
 fn it_ends_when_its_reader_has_gone() {
     let rover = Rover::start();
-    let mut process = rover.scl(&["hz"]).stdout(std::process::Stdio::piped()).spawn().unwrap();
+    let mut process = rover.scl(&["hz"]).stdout(std::process::Stdio::piped()).spawn_guarded();
     drop(process.stdout.take());
     assert_eq!(process.wait().unwrap().code(), Some(0));
 }

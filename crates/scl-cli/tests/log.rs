@@ -1,6 +1,6 @@
 //! `scl log`: what components printed, read without `scl run`.
 
-use crate::system::{FOREVER, Started, System};
+use crate::system::{FOREVER, SpawnGuarded, Started, System};
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
@@ -88,7 +88,7 @@ fn a_log_is_followed_while_the_component_runs_and_after() {
     let system = system(&[("sensor", &format!("echo one; until [ -e go ]; do sleep 0.01; done; echo two; {FOREVER}"))]);
     let mut running = start(&system);
     running.wait_for("sensor | one");
-    let mut follow = log(&system, &["sensor", "-f"]).stdout(Stdio::piped()).spawn().unwrap();
+    let mut follow = log(&system, &["sensor", "-f"]).stdout(Stdio::piped()).spawn_guarded();
     let mut lines = BufReader::new(follow.stdout.take().unwrap()).lines().map(Result::unwrap);
     assert!(lines.next().unwrap().ends_with("Z stdout one"));
     system.write("go", "");

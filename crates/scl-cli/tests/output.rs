@@ -1,6 +1,7 @@
 //! What every command does if its output cannot be written: a full disk is an error, a reader that has gone is not.
 
 use crate::rover::Rover;
+use crate::system::SpawnGuarded;
 use std::collections::BTreeSet;
 use std::fs::OpenOptions;
 use std::process::{Command, Output, Stdio};
@@ -61,7 +62,7 @@ fn rover() -> Rover {
 
 fn with_output(mut command: Command, output: impl Into<Stdio>) -> (Option<i32>, String) {
     let Output { status, stderr, .. } =
-        command.stdout(output).stderr(Stdio::piped()).spawn().unwrap().wait_with_output().unwrap();
+        command.stdout(output).stderr(Stdio::piped()).spawn_guarded().wait_with_output();
     (status.code(), String::from_utf8(stderr).unwrap())
 }
 

@@ -1,6 +1,7 @@
 //! `scl pub` with running processes, and with components that the test itself opens.
 
 use crate::rover::Rover;
+use crate::system::SpawnGuarded;
 use expect_test::expect;
 use scl::OpenOptions;
 use scl::plan::SystemPlan;
@@ -24,7 +25,7 @@ pub(crate) fn elsewhere(rover: &Rover, arguments: &[&str]) -> Command {
     command
 }
 
-const LONG: Duration = Duration::from_secs(60);
+const LONG: Duration = Duration::from_secs(300);
 
 /// An event, as protobuf.
 fn event(text: &str) -> Vec<u8> {
@@ -69,7 +70,7 @@ fn messages_of_standard_input_are_sent_one_by_one() {
     let rover = Rover::stopped();
     let mut logger = open(&rover, "logger");
     let mut events = logger.puller("events").unwrap();
-    let mut process = rover.scl(&["pub", "sensor.log", "-"]).stdin(Stdio::piped()).spawn().unwrap();
+    let mut process = rover.scl(&["pub", "sensor.log", "-"]).stdin(Stdio::piped()).spawn_guarded();
     let mut input = process.stdin.take().unwrap();
     input.write_all(b"{\"text\": \"one\"}\n").unwrap();
     // It is sent while the input is still open.

@@ -1,7 +1,7 @@
 //! The first thing that anybody sees: the quick start builds, talks and stops; its file alone, when damaged and mended,
 //! is noticed by cargo. All of it without protoc.
 
-use crate::system::{BuildFolder, System};
+use crate::system::{BuildFolder, ChildGuard, SpawnGuarded, System};
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -66,7 +66,7 @@ fn a_replayed_recording_gives_the_same_set_points() {
 /// A running program; killed when dropped.
 #[cfg(feature = "record")]
 struct Running {
-    process: std::process::Child,
+    process: ChildGuard,
     lines: std::io::BufReader<Box<dyn std::io::Read>>,
 }
 
@@ -85,14 +85,6 @@ impl Running {
     fn stop(&mut self) {
         crate::system::kill("-INT", self.process.id());
         assert!(self.process.wait().unwrap().success());
-    }
-}
-
-#[cfg(feature = "record")]
-impl Drop for Running {
-    fn drop(&mut self) {
-        let _ended = self.process.kill();
-        let _status = self.process.wait();
     }
 }
 
@@ -177,7 +169,7 @@ impl Copied {
     fn start(&self, name: &str) -> Running {
         let mut command = Command::new(self.build_folder.path().join("debug").join(name));
         self.without_protoc(&mut command);
-        let mut process = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn().unwrap();
+        let mut process = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn_guarded();
         let output: Box<dyn std::io::Read> = Box::new(process.stdout.take().unwrap());
         Running { process, lines: std::io::BufReader::new(output) }
     }
@@ -190,7 +182,7 @@ impl Copied {
         let running = r#""state": "running""#;
         while !String::from_utf8_lossy(&self.scl(&info).output().unwrap().stdout).contains(running) {}
         let mut command = self.scl(&["record", "-o", file, "--system", "rover"]);
-        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded();
         let log: Box<dyn std::io::Read> = Box::new(process.stderr.take().unwrap());
         let mut recorder = Running { process, lines: std::io::BufReader::new(log) };
         recorder.wait_for_line("connected to 3 gates");

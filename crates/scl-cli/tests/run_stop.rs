@@ -1,6 +1,6 @@
 //! How `scl run` stops: by itself, on request, when a component fails, and when it is killed.
 
-use crate::system::{FOREVER, Started, System, kill, wait_for_writers_to_end, without_times};
+use crate::system::{FOREVER, SpawnGuarded, Started, System, kill, wait_for_writers_to_end, without_times};
 
 /// Ignores what asks it to stop; says so each time.
 const STUBBORN: &str = "trap 'echo caught' INT TERM; echo ready; while :; do tail -f /dev/null >/dev/null & wait; done";
@@ -125,7 +125,7 @@ fn what_a_program_leaves_behind_ends_with_it() {
 fn nobody_reading_stops_the_run() {
     let system = System::of(&[("sensor", "while :; do echo line; done")]);
     let mut command = system.scl(&["run"]);
-    let mut process = command.stdout(std::process::Stdio::piped()).spawn().unwrap();
+    let mut process = command.stdout(std::process::Stdio::piped()).spawn_guarded();
     drop(process.stdout.take());
     // The component ends by SIGPIPE or by the SIGTERM that the runner sends it; what counts is that it all ends.
     assert!(process.wait().unwrap().code().is_some());

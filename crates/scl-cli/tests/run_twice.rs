@@ -1,6 +1,6 @@
 //! A system that runs already, a `scl run` that does not answer, and what a stop leaves running.
 
-use crate::system::{FOREVER, Started, System};
+use crate::system::{FOREVER, SpawnGuarded, Started, System};
 use std::os::unix::net::UnixStream;
 
 const TOPOLOGY: &str = "\
@@ -85,10 +85,10 @@ fn a_run_that_is_stopped_during_a_stop_is_named() {
     let system = System::of_files(&[("launch.yaml", &launch), ("topology.yaml", TOPOLOGY)]);
     let mut run = start(&system, &["--grace", "1h"]);
     run.wait_for_line("sensor | ready");
-    let stop = system.scl(&["stop"]).stderr(std::process::Stdio::piped()).spawn().unwrap();
+    let stop = system.scl(&["stop"]).stderr(std::process::Stdio::piped()).spawn_guarded();
     run.wait_for_line("sensor | asked");
     run.signal("-STOP");
-    let output = stop.wait_with_output().unwrap();
+    let output = stop.wait_with_output();
     let err = String::from_utf8(output.stderr).unwrap();
     assert!(err.contains(" does not answer: it is stopped\n"), "{err}");
     assert_eq!(output.status.code(), Some(2), "{err}");

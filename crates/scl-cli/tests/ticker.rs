@@ -1,13 +1,13 @@
 //! A component whose every message the test decides about, and the lines of a command that measures it.
 
 use crate::rover::Rover;
-use crate::system::kill;
+use crate::system::{ChildGuard, SpawnGuarded, kill};
 use scl::OpenOptions;
 use scl::plan::SystemPlan;
 use scl::untyped::Component;
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
-use std::process::{Child, ChildStdout, Stdio};
+use std::process::{ChildStdout, Stdio};
 use std::thread;
 use std::time::Duration;
 
@@ -74,14 +74,14 @@ impl Ticker {
 
 /// What `scl hz`, `scl delay` or `scl bw` prints as JSON, line by line.
 pub(crate) struct Reports {
-    process: Child,
+    process: ChildGuard,
     lines: BufReader<ChildStdout>,
 }
 
 impl Reports {
     pub(crate) fn start(rover: &Rover, arguments: &[&str]) -> Self {
         let mut command = rover.scl(&[arguments, &["--format", "json"]].concat());
-        let mut process = command.stdout(Stdio::piped()).spawn().unwrap();
+        let mut process = command.stdout(Stdio::piped()).spawn_guarded();
         let lines = BufReader::new(process.stdout.take().unwrap());
         Self { process, lines }
     }
@@ -123,12 +123,5 @@ impl Reports {
         let total = std::iter::from_fn(|| Some(self.next())).find(|report| report["total"] == true);
         assert_eq!(self.process.wait().unwrap().code(), Some(0));
         total.unwrap()
-    }
-}
-
-impl Drop for Reports {
-    fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
     }
 }

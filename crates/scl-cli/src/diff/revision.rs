@@ -60,6 +60,7 @@ fn run(folder: &Path, arguments: &[&str], index: Option<&Path>, input: &[u8]) ->
     let mut command = Command::new("git");
     command.arg("-C").arg(folder).args(arguments).envs(index.map(|index| ("GIT_INDEX_FILE", index)));
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    #[expect(clippy::disallowed_methods, reason = "it is waited for below")]
     let mut process = command.spawn().map_err(|error| format!("cannot run `git`: {error}"))?;
     if let Some(mut stdin) = process.stdin.take() {
         // If git does not read it, its exit code says why.

@@ -1,17 +1,17 @@
 //! A running `scl record`, and the messages in its files.
 
 use crate::rover::Rover;
-use crate::system::kill;
+use crate::system::{ChildGuard, SpawnGuarded, kill};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
-use std::process::{Child, ChildStderr, Command, Stdio};
+use std::process::{ChildStderr, Command, Stdio};
 
 /// A running `scl record`; killed when dropped.
 pub(super) struct Recorder {
-    process: Child,
+    process: ChildGuard,
     log: BufReader<ChildStderr>,
 }
 
@@ -28,7 +28,7 @@ impl Recorder {
 
     /// Starts a command that records.
     pub(super) fn spawn(mut command: Command) -> Self {
-        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded();
         let log = BufReader::new(process.stderr.take().unwrap());
         Self { process, log }
     }
@@ -78,14 +78,6 @@ impl Recorder {
         self.log.read_to_string(&mut err).unwrap();
         self.process.stdout.take().unwrap().read_to_string(&mut out).unwrap();
         (self.process.wait().unwrap().code(), out, err)
-    }
-}
-
-impl Drop for Recorder {
-    fn drop(&mut self) {
-        // It may have ended.
-        let _ = self.process.kill();
-        let _ = self.process.wait();
     }
 }
 

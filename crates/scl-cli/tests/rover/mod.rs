@@ -7,11 +7,11 @@
 mod messages;
 mod player;
 
-use crate::system::System;
+use crate::system::{ChildGuard, SpawnGuarded, System};
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 
 /// The system's topology, with gates of all kinds.
 pub(crate) const TOPOLOGY: &str = include_str!("rover.yaml");
@@ -27,13 +27,13 @@ const PLAYS: &str = "SCL_TEST_PLAYS";
 
 /// A running system. Dropping it ends its components.
 pub(crate) struct Rover {
-    files: System,
     playing: Vec<Playing>,
+    files: System,
 }
 
 struct Playing {
     component: String,
-    process: Child,
+    process: ChildGuard,
 }
 
 impl Rover {
@@ -57,7 +57,7 @@ impl Rover {
     /// Another topology over the same messages, of which nothing runs.
     pub(crate) fn of(topology: &str) -> Self {
         let files = System::of_files(&[("topology.yaml", topology), ("rover.proto", MESSAGES)]);
-        let rover = Self { files, playing: Vec::new() };
+        let rover = Self { playing: Vec::new(), files };
         let plan = rover.scl(&["plan"]).output().unwrap();
         assert!(plan.status.success(), "{}", String::from_utf8_lossy(&plan.stderr));
         rover.files.write("plan.json", &String::from_utf8(plan.stdout).unwrap());
@@ -173,7 +173,7 @@ impl Rover {
         let plan = std::fs::read_to_string(self.path("plan.json")).unwrap();
         command.env(PLAYS, component).env(player::PLAN, plan);
         prepare(&mut command);
-        Playing { component: component.to_owned(), process: command.spawn().unwrap() }
+        Playing { component: component.to_owned(), process: command.spawn_guarded() }
     }
 
     fn set_environment(&self, command: &mut Command) {
@@ -184,19 +184,9 @@ impl Rover {
         }
     }
 
-    fn take(&mut self, component: &str) -> Child {
+    fn take(&mut self, component: &str) -> ChildGuard {
         let index = self.playing.iter().position(|playing| playing.component == component);
         self.playing.remove(index.unwrap_or_else(|| panic!("`{component}` is not running"))).process
-    }
-}
-
-impl Drop for Rover {
-    fn drop(&mut self) {
-        for playing in &mut self.playing {
-            // One that has ended meanwhile is no problem here.
-            let _ = playing.process.kill();
-            let _ = playing.process.wait();
-        }
     }
 }
 

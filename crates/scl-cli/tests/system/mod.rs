@@ -1,10 +1,13 @@
 //! A system in a folder of its own, and the real `scl run` on it. Nothing here waits for a time, only for events.
 #![cfg_attr(not(feature = "run"), allow(dead_code, reason = "the tests of `scl run` use a part of it"))]
 
+mod guard;
+
+pub(crate) use guard::{ChildGuard, SpawnGuarded};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStderr, ChildStdout, Command, ExitStatus, Output, Stdio};
+use std::process::{ChildStderr, ChildStdout, Command, ExitStatus, Output, Stdio};
 
 /// A program that never ends by itself. (`tail` would notice the end of a pipe to which it writes.)
 pub(crate) const FOREVER: &str = "exec tail -f /dev/null >/dev/null";
@@ -127,7 +130,7 @@ impl System {
 
 /// A running `scl run`.
 pub(crate) struct Started {
-    process: Child,
+    process: ChildGuard,
     lines: BufReader<ChildStdout>,
     errors: BufReader<ChildStderr>,
     seen_errors: String,
@@ -135,7 +138,7 @@ pub(crate) struct Started {
 
 impl Started {
     pub(crate) fn spawn(command: &mut Command) -> Self {
-        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded();
         let lines = BufReader::new(process.stdout.take().unwrap());
         let errors = BufReader::new(process.stderr.take().unwrap());
         Self { process, lines, errors, seen_errors: String::new() }

@@ -1,6 +1,6 @@
 //! `docs/editor.md` says what works: its settings are taken from the page and used.
 
-use crate::system::{System, kill};
+use crate::system::{SpawnGuarded, System, kill};
 use scl_needs::needs;
 use serde_json::Value;
 use std::io::Write;
@@ -54,16 +54,16 @@ fn the_task_of_vs_code_finds_the_problems() {
     let arguments: Vec<&str> = task["args"].as_array().unwrap().iter().map(|it| it.as_str().unwrap()).collect();
     let system = System::of_files(&[("topology.yaml", WRONG)]);
     let mut watch = system.scl(&arguments);
-    let mut watch = watch.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut watch = watch.stdout(Stdio::null()).stderr(Stdio::piped()).spawn_guarded();
     let text = read_first_check(watch.stderr.take().unwrap());
     kill("-INT", watch.id());
     assert_eq!(watch.wait().unwrap().code(), Some(1));
 
     let mut node = Command::new("node");
-    let mut node = node.args(["-e", MATCH]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut node = node.args(["-e", MATCH]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn_guarded();
     let input = serde_json::to_string(&(&task["problemMatcher"], &text)).unwrap();
     node.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
-    let found: Value = serde_json::from_slice(&node.wait_with_output().unwrap().stdout).unwrap();
+    let found: Value = serde_json::from_slice(&node.wait_with_output().stdout).unwrap();
     let message = "component `sensor` has no gate `measurement`";
     let expected = serde_json::json!([
         { "severity": "error", "code": "SCL0502", "message": message, "file": "topology.yaml", "line": "9", "column": "13" },

@@ -1,6 +1,6 @@
 //! Programs of several processes: what runs between `scl run` and a program, such as a shell, does not cut its end short.
 
-use crate::system::{FOREVER, Started, System, kill, wait_for_writers_to_end};
+use crate::system::{FOREVER, SpawnGuarded, Started, System, kill, wait_for_writers_to_end};
 use std::io::{Read, Write};
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::net::UnixStream;
@@ -91,12 +91,12 @@ fn a_request_waits_for_the_program_behind_a_shell() {
     for command in COMMANDS {
         let system = system(command);
         let run = start(&system);
-        let mut restart = system.scl(&["restart", "sensor"]).spawn().unwrap();
+        let mut restart = system.scl(&["restart", "sensor"]).spawn_guarded();
         let_go(&system);
         wait_for(&system, "started");
         assert!(restart.wait().unwrap().success(), "{command}");
         assert_eq!(closed(&system), 1, "{command}");
-        let mut stop = system.scl(&["stop", "sensor"]).stdout(std::process::Stdio::null()).spawn().unwrap();
+        let mut stop = system.scl(&["stop", "sensor"]).stdout(std::process::Stdio::null()).spawn_guarded();
         let_go(&system);
         assert!(stop.wait().unwrap().success(), "{command}");
         assert_eq!(closed(&system), 2, "{command}");

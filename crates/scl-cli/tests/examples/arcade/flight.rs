@@ -1,7 +1,7 @@
 //! A flight of `examples/arcade` as real processes: `scl run` flies, `scl record` records, `scl echo` tells where it is.
 
 use super::recording::Recording;
-use crate::system::{System, kill};
+use crate::system::{ChildGuard, SpawnGuarded, System, kill};
 use crate::{built, example};
 use scl_tests::wait_until;
 use serde_json::Value;
@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::fs::DirBuilderExt as _;
 use std::path::PathBuf;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
@@ -21,10 +21,10 @@ const LONGEST_FLIGHT: f64 = 240.0;
 
 /// A running system with its recorder. Dropping it ends all processes.
 pub(super) struct Flight {
+    others: Vec<ChildGuard>,
+    run: ChildGuard,
+    recorder: ChildGuard,
     system: System,
-    run: Child,
-    recorder: Child,
-    others: Vec<Child>,
     file: PathBuf,
     events: Receiver<Event>,
     /// What `scl run` has printed.
@@ -70,13 +70,13 @@ impl Flight {
         let recorder = spawn_recorder(&mut command(&system, &record), "recording `arcade`");
         let folder = example("arcade");
         let arguments = [&["run", folder.to_str().unwrap()], arguments].concat();
-        let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded();
         send_lines(run.stdout.take().unwrap(), &sender, Event::Line);
         send_lines(run.stderr.take().unwrap(), &sender, Event::Line);
-        let mut flight = Self { system, run, recorder, others: Vec::new(), file, events, log: String::new() };
+        let mut flight = Self { others: Vec::new(), run, recorder, system, file, events, log: String::new() };
         flight.wait_for_line("scl: all components are ready");
         let echo = ["echo", "autopilot.flight", "--system", "arcade", "--format", "json"];
-        let mut echo = flight.command(&echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+        let mut echo = flight.command(&echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn_guarded();
         send_lines(echo.stdout.take().unwrap(), &sender, |line| Event::Position(Position::parse(&line)));
         flight.others.push(echo);
         flight
@@ -84,7 +84,7 @@ impl Flight {
 
     /// Starts a program that runs beside the flight.
     pub(super) fn start_beside(&mut self, mut program: Command) {
-        self.others.push(program.stdin(Stdio::null()).spawn().unwrap());
+        self.others.push(program.stdin(Stdio::null()).spawn_guarded());
     }
 
     /// `scl`, looking at this system.
@@ -171,16 +171,6 @@ impl Flight {
     }
 }
 
-impl Drop for Flight {
-    fn drop(&mut self) {
-        for process in self.others.iter_mut().chain([&mut self.run, &mut self.recorder]) {
-            // One that has ended meanwhile is no problem here.
-            let _ = process.kill();
-            let _ = process.wait();
-        }
-    }
-}
-
 impl Position {
     fn parse(line: &str) -> Self {
         let echoed: Value = serde_json::from_str(line).unwrap();
@@ -220,8 +210,8 @@ pub(super) fn command(system: &System, arguments: &[&str]) -> Command {
 }
 
 /// Starts a recorder, and waits until it prints this.
-pub(super) fn spawn_recorder(command: &mut Command, begun: &str) -> Child {
-    let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+pub(super) fn spawn_recorder(command: &mut Command, begun: &str) -> ChildGuard {
+    let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn_guarded();
     let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines().map(Result::unwrap);
     assert!(lines.any(|line| line.contains(begun)), "{command:?} does not record");
     // So that it can print the others.

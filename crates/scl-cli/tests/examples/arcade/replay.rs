@@ -3,7 +3,7 @@
 use super::flight::{aircraft_folder, command, spawn_recorder};
 use super::recording::Recording;
 use crate::built;
-use crate::system::kill;
+use crate::system::{SpawnGuarded, kill};
 use scl_tests::wait_until;
 use std::path::Path;
 use std::process::Stdio;
@@ -42,7 +42,7 @@ fn replay(flight: &Path, again: &Path) {
     let system = aircraft_folder();
     let scl = |arguments: &[&str]| command(&system, arguments);
     let mut autopilot = scl(&["run", ".", "--only", "autopilot"]);
-    let mut autopilot = autopilot.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let mut autopilot = autopilot.stdout(Stdio::null()).stderr(Stdio::null()).spawn_guarded();
     let info = ["info", "autopilot", "--system", "arcade"];
     wait_until("the autopilot runs", || scl(&info).output().unwrap().status.success());
     let record = ["record", "autopilot.motors", "--system", "arcade", "--overwrite", "-o", again.to_str().unwrap()];

@@ -2,7 +2,7 @@
 //! the time.
 
 use super::recording::Recording;
-use crate::system::{System, kill};
+use crate::system::{ChildGuard, SpawnGuarded, System, kill};
 use crate::{built, example};
 use scl_tests::wait_until;
 use serde_json::Value;
@@ -11,7 +11,7 @@ use std::fs::DirBuilder;
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::fs::DirBuilderExt;
 use std::path::PathBuf;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
@@ -21,10 +21,10 @@ const HANG_LIMIT: Duration = Duration::from_secs(120);
 
 /// A running system with its recorder. Dropping it ends all processes.
 pub(super) struct Session {
+    echo: Option<ChildGuard>,
+    run: ChildGuard,
+    recorder: ChildGuard,
     system: System,
-    run: Child,
-    recorder: Child,
-    echo: Option<Child>,
     file: PathBuf,
     events: Receiver<Event>,
     /// The newest time of the band.
@@ -54,15 +54,15 @@ impl Session {
         let recorder = spawn_recorder(&mut command(&system, &record));
         let folder = example("ospecorr");
         let arguments = ["run", folder.to_str().unwrap(), "--profile", "visits"];
-        let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded();
         send_lines(run.stdout.take().unwrap(), &sender, Event::Line);
         send_lines(run.stderr.take().unwrap(), &sender, Event::Line);
-        let mut session = Self { system, run, recorder, echo: None, file, events, time_us: 0, log: String::new() };
+        let mut session = Self { echo: None, run, recorder, system, file, events, time_us: 0, log: String::new() };
         while !session.log.contains("scl: all components are ready") {
             session.next(BUILD_LIMIT);
         }
         let echo = ["echo", "spectrum.truth", "--system", "ospecorr", "--format", "json"];
-        let mut echo = command(&session.system, &echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+        let mut echo = command(&session.system, &echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn_guarded();
         send_lines(echo.stdout.take().unwrap(), &sender, |line| Event::Time(time_of(&line)));
         session.echo = Some(echo);
         session
@@ -125,16 +125,6 @@ impl Session {
     }
 }
 
-impl Drop for Session {
-    fn drop(&mut self) {
-        for process in self.echo.iter_mut().chain([&mut self.run, &mut self.recorder]) {
-            // One that has ended meanwhile is no problem here.
-            let _ = process.kill();
-            let _ = process.wait();
-        }
-    }
-}
-
 /// The time in a line of `scl echo`.
 fn time_of(line: &str) -> u64 {
     let echoed: Value = serde_json::from_str(line).unwrap();
@@ -155,8 +145,8 @@ fn command(system: &System, arguments: &[&str]) -> Command {
 }
 
 /// Starts a recorder, and waits until it waits for components.
-fn spawn_recorder(command: &mut Command) -> Child {
-    let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+fn spawn_recorder(command: &mut Command) -> ChildGuard {
+    let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn_guarded();
     let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines();
     let first = lines.next().unwrap().unwrap();
     assert!(first.starts_with("recording"), "{first}");

@@ -1,17 +1,18 @@
 //! A language server as a process, and the little of the protocol that the tests need.
 
+use crate::system::{ChildGuard, SpawnGuarded};
 use serde_json::{Value, json};
 use std::collections::{HashMap, VecDeque};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::process::{ChildStdin, ChildStdout, Command, Stdio};
 
 /// The error code of an answer about text that has changed since.
 const CONTENT_MODIFIED: i64 = -32801;
 
 /// A running language server. It is killed when the value is dropped.
 pub(crate) struct Server {
-    process: Child,
+    process: ChildGuard,
     input: ChildStdin,
     output: BufReader<ChildStdout>,
     /// Notifications that came while an answer was awaited.
@@ -24,7 +25,7 @@ pub(crate) struct Server {
 impl Server {
     /// Starts a server for a folder and greets it.
     pub(crate) fn start(command: &mut Command, folder: &Path, settings: Value) -> Self {
-        let mut process = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+        let mut process = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn_guarded();
         let (input, output) = (process.stdin.take().unwrap(), BufReader::new(process.stdout.take().unwrap()));
         let mut server = Self { process, input, output, notified: VecDeque::new(), last_id: 0, settings };
         let capabilities = json!({
@@ -206,13 +207,6 @@ impl Server {
         let mut body = vec![0; length];
         self.output.read_exact(&mut body).unwrap();
         serde_json::from_slice(&body).unwrap()
-    }
-}
-
-impl Drop for Server {
-    fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
     }
 }
 
