@@ -17,7 +17,7 @@ use std::task::Poll;
 use std::time::Duration;
 use tempfile::TempDir;
 
-const LONG: Duration = Duration::from_secs(60);
+const LONG: Duration = Duration::from_secs(300);
 const WINDOW: Window = Window { messages: 4, bytes: 1 << 18 };
 
 /// One host: a runtime folder.

@@ -20,8 +20,8 @@ async fn components_meet_in_memory_and_touch_no_file() {
     sensor.measurements.send(&vec![0.5]).await.unwrap();
 
     let mut controller = Controller::open_with(options).await.unwrap();
-    controller.ready(Duration::from_secs(60)).await.unwrap();
-    sensor.ready(Duration::from_secs(60)).await.unwrap();
+    controller.ready(Duration::from_secs(300)).await.unwrap();
+    sensor.ready(Duration::from_secs(300)).await.unwrap();
     sensor.measurements.send(&vec![1.5, 2.5]).await.unwrap();
     assert_eq!(controller.sensor.recv().await.unwrap(), [0.5], "sent before anybody was there");
     assert_eq!(controller.sensor.recv().await.unwrap(), [1.5, 2.5]);
@@ -40,7 +40,7 @@ async fn a_publisher_is_told_that_its_subscriber_came_and_went() {
     for _ in 0..3 {
         let controller = open_controller().await.unwrap();
         // It comes while nobody waits for that, and goes while somebody does.
-        sensor.ready(Duration::from_secs(60)).await.unwrap();
+        sensor.ready(Duration::from_secs(300)).await.unwrap();
         assert_eq!(sensor.measurements.peers_changed().await, 1);
         let (peers, ()) = tokio::join!(sensor.measurements.peers_changed(), async { drop(controller) });
         assert_eq!(peers, 0);

@@ -71,14 +71,14 @@ async fn a_receiving_call_that_times_out_loses_nothing() {
     const COUNT: usize = 90;
     let (_folder, mut giver, mut taker) = pair(TransportKind::Ipc).await;
     let giving = tokio::spawn(async move {
-        giver.ready(Duration::from_secs(60)).await.expect("ready");
+        giver.ready(Duration::from_secs(300)).await.expect("ready");
         for index in 0..COUNT {
             // From a few bytes to more than a socket holds.
             let sent = Bytes::from(vec![index as u8; 1 + index * 6000]);
             giver.published.send(&sent).await.expect("published");
             giver.pushed.send(&sent).await.expect("pushed");
         }
-        giver.close(Duration::from_secs(60)).await.expect("everything is handed over");
+        giver.close(Duration::from_secs(300)).await.expect("everything is handed over");
     });
     let (mut published, mut pushed, mut cancelled) = (0, 0, 0);
     while published < COUNT || pushed < COUNT {

@@ -6,7 +6,7 @@ use scl_tests::on_each_transport;
 use std::time::Duration;
 
 /// Far longer than anything takes.
-const LONG: Duration = Duration::from_secs(60);
+const LONG: Duration = Duration::from_secs(300);
 
 fn bytes(text: &str) -> Bytes {
     Bytes::copy_from_slice(text.as_bytes())

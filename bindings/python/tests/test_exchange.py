@@ -71,7 +71,7 @@ def test_a_peer_that_restarts_is_found_again(each_system: System) -> None:
         sink.tell("serve 1")
         while True:
             with contextlib.suppress(ConnectionError):
-                assert source.question.call(message(value=round), timeout=60).value == round * 2
+                assert source.question.call(message(value=round), timeout=300).value == round * 2
                 break
         sink.kill()
 
@@ -83,12 +83,12 @@ def test_several_gates_are_waited_for(system: System) -> None:
     assert sink.wait(timeout=0) == []
     assert sink.wait(sink.readings, sink.jobs, timeout=0.01) == []
     source.ask("push 0 1")
-    assert sink.wait(sink.readings, sink.jobs, timeout=60) == [sink.jobs]
+    assert sink.wait(sink.readings, sink.jobs, timeout=300) == [sink.jobs]
     # It takes nothing.
-    assert sink.wait(timeout=60) == [sink.jobs]
+    assert sink.wait(timeout=300) == [sink.jobs]
     assert sink.jobs.try_recv().value == 0
     source.tell("call 1")
-    assert sink.wait(timeout=60) == [sink.answer]
+    assert sink.wait(timeout=300) == [sink.answer]
     sink.answer.recv(0).reply(sink.answer.reply_type())
 
 

@@ -32,7 +32,7 @@ const PLAYS: &str = "SCL_TEST_HANG_PLAYS";
 const MESSAGES: usize = 5;
 const HANGING_RUNS: usize = 2;
 
-const READY: Duration = Duration::from_secs(60);
+const READY: Duration = Duration::from_secs(300);
 const PERIOD: Duration = Duration::from_millis(10);
 
 #[test]

@@ -24,7 +24,7 @@ const TEST: &str = "player::components_on_one_host_need_no_gateway";
 /// How often a gate that waits looks for commands.
 const TICK: Duration = Duration::from_millis(5);
 /// How long a component waits for its peers.
-const READY: Duration = Duration::from_secs(60);
+const READY: Duration = Duration::from_secs(300);
 
 /// A component in a process of its own. It is killed when dropped.
 pub(crate) struct Player {

@@ -17,7 +17,7 @@ async fn main() -> scl::Result<()> {
 }
 
 async fn play_camera(mut camera: Camera) -> scl::Result<()> {
-    camera.ready(Duration::from_secs(60)).await?;
+    camera.ready(Duration::from_secs(300)).await?;
     say("ready");
     let mut commands = Commands::listen();
     while let Some(words) = commands.next().await {

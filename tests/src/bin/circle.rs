@@ -13,7 +13,7 @@ async fn main() -> scl::Result<()> {
     macro_rules! play {
         ($component:ident) => {{
             let mut component = $component::open().await?;
-            component.ready(Duration::from_secs(60)).await?;
+            component.ready(Duration::from_secs(300)).await?;
             play(&mut component.outbox, &mut component.inbox).await
         }};
     }

@@ -81,7 +81,7 @@ fn view_blocking(call: &str) -> scl::Result<()> {
         let sent = newest.read()?;
         let received = match call {
             "recv" => Some(viewer.newest.recv_blocking()?),
-            "recv_timeout" => Some(viewer.newest.recv_timeout(Duration::from_secs(60))?),
+            "recv_timeout" => Some(viewer.newest.recv_timeout(Duration::from_secs(300))?),
             "latest" => viewer.newest.latest()?,
             _ => viewer.newest.try_recv()?,
         };

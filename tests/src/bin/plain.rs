@@ -21,7 +21,7 @@ fn play_source(mut source: Source) -> scl::Result<()> {
     for command in std::io::stdin().lines() {
         match command?.as_str() {
             "ready" => {
-                source.ready_blocking(Duration::from_secs(60))?;
+                source.ready_blocking(Duration::from_secs(300))?;
                 say("ready");
             }
             "reap" => {
@@ -37,7 +37,7 @@ fn play_source(mut source: Source) -> scl::Result<()> {
                 for value in 0..1000 {
                     source.jobs.send_blocking(&number(value))?;
                 }
-                source.close_blocking(Duration::from_secs(60))?;
+                source.close_blocking(Duration::from_secs(300))?;
                 return Ok(());
             }
             other => say(format!("unknown command `{other}`")),

@@ -61,8 +61,8 @@ struct Both {
     Left left;
     Right right;
     Both() {
-        left.ready(60s);
-        right.ready(60s);
+        left.ready(300s);
+        right.ready(300s);
     }
 };
 
@@ -538,7 +538,7 @@ static void several_gates_are_awaited_together() {
     Both both;
     both.left.numbers.send(number(1));
     auto ready = scl::wait(both.right.jobs, both.right.numbers, both.right.answer);
-    CHECK(ready == scl::wait(60s, both.right.jobs, both.right.numbers, both.right.answer));
+    CHECK(ready == scl::wait(300s, both.right.jobs, both.right.numbers, both.right.answer));
     CHECK(ready.to_ulong() == 2);
     CHECK(both.right.numbers.try_recv()->value() == 1);
     std::error_code error;

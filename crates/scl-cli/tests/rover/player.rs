@@ -50,7 +50,7 @@ fn play(name: &str) {
     let mut component = Component::open_blocking(plan).unwrap();
     let (closer, stop) = (component.closer(), Arc::new(AtomicBool::new(false)));
     if std::env::var_os(ALONE).is_none() {
-        component.ready_blocking(Duration::from_secs(60)).unwrap();
+        component.ready_blocking(Duration::from_secs(300)).unwrap();
     }
     let play = |gate: &GatePlan| {
         let (opened, payload, stop) = (component.gate(&gate.name).unwrap(), gate.payload.clone(), Arc::clone(&stop));

@@ -58,7 +58,7 @@ fn what_is_not_a_message_is_told_with_names_and_counted() {
     let system = system(&path);
     let mut left = Component::open_blocking_with(&system.components[0].plan, meeting.options()).unwrap();
     let mut values = left.publisher("values").unwrap();
-    left.ready_blocking(Duration::from_secs(60)).unwrap();
+    left.ready_blocking(Duration::from_secs(300)).unwrap();
     values.send_blocking(&b"\xff\xff\xff".as_slice().into()).unwrap();
     right.expect(
         "gate `right-side.values` received an undecodable message from `left.values`: codec `protobuf` cannot decode \
@@ -81,7 +81,7 @@ fn deeply_nested_messages_are_undecodable() {
     let system = system(&path);
     let mut left = Component::open_blocking_with(&system.components[0].plan, meeting.options()).unwrap();
     let mut trees = left.pusher("trees").unwrap();
-    left.ready_blocking(Duration::from_secs(60)).unwrap();
+    left.ready_blocking(Duration::from_secs(300)).unwrap();
     let mut send = |bytes: Vec<u8>| trees.send_blocking(&bytes.into()).unwrap();
     send(nested(100));
     right.expect("tree 7 1");

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 /// In memory, how often the tasks may run until all calls have ended.
 const ROUNDS: u32 = 1000;
 /// Over sockets, how long that may take at most.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 impl Stage {
     pub(super) async fn end(&mut self) -> Outcome {

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 /// How often the tasks may run until everything has arrived. Each time the memory transport can be filled.
 const ROUNDS: usize = 50;
 /// How long something may take over sockets at most.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(300);
 /// How long to wait for a message until another one is sent, since the first may have been lost with a peer.
 const AGAIN: Duration = Duration::from_millis(20);
 

@@ -19,7 +19,7 @@ pub(crate) async fn play() -> scl::Result<()> {
         let number = |index: usize| words.get(index).and_then(|word| word.parse::<u64>().ok()).unwrap_or_default();
         let (from, to, length) = (number(1), number(2), number(3) as usize);
         match words.first().map_or("", String::as_str) {
-            "ready" => say_result(camera.ready(Duration::from_secs(60)).await, |()| "ready".to_owned()),
+            "ready" => say_result(camera.ready(Duration::from_secs(300)).await, |()| "ready".to_owned()),
             // Until the viewer's gates are connected, or not.
             "viewer" => {
                 let wanted = words[1] == "here";
@@ -132,7 +132,7 @@ pub(crate) async fn play() -> scl::Result<()> {
             other => say(format!("unknown command `{other}`")),
         }
     }
-    say_result(camera.close(Duration::from_secs(60)).await, |()| "closed".to_owned());
+    say_result(camera.close(Duration::from_secs(300)).await, |()| "closed".to_owned());
     Ok(())
 }
 

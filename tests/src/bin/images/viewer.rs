@@ -15,7 +15,7 @@ pub(crate) async fn play() -> scl::Result<()> {
     while let Some(words) = commands.next().await {
         let number = words.get(1).and_then(|word| word.parse::<u64>().ok()).unwrap_or_default();
         match words.first().map_or("", String::as_str) {
-            "ready" => say_result(viewer.ready(Duration::from_secs(60)).await, |()| "ready".to_owned()),
+            "ready" => say_result(viewer.ready(Duration::from_secs(300)).await, |()| "ready".to_owned()),
             "receive" => {
                 let mut seen = Seen::default();
                 for _ in 0..number {

@@ -17,7 +17,7 @@ use tokio::runtime::Builder;
 
 scl::topology!("topologies/exits.yaml", only = [leaver]);
 
-const READY: Duration = Duration::from_secs(60);
+const READY: Duration = Duration::from_secs(300);
 
 fn main() -> ExitCode {
     let result = match argument(1).as_str() {
@@ -147,7 +147,7 @@ fn doubled(request: &Number) -> Number {
 /// `CLOSE_TIMEOUT` in milliseconds, or longer than any test takes.
 fn close_timeout() -> Duration {
     let chosen = std::env::var("CLOSE_TIMEOUT").ok().and_then(|text| text.parse().ok());
-    Duration::from_millis(chosen.unwrap_or(60_000))
+    Duration::from_millis(chosen.unwrap_or(300_000))
 }
 
 fn argument(index: usize) -> String {

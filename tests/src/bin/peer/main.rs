@@ -107,7 +107,7 @@ async fn play_source() -> scl::Result<()> {
             other => say(format!("unknown command `{other}`")),
         }
     }
-    source.close(Duration::from_secs(60)).await?;
+    source.close(Duration::from_secs(300)).await?;
     Ok(())
 }
 

@@ -21,7 +21,7 @@ use test::Number;
 
 scl::topology!("topologies/twins.yaml", only = [left]);
 
-const READY: Duration = Duration::from_secs(60);
+const READY: Duration = Duration::from_secs(300);
 const MOTORS_OFF: u64 = 4242;
 
 fn main() -> ExitCode {

@@ -14,7 +14,7 @@ use tokio::task::LocalSet;
 
 scl::topology!("topologies/twins.yaml");
 
-const READY: Duration = Duration::from_secs(60);
+const READY: Duration = Duration::from_secs(300);
 
 fn main() -> scl::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
