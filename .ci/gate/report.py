@@ -1,6 +1,5 @@
 """The last lines: a table of stages, and the tests that failed or were flaky."""
 
-from pathlib import Path
 import re
 
 
@@ -14,8 +13,7 @@ def show(results):
             print(f"{'':{width}}  {problem}")
     print(f"{'all':{width}}          {sum(result.seconds for result in results):5.0f} s")
     for result in results:
-        log = Path("target/gate") / f"{result.name.replace(' ', '-')}.log"
-        panics = panics_of(log.read_text()) if result.failed and log.exists() else {}
+        panics = panics_of(result.log.read_text()) if result.failed else {}
         for binary, name in result.failed:
             print(f"FAILED {binary} {name}: {panics.get(name, 'see its output above')}")
     for result in results:

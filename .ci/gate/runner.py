@@ -9,6 +9,7 @@ import threading
 import time
 from pathlib import Path
 
+import canaries
 import processes
 import stages
 import tests
@@ -21,6 +22,7 @@ BUILD = {"CARGO_INCREMENTAL": "0", "CARGO_PROFILE_DEV_DEBUG": "0", "CARGO_TERM_C
 @dataclasses.dataclass
 class Result:
     name: str
+    log: Path
     seconds: float
     problems: list
     failed: list = dataclasses.field(default_factory=list)
@@ -30,7 +32,8 @@ class Result:
 class Runner:
     def __init__(self, which):
         self.which = which
-        self.logs = Path("target/gate")
+        self.planted = None
+        self.logs = Path("target/gate/canary" if canaries.wanted() else "target/gate")
         self.logs.mkdir(parents=True, exist_ok=True)
         processes.adopt_orphans()
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -39,14 +42,24 @@ class Runner:
     def interrupted(self, number, _frame):
         signal.signal(number, signal.SIG_IGN)
         processes.kill_all()
+        self.remove_canary()
         print(f"error: interrupted by {signal.Signals(number).name}", file=sys.stderr)
         os._exit(128 + number)
 
     def run(self, stage):
-        result = self.run_once(stage)
-        if stage.name == "cargo test" and result.failed and self.which == "gate":
-            self.try_again(result)
-        return result
+        self.planted = canaries.plant(stage)
+        try:
+            result = self.run_once(stage)
+            if stage.name == "cargo test" and result.failed and self.which == "gate":
+                self.try_again(result)
+            return result
+        finally:
+            self.remove_canary()
+
+    def remove_canary(self):
+        if self.planted:
+            self.planted.remove()
+            self.planted = None
 
     def run_once(self, stage):
         print(f"\n==== {stage.name}: {stage.command}", flush=True)
@@ -57,11 +70,14 @@ class Runner:
         code, log = self.execute(stage)
         problems = [] if code == 0 else [f"exit code {code}" if code is not None else f"hangs: over {stage.minutes} minutes"]
         problems += left_behind(before)
-        result = Result(stage.name, time.monotonic() - started, problems)
+        result = Result(stage.name, self.log_of(stage), time.monotonic() - started, problems)
         result.failed, result.flaky, ignored = tests.read(stage, junit, log)
         problems += [f"ignored: {name}" for name in ignored]
         print(f"==== {stage.name}: {'FAILED' if problems else 'passed'} after {result.seconds:.0f} s", flush=True)
         return result
+
+    def log_of(self, stage):
+        return self.logs / f"{stage.name.replace(' ', '-')}.log"
 
     def execute(self, stage):
         """The exit code, `None` if it hangs, and the output."""
@@ -75,7 +91,7 @@ class Runner:
         lines = []
 
         def read():
-            with open(self.logs / f"{stage.name.replace(' ', '-')}.log", "w") as file:
+            with open(self.log_of(stage), "w") as file:
                 for line in process.stdout:
                     lines.append(line)
                     file.write(line)
@@ -94,15 +110,19 @@ class Runner:
         return code, "".join(lines)
 
     def try_again(self, result):
-        """Tests that failed in `cargo test` get the same two more tries as those under nextest."""
+        """Tests that failed in `cargo test` get the same two more tries as those under nextest, which does not know examples in
+        documentation."""
+        if any(binary.startswith(tests.DOCUMENTATION) for binary, _ in result.failed):
+            return
         again = self.run_once(stages.again(result.failed))
         result.seconds += again.seconds
-        if not again.problems:
+        if again.problems:
+            result.problems += again.problems
+            result.failed += [test for test in again.failed if test not in result.failed]
+        else:
             result.flaky = [f"{binary} {name}" for binary, name in result.failed]
             result.failed = []
             result.problems = [problem for problem in result.problems if not problem.startswith("exit code")]
-        else:
-            result.problems += again.problems
 
 
 def changed_files():

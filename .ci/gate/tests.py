@@ -5,6 +5,10 @@ import subprocess
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
+# In place of a name.
+ALL = "(ended without a result)"
+DOCUMENTATION = "documentation of"
+
 
 def junit_of(command):
     """The report that a run of nextest writes."""
@@ -45,13 +49,26 @@ def ignored_by_nextest(command):
 
 
 def read_cargo_test(log):
-    failed, ignored, binary = [], [], None
-    for line in log.splitlines():
+    """A binary that ends without a result, which runs the rest of its tests never, failed as a whole."""
+    failed, ignored, slow, binary, unfinished = [], [], [], None, False
+    for line in log.splitlines() + ["     Running the end (end-0000000000000000)"]:
         if running := re.match(r"\s+(?:Running .*\((?:.*/)?(\S+)-[0-9a-f]{16}\)|Doc-tests (\S+))", line):
-            binary = running.group(1) or f"documentation of {running.group(2)}"
-        elif failure := re.match(r"test (.*?)(?: - should panic)? \.\.\. FAILED", line):
-            failed.append((binary, failure.group(1)))
-        # Examples in documentation that are not Rust programs are ignored too.
-        elif (skipped := re.match(r"test (.*) \.\.\. ignored", line)) and not re.search(r" \(line \d+\)$", skipped.group(1)):
-            ignored.append(f"{binary} {skipped.group(1)}")
+            if unfinished:
+                failed += slow or [(binary, ALL)]
+            binary = running.group(1) or f"{DOCUMENTATION} {running.group(2)}"
+            slow, unfinished = [], False
+        elif re.match(r"running \d+ tests?$", line):
+            unfinished = True
+        elif line.startswith("test result: "):
+            unfinished = False
+        elif hanging := re.match(r"test (.*) has been running for over 60 seconds", line):
+            slow.append((binary, hanging.group(1)))
+        elif ended := re.match(r"test (.*?)(?: - should panic)? \.\.\. (ok|FAILED|ignored)", line):
+            test = (binary, ended.group(1))
+            slow = [other for other in slow if other != test]
+            if ended.group(2) == "FAILED":
+                failed.append(test)
+            # Examples in documentation that are not Rust programs are ignored too.
+            elif ended.group(2) == "ignored" and not re.search(r" \(line \d+\)$", ended.group(1)):
+                ignored.append(" ".join(test))
     return failed, [], ignored
