@@ -17,8 +17,7 @@ const MAX_PAUSE: Duration = Duration::from_secs(1);
 
 /// Whether every process of the group has ended. Ended ones that nobody has reaped do not count.
 pub(crate) fn is_empty(group: Pid) -> bool {
-    // A process may start another one behind the first look and end before that look comes to it.
-    members(group).is_empty() && members(group).is_empty()
+    members(group).is_empty()
 }
 
 /// Waits until every process of the group has ended.
@@ -56,11 +55,7 @@ struct Repeats {
 impl Repeats {
     /// Repeats the signal where it was missed. Returns false if every process has ended.
     fn look(&mut self) -> bool {
-        // Another look, as in `is_empty`.
-        let mut processes = members(self.group);
-        if processes.is_empty() {
-            processes = members(self.group);
-        }
+        let processes = members(self.group);
         for process in processes.iter().copied() {
             let Some(program) = program(process) else { continue };
             let repeated = match disposition(process, self.signal) {
@@ -104,7 +99,14 @@ fn program(process: Pid) -> Option<Program> {
     Some(Program { process, executable, stack })
 }
 
+/// The running processes of the group. Empty only if there are none.
 fn members(group: Pid) -> Vec<Pid> {
+    let seen = look_for_members(group);
+    // A process may start another one behind the first look and end before that look comes to it.
+    if seen.is_empty() { look_for_members(group) } else { seen }
+}
+
+fn look_for_members(group: Pid) -> Vec<Pid> {
     let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
     let processes = entries.filter_map(|entry| entry.file_name().to_str()?.parse().ok().map(Pid::from_raw));
     processes.filter(|process| is_member(*process, group)).collect()
