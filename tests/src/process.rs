@@ -6,9 +6,11 @@ use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::Instant;
+use tempfile::TempDir;
 
 /// A running program; killed when dropped.
 pub struct Process {
@@ -17,6 +19,8 @@ pub struct Process {
     input: Option<ChildStdin>,
     output: Lines,
     log: Lines,
+    /// The runtime folder: without it, the program would make one that nobody removes.
+    _folder: Option<Arc<TempDir>>,
 }
 
 /// How a program ended, and what it printed that no test has read yet.
@@ -49,7 +53,14 @@ impl Process {
             output: Lines::of(child.stdout.take()),
             log: Lines::of(child.stderr.take()),
             child,
+            _folder: None,
         }
+    }
+
+    /// Keeps a folder until the program has ended.
+    pub(crate) fn keeping(mut self, folder: Arc<TempDir>) -> Self {
+        self._folder = Some(folder);
+        self
     }
 
     /// The process id.

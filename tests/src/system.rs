@@ -6,11 +6,12 @@ use std::ffi::OsStr;
 use std::fs::DirBuilder;
 use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tempfile::TempDir;
 
 /// A runtime folder for one test, with a path short enough for any socket.
 pub struct System {
-    folder: TempDir,
+    folder: Arc<TempDir>,
     kind: TransportKind,
 }
 
@@ -29,7 +30,7 @@ impl System {
 
     /// A fresh folder; gates listen on a transport.
     pub fn over(kind: TransportKind) -> Self {
-        Self { folder: TempDir::with_prefix("scl").expect("a folder for the test"), kind }
+        Self { folder: Arc::new(TempDir::with_prefix("scl").expect("a folder for the test")), kind }
     }
 
     /// The runtime folder.
@@ -62,7 +63,7 @@ impl System {
         let mut environment =
             vec![("SCL_RUNTIME_DIR", self.folder.path().as_os_str()), ("SCL_TRANSPORT", OsStr::new(kind))];
         environment.extend(more.iter().map(|(name, value)| (*name, OsStr::new(value))));
-        Process::start(program, arguments, &environment)
+        Process::start(program, arguments, &environment).keeping(Arc::clone(&self.folder))
     }
 
     /// Starts a program from a shell after some preparation, for example `ulimit -n 40`.
