@@ -29,6 +29,18 @@ const KILLS: [(u64, f64, &str); 8] = [
     (106, 4.0, "communication"),
 ];
 
+/// Judged by what happens, not by how fast, so it also holds on a busy machine.
+#[test]
+fn a_short_hop_is_flown() {
+    let _machine = lock_machine();
+    let mut flight = Flight::start("short", &["--profile", "hop", "--profile", "calm"]);
+    assert_eq!(flight.fly(|_, _| {}), "ended with exit code 0", "{}", flight.log);
+    let flown = flight.end();
+    flown.recording.check_waypoints(&waypoints("hop.yaml"));
+    flown.recording.check_landing();
+    assert_eq!(flown.code, Some(0), "{}", flown.log);
+}
+
 #[test]
 fn a_survey_is_flown() {
     let _machine = lock_machine();

@@ -22,14 +22,14 @@ mod radio {
     scl::topology!("../../examples/ospecorr/topology.yaml");
 }
 
+use std::fs::File;
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// One test at a time: they run in real time, and build into the same folders.
-fn lock_machine() -> MutexGuard<'static, ()> {
-    static MACHINE: Mutex<()> = Mutex::new(());
-    // A test that failed does not make others fail.
-    MACHINE.lock().unwrap_or_else(PoisonError::into_inner)
+/// One test at a time, of this process or another one: they run in real time, and build into the same folders.
+fn lock_machine() -> File {
+    let folder = workspace().join("target/examples");
+    std::fs::create_dir_all(&folder).unwrap();
+    system::lock_file(&folder.join("tests.lock"))
 }
 
 /// The folder of an example.

@@ -6,6 +6,7 @@ mod checks;
 mod recording;
 mod session;
 
+use crate::radio::ospecorr::Truth;
 use crate::{built, lock_machine};
 use checks::{Outage, SLOT_US, silences};
 use recording::Recording;
@@ -27,6 +28,18 @@ const SLOTS_TO_SILENCE: u64 = 5;
 
 /// Part of the time.
 const SERVED: f64 = 0.9;
+
+/// Judged by what happens, not by how fast, so it also holds on a busy machine.
+#[test]
+fn a_short_run_moves_the_radio() {
+    let _machine = lock_machine();
+    let mut session = Session::start("short");
+    session.run_until(10.0);
+    let (recording, log) = session.end();
+    assert!(!silences(&recording.truth).is_empty(), "no primary user came to the radio's channel\n{log}");
+    let is_beside = |it: &Truth| !it.primary_channels.is_empty() && !it.primary_channels.contains(&it.channel);
+    assert!(recording.truth.iter().any(|it| it.transmitting && is_beside(it)), "the radio has not moved\n{log}");
+}
 
 #[test]
 fn the_radio_leaves_its_channel_to_primary_users_and_the_application_is_served() {
