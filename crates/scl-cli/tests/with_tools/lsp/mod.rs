@@ -12,7 +12,7 @@ const CONTENT_MODIFIED: i64 = -32801;
 
 /// A running language server. It is killed when the value is dropped.
 pub(crate) struct Server {
-    process: ChildGuard,
+    _process: ChildGuard,
     input: ChildStdin,
     output: BufReader<ChildStdout>,
     /// Notifications that came while an answer was awaited.
@@ -27,7 +27,7 @@ impl Server {
     pub(crate) fn start(command: &mut Command, folder: &Path, settings: Value) -> Self {
         let mut process = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn_guarded();
         let (input, output) = (process.stdin.take().unwrap(), BufReader::new(process.stdout.take().unwrap()));
-        let mut server = Self { process, input, output, notified: VecDeque::new(), last_id: 0, settings };
+        let mut server = Self { _process: process, input, output, notified: VecDeque::new(), last_id: 0, settings };
         let capabilities = json!({
             "workspace": { "configuration": true },
             "textDocument": {
