@@ -15,7 +15,7 @@ def main():
         print(f"error: no stage {', '.join(sorted(unknown))}", file=sys.stderr)
         print(f"  = help: the stages are {', '.join(stage.name for stage in chosen)}", file=sys.stderr)
         return 2
-    runner = Runner(which)
+    runner = Runner()
     results = [runner.run(stage) for stage in chosen if not names or stage.name in names]
     report.show(results)
     return 1 if any(result.problems for result in results) else 0

@@ -32,10 +32,13 @@ FAULTY_TESTS = (
     test("fails", 'panic!("on purpose");')
     + test("is_ignored", "", '#[ignore = "needs nothing"]\n')
     + test("leaves_a_file", 'std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/canary"), "").unwrap();')
+    + test("leaves_a_temporary_file", 'std::fs::write(std::env::temp_dir().join("canary"), "").unwrap();')
     + test("leaves_a_process", 'std::process::Command::new("setsid").args(["sleep", "3600"]).spawn().unwrap();')
     + test("kills_itself", "std::process::abort();")
 )
-FOUND = ["canary_fails", "on purpose", "canary_is_ignored", "left behind: process", "sleep 3600", f"left behind: {LEFT_BEHIND}", "canary_kills_itself"]
+FOUND = ["canary_fails", "on purpose", "canary_is_ignored", "canary_kills_itself"]
+FOUND += [f"left behind: {what}" for what in ("process", LEFT_BEHIND, "temporary canary")] + ["sleep 3600"]
+HANGING_TEST = test("hangs", "loop { std::thread::park(); }")
 
 CANARIES = {
     "packages": Canary(".ci/packages", 'packages=(no-such-package "$@" ', ["exit code"], old='packages=("$@" '),
@@ -51,7 +54,10 @@ CANARIES = {
     "packaging": Canary("crates/scl-terminal/Cargo.toml", 'readme = "canary"\nversion.', ["exit code"], old="version."),
     "cargo test": Canary(TESTS, FAULTY_TESTS, FOUND, tests=" -p scl-tests --test tests canary_"),
     "tests": Canary(
-        TESTS_WITH_TOOLS, FAULTY_TESTS, FOUND + ["started by the test canary_leaves_a_process"], tests=" -E 'test(/^canary_/)'"
+        TESTS_WITH_TOOLS,
+        FAULTY_TESTS + HANGING_TEST,
+        FOUND + ["started by the test canary_leaves_a_process", "canary_hangs"],
+        tests=" -E 'test(/^canary_/)'",
     ),
     "allocations": Canary("bench/tests/allocations.rs", test("fails", 'panic!("on purpose");'), ["canary_fails"]),
     "wheel": Canary("bindings/python/python/scl/__init__.py", 'raise ImportError("on purpose")\n', ["exit code"]),

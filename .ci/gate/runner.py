@@ -13,10 +13,12 @@ import canaries
 import processes
 import stages
 import tests
+from leftovers import Leftovers
 
 # Everything is built once, so nothing is kept to speed up the next build, and nothing is stored for debuggers: a panic names
 # its line without.
 BUILD = {"CARGO_INCREMENTAL": "0", "CARGO_PROFILE_DEV_DEBUG": "0", "CARGO_TERM_COLOR": "never", "RUST_BACKTRACE": "1"}
+FAILED = "exit code "
 
 
 @dataclasses.dataclass
@@ -30,48 +32,55 @@ class Result:
 
 
 class Runner:
-    def __init__(self, which):
-        self.which = which
-        self.planted = None
+    def __init__(self):
+        # The fault and the leftovers of the stage that runs.
+        self.planted = self.leftovers = None
         self.logs = Path("target/gate/canary" if canaries.wanted() else "target/gate")
         self.logs.mkdir(parents=True, exist_ok=True)
+        # The tools of `.ci/tools`, if the machine has none of its own.
+        os.environ.update(BUILD, PATH=f"{os.environ['PATH']}:{Path('target/tools/bin').absolute()}")
         processes.adopt_orphans()
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, self.interrupted)
 
     def interrupted(self, number, _frame):
         signal.signal(number, signal.SIG_IGN)
-        processes.kill_all()
-        self.remove_canary()
+        self.clean_up()
         print(f"error: interrupted by {signal.Signals(number).name}", file=sys.stderr)
         os._exit(128 + number)
 
     def run(self, stage):
-        self.planted = canaries.plant(stage)
+        started = time.monotonic()
         try:
+            self.planted = canaries.plant(stage)
             result = self.run_once(stage)
-            if stage.name == "cargo test" and result.failed and self.which == "gate":
+            if stage.tried_again and result.failed:
                 self.try_again(result)
-            return result
+        # Such as a full disk.
+        except OSError as error:
+            print(f"==== {stage.name}: {error}", flush=True)
+            result = Result(stage.name, self.log_of(stage), time.monotonic() - started, [str(error)])
         finally:
-            self.remove_canary()
+            self.clean_up()
+        return result
 
-    def remove_canary(self):
-        if self.planted:
-            self.planted.remove()
-            self.planted = None
+    def clean_up(self):
+        for what in (self.leftovers, self.planted):
+            if what:
+                what.remove()
+        self.planted = self.leftovers = None
 
     def run_once(self, stage):
         print(f"\n==== {stage.name}: {stage.command}", flush=True)
-        before, started = changed_files(), time.monotonic()
+        started = time.monotonic()
         junit = tests.junit_of(stage.command)
         if junit:
             junit.unlink(missing_ok=True)
-        code, log = self.execute(stage)
-        problems = [] if code == 0 else [f"exit code {code}" if code is not None else f"hangs: over {stage.minutes} minutes"]
-        problems += left_behind(before)
+        self.leftovers = Leftovers()
+        problems = self.execute(stage) + self.leftovers.find()
+        self.leftovers.remove()
         result = Result(stage.name, self.log_of(stage), time.monotonic() - started, problems)
-        result.failed, result.flaky, ignored = tests.read(stage, junit, log)
+        result.failed, result.flaky, ignored = tests.read(stage, junit, result.log.read_text(errors="replace"))
         problems += [f"ignored: {name}" for name in ignored]
         print(f"==== {stage.name}: {'FAILED' if problems else 'passed'} after {result.seconds:.0f} s", flush=True)
         return result
@@ -80,34 +89,26 @@ class Runner:
         return self.logs / f"{stage.name.replace(' ', '-')}.log"
 
     def execute(self, stage):
-        """The exit code, `None` if it hangs, and the output."""
-        tools = Path("target/tools/bin").absolute()
-        environment = {**os.environ, **BUILD, **stage.environment, "PATH": f"{os.environ['PATH']}:{tools}"}
-        process = subprocess.Popen(
-            ["bash", "-c", stage.command],
-            env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-            text=True, errors="replace", start_new_session=True,
-        )
-        lines = []
-
-        def read():
-            with open(self.log_of(stage), "w") as file:
-                for line in process.stdout:
-                    lines.append(line)
-                    file.write(line)
-                    sys.stdout.write(line)
-                    sys.stdout.flush()
-
-        reader = threading.Thread(target=read)
-        reader.start()
-        try:
-            code = process.wait(stage.minutes * 60)
-        except subprocess.TimeoutExpired:
-            code = None
-            processes.kill_all()
-        # What keeps the output open is left behind, and is found below.
-        reader.join(10)
-        return code, "".join(lines)
+        """Problems, none if the command succeeds."""
+        problems = []
+        with open(self.log_of(stage), "wb", buffering=0) as log:
+            process = subprocess.Popen(
+                ["bash", "-c", stage.command],
+                env={**os.environ, "TMPDIR": str(self.leftovers.temporary), **stage.environment},
+                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
+            )
+            reader = threading.Thread(target=keep_output, args=(process.stdout, log, problems))
+            reader.start()
+            try:
+                code = process.wait(stage.minutes * 60)
+                if code != 0:
+                    problems.append(f"{FAILED}{code}")
+            except subprocess.TimeoutExpired:
+                problems.append(f"hangs: over {stage.minutes} minutes")
+                processes.kill_all()
+            # What keeps the output open is left behind, and is found.
+            reader.join(10)
+        return problems
 
     def try_again(self, result):
         """Tests that failed in `cargo test` get the same two more tries as those under nextest, which does not know examples in
@@ -122,26 +123,18 @@ class Runner:
         else:
             result.flaky = [f"{binary} {name}" for binary, name in result.failed]
             result.failed = []
-            result.problems = [problem for problem in result.problems if not problem.startswith("exit code")]
+            result.problems = [problem for problem in result.problems if not problem.startswith(FAILED)]
 
 
-def changed_files():
-    """What git would commit, without what it ignores."""
-    output = subprocess.run(["git", "status", "--porcelain", "--untracked-files=all"], capture_output=True, text=True)
-    return set(output.stdout.splitlines())
-
-
-def left_behind(before):
-    processes.reap()
-    problems = []
-    for process in processes.descendants():
-        what = processes.describe(process)
-        # Cargo and compilers' servers may take a moment to end.
-        deadline = time.monotonic() + 10
-        while Path(f"/proc/{process}").exists() and time.monotonic() < deadline:
-            time.sleep(0.1)
-            processes.reap()
-        if what and Path(f"/proc/{process}").exists():
-            problems.append(f"left behind: {what}")
-    processes.kill_all()
-    return problems + [f"left behind: {file[3:]}" for file in sorted(changed_files() - before)]
+def keep_output(output, log, problems):
+    """Reads all of it, also while the disk is full, because a full pipe stops the stage."""
+    incomplete = None
+    for line in output:
+        try:
+            log.write(line)
+            sys.stdout.buffer.write(line)
+            sys.stdout.flush()
+        except (OSError, ValueError) as error:
+            incomplete = error
+    if incomplete:
+        problems.append(f"its output is incomplete: {incomplete}")

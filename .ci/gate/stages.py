@@ -16,25 +16,38 @@ class Stage:
     command: str
     minutes: int = 20
     environment: dict = dataclasses.field(default_factory=dict)
+    # Tests that fail get two more tries, as nextest gives them to its own.
+    tried_again: bool = False
 
 
 # With the features that take long to compile, and so with the same dependencies.
 EVERYTHING = "--workspace --locked --features scl-cli/gateway,scl-cli/shm"
-# The tests of all packages, also those that `cargo test` alone does not run.
-ALL_TESTS = "--workspace --locked --lib --bins --test '*'"
+COMPILED_BY_LINTS = "--exclude-features default,nightly,libzmq,gateway,shm"
+ALL_TESTS = "--lib --bins --test '*'"
+# The packages with tests that `cargo test` does not run. Their features decide how dependencies are compiled, so stages that
+# share these share a build.
+NEED_MORE = " ".join(
+    f"-p {package}"
+    for package in ["scl-c", "scl-cli", "scl-generate", "scl-tests"]
+    + ["any-language", "arcade", "ospecorr", "scl-bench", "scl-gateway", "scl-python", "tls-listener"]
+)
 
 
 def stages(which):
     return GATE if which == "gate" else FULL
 
 
+def clippy(targets):
+    return f"cargo clippy {EVERYTHING} {targets} -- -D warnings"
+
+
 def nextest(profile, *options):
-    return f"cargo nextest run --profile {profile} {ALL_TESTS} --no-fail-fast {' '.join(options)}"
+    return f"cargo nextest run --profile {profile} --locked {ALL_TESTS} {' '.join(options)}"
 
 
 def again(failed):
     """Two more tries of tests that failed in `cargo test`, by the names of their binaries."""
-    return Stage("again", nextest("again", "--retries 1 -E", shlex.quote(" + ".join(map(filter_of, failed)))), 30)
+    return Stage("again", nextest("default", "--retries 1 -E", shlex.quote(" + ".join(map(filter_of, failed)))), 30)
 
 
 def filter_of(failed):
@@ -42,6 +55,10 @@ def filter_of(failed):
     # Cargo names the file of a binary with underscores.
     binary = f"binary(/^{binary.replace('_', '[-_]')}$/)"
     return binary if name == tests.ALL else f"({binary} & test(={name}))"
+
+
+def features(*packages_and_features):
+    return " && ".join(f"cargo hack check --quiet --locked {options}" for options in packages_and_features)
 
 
 def second_command():
@@ -57,36 +74,43 @@ CHECKS = [
     Stage("tools", ".ci/tools"),
     Stage("format", "cargo fmt --all --check"),
     Stage("cycles", ".ci/cycles"),
-    Stage("lints", f"cargo clippy {EVERYTHING} --all-targets --test with_tools --test examples -- -D warnings"),
+    # `--all-targets` leaves out the tests that `cargo test` leaves out.
+    Stage("lints", f"{clippy('--all-targets')} && {clippy(ALL_TESTS)}"),
     Stage("docs", f"cargo doc {EVERYTHING} --no-deps", environment={"RUSTDOCFLAGS": "-D warnings"}),
     Stage("dependencies", ".ci/dependencies"),
-    # Every feature compiles by itself, and those of the macro in pairs, except the two that the lints have compiled.
-    Stage(
-        "features",
-        "check='cargo hack check --quiet --locked --exclude-features default,nightly,libzmq,gateway,shm'; "
-        "$check --each-feature -p scl-cli -p scl-gates && $check --feature-powerset --depth 2 -p scl-loader -p scl-macros",
-    ),
     # Every crate can be packaged: its dependencies have versions, and what its manifest names is inside its folder. Without
     # compiling the packages, which would build every crate a second time (`cargo package --workspace` does, in some minutes).
     Stage("packaging", "cargo package --workspace --no-verify --locked --allow-dirty --quiet --exclude-lockfile"),
 ]
 
+ALLOCATIONS = Stage("allocations", f"cargo test --locked {NEED_MORE} --test allocations")
+
 GATE = [
     *CHECKS,
-    Stage("cargo test", second_command(), 40),
+    # `.ci/full` has the rest.
+    Stage("features", features("--no-default-features -p scl-gates -p scl-cli -p scl-loader -p scl-macros")),
+    Stage("cargo test", second_command(), 40, tried_again=True),
     # The other languages, editors, the gateway, the benchmarks: what `cargo test` alone does not run.
-    Stage("tests", nextest("gate"), 40),
-    Stage("allocations", "cargo test --workspace --locked --test allocations"),
+    Stage("tests", nextest("gate", NEED_MORE), 40),
+    ALLOCATIONS,
     Stage("wheel", ".ci/wheel"),
 ]
 
 FULL = [
     *CHECKS,
+    # Every feature compiles by itself, and those of the macro in pairs.
+    Stage(
+        "features",
+        features(
+            f"--each-feature {COMPILED_BY_LINTS} -p scl-cli -p scl-gates",
+            f"--feature-powerset --depth 2 {COMPILED_BY_LINTS} -p scl-loader -p scl-macros",
+        ),
+    ),
     Stage("rust-analyzer", ".ci/rust-analyzer", 40),
     Stage("cargo test", second_command(), 60),
-    Stage("tests", nextest("full"), 90, {"SCL_TEST_LONG": "1"}),
-    Stage("allocations", "cargo test --workspace --locked --test allocations"),
+    Stage("tests", nextest("full", NEED_MORE), 90, {"SCL_TEST_LONG": "1"}),
+    ALLOCATIONS,
     Stage("wheel", ".ci/wheel"),
     Stage("canaries", ".ci/canaries", 60),
-    *(Stage(f"busy {run}", f".ci/packages stress-ng && .ci/busy {nextest('busy')}", 120) for run in (1, 2, 3)),
+    *(Stage(f"busy {run}", f".ci/packages stress-ng && .ci/busy {nextest('busy', '--workspace')}", 120) for run in (1, 2, 3)),
 ]

@@ -8,6 +8,8 @@ from pathlib import Path
 # In place of a name.
 ALL = "(ended without a result)"
 DOCUMENTATION = "documentation of"
+# Ends the last binary of a log.
+LAST = "     Running the end (end-0000000000000000)"
 
 
 def junit_of(command):
@@ -42,16 +44,17 @@ def read_junit(path):
 
 def ignored_by_nextest(command):
     """Nextest does not report ignored tests."""
-    listing = re.sub(r"nextest run", "nextest list -T oneline --run-ignored only", command)
-    listing = re.sub(r"--no-fail-fast|--retries \d+", "", listing)
-    output = subprocess.run(["bash", "-c", "exec " + listing[listing.index("cargo nextest"):]], capture_output=True, text=True)
-    return output.stdout.split("\n")[:-1]
+    listing = command.replace("nextest run", "nextest list -T oneline --run-ignored only")
+    listing = re.sub(r"--retries \d+", "", listing)
+    listing = listing[listing.index("cargo nextest"):]
+    run = subprocess.run(["bash", "-c", f"exec {listing}"], stdout=subprocess.PIPE, text=True)
+    return run.stdout.splitlines() if run.returncode == 0 else [f"unknown, because `{listing}` failed"]
 
 
 def read_cargo_test(log):
     """A binary that ends without a result, which runs the rest of its tests never, failed as a whole."""
     failed, ignored, slow, binary, unfinished = [], [], [], None, False
-    for line in log.splitlines() + ["     Running the end (end-0000000000000000)"]:
+    for line in log.splitlines() + [LAST]:
         if running := re.match(r"\s+(?:Running .*\((?:.*/)?(\S+)-[0-9a-f]{16}\)|Doc-tests (\S+))", line):
             if unfinished:
                 failed += slow or [(binary, ALL)]
