@@ -34,6 +34,8 @@ pub(super) struct Inbox {
     queue: Queue<Arrived>,
     /// Whether the last receiving call found nothing, and nothing was taken in since.
     was_empty: bool,
+    /// Whether the queue was full when the links were drained last, so that they will not wake anybody.
+    is_stalled: bool,
     /// Whether a sender was asked for what it holds back.
     catching_up: bool,
     newest_only: bool,
@@ -154,6 +156,7 @@ impl Inbox {
             next: 0,
             queue: Queue::new(policy),
             was_empty: false,
+            is_stalled: false,
             catching_up: false,
             newest_only: spec.newest_only(),
             listens: !spec.endpoint.is_empty(),
@@ -250,15 +253,22 @@ impl Inbox {
         self.note_waiting();
         if self.queue.waits() {
             // Such a gate takes in no more than its queue holds, but what is passed over keeps no publisher waiting.
-            for _ in 0..TAKE_IN {
-                let Poll::Ready(newer) = self.poll_links() else { break };
-                if arrived.len() >= self.queue.policy().capacity {
-                    arrived.pop_front();
-                }
-                arrived.push_back(newer);
-            }
+            self.pass_over(arrived);
+            self.note_waiting();
         }
         self.report_ready();
+    }
+
+    fn pass_over(&mut self, arrived: &mut VecDeque<Arrived>) {
+        for _ in 0..TAKE_IN {
+            let Poll::Ready(newer) = self.poll_links() else { return };
+            if arrived.len() >= self.queue.policy().capacity {
+                arrived.pop_front();
+            }
+            arrived.push_back(newer);
+        }
+        // There is more, as in `drain_links`.
+        self.waker.wake_by_ref();
     }
 
     /// From now on reports to a set whether something can be received.
@@ -292,7 +302,8 @@ impl Inbox {
 
     fn drain_links(&mut self) {
         for _ in 0..TAKE_IN {
-            if self.queue.is_full() && (self.queue.waits() || self.is_lossless()) {
+            self.is_stalled = self.queue.is_full() && (self.queue.waits() || self.is_lossless());
+            if self.is_stalled {
                 return self.connect_links();
             }
             let Poll::Ready(arrived) = self.poll_links() else { return };
@@ -328,6 +339,10 @@ impl Inbox {
         if *waiting == 0 {
             // The program may receive nothing for long, and its sender may wait for this.
             self.links[link].note_waiting(0);
+        }
+        if self.is_stalled {
+            // For the same reason: a sender that closes asks what was received, and waits for the answer.
+            self.drain_links();
         }
         Some(arrived)
     }

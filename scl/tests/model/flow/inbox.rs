@@ -12,7 +12,7 @@ pub(super) struct Inbox {
     call: Call,
     /// Whether the last waiting call found nothing, and nothing has arrived since.
     was_empty: bool,
-    /// The first message that arrives for a call that waited. The queue has nothing to do with it.
+    /// The message that the call has, before it returns: the first that arrives for a call that waited, or one from the queue.
     direct: Option<Message>,
     pub(super) received: u64,
     pub(super) replaced: u64,
@@ -65,7 +65,11 @@ impl Inbox {
                 *if self.is_newest_only() { &mut self.replaced } else { &mut self.dropped_oldest } += 1;
             }
             WhenFull::Wait if full && self.call != Call::Newest => {
-                return Err(format!("{message:?} was taken from the transport, and the queue is full"));
+                // There is room once the call has its message, and then nobody else may look for the next one.
+                if self.call == Call::None || self.direct.is_some() {
+                    return Err(format!("{message:?} was taken from the transport, and the queue is full"));
+                }
+                self.direct = self.waiting.pop_front();
             }
             _ => {}
         }
