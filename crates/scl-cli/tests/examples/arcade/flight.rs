@@ -13,8 +13,9 @@ use std::process::{Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
-/// A test that hears nothing for longer has failed.
-const HANG_LIMIT: Duration = Duration::from_secs(120);
+/// A test that hears nothing for longer has failed. Compilers print little.
+const BUILD_LIMIT: Duration = Duration::from_secs(3600);
+const HANG_LIMIT: Duration = Duration::from_secs(300);
 
 /// No mission takes longer, in seconds of the vehicle's clock.
 const LONGEST_FLIGHT: f64 = 240.0;
@@ -74,7 +75,9 @@ impl Flight {
         send_lines(run.stdout.take().unwrap(), &sender, Event::Line);
         send_lines(run.stderr.take().unwrap(), &sender, Event::Line);
         let mut flight = Self { others: Vec::new(), run, recorder, system, file, events, log: String::new() };
-        flight.wait_for_line("scl: all components are ready");
+        let is_ready =
+            |event: &Event| matches!(event, Event::Line(line) if line.contains("scl: all components are ready"));
+        while !is_ready(&flight.next_within(BUILD_LIMIT)) {}
         let echo = ["echo", "autopilot.flight", "--system", "arcade", "--format", "json"];
         let mut echo = flight.command(&echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn_guarded();
         send_lines(echo.stdout.take().unwrap(), &sender, |line| Event::Position(Position::parse(&line)));
@@ -92,13 +95,13 @@ impl Flight {
         command(&self.system, arguments)
     }
 
-    pub(super) fn wait_for_line(&mut self, part: &str) {
-        while !matches!(self.next(), Event::Line(line) if line.contains(part)) {}
+    /// What happens next.
+    fn next(&mut self) -> Event {
+        self.next_within(HANG_LIMIT)
     }
 
-    /// What happens next.
-    pub(super) fn next(&mut self) -> Event {
-        let event = self.events.recv_timeout(HANG_LIMIT);
+    fn next_within(&mut self, limit: Duration) -> Event {
+        let event = self.events.recv_timeout(limit);
         let event = event.unwrap_or_else(|_| panic!("nothing happens any more\n{}", self.log));
         match &event {
             Event::Line(line) => {
