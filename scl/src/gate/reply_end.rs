@@ -14,6 +14,10 @@ use std::future::poll_fn;
 use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker, ready};
 
+/// Up to this number of requesters, a call that takes a request looks at the others itself, which is cheaper than to wake the
+/// task.
+const DRIVEN_BY_CALLS: usize = 64;
+
 /// A request, and how many had arrived with it.
 pub(super) type Numbered = (u64, IncomingRequest);
 
@@ -177,7 +181,19 @@ impl Link {
         };
         self.counts.received += 1;
         self.counts.activity.add(request.body.len());
+        self.keep_alive();
         Poll::Ready((self.counts.received, request))
+    }
+
+    /// The program may handle a request for long. Whatever woke its call wakes nobody again before the connections are polled,
+    /// so their heartbeats would not be answered meanwhile.
+    fn keep_alive(&mut self) {
+        let waker = self.waker.clone();
+        if self.replier.peers() <= DRIVEN_BY_CALLS {
+            self.drive(&mut Context::from_waker(&waker));
+        } else {
+            waker.wake();
+        }
     }
 
     fn read_figures(&self, figures: &mut GateFigures) {
