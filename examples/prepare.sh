@@ -81,6 +81,9 @@ cmake_build() {
 
 # A virtual environment with the package `scl`, and with the packages of a file if one is given.
 build_python_package() {
+    # The examples share it, and two of them may be built at the same time.
+    exec 9>"$venv.lock"
+    ! command -v flock >/dev/null || flock 9
     if [ ! -x "$venv/bin/maturin" ]; then
         python3 -m venv "$venv"
         "$venv/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.16,<2"
