@@ -1,6 +1,6 @@
 //! The folder in which the programs of one test meet.
 
-use crate::{Address, Process};
+use crate::{Address, NEVER, Process};
 use scl::{OpenOptions, TransportKind};
 use std::ffi::OsStr;
 use std::fs::DirBuilder;
@@ -60,8 +60,11 @@ impl System {
             TransportKind::Tcp => "tcp",
             TransportKind::Shm => "shm",
         };
-        let mut environment =
-            vec![("SCL_RUNTIME_DIR", self.folder.path().as_os_str()), ("SCL_TRANSPORT", OsStr::new(kind))];
+        let mut environment = vec![
+            ("SCL_RUNTIME_DIR", self.folder.path().as_os_str()),
+            ("SCL_TRANSPORT", OsStr::new(kind)),
+            ("SCL_STOP_WITHIN", OsStr::new(NEVER)),
+        ];
         environment.extend(more.iter().map(|(name, value)| (*name, OsStr::new(value))));
         Process::start(program, arguments, &environment).keeping(Arc::clone(&self.folder))
     }

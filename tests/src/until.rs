@@ -6,6 +6,10 @@ use std::time::{Duration, Instant};
 /// How long a test waits for an expected event. Only a test that would hang otherwise ever reaches this limit.
 pub const HANG_LIMIT: Duration = Duration::from_secs(300);
 
+/// `SCL_STOP_WITHIN` of programs under test: longer than a test waits, so that none that hangs, or that a busy machine delays, is
+/// ended by it.
+pub const NEVER: &str = "1000s";
+
 /// Checks a condition again and again until it holds.
 ///
 /// # Panics

@@ -12,7 +12,7 @@ fn what_a_program_received_stays_taken_when_it_ends() {
     on_each_transport(|system| {
         let mut source = open(&system, "source");
         let (mut published, mut taken) = (0, 0);
-        // Never more than may be on its way, so that nothing waits for the next sink.
+        // Never more than may be on its way, and it arrives before the sink ends, so that nothing waits for the next one.
         for (count, length) in [(300, 0), (40, 20_000), (900, 100)] {
             let mut sink = open(&system, "sink");
             source.ask("ready 30000", "ready");
@@ -23,6 +23,7 @@ fn what_a_program_received_stays_taken_when_it_ends() {
             sink.ask(&format!("pull_up_to {}", received - 1), &format!("{published}..{received}"));
             source.ask(&format!("lossless {published} {} {length}", published + 5), "published");
             sink.ask("receive_lossless 5", &format!("{published}..{}", published + 5));
+            sink.ask(&format!("waiting {}", sent - received), "waiting");
             assert_eq!(sink.wait_for_exit().code(), 0);
             source.ask("alone", "alone");
             (published, taken) = (sent, taken + count * 5 / 6);

@@ -95,7 +95,7 @@ impl System {
         for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
             command.env_remove(name);
         }
-        command.env("SCL_RUNTIME_DIR", self.path("runtime"));
+        command.env("SCL_RUNTIME_DIR", self.path("runtime")).env("SCL_STOP_WITHIN", scl_tests::NEVER);
         command
     }
 

@@ -142,6 +142,13 @@ async fn play_sink() -> scl::Result<()> {
                 }
                 say(ranges(&values));
             }
+            // Until this number of messages waits in both gates.
+            "waiting" => {
+                while (sink.readings.stats().waiting.min(sink.jobs.stats().waiting) as u64) < count {
+                    tokio::time::sleep(Duration::from_millis(1)).await;
+                }
+                say("waiting");
+            }
             "answer_taken" => {
                 for request in unanswered.drain(..) {
                     let doubled = message(request.value * 2, 0);
