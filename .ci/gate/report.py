@@ -13,7 +13,7 @@ def show(results):
             print(f"{'':{width}}  {problem}")
     print(f"{'all':{width}}          {sum(result.seconds for result in results):5.0f} s")
     for result in results:
-        panics = panics_of(result.log.read_text(errors="replace")) if result.failed else {}
+        panics = panics_of("".join(log.read_text(errors="replace") for log in result.logs)) if result.failed else {}
         for binary, name in result.failed:
             print(f"FAILED {binary} {name}: {panics.get(name, 'see its output above')}")
     for result in results:

@@ -24,7 +24,7 @@ FAILED = "exit code "
 @dataclasses.dataclass
 class Result:
     name: str
-    log: Path
+    logs: list
     seconds: float
     problems: list
     failed: list = dataclasses.field(default_factory=list)
@@ -59,7 +59,7 @@ class Runner:
         # Such as a full disk.
         except OSError as error:
             print(f"==== {stage.name}: {error}", flush=True)
-            result = Result(stage.name, self.log_of(stage), time.monotonic() - started, [str(error)])
+            result = Result(stage.name, [], time.monotonic() - started, [str(error)])
         finally:
             self.clean_up()
         return result
@@ -79,8 +79,9 @@ class Runner:
         self.leftovers = Leftovers()
         problems = self.execute(stage) + self.leftovers.find()
         self.leftovers.remove()
-        result = Result(stage.name, self.log_of(stage), time.monotonic() - started, problems)
-        result.failed, result.flaky, ignored = tests.read(stage, junit, result.log.read_text(errors="replace"))
+        log = self.log_of(stage)
+        result = Result(stage.name, [log], time.monotonic() - started, problems)
+        result.failed, result.flaky, ignored = tests.read(stage, junit, log.read_text(errors="replace"))
         problems += [f"ignored: {name}" for name in ignored]
         print(f"==== {stage.name}: {'FAILED' if problems else 'passed'} after {result.seconds:.0f} s", flush=True)
         return result
@@ -117,6 +118,7 @@ class Runner:
             return
         again = self.run_once(stages.again(result.failed))
         result.seconds += again.seconds
+        result.logs += again.logs
         if again.problems:
             result.problems += again.problems
             result.failed += [test for test in again.failed if test not in result.failed]
