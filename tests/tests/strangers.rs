@@ -85,8 +85,9 @@ fn heartbeats_are_answered_after_each_call_to_a_plain_program() {
 #[track_caller]
 fn ping(peer: &mut RawPeer) {
     peer.send(&command("PING", b"\x00\x01context")).expect("sent");
-    let pong = peer.frame().unwrap_or_else(|error| panic!("no answer: {error}"));
-    assert_eq!((pong.flags, &*pong.body), (COMMAND, &b"\x04PONGcontext"[..]));
+    let pong = peer.frame();
+    let pong = pong.unwrap_or_else(|error| panic!("no answer from {peer:?}: {error}"));
+    assert_eq!((pong.flags, &*pong.body), (COMMAND, &b"\x04PONGcontext"[..]), "from {peer:?}");
 }
 
 #[test]
