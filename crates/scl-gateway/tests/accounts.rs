@@ -89,21 +89,31 @@ impl Fleet {
         self.player("sink").ready();
         let answer = self.player("source").ask("question", "call 20 10000");
         assert!(answer.starts_with("answered=20 failed=0 wrong=0"), "{answer}");
-        let before = CONNECTIONS.map(|it| self.account(it));
-        for gate in ["lossless", "jobs", "control", "readings"] {
-            self.player("source").ask(gate, "send 40 0 100");
-        }
-        for (connection, before) in CONNECTIONS.into_iter().zip(before) {
-            let Connection { from, to } = connection;
-            let mark = self.player("source").wait_for(from, "left", |counts| counts.get("left") == 0).get("mark");
-            let last = (before.published + 40, mark);
-            let is_last = |counts: &Counts| (counts.get("newest"), counts.get("mark")) == last;
-            let account = self.player("sink").wait_for(to, "report", is_last);
-            let arrived = arrived(&account) - before.received;
+        // What is on its way from before arrives before this one.
+        let before = self.deliver(1);
+        let after = self.deliver(40);
+        for ((connection, before), after) in CONNECTIONS.into_iter().zip(before).zip(after) {
             // Where there is room for one, the sending gate drops, too.
-            let expected = if to == "control" { 1..=40 } else { 40..=40 };
+            let expected = if connection.to == "control" { 1..=40 } else { 40..=40 };
+            let arrived = after - before;
             assert!(expected.contains(&arrived), "{connection:?}: {arrived} of 40; {:?}", self.account(connection));
         }
+    }
+
+    /// Sends so many messages on each connection, and counts what has arrived there in all when the last of them has.
+    #[track_caller]
+    fn deliver(&mut self, count: u64) -> [u64; CONNECTIONS.len()] {
+        let published = CONNECTIONS.map(|it| self.account(it).published);
+        for gate in ["lossless", "jobs", "control", "readings"] {
+            self.player("source").ask(gate, &format!("send {count} 0 100"));
+        }
+        std::array::from_fn(|index| {
+            let Connection { from, to } = CONNECTIONS[index];
+            let mark = self.player("source").wait_for(from, "left", |counts| counts.get("left") == 0).get("mark");
+            let is_last =
+                |counts: &Counts| counts.get("newest") == published[index] + count && counts.get("mark") == mark;
+            arrived(&self.player("sink").wait_for(to, "report", is_last))
+        })
     }
 
     /// Starts what the tests of faults interrupt: a control loop, readings that may be dropped, and two ways on which nothing

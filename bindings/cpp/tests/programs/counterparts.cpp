@@ -97,7 +97,7 @@ static void requests_are_answered() {
         CHECK(reply.get().accepted() == (speed < 2));
     }
     auto error = error_of([&controller = controller] { controller.limits.call(command(1)); });
-    CHECK(error.find("gate `controller.limits` got no reply from `world.limits` within 2") == 0);
+    CHECK(error.find("gate `controller.limits` got no reply from `world.limits` within ") == 0);
 }
 
 static void closing_ends_calls_that_wait() {
