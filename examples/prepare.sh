@@ -56,8 +56,12 @@ find_target() {
     target=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/$profile_folder
 }
 
+# Under a test, as in `tests/src/cargo.rs`: without what cargo tells it about its package, and with other packages.
 build_rust() {
-    cargo build --locked --profile "$profile" "$@"
+    # shellcheck disable=SC2046
+    unset $(env | sed -nE 's/^(CARGO_(PKG|MANIFEST)_[A-Z_]*)=.*/\1/p')
+    # shellcheck disable=SC2086
+    cargo build --locked --profile "$profile" ${SCL_TEST_PACKAGES:-} "$@"
     find_target
 }
 

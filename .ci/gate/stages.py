@@ -26,6 +26,7 @@ COMPILED_BY_LINTS = "--exclude-features default,nightly,libzmq,gateway,shm"
 ALL_TESTS = "--lib --bins --test '*'"
 # The packages with tests that `cargo test` does not run. Their features decide how dependencies are compiled, so stages that
 # share these share a build.
+# What these tests build shares it, too, if they are told so; see `tests/src/cargo.rs`.
 NEED_MORE = " ".join(
     f"-p {package}"
     for package in ["scl-c", "scl-cli", "scl-generate", "scl-tests"]
@@ -83,6 +84,7 @@ CHECKS = [
     Stage("packaging", "cargo package --workspace --no-verify --locked --allow-dirty --quiet --exclude-lockfile"),
 ]
 
+BUSY = f".ci/packages stress-ng && .ci/busy {nextest('busy', '--workspace')}"
 ALLOCATIONS = Stage("allocations", f"cargo test --locked {NEED_MORE} --test allocations")
 
 GATE = [
@@ -91,7 +93,7 @@ GATE = [
     Stage("features", features("--no-default-features -p scl-gates -p scl-cli -p scl-loader -p scl-macros")),
     Stage("cargo test", second_command(), 40, tried_again=True),
     # The other languages, editors, the gateway, the benchmarks: what `cargo test` alone does not run.
-    Stage("tests", nextest("gate", NEED_MORE), 40),
+    Stage("tests", nextest("gate", NEED_MORE), 40, {"SCL_TEST_PACKAGES": NEED_MORE}),
     ALLOCATIONS,
     Stage("wheel", ".ci/wheel"),
 ]
@@ -108,9 +110,10 @@ FULL = [
     ),
     Stage("rust-analyzer", ".ci/rust-analyzer", 40),
     Stage("cargo test", second_command(), 60),
+    # Their builds select one package each, as a user's do.
     Stage("tests", nextest("full", NEED_MORE), 90, {"SCL_TEST_LONG": "1"}),
     ALLOCATIONS,
     Stage("wheel", ".ci/wheel"),
     Stage("canaries", ".ci/canaries", 60),
-    *(Stage(f"busy {run}", f".ci/packages stress-ng && .ci/busy {nextest('busy', '--workspace')}", 120) for run in (1, 2, 3)),
+    *(Stage(f"busy {run}", BUSY, 120, {"SCL_TEST_PACKAGES": "--workspace"}) for run in (1, 2, 3)),
 ]

@@ -1,5 +1,6 @@
 //! C and C++ programs of tests, compiled by the system's compilers and linked with the C library of this workspace.
 
+use crate::cargo::{build, workspace};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -29,17 +30,8 @@ pub struct Compile {
 pub fn c_library() -> &'static CLibrary {
     static LIBRARY: OnceLock<CLibrary> = OnceLock::new();
     LIBRARY.get_or_init(|| {
-        let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
-        let folder = build_folder();
-        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.args(["build", "--quiet", "--locked", "-p", "scl-c"]).current_dir(workspace);
-        cargo.arg("--target-dir").arg(folder.parent().expect("the target folder"));
-        if folder.ends_with("release") {
-            cargo.arg("--release");
-        }
-        let built = cargo.output().unwrap_or_else(|error| panic!("{cargo:?}: {error}"));
-        assert!(built.status.success(), "{cargo:?}\n{}", String::from_utf8_lossy(&built.stderr));
-        CLibrary { folder, include: workspace.join("bindings/c/include") }
+        let folder = build("scl-c");
+        CLibrary { folder, include: workspace().join("bindings/c/include") }
     })
 }
 
@@ -119,10 +111,4 @@ impl Compile {
         });
         if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }
     }
-}
-
-/// The folder of the test programs themselves, for example `target/debug`.
-fn build_folder() -> PathBuf {
-    let program = std::env::current_exe().expect("the path of the test program");
-    program.ancestors().nth(2).expect("target/debug/deps/program").to_owned()
 }

@@ -1,5 +1,6 @@
 //! What the tests across processes share: programs that follow commands, a runtime folder for them, and raw ZMTP peers.
 
+mod cargo;
 mod commands;
 mod compile;
 pub mod fuzz;
@@ -15,6 +16,7 @@ mod until;
 mod usage;
 pub mod zmtp;
 
+pub use cargo::build;
 pub use commands::{Commands, ranges, say, say_error, say_result, stop_self};
 pub use compile::{CLibrary, Compile, c_library};
 pub use manager::ServiceManager;

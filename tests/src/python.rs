@@ -5,6 +5,7 @@
 //! asked for, which takes a moment if nothing has changed. A lock keeps concurrent tests from making either twice.
 
 use crate::Process;
+use crate::cargo::{build, build_folder, workspace};
 use rustix::fs::{FlockOperation, flock};
 use std::fs::{self, File};
 use std::io;
@@ -80,16 +81,11 @@ fn install_packages() -> PathBuf {
 
 /// Copies the package and its native module into the virtual environment.
 fn install_scl(python: &Path) {
-    let mut build = Command::new(env!("CARGO"));
-    build.args(["build", "--quiet", "--package", "scl-python"]).current_dir(workspace());
-    if build_folder().ends_with("release") {
-        build.arg("--release");
-    }
-    run(&mut build, "the Python module does not build");
+    let folder = build("scl-python");
     let packages = Command::new(python).args(["-c", "import sysconfig; print(sysconfig.get_path('platlib'))"]).output();
     let packages = String::from_utf8(packages.expect("the folder of packages").stdout).expect("a path in UTF-8");
     let package = Path::new(packages.trim()).join("scl");
-    copy_new(&build_folder().join("libscl_native.so"), &package.join("_native.abi3.so"));
+    copy_new(&folder.join("libscl_native.so"), &package.join("_native.abi3.so"));
     let kept = |name: &str| name == "_native.abi3.so" || name == "__pycache__";
     mirror(&workspace().join("bindings/python/python/scl"), &package, &kept).expect("the package can be copied");
 }
@@ -130,16 +126,6 @@ fn run(command: &mut Command, advice: &str) {
     let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}; {advice}"));
     let text = [output.stdout, output.stderr].concat();
     assert!(output.status.success(), "{advice}\n{}", String::from_utf8_lossy(&text));
-}
-
-fn workspace() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
-}
-
-/// The folder of the test programs themselves, for example `target/debug`.
-fn build_folder() -> PathBuf {
-    let program = std::env::current_exe().expect("the path of the test program");
-    program.ancestors().nth(2).expect("target/debug/deps/program").to_owned()
 }
 
 /// The folder of everything that is built, for example `target`.

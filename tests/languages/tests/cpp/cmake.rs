@@ -237,17 +237,7 @@ fn source_tree() -> Vec<String> {
 /// The program `scl`.
 fn scl() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-    PROGRAM.get_or_init(|| {
-        let folder = &c_library().folder;
-        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.args(["build", "--quiet", "--locked", "-p", "scl-cli"]).current_dir(binding());
-        cargo.arg("--target-dir").arg(folder.parent().expect("the target folder"));
-        if folder.ends_with("release") {
-            cargo.arg("--release");
-        }
-        run(&mut cargo);
-        folder.join("scl")
-    })
+    PROGRAM.get_or_init(|| scl_tests::build("scl-cli").join("scl"))
 }
 
 /// The output of a command, or what it printed before it failed.
