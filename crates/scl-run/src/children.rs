@@ -2,7 +2,7 @@
 
 use super::ending::Ending;
 use super::event::Event;
-use super::notify::Notified;
+use super::notify::{Datagrams, Notified};
 use super::orphan_guard::{OrphanGuard, bound_command};
 use super::output::{Output, Stream};
 use super::plan::COMPONENT;
@@ -115,7 +115,8 @@ impl Running {
             (_, out) => watch_stream(start, out_stream, out, output, events),
         }
         watch_stream(start, Stream::Err, err, output, events);
-        watch_end(start.process, start.role, group, events.clone());
+        let datagrams = start.notify.map(|notify| notify.socket.datagrams().clone());
+        watch_end(start.process, start.role, group, datagrams, events.clone());
         Ok(running)
     }
 
@@ -170,15 +171,20 @@ fn watch_messages(process: usize, from: impl Read + Send + 'static, messages: Me
     });
 }
 
-fn watch_end(process: usize, role: Role, group: Pid, events: Sender<Event>) {
+fn watch_end(process: usize, role: Role, group: Pid, datagrams: Option<Datagrams>, events: Sender<Event>) {
     thread::spawn(move || {
+        let report = |event| {
+            // What a program says before it ends, such as that it is the wrong one, comes before its end.
+            let _ = datagrams.as_ref().map(Datagrams::take);
+            let _ = events.send(event);
+        };
         let ending = wait_for_end(group);
         // What a build leaves behind, such as a compiler's server, is not waited for.
         if role != Role::Build && !process_group::is_empty(group) {
-            let _ = events.send(Event::LeaderEnded { process, ending });
+            report(Event::LeaderEnded { process, ending });
             process_group::wait_until_empty(group);
         }
-        let _ = events.send(Event::Ended { process, ending });
+        report(Event::Ended { process, ending });
     });
 }
 

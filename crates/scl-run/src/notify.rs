@@ -8,6 +8,8 @@ use super::lifecycle::Notice;
 use super::own_file::OwnFile;
 use nix::unistd::{Pid, getpgid};
 use rustix::cmsg_space;
+use rustix::event::{PollFd, PollFlags, poll};
+use rustix::io::Errno;
 use rustix::net::{RecvAncillaryBuffer, RecvAncillaryMessage, RecvFlags, ReturnFlags, recvmsg, sockopt};
 use scl_terminal::escape;
 use std::io::{self, IoSliceMut};
@@ -15,6 +17,7 @@ use std::mem::MaybeUninit;
 use std::os::unix::net::UnixDatagram;
 use std::path::Path;
 use std::sync::mpsc::Sender;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -24,10 +27,22 @@ const LONGEST_DATAGRAM: usize = 4096;
 /// A status is one line on a terminal.
 const LONGEST_STATUS: usize = 300;
 
+/// More datagrams than the kernel keeps for a socket (`net.unix.max_dgram_qlen`).
+const MOST_KEPT: usize = 4096;
+
 /// The socket where programs say that they are ready and alive. Dropping this value removes it.
 #[derive(Debug)]
 pub(crate) struct NotifySocket {
     file: OwnFile,
+    datagrams: Datagrams,
+}
+
+/// What arrives at the socket, on its way to the supervisor.
+#[derive(Debug, Clone)]
+pub(crate) struct Datagrams {
+    socket: Arc<UnixDatagram>,
+    events: Sender<Event>,
+    reading: Arc<Mutex<()>>,
 }
 
 /// What a program is told about the socket.
@@ -46,8 +61,14 @@ impl NotifySocket {
     pub(crate) fn open(folder: &Path, events: Sender<Event>) -> io::Result<Self> {
         let (file, socket) = OwnFile::bind(folder, "notify", |path| UnixDatagram::bind(path))?;
         sockopt::set_socket_passcred(&socket, true)?;
-        thread::Builder::new().spawn(move || receive(&socket, &events))?;
-        Ok(Self { file })
+        let datagrams = Datagrams { socket: Arc::new(socket), events, reading: Arc::default() };
+        let arriving = datagrams.clone();
+        thread::Builder::new().spawn(move || while arriving.wait().and_then(|()| arriving.take()).is_ok() {})?;
+        Ok(Self { file, datagrams })
+    }
+
+    pub(crate) fn datagrams(&self) -> &Datagrams {
+        &self.datagrams
     }
 }
 
@@ -61,29 +82,45 @@ impl Notified<'_> {
     }
 }
 
-fn receive(socket: &UnixDatagram, events: &Sender<Event>) {
-    let mut datagram = [0; LONGEST_DATAGRAM];
-    loop {
-        // Without room for file descriptors, which the kernel closes then. `systemd-notify` waits for that.
-        let mut space = [MaybeUninit::uninit(); cmsg_space!(ScmCredentials(1))];
-        let mut control = RecvAncillaryBuffer::new(&mut space);
-        let received = recvmsg(socket, &mut [IoSliceMut::new(&mut datagram)], &mut control, RecvFlags::CMSG_CLOEXEC);
-        let received = match received {
-            Ok(received) => received,
-            Err(rustix::io::Errno::INTR) => continue,
-            Err(_) => return,
-        };
-        let sender = control.drain().find_map(|message| match message {
-            RecvAncillaryMessage::ScmCredentials(credentials) => Some(credentials.pid),
-            _ => None,
-        });
-        let group = sender.and_then(|sender| getpgid(Some(Pid::from_raw(sender.as_raw_pid()))).ok());
-        let Some(group) = group.filter(|_| !received.flags.contains(ReturnFlags::TRUNC)) else { continue };
-        for notice in notices(&datagram[..received.bytes]) {
-            if events.send(Event::Notified { group, notice }).is_err() {
-                return;
+impl Datagrams {
+    fn wait(&self) -> io::Result<()> {
+        match poll(&mut [PollFd::new(&self.socket, PollFlags::IN)], None) {
+            Ok(_) | Err(Errno::INTR) => Ok(()),
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// Makes events of what has arrived: when this returns, all that programs said before has been sent.
+    ///
+    /// # Errors
+    ///
+    /// If the socket cannot be read, or nobody receives events any more.
+    pub(crate) fn take(&self) -> io::Result<()> {
+        // Nobody returns before the events of a datagram that somebody else has read.
+        let _reading = self.reading.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut datagram = [0; LONGEST_DATAGRAM];
+        for _ in 0..MOST_KEPT {
+            // Without room for file descriptors, which the kernel closes then. `systemd-notify` waits for that.
+            let mut space = [MaybeUninit::uninit(); cmsg_space!(ScmCredentials(1))];
+            let mut control = RecvAncillaryBuffer::new(&mut space);
+            let flags = RecvFlags::CMSG_CLOEXEC | RecvFlags::DONTWAIT;
+            let received = match recvmsg(&*self.socket, &mut [IoSliceMut::new(&mut datagram)], &mut control, flags) {
+                Ok(received) => received,
+                Err(Errno::INTR) => continue,
+                Err(Errno::AGAIN) => return Ok(()),
+                Err(error) => return Err(error.into()),
+            };
+            let sender = control.drain().find_map(|message| match message {
+                RecvAncillaryMessage::ScmCredentials(credentials) => Some(credentials.pid),
+                _ => None,
+            });
+            let group = sender.and_then(|sender| getpgid(Some(Pid::from_raw(sender.as_raw_pid()))).ok());
+            let Some(group) = group.filter(|_| !received.flags.contains(ReturnFlags::TRUNC)) else { continue };
+            for notice in notices(&datagram[..received.bytes]) {
+                self.events.send(Event::Notified { group, notice }).map_err(|_| io::ErrorKind::BrokenPipe)?;
             }
         }
+        Ok(())
     }
 }
 
@@ -111,6 +148,26 @@ fn shown(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The order in which the supervisor learns that a program is the wrong one, and that it has ended.
+    #[test]
+    fn what_was_said_before_is_an_event_when_all_is_taken() {
+        let folder = tempfile::tempdir().unwrap();
+        let (events, received) = std::sync::mpsc::channel();
+        let socket = NotifySocket::open(folder.path(), events).unwrap();
+        let program = UnixDatagram::unbound().unwrap();
+        for number in 0..20_000 {
+            let text = number.to_string();
+            program.send_to(format!("STATUS={text}").as_bytes(), socket.file.path()).unwrap();
+            // The thread of the socket may be the one that reads it.
+            thread::yield_now();
+            socket.datagrams().take().unwrap();
+            let event = received.try_recv();
+            let is_expected =
+                matches!(&event, Ok(Event::Notified { notice: Notice::Status(status), .. }) if *status == text);
+            assert!(is_expected, "{event:?} in place of `{text}`");
+        }
+    }
 
     #[test]
     fn known_lines_are_read_and_others_ignored() {
