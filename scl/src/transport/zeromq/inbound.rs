@@ -59,7 +59,12 @@ pub(super) struct Inbound {
     /// Number of the last question whether newer messages wait, and of the last that the sender has answered.
     question: u64,
     answered: u64,
-    answered_at: Option<Instant>,
+    /// When the sender has said last that none wait, without a later question, and whether that counts for the present call. It
+    /// may say at once that others wait, if it never pauses.
+    told_at: Option<Instant>,
+    told: bool,
+    /// Whether a call of `poll_caught_up` has begun and was not told yet.
+    catching_up: bool,
     /// How often `poll_next` has found nothing since the caller was told, if it was.
     idle_polls: Option<u32>,
     timer: Timer,
@@ -92,7 +97,9 @@ impl Inbound {
             silent_steps: 0,
             question: 0,
             answered: 0,
-            answered_at: None,
+            told_at: None,
+            told: false,
+            catching_up: false,
             idle_polls: None,
             timer: Timer::new(),
         }
@@ -194,9 +201,11 @@ impl Inbound {
 
     fn handle_caught_up(&mut self, number: u64) {
         (self.behind, self.gave_up) = (false, false);
+        if number == self.question {
+            (self.told, self.told_at) = (true, Some(Instant::now()));
+        }
         if number == self.question && self.question != self.answered {
             self.answered = number;
-            self.answered_at = Some(Instant::now());
             self.idle_polls = None;
         }
     }
@@ -278,8 +287,8 @@ impl Inbound {
         if !std::mem::take(&mut self.emptied) && self.fill_raw() {
             ready!(pin!(coop::consume_budget()).poll(cx));
         }
-        if self.question == self.answered {
-            self.ask();
+        if !std::mem::replace(&mut self.catching_up, true) {
+            self.begin_to_catch_up(self.question == self.answered);
         }
         loop {
             self.read_ahead();
@@ -304,6 +313,7 @@ impl Inbound {
         }
         self.timer.unset();
         self.silent_steps = 0;
+        self.catching_up = false;
         self.idle_polls.get_or_insert(0);
         if !self.ahead.is_empty() || self.closed.is_some() {
             // The runtime does not report what was read without it.
@@ -320,8 +330,7 @@ impl Inbound {
             return;
         }
         // Not content with the answer to an earlier question, which may still be on its way.
-        self.ask();
-        self.read_ahead();
+        self.begin_to_catch_up(true);
         while self.may_be_behind() && !self.gave_up {
             self.acknowledge_all();
             let left = deadline.saturating_duration_since(Instant::now());
@@ -334,18 +343,28 @@ impl Inbound {
         }
     }
 
+    fn begin_to_catch_up(&mut self, ask: bool) {
+        let told = self.is_same_call();
+        if ask && !told {
+            self.ask();
+        }
+        // What has arrived already says nothing of what waits now.
+        self.read_ahead();
+        self.told = told;
+    }
+
     /// Asks the sender whether newer messages wait, if that cannot be known without asking.
     fn ask(&mut self) {
         if self.credit.is_none() || self.session.is_immediate() || self.gave_up {
             return;
         }
-        // A caller that has several senders, or looks again after it was told, asks once.
-        let is_same_call =
-            self.idle_polls.is_none_or(|polls| polls <= 1) && self.answered_at.is_some_and(|at| at.elapsed() < FRESH);
-        if !is_same_call {
-            self.question += 1;
-            let _reported_by_reading = self.session.write(&catch_up(self.question));
-        }
+        self.question += 1;
+        let _reported_by_reading = self.session.write(&catch_up(self.question));
+    }
+
+    /// A caller that has several senders, or looks again after it was told, asks once.
+    fn is_same_call(&self) -> bool {
+        self.idle_polls.is_none_or(|polls| polls <= 1) && self.told_at.is_some_and(|at| at.elapsed() < FRESH)
     }
 
     /// Waits on the calling thread until something has arrived.
@@ -357,7 +376,7 @@ impl Inbound {
     fn may_be_behind(&self) -> bool {
         // A peer without credit cannot be asked; one that ignores the window is not worth waiting for.
         let can_catch_up = self.credit.is_some() && self.closed.is_none() && self.ahead.len() < MOST_AHEAD;
-        can_catch_up && (self.behind || self.question != self.answered || self.session.buffered() > 0)
+        can_catch_up && !self.told && (self.behind || self.question != self.answered || self.session.buffered() > 0)
     }
 
     fn acknowledge_all(&mut self) {
