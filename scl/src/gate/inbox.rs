@@ -342,9 +342,20 @@ impl Inbox {
         }
         if self.is_stalled {
             // For the same reason: a sender that closes asks what was received, and waits for the answer.
-            self.drain_links();
+            self.refill();
         }
         Some(arrived)
+    }
+
+    /// Takes in the message for which there is room now, as `drain_links` does. The links are connected already.
+    fn refill(&mut self) {
+        match self.poll_links() {
+            Poll::Ready(arrived) => {
+                self.was_empty = false;
+                self.keep(arrived);
+            }
+            Poll::Pending => self.is_stalled = false,
+        }
     }
 
     fn note_waiting(&mut self) {
