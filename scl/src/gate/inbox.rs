@@ -306,9 +306,9 @@ impl Inbox {
             if self.is_stalled {
                 return self.connect_links();
             }
-            let Poll::Ready(arrived) = self.poll_links() else { return };
-            self.was_empty = false;
-            self.keep(arrived);
+            if !self.take_in_one() {
+                return;
+            }
         }
         // There is more: the task continues after others had their turn.
         self.waker.wake_by_ref();
@@ -341,21 +341,19 @@ impl Inbox {
             self.links[link].note_waiting(0);
         }
         if self.is_stalled {
-            // For the same reason: a sender that closes asks what was received, and waits for the answer.
-            self.refill();
+            // For the same reason: a sender that closes asks what was received, and waits for the answer. There is room for
+            // one message now, and the links are connected already.
+            self.is_stalled = self.take_in_one();
         }
         Some(arrived)
     }
 
-    /// Takes in the message for which there is room now, as `drain_links` does. The links are connected already.
-    fn refill(&mut self) {
-        match self.poll_links() {
-            Poll::Ready(arrived) => {
-                self.was_empty = false;
-                self.keep(arrived);
-            }
-            Poll::Pending => self.is_stalled = false,
-        }
+    /// Returns false if nothing has arrived; the links then wake the task as soon as something does.
+    fn take_in_one(&mut self) -> bool {
+        let Poll::Ready(arrived) = self.poll_links() else { return false };
+        self.was_empty = false;
+        self.keep(arrived);
+        true
     }
 
     fn note_waiting(&mut self) {

@@ -59,8 +59,8 @@ pub(super) struct Inbound {
     /// Number of the last question whether newer messages wait, and of the last that the sender has answered.
     question: u64,
     answered: u64,
-    /// When the sender has said last that none wait, without a later question, and whether that counts for the present call. It
-    /// may say at once that others wait, if it never pauses.
+    /// When the sender last answered that none wait, with no later question open, and whether that counts for the
+    /// present call. A sender that never pauses says in the same breath that others wait.
     told_at: Option<Instant>,
     told: bool,
     /// Whether a call of `poll_caught_up` has begun and was not told yet.
