@@ -56,7 +56,7 @@ find_target() {
     target=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/$profile_folder
 }
 
-# Under a test, as in `tests/src/cargo.rs`: without what cargo tells it about its package, and with other packages.
+# As `build` in `tests/src/cargo.rs`: without what cargo tells a test about its package, and with more packages.
 build_rust() {
     # shellcheck disable=SC2046
     unset $(env | sed -nE 's/^(CARGO_(PKG|MANIFEST)_[A-Z_]*)=.*/\1/p')

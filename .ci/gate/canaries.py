@@ -59,7 +59,9 @@ CANARIES = {
         FOUND + ["started by the test canary_leaves_a_process", "canary_hangs"],
         tests=" -E 'test(/^canary_/)'",
     ),
-    "allocations": Canary("bench/tests/allocations.rs", "TOLERANCE: f64 = -1.0;", ["exit code"], old="TOLERANCE: f64 = 10.0;"),
+    "allocations": Canary(
+        "bench/tests/allocations.rs", "TOLERANCE: f64 = -1.0;", ["exit code"], old="TOLERANCE: f64 = 10.0;"
+    ),
     "wheel": Canary("bindings/python/python/scl/__init__.py", 'raise ImportError("on purpose")\n', ["exit code"]),
 }
 

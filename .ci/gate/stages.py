@@ -25,8 +25,7 @@ EVERYTHING = "--workspace --locked --features scl-cli/gateway,scl-cli/shm"
 COMPILED_BY_LINTS = "--exclude-features default,nightly,libzmq,gateway,shm"
 ALL_TESTS = "--lib --bins --test '*'"
 # The packages with tests that `cargo test` does not run. Their features decide how dependencies are compiled, so stages that
-# share these share a build.
-# What these tests build shares it, too, if they are told so; see `tests/src/cargo.rs`.
+# share these share a build. What the tests build themselves shares it, too, where `SCL_TEST_PACKAGES` says so.
 NEED_MORE = " ".join(
     f"-p {package}"
     for package in ["scl-c", "scl-cli", "scl-generate", "scl-tests"]

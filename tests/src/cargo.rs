@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Builds a package of this workspace. The folder in which its programs and libraries are, for example `target/debug`.
+/// Builds a package of this workspace. Returns the folder of its programs and libraries, for example `target/debug`.
 ///
-/// The variable `SCL_TEST_PACKAGES` names packages that are built together with it (`-p scl-cli -p scl-c`): those whose tests
-/// were built together have the same features then, and nothing of them is compiled again.
+/// The variable `SCL_TEST_PACKAGES` names packages to build with it (`-p scl-cli -p scl-c`). If they are those whose
+/// tests were built, every dependency has the same features as there, and is not compiled again.
 ///
 /// # Panics
 /// If it does not compile.
@@ -16,7 +16,7 @@ pub fn build(package: &str) -> PathBuf {
     cargo.args(["build", "--quiet", "--locked", "-p", package]).current_dir(workspace());
     cargo.args(std::env::var("SCL_TEST_PACKAGES").unwrap_or_default().split_whitespace());
     cargo.arg("--target-dir").arg(folder.parent().expect("the target folder"));
-    // What cargo tells a test about its package is not for what it builds, where build scripts would run again for it.
+    // What cargo tells a test about its own package would make build scripts of other packages run again.
     let names = std::env::vars_os().filter_map(|(name, _)| name.into_string().ok());
     for name in names.filter(|name| name.starts_with("CARGO_PKG_") || name.starts_with("CARGO_MANIFEST_")) {
         cargo.env_remove(name);

@@ -100,7 +100,7 @@ impl Fleet {
         }
     }
 
-    /// Sends so many messages on each connection, and counts what has arrived there in all when the last of them has.
+    /// Sends `count` messages on each connection. Returns how many have arrived there in total once the last one has.
     #[track_caller]
     fn deliver(&mut self, count: u64) -> [u64; CONNECTIONS.len()] {
         let published = CONNECTIONS.map(|it| self.account(it).published);
