@@ -102,7 +102,8 @@ macro_rules! transport_conformance {
     };
     (@guarantee Freshness $fresh:expr) => {
         $crate::transport_conformance! { @tests $fresh;
-            returns_the_newest_message catches_up_with_a_busy_sender catches_up_without_a_runtime
+            returns_the_newest_message catches_up_with_a_busy_sender catches_up_with_senders_that_answer_in_turn
+            catches_up_without_a_runtime
         }
     };
     (@guarantee Requests $fresh:expr) => {

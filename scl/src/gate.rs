@@ -1,6 +1,7 @@
 //! Gates: the typed ends of connections, as the fields of a component.
 
 mod call_wakers;
+mod catch_up;
 mod connection;
 mod decoder;
 mod encoding;

@@ -410,8 +410,12 @@ pub trait Receiver: Send {
         true
     }
 
-    /// Ready when the sender has nothing newer than what [`poll_recv`](Self::poll_recv) returned. Asks the sender if it
-    /// may hold messages back; call it after `poll_recv` returned `Pending`, and `poll_recv` again after it is ready.
+    /// Makes [`poll_caught_up`](Self::poll_caught_up) not content with what senders have said before: a receiving call begins.
+    fn forget_answers(&mut self) {}
+
+    /// Ready when each sender has said, since [`forget_answers`](Self::forget_answers), that it has nothing newer than what
+    /// [`poll_recv`](Self::poll_recv) returned; an answer counts also if others come later. Asks senders that may hold
+    /// messages back; call it after `poll_recv` returned `Pending`, and `poll_recv` again after it is ready.
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         let _cannot_be_behind = cx;
         Poll::Ready(())

@@ -36,7 +36,10 @@ pub use delivery::{
 pub use detached::{
     accepts_peers_when_detached, delivers_after_its_runtime_has_ended, delivers_when_detached, replies_when_detached,
 };
-pub use freshness::{catches_up_with_a_busy_sender, catches_up_without_a_runtime, returns_the_newest_message};
+pub use freshness::{
+    catches_up_with_a_busy_sender, catches_up_with_senders_that_answer_in_turn, catches_up_without_a_runtime,
+    returns_the_newest_message,
+};
 pub use loans::{
     carries_loans, copies_loans_of_a_lost_link, leaves_loans_to_their_holder, lends_nothing,
     returns_loans_that_it_refuses, takes_dropped_loans_back,

@@ -1,5 +1,6 @@
 //! The ends of a receiving gate and its queue, shared by the calls of the program and the gate's background task.
 
+use super::catch_up::{Caller, CatchUp};
 use super::io_waker::IoWaker;
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::ready_set::{ReadySet, ReadySignals};
@@ -17,7 +18,7 @@ use bytes::Bytes;
 use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::sync::{Arc, Mutex, Weak};
-use std::task::{Context, Poll, Waker};
+use std::task::{Context, Poll, Waker, ready};
 use std::time::{Duration, Instant};
 
 /// How many messages one call takes in at most, so that a fast peer cannot keep a call from returning.
@@ -36,8 +37,7 @@ pub(super) struct Inbox {
     was_empty: bool,
     /// Whether the queue was full when the links were drained last, so that they will not wake anybody.
     is_stalled: bool,
-    /// Whether a sender was asked for what it holds back.
-    catching_up: bool,
+    catch_up: CatchUp,
     newest_only: bool,
     /// Whether one link serves all peers.
     listens: bool,
@@ -95,13 +95,13 @@ impl SharedInbox {
         Self { inbox, io, _task: AbortOnDrop(task.abort_handle()) }
     }
 
-    /// Returns the next message, or registers the call and returns `Pending`. `may_vanish`: see [`IoWaker::wait`].
-    pub(super) fn poll_next(&self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Arrived> {
+    /// Returns the next message, or registers the call and returns `Pending`.
+    pub(super) fn poll_next(&self, cx: &mut Context<'_>, caller: Caller) -> Poll<Arrived> {
         let mut inbox = lock(&self.inbox);
-        let polled = inbox.poll_next();
+        let polled = inbox.poll_next(caller);
         inbox.report_ready();
         if polled.is_pending() {
-            self.io.wait(cx.waker(), may_vanish);
+            self.io.wait(cx.waker(), caller == Caller::Stream);
         }
         polled
     }
@@ -157,7 +157,7 @@ impl Inbox {
             queue: Queue::new(policy),
             was_empty: false,
             is_stalled: false,
-            catching_up: false,
+            catch_up: CatchUp::default(),
             newest_only: spec.newest_only(),
             listens: !spec.endpoint.is_empty(),
             received: 0,
@@ -175,10 +175,10 @@ impl Inbox {
     fn drive(&mut self) -> bool {
         self.take_in();
         self.report_ready();
-        !self.queue.is_empty() || self.catching_up
+        !self.queue.is_empty() || self.catch_up.is_waiting()
     }
 
-    fn poll_next(&mut self) -> Poll<Arrived> {
+    fn poll_next(&mut self, caller: Caller) -> Poll<Arrived> {
         // After a pending call the queue was empty, so the first arrival cannot overflow it.
         if self.was_empty && !self.newest_only {
             let polled = self.poll_links();
@@ -190,8 +190,10 @@ impl Inbox {
             return polled;
         }
         self.take_in();
-        if self.newest_only && self.poll_caught_up().is_pending() {
-            return Poll::Pending;
+        if self.newest_only {
+            let cx = &mut Context::from_waker(&self.waker);
+            ready!(self.catch_up.poll(cx, &mut self.links, caller));
+            self.take_in();
         }
         let first = self.pop();
         self.was_empty = first.is_none();
@@ -208,10 +210,12 @@ impl Inbox {
 
     fn wait_on_link(&mut self, within: Duration) -> Option<Arrived> {
         let started = Instant::now();
+        let mut caller = Caller::NewCall;
         loop {
-            if let Poll::Ready(arrived) = self.poll_next() {
+            if let Poll::Ready(arrived) = self.poll_next(caller) {
                 return Some(arrived);
             }
+            caller = Caller::SameCall;
             if self.links.len() != 1 {
                 return None;
             }
@@ -399,26 +403,6 @@ impl Inbox {
             }
         }
         Poll::Pending
-    }
-
-    /// Ready when no sender holds back anything newer than what was taken in.
-    fn poll_caught_up(&mut self) -> Poll<()> {
-        loop {
-            let cx = &mut Context::from_waker(&self.waker);
-            let behind =
-                self.links.iter_mut().filter_map(|link| link.poll_caught_up(cx).is_pending().then_some(())).count();
-            if behind > 0 {
-                self.catching_up = true;
-                return Poll::Pending;
-            }
-            let asked = std::mem::take(&mut self.catching_up);
-            // To know that, the links may have read messages that were not there before.
-            self.take_in();
-            // An answer may be to the question of an earlier call, so the next one must need no question.
-            if !asked {
-                return Poll::Ready(());
-            }
-        }
     }
 
     /// Asks the operating system, because the runtime may not have had a turn for long.

@@ -1,5 +1,6 @@
 //! What `sub` and `pull` share: receiving and decoding.
 
+use super::catch_up::Caller;
 use super::decoder::Decoder;
 use super::inbox::{Arrived, SharedInbox};
 use super::stats::GateStats;
@@ -67,7 +68,7 @@ impl<T> Incoming<T> {
     }
 
     pub(crate) fn recv(&mut self) -> impl Future<Output = Result<T, RecvError>> {
-        self.next(Self::decode)
+        self.next(Caller::NewCall, Self::decode)
     }
 
     pub(crate) fn recv_blocking(&mut self) -> Result<T, RecvError> {
@@ -76,10 +77,11 @@ impl<T> Incoming<T> {
 
     /// Waits for the next message that can be decoded. It is decoded here and not in [`Recv`], because a long message would be
     /// moved, and take room on the stack, once more.
-    async fn next<R>(&mut self, decode: impl Decode<T, R>) -> Result<R, RecvError> {
+    async fn next<R>(&mut self, mut caller: Caller, decode: impl Decode<T, R>) -> Result<R, RecvError> {
         loop {
             for _ in 0..AT_ONCE {
-                let arrived = Recv { gate: self, is_waiting: false }.await?;
+                let arrived = Recv { gate: self, caller, is_waiting: false }.await?;
+                caller = Caller::NewCall;
                 match decode(self, arrived) {
                     Err(Undecodable::Skipped) => {}
                     Err(Undecodable::Failed(error)) => return Err(error),
@@ -94,14 +96,15 @@ impl<T> Incoming<T> {
         let (state, gate) = (Arc::clone(&self.state), self.name);
         let blocking = |source| RecvError::Blocking { gate, source };
         state.may_block().map_err(blocking)?;
-        if let Some(arrived) = self.wait_directly(Duration::MAX) {
-            match decode(self, arrived) {
-                Err(Undecodable::Skipped) => {}
+        let caller = match self.wait_directly(Duration::MAX) {
+            Err(caller) => caller,
+            Ok(arrived) => match decode(self, arrived) {
+                Err(Undecodable::Skipped) => Caller::NewCall,
                 Err(Undecodable::Failed(error)) => return Err(error),
                 Ok(message) => return Ok(message),
-            }
-        }
-        state.block_on(self.next(decode)).map_err(blocking)?
+            },
+        };
+        state.block_on(self.next(caller, decode)).map_err(blocking)?
     }
 
     pub(crate) fn recv_timeout(&mut self, timeout: Duration) -> Result<T, RecvTimeoutError> {
@@ -109,15 +112,16 @@ impl<T> Incoming<T> {
         let blocking = |source| RecvTimeoutError::Recv(RecvError::Blocking { gate, source });
         state.may_block().map_err(blocking)?;
         let started = Instant::now();
-        if let Some(arrived) = self.wait_directly(timeout) {
-            match self.decode(arrived) {
-                Err(Undecodable::Skipped) => {}
+        let caller = match self.wait_directly(timeout) {
+            Err(caller) => caller,
+            Ok(arrived) => match self.decode(arrived) {
+                Err(Undecodable::Skipped) => Caller::NewCall,
                 Err(Undecodable::Failed(error)) => return Err(error.into()),
                 Ok(message) => return Ok(message),
-            }
-        }
+            },
+        };
         let left = timeout.saturating_sub(started.elapsed());
-        match state.block_on_for(left, self.recv()).map_err(blocking)? {
+        match state.block_on_for(left, self.next(caller, Self::decode)).map_err(blocking)? {
             Some(received) => Ok(received?),
             None => {
                 let (peers, reason) = (Peers::of(self.spec), self.state.why_missing(self.spec, &self.missing()));
@@ -127,18 +131,18 @@ impl<T> Incoming<T> {
     }
 
     /// Waits for a message on the calling thread, without the runtime, where that is possible: for a short time, and no
-    /// longer than `limit`.
-    fn wait_directly(&self, limit: Duration) -> Option<Arrived> {
-        let within = self.state.direct_wait()?.min(limit);
-        let arrived = self.inbox.lock().wait(within)?;
+    /// longer than `limit`. Otherwise returns as whom the call goes on.
+    fn wait_directly(&self, limit: Duration) -> Result<Arrived, Caller> {
+        let within = self.state.direct_wait().ok_or(Caller::NewCall)?.min(limit);
+        let arrived = self.inbox.lock().wait(within).ok_or(Caller::SameCall)?;
         self.state.take_turn();
-        Some(arrived)
+        Ok(arrived)
     }
 
     /// The next item of a stream, which may be dropped without notice.
     pub(crate) fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<Result<T, RecvError>> {
         for _ in 0..AT_ONCE {
-            let arrived = ready!(self.poll_arrived(cx, true))?;
+            let arrived = ready!(self.poll_arrived(cx, Caller::Stream))?;
             match self.decode(arrived) {
                 Err(Undecodable::Skipped) => {}
                 Err(Undecodable::Failed(error)) => return Poll::Ready(Err(error)),
@@ -149,7 +153,7 @@ impl<T> Incoming<T> {
         Poll::Pending
     }
 
-    fn poll_arrived(&mut self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Result<Arrived, RecvError>> {
+    fn poll_arrived(&mut self, cx: &mut Context<'_>, caller: Caller) -> Poll<Result<Arrived, RecvError>> {
         if let Err(source) = self.state.check() {
             return Poll::Ready(Err(self.refused(source)));
         }
@@ -157,7 +161,7 @@ impl<T> Incoming<T> {
         if self.state.is_stopped() {
             return Poll::Pending;
         }
-        match self.inbox.poll_next(cx, may_vanish) {
+        match self.inbox.poll_next(cx, caller) {
             Poll::Ready(arrived) => Poll::Ready(Ok(arrived)),
             Poll::Pending => self.poll_ended().map(Err),
         }
@@ -230,7 +234,7 @@ impl<T> Incoming<T> {
         T: FromBytes + KnownLayout + Immutable,
     {
         self.check_views()?;
-        self.next(Self::view).await
+        self.next(Caller::NewCall, Self::view).await
     }
 
     #[cfg(feature = "raw")]
@@ -368,6 +372,7 @@ impl<T, R, D: Fn(&mut Incoming<T>, Arrived) -> Result<R, Undecodable>> Decode<T,
 /// A receiving call. Dropping it before it is ready hands the gate's I/O back to the background task.
 struct Recv<'a, T> {
     gate: &'a mut Incoming<T>,
+    caller: Caller,
     is_waiting: bool,
 }
 
@@ -375,7 +380,8 @@ impl<T> Future for Recv<'_, T> {
     type Output = Result<Arrived, RecvError>;
 
     fn poll(mut self: std::pin::Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Self::Output> {
-        let polled = self.gate.poll_arrived(cx, false);
+        let caller = std::mem::replace(&mut self.caller, Caller::SameCall);
+        let polled = self.gate.poll_arrived(cx, caller);
         self.is_waiting = polled.is_pending();
         polled
     }

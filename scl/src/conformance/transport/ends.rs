@@ -210,11 +210,13 @@ pub(super) struct TestReceiver {
     watched: Watched<Box<dyn Receiver>>,
     /// What [`poll_newest`](Self::poll_newest) has received and not returned yet.
     newest: Option<Bytes>,
+    /// Whether a call of it has begun that has returned nothing yet.
+    catching_up: bool,
 }
 
 impl TestReceiver {
     pub(super) fn new(end: Box<dyn Receiver>) -> Self {
-        Self { watched: Watched::new(end), newest: None }
+        Self { watched: Watched::new(end), newest: None, catching_up: false }
     }
 
     pub(super) fn renew_waker(&mut self) {
@@ -256,15 +258,19 @@ impl TestReceiver {
 
     /// Returns the newest message, or `None` if there is none since the last call, once the sender has nothing newer.
     pub(super) fn poll_newest(&mut self, test: &Context<'_>) -> Poll<Option<Bytes>> {
-        let newest = &mut self.newest;
+        let (newest, catching_up) = (&mut self.newest, &mut self.catching_up);
         self.watched.poll(test, |end, cx| {
             while let Poll::Ready(message) = end.poll_recv(cx) {
                 *newest = Some(message);
+            }
+            if !std::mem::replace(catching_up, true) {
+                end.forget_answers();
             }
             let caught_up = end.poll_caught_up(cx);
             while let Poll::Ready(message) = end.poll_recv(cx) {
                 *newest = Some(message);
             }
+            *catching_up = caught_up.is_pending();
             caught_up.map(|()| newest.take())
         })
     }

@@ -4,7 +4,7 @@
 //! newer one takes its place.
 
 use super::ends::{TestReceiver, TestSender};
-use super::{ENDPOINT, PATTERNS, Pattern, turns};
+use super::{ENDPOINT, PATTERNS, Pattern, connect, turns};
 use crate::conformance::PATIENCE;
 use crate::transport::{Endpoint, Transport};
 use bytes::Bytes;
@@ -12,10 +12,14 @@ use std::future::poll_fn;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::task::Poll;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// More than fits between two ends.
 const MANY: u64 = 5000;
+/// For how long one of several senders does something before the next one does.
+const TURN: Duration = Duration::from_millis(2);
+/// Each answers in its first one or two, also if the machine is busy.
+const MOST_TURNS: usize = 20;
 
 /// After a pause, a receiver that has caught up has the newest message, however many were sent meanwhile.
 pub async fn returns_the_newest_message(transport: &dyn Transport) {
@@ -60,6 +64,41 @@ pub async fn catches_up_with_a_busy_sender(transport: &dyn Transport) {
             // A pause, in which the sender goes on.
             send(&mut sender, &mut last, 1000).await;
         }
+    }
+}
+
+/// Senders that are slow do not have to answer at the same time: what one has said counts until the other has answered.
+pub async fn catches_up_with_senders_that_answer_in_turn(transport: &dyn Transport) {
+    let endpoint = Endpoint { newest_only: true, ..Endpoint::new(ENDPOINT) };
+    let mut puller = Pattern::PushPull.receiver_at(transport, &endpoint);
+    let mut pushers = [(); 2].map(|()| Pattern::PushPull.sender(transport));
+    let mut last = 0;
+    for pusher in &mut pushers {
+        connect(pusher, &mut puller).await;
+    }
+    for pusher in &mut pushers {
+        send(pusher, &mut last, MANY).await;
+    }
+    for _ in 0..10 {
+        let called_at = last;
+        let (mut turn, mut turn_began) = (0, Instant::now());
+        let newest = poll_fn(|cx| {
+            if turn_began.elapsed() >= TURN {
+                (turn, turn_began) = (turn + 1, Instant::now());
+            }
+            let pusher = &mut pushers[turn % 2];
+            last += 1;
+            pusher.replace(message(last));
+            pusher.poll(cx);
+            cx.waker().wake_by_ref();
+            match puller.poll_newest(cx) {
+                Poll::Ready(Some(newest)) => Poll::Ready(number(&newest)),
+                Poll::Ready(None) | Poll::Pending => Poll::Pending,
+            }
+        });
+        let newest = newest.await;
+        assert!(newest >= called_at, "{newest} is older than the call, {called_at}");
+        assert!(turn <= MOST_TURNS, "the pushers had {turn} turns until the puller had caught up");
     }
 }
 

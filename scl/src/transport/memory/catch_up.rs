@@ -16,6 +16,7 @@ pub(super) fn catch_up(end: &mut dyn Receiver, within: Duration) -> VecDeque<Byt
     let waker = Waker::from(Arc::new(Unpark(thread::current())));
     let mut cx = Context::from_waker(&waker);
     let mut fetched = VecDeque::new();
+    end.forget_answers();
     loop {
         fetch(end, &mut cx, &mut fetched);
         if end.poll_caught_up(&mut cx).is_ready() {

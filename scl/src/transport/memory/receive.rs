@@ -82,21 +82,18 @@ impl Receiver for Subscriber {
         self.publisher.as_ref().is_some_and(|publisher| publisher.is_open() && publisher.is_lossless())
     }
 
+    fn forget_answers(&mut self) {
+        self.publisher.iter().for_each(PipeReader::forget_answer);
+    }
+
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        let Some(publisher) = &self.publisher else { return Poll::Ready(()) };
-        if !publisher.poll_caught_up(cx) {
-            return Poll::Pending;
-        }
-        publisher.forget_answer();
-        Poll::Ready(())
+        let is_behind = self.publisher.as_ref().is_some_and(|publisher| !publisher.poll_caught_up(cx));
+        if is_behind { Poll::Pending } else { Poll::Ready(()) }
     }
 
     fn catch_up(&mut self, within: Duration) {
         if self.inbound.newest_only {
-            // An answer to an earlier call, or one that comes after this call has given up, may be old when it is used.
-            self.publisher.iter().for_each(PipeReader::forget_answer);
             self.inbound.fetched = catch_up(self, within);
-            self.publisher.iter().for_each(PipeReader::forget_answer);
         }
     }
 
@@ -176,22 +173,19 @@ impl Receiver for Puller {
         self.pushers.iter().any(|pusher| pusher.pipe.is_open() && pusher.pipe.is_lossless())
     }
 
-    fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        // All are asked before any of the answers is used up.
-        let behind = self.pushers.iter().filter(|pusher| !pusher.pipe.poll_caught_up(cx)).count();
-        if behind > 0 {
-            return Poll::Pending;
-        }
+    fn forget_answers(&mut self) {
         self.pushers.iter().for_each(|pusher| pusher.pipe.forget_answer());
-        Poll::Ready(())
+    }
+
+    fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        // Each is asked, also if one before it is behind.
+        let behind = self.pushers.iter().filter(|pusher| !pusher.pipe.poll_caught_up(cx)).count();
+        if behind > 0 { Poll::Pending } else { Poll::Ready(()) }
     }
 
     fn catch_up(&mut self, within: Duration) {
         if self.inbound.newest_only {
-            // An answer to an earlier call, or one that comes after this call has given up, may be old when it is used.
-            self.pushers.iter().for_each(|pusher| pusher.pipe.forget_answer());
             self.inbound.fetched = catch_up(self, within);
-            self.pushers.iter().for_each(|pusher| pusher.pipe.forget_answer());
         }
     }
 }

@@ -19,7 +19,7 @@ use tokio::task::coop;
 const CATCH_UP_LIMIT: Duration = Duration::from_millis(100);
 /// The limit passes in so many steps, so that time in which this program itself stands still counts as one of them at most.
 const CATCH_UP_STEPS: u32 = 10;
-/// For how long the answer of a sender that had to be asked counts at most.
+/// For how long an answer counts for a caller that does not wait, and looks again.
 const FRESH: Duration = Duration::from_millis(1);
 /// How much is read ahead of the caller without a runtime, or a single message that is longer.
 const READ_AHEAD: usize = 256 << 10;
@@ -59,15 +59,21 @@ pub(super) struct Inbound {
     /// Number of the last question whether newer messages wait, and of the last that the sender has answered.
     question: u64,
     answered: u64,
-    /// When the sender last answered that none wait, with no later question open, and whether that counts for the
-    /// present call. A sender that never pauses says in the same breath that others wait.
-    told_at: Option<Instant>,
-    told: bool,
-    /// Whether a call of `poll_caught_up` has begun and was not told yet.
-    catching_up: bool,
-    /// How often `poll_next` has found nothing since the caller was told, if it was.
-    idle_polls: Option<u32>,
+    answered_at: Option<Instant>,
+    answer: Answer,
     timer: Timer,
+}
+
+/// What a sender has said about messages that are newer than those read.
+#[derive(PartialEq)]
+enum Answer {
+    /// Nothing that counts for the present call.
+    Forgotten,
+    /// Nothing yet since the call began.
+    Awaited,
+    /// That none waited, at some time since the call began. A sender that never pauses says in the same breath that others
+    /// wait.
+    CaughtUp,
 }
 
 impl Inbound {
@@ -97,10 +103,8 @@ impl Inbound {
             silent_steps: 0,
             question: 0,
             answered: 0,
-            told_at: None,
-            told: false,
-            catching_up: false,
-            idle_polls: None,
+            answered_at: None,
+            answer: Answer::Forgotten,
             timer: Timer::new(),
         }
     }
@@ -153,7 +157,6 @@ impl Inbound {
             let _reported_by_reading = self.session.flush(cx);
         }
         self.emptied = self.session.take_emptied();
-        self.idle_polls = self.idle_polls.map(|polls| polls.saturating_add(1));
         Poll::Pending
     }
 
@@ -202,11 +205,10 @@ impl Inbound {
     fn handle_caught_up(&mut self, number: u64) {
         (self.behind, self.gave_up) = (false, false);
         if number == self.question {
-            (self.told, self.told_at) = (true, Some(Instant::now()));
-        }
-        if number == self.question && self.question != self.answered {
-            self.answered = number;
-            self.idle_polls = None;
+            (self.answered, self.answered_at) = (number, Some(Instant::now()));
+            if self.answer == Answer::Awaited {
+                self.answer = Answer::CaughtUp;
+            }
         }
     }
 
@@ -278,7 +280,13 @@ impl Inbound {
         }
     }
 
-    /// Ready when the sender has nothing newer than what `poll_next` has returned or will return at once.
+    /// A call begins: it does not rely on what was said before.
+    pub(super) fn forget_answer(&mut self) {
+        self.answer = Answer::Forgotten;
+    }
+
+    /// Ready when the sender has nothing newer than what `poll_next` has returned or will return at once, and from then on
+    /// until [`forget_answer`](Self::forget_answer).
     pub(super) fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         if !self.newest_only {
             return Poll::Ready(());
@@ -287,8 +295,9 @@ impl Inbound {
         if !std::mem::take(&mut self.emptied) && self.fill_raw() {
             ready!(pin!(coop::consume_budget()).poll(cx));
         }
-        if !std::mem::replace(&mut self.catching_up, true) {
-            self.begin_to_catch_up(self.question == self.answered);
+        if self.answer == Answer::Forgotten {
+            self.await_answer();
+            self.ask();
         }
         loop {
             self.read_ahead();
@@ -313,8 +322,6 @@ impl Inbound {
         }
         self.timer.unset();
         self.silent_steps = 0;
-        self.catching_up = false;
-        self.idle_polls.get_or_insert(0);
         if !self.ahead.is_empty() || self.closed.is_some() {
             // The runtime does not report what was read without it.
             cx.waker().wake_by_ref();
@@ -329,8 +336,12 @@ impl Inbound {
         if !self.newest_only {
             return;
         }
-        // Not content with the answer to an earlier question, which may still be on its way.
-        self.begin_to_catch_up(true);
+        // The answer to an open question may be on its way already, so that one is not enough.
+        let is_answered = self.question == self.answered && self.answered_at.is_some_and(|at| at.elapsed() < FRESH);
+        self.await_answer();
+        if !is_answered {
+            self.ask();
+        }
         while self.may_be_behind() && !self.gave_up {
             self.acknowledge_all();
             let left = deadline.saturating_duration_since(Instant::now());
@@ -343,14 +354,10 @@ impl Inbound {
         }
     }
 
-    fn begin_to_catch_up(&mut self, ask: bool) {
-        let told = self.is_same_call();
-        if ask && !told {
-            self.ask();
-        }
-        // What has arrived already says nothing of what waits now.
+    fn await_answer(&mut self) {
+        // What has arrived already does not tell what waits now.
         self.read_ahead();
-        self.told = told;
+        self.answer = Answer::Awaited;
     }
 
     /// Asks the sender whether newer messages wait, if that cannot be known without asking.
@@ -362,11 +369,6 @@ impl Inbound {
         let _reported_by_reading = self.session.write(&catch_up(self.question));
     }
 
-    /// A caller that has several senders, or looks again after it was told, asks once.
-    fn is_same_call(&self) -> bool {
-        self.idle_polls.is_none_or(|polls| polls <= 1) && self.told_at.is_some_and(|at| at.elapsed() < FRESH)
-    }
-
     /// Waits on the calling thread until something has arrived.
     pub(super) fn wait(&mut self, within: Duration) -> bool {
         self.session.wait(within)
@@ -376,7 +378,8 @@ impl Inbound {
     fn may_be_behind(&self) -> bool {
         // A peer without credit cannot be asked; one that ignores the window is not worth waiting for.
         let can_catch_up = self.credit.is_some() && self.closed.is_none() && self.ahead.len() < MOST_AHEAD;
-        can_catch_up && !self.told && (self.behind || self.question != self.answered || self.session.buffered() > 0)
+        let is_awaited = self.behind || self.question != self.answered || self.session.buffered() > 0;
+        can_catch_up && self.answer != Answer::CaughtUp && is_awaited
     }
 
     fn acknowledge_all(&mut self) {

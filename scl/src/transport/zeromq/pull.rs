@@ -189,6 +189,10 @@ impl Receiver for Puller {
         self.pushers.iter().all(|pusher| pusher.inbound.is_finished())
     }
 
+    fn forget_answers(&mut self) {
+        self.pushers.iter_mut().for_each(|pusher| pusher.inbound.forget_answer());
+    }
+
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         let mut caught_up = Poll::Ready(());
         for pusher in &mut self.pushers {

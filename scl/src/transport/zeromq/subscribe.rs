@@ -130,6 +130,10 @@ impl Receiver for Subscriber {
         self.publisher.as_ref().is_none_or(Inbound::is_finished)
     }
 
+    fn forget_answers(&mut self) {
+        self.publisher.iter_mut().for_each(Inbound::forget_answer);
+    }
+
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         self.publisher.as_mut().map_or(Poll::Ready(()), |publisher| publisher.poll_caught_up(cx))
     }

@@ -12,6 +12,9 @@ pub(super) struct Inbox {
     call: Call,
     /// Whether the last waiting call found nothing, and nothing has arrived since.
     was_empty: bool,
+    /// Whether the reader has called for the next message and was given none yet, and what its sender held back at first.
+    has_called: bool,
+    owed: Option<Message>,
     /// The message that the call has, before it returns: the first that arrives for a call that waited, or one from the queue.
     direct: Option<Message>,
     pub(super) received: u64,
@@ -39,6 +42,8 @@ impl Inbox {
             waiting: VecDeque::new(),
             call: Call::None,
             was_empty: false,
+            has_called: false,
+            owed: None,
             direct: None,
             received: 0,
             replaced: 0,
@@ -82,18 +87,23 @@ impl Inbox {
         self.waiting.iter().filter(|message| message.sender == sender).count() as u64
     }
 
-    pub(super) fn call(&self) -> Call {
-        self.call
+    pub(super) fn begins(&mut self, call: Call, held_back: Option<Message>) {
+        self.call = call;
+        if call == Call::Next && !std::mem::replace(&mut self.has_called, true) {
+            self.owed = held_back;
+        }
+        self.was_empty &= call == Call::Next;
     }
 
-    pub(super) fn begins(&mut self, call: Call) {
-        self.call = call;
-        self.was_empty &= call == Call::Next;
+    /// What a call that waits must not return an older message than, if the reader wants the newest.
+    pub(super) fn owed(&self) -> Option<Message> {
+        self.owed.filter(|_| self.is_newest_only() && self.call == Call::Next)
     }
 
     /// The call is done. `catches_up`: it may return nothing because its sender holds back a newer message.
     pub(super) fn ends(&mut self, given: Option<Message>, catches_up: bool) -> Outcome {
         let call = std::mem::replace(&mut self.call, Call::None);
+        self.has_called &= call != Call::Next || given.is_none();
         if given.is_none() && catches_up && self.is_newest_only() && call == Call::Next {
             return Ok(());
         }

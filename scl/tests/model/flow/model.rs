@@ -48,14 +48,24 @@ impl Connection {
         self.transit.has_reader() && self.transit.due() + self.outbox.waiting.len() <= room
     }
 
+    fn call_begins(&mut self, call: Call) {
+        self.inbox.begins(call, self.held_back());
+    }
+
+    /// The newest message that the sender could not hand over.
+    fn held_back(&self) -> Option<Message> {
+        self.outbox.waiting.back().filter(|_| self.outbox.holds_back).copied()
+    }
+
     /// A receiving call is done. One that waits must not return an old message to a reader that wants the newest.
     pub(super) fn call_ends(&mut self, given: Option<Message>) -> Outcome {
-        let holds_back = self.outbox.holds_back;
-        let waits = self.inbox.is_newest_only() && self.inbox.call() == Call::Next;
-        if waits && given.is_some() && holds_back && self.transit.promise().is_exact() {
-            return Err(format!("the reader was given {given:?}, and its sender holds back a newer message"));
+        if let (Some(message), Some(owed), Some(held)) = (given, self.inbox.owed(), self.held_back())
+            && self.transit.promise().is_exact()
+            && (message < owed && owed.sender == held.sender)
+        {
+            return Err(format!("the reader was given {message:?}, but its sender had {owed:?} when it first called"));
         }
-        self.inbox.ends(given, holds_back || !self.transit.promise().is_exact())
+        self.inbox.ends(given, self.outbox.holds_back || !self.transit.promise().is_exact())
     }
 }
 
@@ -243,6 +253,6 @@ impl Model {
     }
 
     pub(super) fn call_begins(&mut self, reader: usize, call: Call) {
-        self.connections[reader].inbox.begins(call);
+        self.connections[reader].call_begins(call);
     }
 }

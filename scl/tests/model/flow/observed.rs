@@ -217,6 +217,10 @@ impl Receiver for Observed<Box<dyn Receiver>> {
         self.end.acknowledge_last();
     }
 
+    fn forget_answers(&mut self) {
+        self.end.forget_answers();
+    }
+
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         self.end.poll_caught_up(cx)
     }

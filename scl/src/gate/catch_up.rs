@@ -1,0 +1,90 @@
+//! Asking the senders of a gate with `queue: 1` what they hold back.
+//!
+//! The senders may be slow to answer, each at another time, and the program may give up each of its calls after a while. It
+//! must have their newest message nevertheless, and one that is not older than its call.
+
+use crate::transport::Receiver;
+use std::task::{Context, Poll};
+use std::time::{Duration, Instant};
+
+/// How long before a call of a stream, of which the beginning is not known, the senders may have been asked.
+const FRESH: Duration = Duration::from_millis(1);
+/// How long before any call they may have been asked a second time, because the first was before an earlier one: for as long
+/// as a slow sender may need, so that there is no third.
+const FRESH_ENOUGH: Duration = Duration::from_secs(1);
+
+/// Who looks for a message.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Caller {
+    /// A call, for the first time.
+    NewCall,
+    /// A call that waits.
+    SameCall,
+    /// A stream. Its calls may vanish without notice, and then be another one.
+    Stream,
+}
+
+#[derive(Default)]
+pub(super) struct CatchUp {
+    /// The question that some senders have not answered. It stays open when the call that asked has vanished.
+    asked: Option<Asked>,
+}
+
+struct Asked {
+    at: Instant,
+    /// Whether that was the second time.
+    again: bool,
+    /// Whether the call that waits may have begun too long after it.
+    is_old: bool,
+}
+
+impl CatchUp {
+    pub(super) fn is_waiting(&self) -> bool {
+        self.asked.is_some()
+    }
+
+    /// Ready when each sender has said, since the call began, that it holds back nothing newer. To know that, the links may
+    /// have read messages that were not there before.
+    pub(super) fn poll(&mut self, cx: &mut Context<'_>, links: &mut [Box<dyn Receiver>], caller: Caller) -> Poll<()> {
+        match &mut self.asked {
+            Some(asked) => asked.is_old |= !asked.counts_for(caller),
+            None => forget_answers(links),
+        }
+        if is_behind(cx, links) {
+            self.asked.get_or_insert_with(|| Asked::now(false));
+            return Poll::Pending;
+        }
+        if self.asked.take().is_some_and(|asked| asked.is_old) {
+            forget_answers(links);
+            if is_behind(cx, links) {
+                self.asked = Some(Asked::now(true));
+                return Poll::Pending;
+            }
+        }
+        Poll::Ready(())
+    }
+}
+
+impl Asked {
+    fn now(again: bool) -> Self {
+        Self { at: Instant::now(), again, is_old: false }
+    }
+
+    fn counts_for(&self, caller: Caller) -> bool {
+        match caller {
+            Caller::SameCall => true,
+            Caller::NewCall | Caller::Stream if self.again => self.at.elapsed() <= FRESH_ENOUGH,
+            Caller::NewCall => false,
+            Caller::Stream => self.at.elapsed() <= FRESH,
+        }
+    }
+}
+
+fn forget_answers(links: &mut [Box<dyn Receiver>]) {
+    links.iter_mut().for_each(|link| link.forget_answers());
+}
+
+/// Asks each sender, also if one before it is behind.
+fn is_behind(cx: &mut Context<'_>, links: &mut [Box<dyn Receiver>]) -> bool {
+    links.iter_mut().filter_map(|link| link.poll_caught_up(cx).is_pending().then_some(())).count() > 0
+}
