@@ -5,9 +5,11 @@ mod examples;
 mod workspace;
 
 use crate::lsp::Server;
+use crate::system::lock_file;
 use cases::{BROKEN, CASES, Case};
 use scl_needs::needs;
 use serde_json::Value;
+use std::fs::File;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use workspace::Workspace;
@@ -16,14 +18,18 @@ use workspace::Workspace;
 struct Editor {
     server: Server,
     workspace: Workspace,
+    /// Keeps tests of other processes from writing the workspace meanwhile.
+    _lock: File,
 }
 
 fn editor() -> MutexGuard<'static, Editor> {
     static EDITOR: OnceLock<Mutex<Editor>> = OnceLock::new();
     let editor = EDITOR.get_or_init(|| {
-        let workspace = Workspace::write();
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rust_analyzer");
+        let lock = lock_file(&folder.with_extension("lock"));
+        let workspace = Workspace::write(folder);
         let server = workspace.start(scl_needs::path_of!("rust-analyzer"));
-        Mutex::new(Editor { server, workspace })
+        Mutex::new(Editor { server, workspace, _lock: lock })
     });
     editor.lock().unwrap_or_else(PoisonError::into_inner)
 }

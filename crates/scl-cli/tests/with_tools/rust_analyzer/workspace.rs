@@ -40,8 +40,8 @@ pub(super) struct Workspace {
 
 impl Workspace {
     /// Writes all files anew.
-    pub(super) fn write() -> Self {
-        let workspace = Self { root: Path::new(env!("CARGO_TARGET_TMPDIR")).join("rust_analyzer") };
+    pub(super) fn write(root: PathBuf) -> Self {
+        let workspace = Self { root };
         let _new = fs::remove_dir_all(&workspace.root);
         let repository = repository();
         let manifest = fs::read_to_string(repository.join("Cargo.toml")).unwrap();
