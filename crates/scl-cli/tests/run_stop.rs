@@ -103,7 +103,8 @@ fn who_does_not_stop_in_time_is_named_and_killed() {
 #[test]
 fn what_a_program_leaves_behind_ends_with_it() {
     let leaving = |trap: &str| {
-        let script = format!("exec 3>alive; ({trap}exec tail -f /dev/null >/dev/null) & echo started");
+        // The trap is inherited: one that the child sets itself may come too late.
+        let script = format!("{trap}exec 3>alive; (exec tail -f /dev/null >/dev/null) & echo started");
         let launch = format!("components: {{sensor: {{command: [sh, -c, {script:?}]}}}}");
         System::of_files(&[("launch.yaml", &launch)])
     };

@@ -3,7 +3,7 @@
 use super::end::End;
 use crate::programs::TWIN;
 use rustix::process::{Resource, getrlimit, setrlimit};
-use scl_tests::{Process, RawPeer, System};
+use scl_tests::{Process, RawPeer, System, wait_until};
 use std::sync::{Mutex, PoisonError};
 
 /// How much memory an attack may cost, in KiB. Each end may keep a few buffers of 64 KiB for each of 64 strangers.
@@ -43,6 +43,7 @@ fn watch(system: &System, mut left: Process, attack: impl Fn(&End) -> Vec<RawPee
     let mut right = system.start(TWIN, &["right", "current_thread", "wait"]);
     right.expect("open");
     right.expect("ready");
+    until_served(&mut left, &mut right);
     exchange(&mut left, &mut right, 1_000_000);
     drop(stay);
     exchange(&mut left, &mut right, 2_000_000);
@@ -50,6 +51,15 @@ fn watch(system: &System, mut left: Process, attack: impl Fn(&End) -> Vec<RawPee
     assert_bounded(&left, before);
     let exit = left.wait_for_exit();
     assert!(exit.status.success() && !exit.text().contains("panicked"), "{exit:?}");
+}
+
+/// A publisher knows its subscriber a moment later than that knows it, and what it sends before is for nobody.
+fn until_served(publisher: &mut Process, subscriber: &mut Process) {
+    subscriber.tell("values 0");
+    wait_until("the subscriber receives", || {
+        publisher.ask("publish 0 1", "published");
+        subscriber.try_next_line().is_some()
+    });
 }
 
 /// Messages of every kind in both directions.
@@ -64,7 +74,7 @@ fn send_all_kinds(from: &mut Process, to: &mut Process, first: u64) {
         from.ask(&format!("{send} {first} {end}"), sent);
         to.tell(&format!("{received} {last}"));
         let line = to.next_line();
-        // What strangers sent before may have been a message by chance.
+        // What strangers sent before may have been a message by chance, and the first one may have come more than once.
         assert!(line.ends_with(&format!("{first}..{end}")), "{received}: {line}");
     }
     from.ask(&format!("call {first}"), &(2 * first).to_string());
