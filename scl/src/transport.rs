@@ -410,12 +410,14 @@ pub trait Receiver: Send {
         true
     }
 
-    /// Makes [`poll_caught_up`](Self::poll_caught_up) not content with what senders have said before: a receiving call begins.
+    /// A receiving call begins: what senders said before it does not count for
+    /// [`poll_caught_up`](Self::poll_caught_up).
     fn forget_answers(&mut self) {}
 
-    /// Ready when each sender has said, since [`forget_answers`](Self::forget_answers), that it has nothing newer than what
-    /// [`poll_recv`](Self::poll_recv) returned; an answer counts also if others come later. Asks senders that may hold
-    /// messages back; call it after `poll_recv` returned `Pending`, and `poll_recv` again after it is ready.
+    /// Ready when each sender has said, since [`forget_answers`](Self::forget_answers), that it has nothing newer than
+    /// what [`poll_recv`](Self::poll_recv) returned. The answer of one counts until all have answered. Asks senders
+    /// that may hold messages back; call it after `poll_recv` returned `Pending`, and `poll_recv` again after it is
+    /// ready.
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         let _cannot_be_behind = cx;
         Poll::Ready(())

@@ -1,5 +1,5 @@
-//! The newest message of several senders that compute for long between their calls, so that each answers late, and at
-//! another time than the others.
+//! The newest message of several senders that are busy between their calls, so that each answers late, and at another
+//! time than the others.
 #![allow(clippy::unwrap_used)]
 
 use super::untyped::on_each_transport_async;
@@ -15,8 +15,8 @@ use std::time::Duration;
 
 scl::topology!("slow_senders.yaml");
 
-/// How many messages must be received. A receiver that waits for a moment at which all senders have just answered gets a
-/// few of them.
+/// How many messages must be received. A receiver that waits for a moment at which all senders have just answered gets
+/// only a few.
 const ENOUGH: u32 = 200;
 const LONG: Duration = Duration::from_secs(300);
 
@@ -101,7 +101,7 @@ fn receive(next: impl AsyncFn(&mut Fusion) -> u32) {
     });
 }
 
-/// Sends in a thread with a runtime of its own, which has a turn once in so many milliseconds.
+/// Sends from a thread of its own. Between two messages the thread is busy, and its runtime cannot answer.
 fn send_and_compute(
     milliseconds: u64,
     stop: &Arc<AtomicBool>,

@@ -1,16 +1,15 @@
 //! Asking the senders of a gate with `queue: 1` what they hold back.
 //!
-//! The senders may be slow to answer, each at another time, and the program may give up each of its calls after a while. It
-//! must have their newest message nevertheless, and one that is not older than its call.
+//! The senders may be slow to answer, each at another time, and the program may give up each of its calls after a
+//! while. It must have their newest message nevertheless, and one that is not older than its call.
 
 use crate::transport::Receiver;
 use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 
-/// How long before a call of a stream, of which the beginning is not known, the senders may have been asked.
+/// How old a question may be for the call of a stream, whose beginning is not known.
 const FRESH: Duration = Duration::from_millis(1);
-/// How long before any call they may have been asked a second time, because the first was before an earlier one: for as long
-/// as a slow sender may need, so that there is no third.
+/// How old a second question may be when a call begins: longer than a slow sender needs, so that there is no third.
 const FRESH_ENOUGH: Duration = Duration::from_secs(1);
 
 /// Who looks for a message.
@@ -20,7 +19,7 @@ pub(super) enum Caller {
     NewCall,
     /// A call that waits.
     SameCall,
-    /// A stream. Its calls may vanish without notice, and then be another one.
+    /// A stream: its call may be dropped, and another one begin, without notice.
     Stream,
 }
 
@@ -32,9 +31,9 @@ pub(super) struct CatchUp {
 
 struct Asked {
     at: Instant,
-    /// Whether that was the second time.
+    /// Whether this is the second question, because the first was older than the call.
     again: bool,
-    /// Whether the call that waits may have begun too long after it.
+    /// Whether it is too old for the call that waits.
     is_old: bool,
 }
 
@@ -43,8 +42,8 @@ impl CatchUp {
         self.asked.is_some()
     }
 
-    /// Ready when each sender has said, since the call began, that it holds back nothing newer. To know that, the links may
-    /// have read messages that were not there before.
+    /// Ready when each sender has said, since the call began, that it holds back nothing newer. To know that, the links
+    /// may have read messages that were not there before.
     pub(super) fn poll(&mut self, cx: &mut Context<'_>, links: &mut [Box<dyn Receiver>], caller: Caller) -> Poll<()> {
         match &mut self.asked {
             Some(asked) => asked.is_old |= !asked.counts_for(caller),
@@ -84,7 +83,7 @@ fn forget_answers(links: &mut [Box<dyn Receiver>]) {
     links.iter_mut().for_each(|link| link.forget_answers());
 }
 
-/// Asks each sender, also if one before it is behind.
+/// Asks every sender, even if an earlier one is behind.
 fn is_behind(cx: &mut Context<'_>, links: &mut [Box<dyn Receiver>]) -> bool {
-    links.iter_mut().filter_map(|link| link.poll_caught_up(cx).is_pending().then_some(())).count() > 0
+    links.iter_mut().fold(false, |behind, link| link.poll_caught_up(cx).is_pending() | behind)
 }

@@ -234,7 +234,7 @@ impl Inbox {
     pub(super) fn try_next(&mut self) -> Option<Arrived> {
         self.was_empty = false;
         if self.queue.is_empty() || self.newest_only {
-            self.catch_up();
+            self.fetch();
             self.take_in();
         }
         let next = self.pop();
@@ -245,7 +245,7 @@ impl Inbox {
     /// Moves what has arrived into `arrived`, which must be empty, so that its caller can choose the newest.
     pub(super) fn take_all(&mut self, arrived: &mut VecDeque<Arrived>) {
         self.was_empty = false;
-        self.catch_up();
+        self.fetch();
         self.take_in();
         if !self.queue.waits() && self.is_lossless() {
             // The sender waits for each of its messages: at any time there is only one.
@@ -345,8 +345,8 @@ impl Inbox {
             self.links[link].note_waiting(0);
         }
         if self.is_stalled {
-            // For the same reason: a sender that closes asks what was received, and waits for the answer. There is room for
-            // one message now, and the links are connected already.
+            // For the same reason: a sender that closes asks what was received, and waits for the answer. There is room
+            // for one message now, and the links are connected already.
             self.is_stalled = self.take_in_one();
         }
         Some(arrived)
@@ -406,7 +406,7 @@ impl Inbox {
     }
 
     /// Asks the operating system, because the runtime may not have had a turn for long.
-    fn catch_up(&mut self) {
+    fn fetch(&mut self) {
         let within = if self.newest_only { CATCH_UP } else { Duration::ZERO };
         self.links.iter_mut().for_each(|link| link.catch_up(within));
     }

@@ -131,7 +131,7 @@ impl<T> Incoming<T> {
     }
 
     /// Waits for a message on the calling thread, without the runtime, where that is possible: for a short time, and no
-    /// longer than `limit`. Otherwise returns as whom the call goes on.
+    /// longer than `limit`. If nothing has arrived, returns what the call is from then on.
     fn wait_directly(&self, limit: Duration) -> Result<Arrived, Caller> {
         let within = self.state.direct_wait().ok_or(Caller::NewCall)?.min(limit);
         let arrived = self.inbox.lock().wait(within).ok_or(Caller::SameCall)?;

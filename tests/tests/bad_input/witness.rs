@@ -53,7 +53,7 @@ fn watch(system: &System, mut left: Process, attack: impl Fn(&End) -> Vec<RawPee
     assert!(exit.status.success() && !exit.text().contains("panicked"), "{exit:?}");
 }
 
-/// A publisher knows its subscriber a moment later than that knows it, and what it sends before is for nobody.
+/// A publisher learns of a subscriber a moment after that is ready, and what it publishes before reaches nobody.
 fn until_served(publisher: &mut Process, subscriber: &mut Process) {
     subscriber.tell("values 0");
     wait_until("the subscriber receives", || {

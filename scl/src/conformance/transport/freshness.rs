@@ -11,14 +11,14 @@ use bytes::Bytes;
 use std::future::poll_fn;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::task::Poll;
+use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 
 /// More than fits between two ends.
 const MANY: u64 = 5000;
-/// For how long one of several senders does something before the next one does.
+/// How long one of several senders is polled before the next one has its turn.
 const TURN: Duration = Duration::from_millis(2);
-/// Each answers in its first one or two, also if the machine is busy.
+/// Each answers in its first turn or two, even on a busy machine.
 const MOST_TURNS: usize = 20;
 
 /// After a pause, a receiver that has caught up has the newest message, however many were sent meanwhile.
@@ -51,11 +51,7 @@ pub async fn catches_up_with_a_busy_sender(transport: &dyn Transport) {
                     sender.poll(cx);
                 }
                 cx.waker().wake_by_ref();
-                // The sender may have sent nothing since the last call, if its link was not woken meanwhile.
-                match receiver.poll_newest(cx) {
-                    Poll::Ready(Some(newest)) => Poll::Ready(number(&newest)),
-                    Poll::Ready(None) | Poll::Pending => Poll::Pending,
-                }
+                poll_newest(&mut receiver, cx)
             });
             let newest = newest.await;
             assert!(newest >= called_at, "{pattern:?}: {newest} is older than the call, {called_at}");
@@ -91,10 +87,7 @@ pub async fn catches_up_with_senders_that_answer_in_turn(transport: &dyn Transpo
             pusher.replace(message(last));
             pusher.poll(cx);
             cx.waker().wake_by_ref();
-            match puller.poll_newest(cx) {
-                Poll::Ready(Some(newest)) => Poll::Ready(number(&newest)),
-                Poll::Ready(None) | Poll::Pending => Poll::Pending,
-            }
+            poll_newest(&mut puller, cx)
         });
         let newest = newest.await;
         assert!(newest >= called_at, "{newest} is older than the call, {called_at}");
@@ -164,6 +157,15 @@ async fn send(sender: &mut TestSender, last: &mut u64, count: u64) {
             }
         })
         .await;
+    }
+}
+
+/// The newest message of a sender that goes on sending. It may have sent nothing since the last call, if its link was
+/// not woken meanwhile.
+fn poll_newest(receiver: &mut TestReceiver, cx: &Context<'_>) -> Poll<u64> {
+    match receiver.poll_newest(cx) {
+        Poll::Ready(Some(newest)) => Poll::Ready(number(&newest)),
+        Poll::Ready(None) | Poll::Pending => Poll::Pending,
     }
 }
 

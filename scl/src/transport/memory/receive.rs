@@ -178,7 +178,7 @@ impl Receiver for Puller {
     }
 
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        // Each is asked, also if one before it is behind.
+        // Every pusher is asked, even if an earlier one is behind.
         let behind = self.pushers.iter().filter(|pusher| !pusher.pipe.poll_caught_up(cx)).count();
         if behind > 0 { Poll::Pending } else { Poll::Ready(()) }
     }

@@ -71,8 +71,8 @@ enum Answer {
     Forgotten,
     /// Nothing yet since the call began.
     Awaited,
-    /// That none waited, at some time since the call began. A sender that never pauses says in the same breath that others
-    /// wait.
+    /// That none waited, at some time since the call began. A sender that never pauses says in the same breath that
+    /// others wait.
     CaughtUp,
 }
 
@@ -285,8 +285,8 @@ impl Inbound {
         self.answer = Answer::Forgotten;
     }
 
-    /// Ready when the sender has nothing newer than what `poll_next` has returned or will return at once, and from then on
-    /// until [`forget_answer`](Self::forget_answer).
+    /// Ready when the sender has nothing newer than what `poll_next` has returned or will return at once, and from then
+    /// on until [`forget_answer`](Self::forget_answer).
     pub(super) fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         if !self.newest_only {
             return Poll::Ready(());

@@ -12,8 +12,9 @@ pub(super) struct Inbox {
     call: Call,
     /// Whether the last waiting call found nothing, and nothing has arrived since.
     was_empty: bool,
-    /// Whether the reader has called for the next message and was given none yet, and what its sender held back at first.
+    /// Whether the reader has called for the next message, and was given none yet.
     has_called: bool,
+    /// What its sender held back when it first called.
     owed: Option<Message>,
     /// The message that the call has, before it returns: the first that arrives for a call that waited, or one from the queue.
     direct: Option<Message>,
