@@ -10,12 +10,17 @@ use rustix::io::{pread, pwrite};
 use std::fs::File;
 use std::io;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 /// More than a component with ten thousand connections writes.
 const LIMIT: usize = 16 << 20;
 
 /// Attempts to read a file that is written meanwhile, which takes some microseconds of each period.
 const ATTEMPTS: usize = 100;
+
+/// Attempts end after this time. Each waits for a turn, which takes long on a busy machine; and a file whose component was
+/// killed while it wrote will never be whole.
+const PATIENCE: Duration = Duration::from_millis(100);
 
 /// The stats file of a component of this process. Dropping it removes the file.
 #[derive(Debug)]
@@ -89,10 +94,13 @@ fn write_block(file: &File, block: &[u8]) -> io::Result<()> {
 /// Reads a stats file. Returns `None` if there is none, or it is not whole or cannot be understood.
 pub(super) fn read(path: &Path) -> Option<ComponentStats> {
     let file = open_file(path).ok()?;
-    let mut block = Vec::new();
+    let (mut block, start) = (Vec::new(), Instant::now());
     for _ in 0..ATTEMPTS {
         if read_whole(&file, &mut block).ok()? {
             return decode(&block);
+        }
+        if start.elapsed() >= PATIENCE {
+            break;
         }
         std::thread::yield_now();
     }
