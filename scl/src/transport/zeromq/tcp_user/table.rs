@@ -1,7 +1,7 @@
 //! The tables of all TCP sockets, for where the kernel does not answer questions about one.
 //!
 //! The kernel writes a row for every socket of the machine, which takes milliseconds. So reading may take up a twentieth of
-//! the time at most, and connections that arrive together share one read.
+//! a processor at most, and connections that arrive together share one read.
 
 use super::{Owner, Socket};
 use crate::sync::lock;
@@ -9,9 +9,9 @@ use std::fs;
 use std::io;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::sync::Mutex;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-/// The pause after a read, in times of what the read took.
+/// The pause after a read, in times of what the read took of the processor.
 const PAUSE: u32 = 19;
 
 /// When the tables may be read again.
@@ -30,14 +30,14 @@ impl Tables {
     /// They were read a moment ago ([`io::ErrorKind::WouldBlock`]), or cannot be read.
     pub(super) fn read() -> io::Result<Self> {
         let mut next_read = lock(&NEXT_READ);
-        let begun = Instant::now();
-        if next_read.is_some_and(|next| next > begun) {
+        if next_read.is_some_and(|next| next > Instant::now()) {
             return Err(io::ErrorKind::WouldBlock.into());
         }
+        let begun = processor_time();
         // A machine without IPv6 has no such table.
         let tables =
             [fs::read_to_string("/proc/self/net/tcp"), fs::read_to_string("/proc/self/net/tcp6").or(Ok(String::new()))];
-        *next_read = Some(Instant::now() + begun.elapsed() * PAUSE);
+        *next_read = Some(Instant::now() + processor_time().saturating_sub(begun) * PAUSE);
         let [tcp, tcp6] = tables;
         Ok(Self([tcp?, tcp6?]))
     }
@@ -48,6 +48,13 @@ impl Tables {
         let is_asked = |row: &Row| Socket { local: row.local, remote: row.remote, ..socket }.is(socket, row.state);
         rows.find(is_asked).map(|row| row.owner)
     }
+}
+
+/// What this thread has taken of the processor. On a busy machine a read lasts much longer than that, and a pause of 19 times
+/// as long would keep peers apart for seconds.
+fn processor_time() -> Duration {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec.unsigned_abs() as u32)
 }
 
 #[derive(Debug, PartialEq, Eq)]

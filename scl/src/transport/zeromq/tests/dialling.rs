@@ -4,7 +4,9 @@ use super::stage::{ENDPOINT, Stage, endpoint};
 use crate::runtime_dir::FolderWatch;
 use crate::transport::zeromq::TransportKind;
 use crate::transport::{Endpoint, Receiver, Transport};
+use rustix::net::{AddressFamily, SocketAddrUnix, SocketType, bind, listen, socket};
 use std::future::poll_fn;
+use std::os::unix::net::UnixStream;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::task::Poll;
@@ -31,6 +33,10 @@ impl Lonely {
         std::fs::rename(&file, &kept).unwrap();
         drop(publisher);
         std::fs::rename(&kept, &file).unwrap();
+        Self::subscribe(stage)
+    }
+
+    fn subscribe(stage: Stage) -> Self {
         let attempts = Arc::new(AtomicU32::new(0));
         let counted = Arc::clone(&attempts);
         let check = move || {
@@ -71,6 +77,21 @@ async fn a_peer_that_stays_away_is_tried_rarely_until_a_file_arrives() {
         let after = lonely.attempts(Duration::from_millis(400)).await;
         assert!((15..=20).contains(&after), "{kind:?}: {after}");
     }
+}
+
+/// It is alive, so each of its accepts may be the one that counts.
+#[tokio::test(start_paused = true)]
+async fn a_peer_that_has_no_room_for_connections_does_not_stay_away() {
+    let stage = Stage::new(TransportKind::Ipc);
+    let path = stage.dir.folder().join(ENDPOINT);
+    let listener = socket(AddressFamily::UNIX, SocketType::STREAM, None).unwrap();
+    bind(&listener, &SocketAddrUnix::new(&path).unwrap()).unwrap();
+    listen(&listener, 0).unwrap();
+    let _first = UnixStream::connect(&path).unwrap();
+    let mut lonely = Lonely::subscribe(stage);
+    lonely.stage.dir.count_watch(true);
+    let attempts = lonely.attempts(Duration::from_secs(20)).await;
+    assert!((800..=1000).contains(&attempts), "{attempts}");
 }
 
 #[tokio::test(start_paused = true)]
