@@ -3,18 +3,38 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Builds a package of this workspace. Returns the folder of its programs and libraries, for example `target/debug`.
-///
-/// The variable `SCL_TEST_PACKAGES` names packages to build with it (`-p scl-cli -p scl-c`). If they are those whose
-/// tests were built, every dependency has the same features as there, and is not compiled again.
+/// Packages that tests build together, as options of cargo (`-p scl-cli -p scl-c`). If they are those whose tests were
+/// built, every dependency has the same features as there, and is not compiled again.
+const TOGETHER: &str = "SCL_TEST_PACKAGES";
+
+/// Builds a package of this workspace, together with those that the variable `SCL_TEST_PACKAGES` names. Returns the folder
+/// of its programs and libraries, for example `target/debug`.
 ///
 /// # Panics
 /// If it does not compile.
 pub fn build(package: &str) -> PathBuf {
+    let together = std::env::var(TOGETHER).unwrap_or_default();
+    build_into(build_folder(), package, &together)
+}
+
+/// The same with no features but the package's own, which those of other packages would add to.
+pub(crate) fn build_alone(package: &str) -> PathBuf {
     let folder = build_folder();
+    let folder = match std::env::var_os(TOGETHER) {
+        // What is built together is there.
+        Some(_) => {
+            let profile = folder.file_name().expect("the folder of a profile");
+            folder.with_file_name("alone").join(profile)
+        }
+        None => folder,
+    };
+    build_into(folder, package, "")
+}
+
+fn build_into(folder: PathBuf, package: &str, together: &str) -> PathBuf {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(["build", "--quiet", "--locked", "-p", package]).current_dir(workspace());
-    cargo.args(std::env::var("SCL_TEST_PACKAGES").unwrap_or_default().split_whitespace());
+    cargo.args(together.split_whitespace());
     cargo.arg("--target-dir").arg(folder.parent().expect("the target folder"));
     // What cargo tells a test about its own package would make build scripts of other packages run again.
     let names = std::env::vars_os().filter_map(|(name, _)| name.into_string().ok());

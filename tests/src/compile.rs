@@ -1,6 +1,6 @@
 //! C and C++ programs of tests, compiled by the system's compilers and linked with the C library of this workspace.
 
-use crate::cargo::{build, workspace};
+use crate::cargo::{build, build_alone, workspace};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -21,6 +21,7 @@ pub struct Compile {
     compiler: &'static str,
     sources: Vec<PathBuf>,
     options: Vec<String>,
+    library: fn() -> &'static CLibrary,
 }
 
 /// Builds the C library, once for each test program.
@@ -29,10 +30,19 @@ pub struct Compile {
 /// If it does not compile.
 pub fn c_library() -> &'static CLibrary {
     static LIBRARY: OnceLock<CLibrary> = OnceLock::new();
-    LIBRARY.get_or_init(|| {
-        let folder = build("scl-c");
-        CLibrary { folder, include: workspace().join("bindings/c/include") }
-    })
+    LIBRARY.get_or_init(|| CLibrary::in_folder(build("scl-c")))
+}
+
+/// The same without shared memory, whatever other packages ask for.
+fn c_library_without_shm() -> &'static CLibrary {
+    static LIBRARY: OnceLock<CLibrary> = OnceLock::new();
+    LIBRARY.get_or_init(|| CLibrary::in_folder(build_alone("scl-c")))
+}
+
+impl CLibrary {
+    fn in_folder(folder: PathBuf) -> Self {
+        Self { folder, include: workspace().join("bindings/c/include") }
+    }
 }
 
 impl Compile {
@@ -48,13 +58,20 @@ impl Compile {
 
     fn with(compiler: &'static str, standard: &str, source: PathBuf) -> Self {
         let options = [standard, "-Wall", "-Wextra", "-Werror", "-g"].map(str::to_owned).into();
-        Self { compiler, sources: vec![source], options }
+        Self { compiler, sources: vec![source], options, library: c_library }
     }
 
     /// One more source.
     #[must_use]
     pub fn source(mut self, source: impl Into<PathBuf>) -> Self {
         self.sources.push(source.into());
+        self
+    }
+
+    /// Linked with a C library that was built without shared memory.
+    #[must_use]
+    pub fn without_shm(mut self) -> Self {
+        self.library = c_library_without_shm;
         self
     }
 
@@ -81,7 +98,7 @@ impl Compile {
     /// # Errors
     /// What the compiler says.
     pub fn try_program(&self, path: &Path) -> Result<(), String> {
-        let CLibrary { folder, .. } = c_library();
+        let CLibrary { folder, .. } = (self.library)();
         let mut rpath = OsString::from("-Wl,-rpath,");
         rpath.push(folder);
         // Renamed when it is complete, because another test program may be using one of the same name.
@@ -104,7 +121,7 @@ impl Compile {
     fn run(&self, first: &[&OsStr], last: &[&str]) -> Result<(), String> {
         let mut command = Command::new(self.compiler);
         // Texts of the compiler in the words that tests expect.
-        command.env("LC_ALL", "C").arg("-I").arg(&c_library().include).args(first);
+        command.env("LC_ALL", "C").arg("-I").arg(&(self.library)().include).args(first);
         let output = command.args(&self.sources).args(&self.options).args(last).output();
         let output = output.unwrap_or_else(|error| {
             panic!("`{}` does not start: {error}; install a compiler (Debian: apt-get install gcc g++)", self.compiler)

@@ -109,6 +109,12 @@ impl Process {
         assert_eq!(line, expected, "from `{}` after `{command}`", self.name);
     }
 
+    /// Has the program wait until its peers are connected.
+    #[track_caller]
+    pub fn get_ready(&mut self) {
+        self.ask("ready 300000", "ready");
+    }
+
     /// Reads standard output up to a line that contains a text, and returns that line.
     #[track_caller]
     pub fn expect_containing(&mut self, text: &str) -> String {

@@ -15,7 +15,7 @@ fn what_a_program_received_stays_taken_when_it_ends() {
         // Never more than may be on its way, and it arrives before the sink ends, so that nothing waits for the next one.
         for (count, length) in [(300, 0), (40, 20_000), (900, 100)] {
             let mut sink = open(&system, "sink");
-            source.ask("ready 30000", "ready");
+            source.get_ready();
             let (sent, received) = (published + count, published + count * 5 / 6);
             source.ask(&format!("publish {published} {sent} {length}"), "published");
             sink.ask(&format!("receive_up_to {}", received - 1), &format!("{published}..{received}"));
@@ -50,7 +50,7 @@ fn figures_of_what_was_taken_never_fall() {
         let mut last = ConnectionFigures::default();
         for round in 0..ends() {
             let mut sink = open(&system, "sink");
-            source.ask("ready 30000", "ready");
+            source.get_ready();
             source.ask(&format!("publish {published} {}", published + 945), "published");
             let count = last.waiting + 945;
             sink.ask(&format!("receive {count}"), &format!("{}..{}", published - last.waiting, published + 945));
@@ -89,7 +89,7 @@ fn replaced_values_are_not_dropped() {
         let mut source = open(&system, "source");
         source.ask("publish 0 50", "published");
         let mut sink = open(&system, "sink");
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         sink.ask("newest", "49");
         sink.pause();
         source.ask("publish 50 1050 1000", "published");
@@ -137,7 +137,7 @@ fn the_accounts_of_a_connection_are_exact_at_any_time() {
         assert_eq!((account.taken, account.dropped, account.lost, account.waiting), (0, 500, 0, 1000), "{account:?}");
         for _ in 0..3 {
             let mut sink = open(&system, "sink");
-            source.ask("ready 30000", "ready");
+            source.get_ready();
             let total = publish(&mut source, 1);
             sink.tell(&format!("receive_up_to {}", total - 1));
             sink.next_line();
@@ -163,7 +163,7 @@ fn the_accounts_of_a_connection_are_exact_at_any_time() {
 fn a_message_is_taken_when_the_other_program_has_it() {
     let system = System::new();
     let (mut source, sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     sink.pause();
     source.ask("publish 0 10", "published");
     let account = Account::of(&mut source, "readings");

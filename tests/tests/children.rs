@@ -14,7 +14,7 @@ fn a_child_keeps_nothing_of_the_component() {
     let system = System::new();
     let mut sink = open(&system, "sink");
     let mut source = open(&system, "source");
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     sink.tell("spawn");
     let child = Child(sink.next_line().parse().expect("a process id"));
     wait_until("the child runs its program", || child.name() == "sleep");
@@ -24,7 +24,7 @@ fn a_child_keeps_nothing_of_the_component() {
     sink.kill();
     source.ask("alone", "alone");
     let mut sink = open(&system, "sink");
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     source.ask("push 0 10", "pushed");
     sink.ask("pull 10", "0..10");
     assert_eq!(child.name(), "sleep", "the child outlived its parent");

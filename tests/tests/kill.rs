@@ -141,7 +141,7 @@ fn a_silent_connection_does_not_make_a_dead_subscriber_look_alive() {
         let connect = || Stream::connect(&address).expect("connected");
         let before = connect();
         let sink = open(&system, "sink");
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         let after = connect();
         sink.kill();
         source.ask("disconnected", "disconnected");

@@ -8,7 +8,7 @@ use scl_tests::System;
 fn a_paused_publisher_continues_where_it_was() {
     let system = System::new();
     let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     source.tell("lossless 0 20000 500");
     sink.ask("receive_lossless 100", "0..100");
     source.pause();
@@ -21,7 +21,7 @@ fn a_paused_publisher_continues_where_it_was() {
 fn a_paused_replier_answers_when_it_is_resumed() {
     let system = System::new();
     let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     sink.pause();
     source.tell("call 5");
     sink.tell("serve 2");

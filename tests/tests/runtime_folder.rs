@@ -12,7 +12,7 @@ use std::process::Command;
 fn connected_programs_continue_when_the_folder_is_removed() {
     let system = System::new();
     let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     fs::remove_dir_all(system.runtime_dir().join("six")).expect("removed");
     source.ask("publish 0 100", "published");
     sink.ask("receive 100", "0..100");
@@ -28,7 +28,7 @@ fn after_the_folder_is_removed_a_restarted_peer_is_found_again() {
     for restarted in ["source", "sink"] {
         let system = System::new();
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         fs::remove_dir_all(system.runtime_dir().join("six")).expect("removed");
         if restarted == "source" {
             source.kill();
@@ -39,7 +39,7 @@ fn after_the_folder_is_removed_a_restarted_peer_is_found_again() {
             source.ask("alone", "alone");
             sink = open(&system, "sink");
         }
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         source.ask("publish 0 100", "published");
         sink.ask("receive 100", "0..100");
         source.ask("push 0 100", "pushed");

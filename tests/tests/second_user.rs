@@ -32,7 +32,7 @@ fn another_user_cannot_connect() {
     let stranger = Stranger::new();
     let system = System::over(TransportKind::Tcp);
     let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     for (_, endpoint, socket_type) in LISTENING {
         let mut program = stranger.start("connect", port(&system, endpoint), socket_type);
         program.expect("heard 0 bytes");
@@ -48,7 +48,7 @@ fn a_plain_program_of_the_same_user_can_connect() {
     for (_, endpoint, socket_type) in LISTENING {
         RawPeer::join(&system.address("six", endpoint), socket_type);
     }
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     assert_good(&mut source, &mut sink);
 }
 
@@ -77,7 +77,7 @@ fn another_user_cannot_take_the_place_of_a_killed_program() {
         let killed_process = open(&system, killed);
         let (mut source, mut sink) =
             if killed == "source" { (killed_process, other_process) } else { (other_process, killed_process) };
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         assert_good(&mut source, &mut sink);
     }
 }
@@ -89,7 +89,7 @@ fn refusing_connections_does_not_read_the_table_of_sockets() {
     let stranger = Stranger::new();
     let system = System::over(TransportKind::Tcp);
     let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     let _neighbours: Vec<_> = (0..200).map(|_| TcpListener::bind("127.0.0.1:0").expect("a port")).collect();
     let row = 150;
     let (before, connections) = (sink.bytes_read(), 500);
@@ -112,7 +112,7 @@ fn another_user_cannot_connect_where_the_kernel_is_not_to_be_asked() {
         process.expect("open");
         process
     });
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     let mut program = stranger.start("flood", port(&system, "sink.jobs."), "10");
     let mut other = stranger.start("connect", port(&system, "sink.answer."), "REQ");
     other.expect("heard 0 bytes");
@@ -120,7 +120,7 @@ fn another_user_cannot_connect_where_the_kernel_is_not_to_be_asked() {
     assert_good(&mut source, &mut sink);
     sink.kill();
     let mut sink = open(&system, "sink");
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     assert_good(&mut source, &mut sink);
 }
 

@@ -85,8 +85,8 @@ pub(crate) fn assert_names(text: &str, words: &[&str]) {
 
 /// One message in each pattern.
 pub(crate) fn exchange(sensor: &mut Process, viewer: &mut Process) {
-    sensor.ask("ready 30000", "ready");
-    viewer.ask("ready 30000", "ready");
+    sensor.get_ready();
+    viewer.get_ready();
     sensor.ask("publish", "published");
     viewer.ask("receive", "52.5 13.4");
     sensor.ask("push", "pushed");

@@ -7,7 +7,7 @@ use scl_tests::{System, on_each_transport};
 fn every_kind_of_gate_carries_messages() {
     on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         source.ask("publish 0 100", "published");
         sink.ask("receive 100", "0..100");
         source.ask("lossless 0 5", "published");
@@ -37,7 +37,7 @@ fn the_first_messages_wait_for_a_peer_that_starts_later() {
 fn peers_reconnect_after_either_was_killed() {
     on_each_transport(|system| {
         let (mut source, sink) = (open(&system, "source"), open(&system, "sink"));
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         sink.kill();
         source.ask("disconnected", "disconnected");
         source.ask("publish 0 50", "published");
@@ -90,7 +90,7 @@ fn a_paused_subscriber_affects_only_itself() {
 fn a_sender_with_backpressure_waits_and_loses_nothing() {
     on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         // 40 MiB are more than all buffers hold, so this ends only as the sink receives them.
         source.tell("lossless 0 4000 10000");
         sink.ask("receive_lossless 4000", "0..4000");
@@ -120,7 +120,7 @@ fn try_send_names_the_peer_whose_queue_is_full() {
 fn a_call_fails_when_its_replier_is_killed() {
     let system = System::new();
     let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     sink.tell("take_request");
     source.tell("call 1");
     sink.expect("taken");
@@ -147,7 +147,7 @@ fn ready_names_the_peers_that_are_missing() {
 fn closing_hands_over_what_was_published() {
     let system = System::new();
     let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     sink.tell("receive_lossless 1000");
     source.ask("lossless 0 1000 1000", "published");
     let exit = source.wait_for_exit();
@@ -159,7 +159,7 @@ fn closing_hands_over_what_was_published() {
 fn messages_published_between_computations_are_written_at_once() {
     on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         source.tell("publish_and_compute 0 100");
         // The source stops itself after the last one, so nothing can be written later.
         source.wait_until_stopped();

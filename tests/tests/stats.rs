@@ -10,7 +10,7 @@ use std::time::{Duration, SystemTime};
 fn a_killed_component_leaves_its_figures() {
     let system = System::new();
     let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     source.ask("push 0 10", "pushed");
     sink.ask("pull 10", "0..10");
     let dir = dir(&system);

@@ -112,6 +112,6 @@ fn of_many_silent_connections_the_oldest_are_closed() {
         let mut silent: Vec<RawPeer> = (0..300).map(|_| RawPeer::connect(&address)).collect();
         silent[0].wait_until_closed();
         let _sink = open(&system, "sink");
-        source.ask("ready 30000", "ready");
+        source.get_ready();
     });
 }

@@ -30,7 +30,7 @@ fn a_plain_subscriber_that_comes_first_takes_nothing_away() {
 fn plain_subscribers_that_never_read_starve_nobody() {
     on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         let before = source.memory();
         let stalled: Vec<RawPeer> = (0..5).map(|_| subscribe_to(&system, READINGS)).collect();
         let mut reading = subscribe_to(&system, READINGS);
@@ -52,7 +52,7 @@ fn plain_subscribers_that_never_read_starve_nobody() {
 fn plain_subscribers_that_never_read_hold_up_no_sender() {
     on_each_transport(|system| {
         let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         let stalled = subscribe_to(&system, LOSSLESS);
         source.tell("lossless 0 4000 10000");
         sink.ask("receive_lossless 4000", "0..4000");

@@ -29,7 +29,7 @@ fn every_kind_of_gate_carries_messages_between_python_and_rust() {
     for (open_source, open_sink) in pairs {
         on_each_transport(|system| {
             let (mut source, mut sink) = (open_source(&system, "source"), open_sink(&system, "sink"));
-            source.ask("ready 30000", "ready");
+            source.get_ready();
             source.ask("publish 0 100", "published");
             sink.ask("receive 100", "0..100");
             source.ask("lossless 0 5", "published");

@@ -103,7 +103,7 @@ impl Plain {
         let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
         let folder = TempDir::with_prefix("scl").expect("a folder");
         let (program, plan) = (folder.path().join("images"), folder.path().join("plan.json"));
-        Compile::c(tests.join("tests/shm/images.c")).program(&program);
+        Compile::c(tests.join("tests/shm/images.c")).without_shm().program(&program);
         let loaded = scl_loader::load(&scl_loader::Request::new(tests.join("topologies/images.yaml")));
         std::fs::write(&plan, loaded.system_plan().expect("a sound topology").to_json()).expect("the plan");
         Self { _folder: folder, program, plan }

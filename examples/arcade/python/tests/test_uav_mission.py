@@ -41,7 +41,7 @@ class Vehicle:
 
     def records(self, count: int) -> list[str]:
         """The first records of the black box."""
-        return [self.peer.records.recv(timeout=10).text for _ in range(count)]
+        return [self.peer.records.recv(timeout=300).text for _ in range(count)]
 
     def step(self) -> None:
         self.flight.time_us += 100_000
@@ -100,7 +100,7 @@ def test_an_arbiter_that_does_not_answer_is_asked_again() -> None:
     asked = CommandResult(reason="the arbiter does not answer")
     with component, peer:
         assert uav_mission.ask(component, Command(id=100)) == asked
-        assert peer.arbiter.recv(timeout=10).message.id == 100
+        assert peer.arbiter.recv(timeout=300).message.id == 100
 
 
 @pytest.mark.parametrize(

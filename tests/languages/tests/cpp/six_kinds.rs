@@ -56,10 +56,10 @@ fn peers_reconnect_after_either_was_killed() {
     for pair in pairs() {
         let system = System::new();
         let (mut source, sink) = open(&system, pair);
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         sink.kill();
         let mut sink = open_with(&system, pair.1, "sink");
-        source.ask("ready 30000", "ready");
+        source.get_ready();
         exchange(&mut source, &mut sink);
         source.kill();
         let mut source = open_with(&system, pair.0, "source");
@@ -86,7 +86,7 @@ fn the_first_messages_wait_for_a_peer_that_starts_later() {
 fn the_destructor_hands_over_what_was_sent() {
     let system = System::new();
     let (mut source, mut sink) = open(&system, (&CPP, PEER));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     sink.tell("receive_lossless 1000");
     source.ask("lossless 0 1000 1000", "published");
     let exit = source.wait_for_exit();
@@ -99,7 +99,7 @@ fn the_destructor_hands_over_what_was_sent() {
 fn the_destructor_notes_what_was_not_taken() {
     let system = System::new();
     let (mut source, sink) = open(&system, (&CPP, PEER));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     sink.pause();
     source.ask("lossless 0 10", "published");
     let exit = source.wait_for_exit();
@@ -126,7 +126,7 @@ fn a_full_queue_is_told_by_name() {
 fn a_call_fails_when_its_replier_is_killed_or_late() {
     let system = System::new();
     let (mut source, mut sink) = open(&system, (&CPP, PEER));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     assert_words(&mut source, "call_within 1 20", &["`source.question`", "`sink.answer`", "within "]);
     sink.ask("take_request", "taken");
     source.tell("call 1");
@@ -139,7 +139,7 @@ fn a_call_fails_when_its_replier_is_killed_or_late() {
 fn requests_are_answered_later_and_together() {
     let system = System::new();
     let (mut source, mut sink) = open(&system, (PEER, &CPP));
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     source.tell("call 4");
     sink.ask("take_request", "taken");
     sink.ask("answer_taken", "answered");
@@ -148,7 +148,7 @@ fn requests_are_answered_later_and_together() {
     sink.ask("take_request", "taken");
     source.kill();
     let mut source = open_with(&system, PEER, "source");
-    source.ask("ready 30000", "ready");
+    source.get_ready();
     assert_words(&mut sink, "answer_taken", &["`sink.answer`", "disconnected"]);
 }
 
@@ -160,8 +160,8 @@ fn ready_names_the_peers_that_are_missing() {
 }
 
 fn exchange(source: &mut Process, sink: &mut Process) {
-    source.ask("ready 30000", "ready");
-    sink.ask("ready 30000", "ready");
+    source.get_ready();
+    sink.get_ready();
     source.ask("publish 0 100", "published");
     sink.ask("receive 100", "0..100");
     source.ask("lossless 0 5", "published");

@@ -68,7 +68,7 @@ fn a_sender_may_start_late() {
             let mut right = Program::start(&system, right, "right");
             right.tell("take sub_protobuf 20");
             let mut left = Program::start(&system, left, "left");
-            left.ask("ready 30000", "ready");
+            left.get_ready();
             left.ask("send pub_protobuf 0 20", "sent");
             right.expect("0..20");
             right.tell("serve rep_bytes 3");
@@ -84,8 +84,8 @@ fn a_sender_may_start_late() {
 #[track_caller]
 pub(super) fn exchange(left: &mut Program, right: &mut Program) {
     // A plain publisher is ready when it has its subscriptions.
-    right.tell("ready 30000");
-    left.ask("ready 30000", "ready");
+    right.tell("ready 300000");
+    left.get_ready();
     right.expect("ready");
     for format in FORMATS {
         left.ask(&format!("send pub_{format} 0 100"), "sent");

@@ -12,7 +12,7 @@ fn an_undecodable_message_is_skipped_or_reported_and_the_next_one_arrives() {
             let system = System::new();
             let mut left = Program::start(&system, left, "left");
             let mut right = Program::start(&system, right, "right");
-            left.ask("ready 30000", "ready");
+            left.get_ready();
             for format in decoded(right.language) {
                 for (sends, takes, fails) in [("pub", "sub", false), ("push", "pull", true)] {
                     left.ask(&format!("garbage {sends}_{format}"), "sent");

@@ -120,6 +120,11 @@ impl Program {
         assert_eq!(line, expected, "from {who:?} after `{command}`");
     }
 
+    #[track_caller]
+    pub(super) fn get_ready(&mut self) {
+        self.process.get_ready();
+    }
+
     /// What a gate has sent, received and rejected. Plain programs do not count.
     #[track_caller]
     pub(super) fn expect_account(&mut self, gate: &str, expected: &str) {

@@ -31,7 +31,7 @@ fn what_was_sent_before_sigterm_arrives() {
             let system = System::new();
             let mut left = Program::start(&system, left, "left");
             let mut right = Program::start(&system, right, "right");
-            left.ask("ready 30000", "ready");
+            left.get_ready();
             for format in FORMATS {
                 left.ask(&format!("send pub_{format} 0 500"), "sent");
                 left.ask(&format!("send push_{format} 0 500"), "sent");
