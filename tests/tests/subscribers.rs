@@ -1,8 +1,10 @@
 //! A queue for each subscriber of a connection: plain ZeroMQ subscribers, stalled or not, cost the component nothing.
 
 use crate::programs::open;
+use crate::stats::dir;
+use scl::runtime_dir::ComponentStats;
 use scl_tests::zmtp::{command, subscribe};
-use scl_tests::{RawPeer, System, on_each_transport};
+use scl_tests::{RawPeer, System, on_each_transport, wait_until};
 
 const READINGS: &str = "source.readings--sink.readings.";
 const LOSSLESS: &str = "source.lossless--sink.lossless.";
@@ -22,6 +24,31 @@ fn a_plain_subscriber_that_comes_first_takes_nothing_away() {
         source.ask("publish 100 150", "published");
         sink.ask("receive 50", "100..150");
         while last_value(&plain.message().expect("a message")[0]) != 149 {}
+    });
+}
+
+/// The promise: a message to a plain subscriber in the place of the component counts once, with its bytes, though the gate also keeps
+/// it for the component, where it takes the place of an older one.
+#[test]
+fn a_plain_subscriber_in_the_place_of_a_component_counts_once() {
+    on_each_transport(|system| {
+        let mut source = open(&system, "source");
+        let waiting = 1000;
+        source.ask(&format!("publish 0 {}", 2 * waiting), "published");
+        let mut plain = subscribe_to(&system, READINGS);
+        source.ask("publish 5000 5010", "published");
+        while last_value(&plain.message().expect("a message")[0]) != 5009 {}
+        source.tell("stats");
+        let stats = source.next_line();
+        assert!(stats.starts_with(&format!("sent {} ", waiting + 10)), "{stats}");
+        let figures = || ComponentStats::read(&dir(&system), "source").expect("stats").gates;
+        wait_until("the figures have them", || figures().iter().any(|gate| gate.sent == waiting + 10));
+        let [gate] = &figures().into_iter().filter(|gate| gate.sent > 0).collect::<Vec<_>>()[..] else {
+            panic!("only one gate has sent")
+        };
+        // The numbers of two bytes, with their tag.
+        assert_eq!(gate.bytes, (waiting + 10) * 3);
+        assert!(gate.last_activity.is_some());
     });
 }
 

@@ -50,13 +50,15 @@ pub(crate) struct Connection {
 /// What became of the messages that left the queue.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Account {
-    /// Messages handed to a link.
+    /// Messages handed to a link, or to plain programs in the place of the component.
     handed: u64,
+    /// Those of them for the plain programs, which count them as well.
+    in_place: u64,
     /// Messages that had not been received by the peer's program when their link broke.
     lost: u64,
     /// Messages that were sent once more to a subscriber that has joined.
     latched: u64,
-    pub(crate) activity: Activity,
+    activity: Activity,
 }
 
 impl Connection {
@@ -202,8 +204,14 @@ impl Connection {
         PeerName::of(self.link)
     }
 
-    pub(crate) fn account(&self) -> &Account {
-        &self.account
+    /// Messages handed to peers: to the component, and to each plain ZeroMQ program.
+    pub(crate) fn sent(&self) -> u64 {
+        self.account.handed - self.account.in_place + self.foreign_counts().sent
+    }
+
+    /// The traffic with all peers.
+    pub(crate) fn activity(&self) -> Activity {
+        self.account.activity.plus(self.foreign_counts().activity)
     }
 
     /// What plain ZeroMQ programs have counted.
@@ -229,8 +237,8 @@ impl Connection {
             in_flight: not_received,
             latched: self.account.latched,
         };
-        self.account.activity.add_to_figures(gate);
-        gate.sent += self.account.handed + foreign.sent;
+        self.activity().add_to_figures(gate);
+        gate.sent += self.sent();
         gate.replaced += replaced + foreign.replaced;
         gate.dropped_oldest += dropped_oldest;
         gate.dropped_newest += dropped_newest;
@@ -345,7 +353,9 @@ impl Connection {
         if self.peer.is_none() && !self.foreign.is_empty() {
             // A program in the component's place has it; older ones make room, and nothing is lost.
             let pushed = self.queue.replace(message);
-            self.account.handed += u64::from(pushed != Pushed::Stored);
+            let handed = u64::from(pushed != Pushed::Stored);
+            self.account.handed += handed;
+            self.account.in_place += handed;
             return self.note_queued(pushed);
         }
         let pushed = self.queue.push(message);
@@ -406,10 +416,6 @@ impl Account {
     fn hand(&mut self, length: usize) {
         self.handed += 1;
         self.activity.add(length);
-    }
-
-    pub(crate) fn handed(&self) -> u64 {
-        self.handed
     }
 }
 

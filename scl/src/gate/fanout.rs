@@ -306,8 +306,8 @@ impl Fanout {
         for connection in self.connections.iter().map(lock_connection) {
             let peer = connection.stats();
             let foreign = connection.foreign_counts();
-            connection.account().activity.add_to(&mut stats);
-            stats.sent += connection.account().handed() + foreign.sent;
+            connection.activity().add_to(&mut stats);
+            stats.sent += connection.sent();
             stats.replaced += peer.replaced + foreign.replaced;
             stats.dropped_oldest += peer.dropped_oldest;
             stats.dropped_newest += peer.dropped_newest;

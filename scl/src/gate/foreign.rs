@@ -1,6 +1,7 @@
 //! A plain ZeroMQ subscriber of a `pub` gate, with a queue of its own so that it never delays the component.
 
 use super::queue::{Queue, QueuePolicy};
+use super::stats::Activity;
 use crate::transport::{Disconnected, Frame, Link};
 use bytes::Bytes;
 use std::collections::VecDeque;
@@ -10,6 +11,7 @@ pub(super) struct ForeignPeer {
     link: Box<dyn Link>,
     queue: Queue<Frame>,
     sent: u64,
+    activity: Activity,
     latches: bool,
     /// The last message of a latched gate, while the subscriber has not subscribed to it.
     unwanted: Option<Bytes>,
@@ -24,12 +26,18 @@ pub(crate) struct ForeignCounts {
     pub(crate) replaced: u64,
     /// Dropped because they read slowly.
     pub(crate) dropped: u64,
+    pub(crate) activity: Activity,
 }
 
 impl ForeignCounts {
     pub(super) fn plus(self, other: Self) -> Self {
-        let Self { sent, replaced, dropped } = other;
-        Self { sent: self.sent + sent, replaced: self.replaced + replaced, dropped: self.dropped + dropped }
+        let Self { sent, replaced, dropped, activity } = other;
+        Self {
+            sent: self.sent + sent,
+            replaced: self.replaced + replaced,
+            dropped: self.dropped + dropped,
+            activity: self.activity.plus(activity),
+        }
     }
 }
 
@@ -40,7 +48,7 @@ impl ForeignPeer {
         let unwanted = waiting.pop_back_if(is_unwanted).map(Frame::into_bytes);
         let mut queue = Queue::new(policy);
         *queue.items_mut() = waiting;
-        Self { link, queue, sent: 0, latches, unwanted }
+        Self { link, queue, sent: 0, activity: Activity::default(), latches, unwanted }
     }
 
     pub(super) fn send(&mut self, cx: &mut Context<'_>, message: Bytes) {
@@ -54,9 +62,11 @@ impl ForeignPeer {
         }
         let mut message = Frame::from(message);
         if self.queue.is_empty() {
+            let length = message.len();
             message = match self.link.send(cx, message) {
                 Ok(()) => {
                     self.sent += 1;
+                    self.activity.add(length);
                     return;
                 }
                 Err(message) => message,
@@ -84,7 +94,7 @@ impl ForeignPeer {
 
     pub(super) fn counts(&self) -> ForeignCounts {
         let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
-        ForeignCounts { sent: self.sent, replaced, dropped: dropped_oldest + dropped_newest }
+        ForeignCounts { sent: self.sent, replaced, dropped: dropped_oldest + dropped_newest, activity: self.activity }
     }
 
     pub(super) fn detach(&mut self) {
@@ -92,7 +102,10 @@ impl ForeignPeer {
     }
 
     fn hand_over(&mut self, cx: &mut Context<'_>) {
-        let sent = &mut self.sent;
-        self.link.send_all(cx, self.queue.items_mut(), &mut |_length| *sent += 1);
+        let Self { link, queue, sent, activity, .. } = self;
+        link.send_all(cx, queue.items_mut(), &mut |length| {
+            *sent += 1;
+            activity.add(length);
+        });
     }
 }

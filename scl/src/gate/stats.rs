@@ -69,7 +69,7 @@ pub struct PeerStats {
 }
 
 /// Bytes moved, and when last.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Activity {
     bytes: u64,
     last: Option<CoarseTime>,
@@ -79,6 +79,10 @@ impl Activity {
     pub(crate) fn add(&mut self, bytes: usize) {
         self.bytes += bytes as u64;
         self.last = Some(CoarseTime::now());
+    }
+
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self { bytes: self.bytes + other.bytes, last: self.last.max(other.last) }
     }
 
     pub(crate) fn add_to(&self, stats: &mut GateStats) {
@@ -94,7 +98,7 @@ impl Activity {
 
 /// The operating system's coarse clock, exact to a few milliseconds. It is read for each message and costs a sixth of the
 /// exact one.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct CoarseTime(Duration);
 
 impl CoarseTime {
