@@ -32,6 +32,12 @@ pub(crate) fn build_alone(package: &str) -> PathBuf {
 }
 
 fn build_into(folder: PathBuf, package: &str, together: &str) -> PathBuf {
+    // The tests of nextest are processes of their own, each of which would have cargo look at every source again.
+    let run = std::env::var("NEXTEST_RUN_ID").ok();
+    let built_in_run = folder.join(format!("{package}.built-in-run"));
+    if run.is_some() && std::fs::read_to_string(&built_in_run).ok() == run {
+        return folder;
+    }
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(["build", "--quiet", "--locked", "-p", package]).current_dir(workspace());
     cargo.args(together.split_whitespace());
@@ -44,8 +50,11 @@ fn build_into(folder: PathBuf, package: &str, together: &str) -> PathBuf {
     if folder.ends_with("release") {
         cargo.arg("--release");
     }
-    let built = cargo.output().unwrap_or_else(|error| panic!("{cargo:?}: {error}"));
-    assert!(built.status.success(), "{cargo:?}\n{}", String::from_utf8_lossy(&built.stderr));
+    let output = cargo.output().unwrap_or_else(|error| panic!("{cargo:?}: {error}"));
+    assert!(output.status.success(), "{cargo:?}\n{}", String::from_utf8_lossy(&output.stderr));
+    if let Some(run) = run {
+        std::fs::write(built_in_run, run).expect("the run is noted");
+    }
     folder
 }
 

@@ -57,7 +57,7 @@ impl Compile {
     }
 
     fn with(compiler: &'static str, standard: &str, source: PathBuf) -> Self {
-        let options = [standard, "-Wall", "-Wextra", "-Werror", "-g"].map(str::to_owned).into();
+        let options = [standard, "-Wall", "-Wextra", "-Werror", "-g1"].map(str::to_owned).into();
         Self { compiler, sources: vec![source], options, library: c_library }
     }
 
