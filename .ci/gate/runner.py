@@ -16,14 +16,8 @@ import tests
 from leftovers import Leftovers
 
 # Everything is built once, so nothing is kept to speed up the next build, and nothing is stored for debuggers: a panic names
-# its line without. Crates are divided for as many processors as there are: more pieces cost more.
-BUILD = {
-    "CARGO_INCREMENTAL": "0",
-    "CARGO_PROFILE_DEV_CODEGEN_UNITS": str(min(16, os.cpu_count())),
-    "CARGO_PROFILE_DEV_DEBUG": "0",
-    "CARGO_TERM_COLOR": "never",
-    "RUST_BACKTRACE": "1",
-}
+# its line without.
+BUILD = {"CARGO_INCREMENTAL": "0", "CARGO_PROFILE_DEV_DEBUG": "0", "CARGO_TERM_COLOR": "never", "RUST_BACKTRACE": "1"}
 FAILED = "exit code "
 
 
