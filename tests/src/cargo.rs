@@ -7,8 +7,8 @@ use std::process::Command;
 /// built, every dependency has the same features as there, and is not compiled again.
 const TOGETHER: &str = "SCL_TEST_PACKAGES";
 
-/// Builds a package of this workspace, together with those that the variable `SCL_TEST_PACKAGES` names. Returns the folder
-/// of its programs and libraries, for example `target/debug`.
+/// Builds a package of this workspace, together with those that the variable `SCL_TEST_PACKAGES` names. Returns the
+/// folder of its programs and libraries, for example `target/debug`.
 ///
 /// # Panics
 /// If it does not compile.

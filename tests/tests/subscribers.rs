@@ -27,8 +27,8 @@ fn a_plain_subscriber_that_comes_first_takes_nothing_away() {
     });
 }
 
-/// The promise: a message to a plain subscriber in the place of the component counts once, with its bytes, though the gate also keeps
-/// it for the component, where it takes the place of an older one.
+/// The promise: a message to a plain subscriber in the place of the component counts once, with its bytes, though the
+/// gate also keeps it for the component, where it takes the place of an older one.
 #[test]
 fn a_plain_subscriber_in_the_place_of_a_component_counts_once() {
     on_each_transport(|system| {

@@ -1,6 +1,6 @@
 //! One connection at its sending end: the link to the peer, and the queue of what the peer has not taken.
 
-use super::foreign::{ForeignCounts, ForeignPeer};
+use super::foreign::{Counts, ForeignPeer};
 use super::latch::Latch;
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::stats::{Activity, PeerStats};
@@ -23,7 +23,7 @@ pub(crate) struct Connection {
     /// Plain ZeroMQ subscribers beside it or in its place.
     foreign: Vec<ForeignPeer>,
     /// What plain ZeroMQ subscribers that have left have counted.
-    foreign_left: ForeignCounts,
+    foreign_left: Counts,
     /// Wakes the connection's task; senders pass it to the link too, so that the task continues what they leave behind.
     task: Waker,
     waiting_sender: Option<Waker>,
@@ -74,7 +74,7 @@ impl Connection {
             peer: None,
             queue: Queue::new(policy(spec, link)),
             foreign: Vec::new(),
-            foreign_left: ForeignCounts::default(),
+            foreign_left: Counts::default(),
             task: Waker::noop().clone(),
             waiting_sender: None,
             waiting_flushes: Vec::new(),
@@ -204,19 +204,15 @@ impl Connection {
         PeerName::of(self.link)
     }
 
-    /// Messages handed to peers: to the component, and to each plain ZeroMQ program.
-    pub(crate) fn sent(&self) -> u64 {
-        self.account.handed - self.account.in_place + self.foreign_counts().sent
-    }
-
-    /// The traffic with all peers.
-    pub(crate) fn activity(&self) -> Activity {
-        self.account.activity.plus(self.foreign_counts().activity)
-    }
-
-    /// What plain ZeroMQ programs have counted.
-    pub(crate) fn foreign_counts(&self) -> ForeignCounts {
-        self.foreign.iter().fold(self.foreign_left, |sum, one| sum.plus(one.counts()))
+    /// What became of the messages for all peers: the component, and plain ZeroMQ programs.
+    pub(crate) fn counts(&self) -> Counts {
+        let own = Counts {
+            sent: self.account.handed - self.account.in_place,
+            replaced: self.queue.replaced,
+            dropped_for_observers: 0,
+            activity: self.account.activity,
+        };
+        self.foreign.iter().fold(own.plus(self.foreign_left), |sum, one| sum.plus(one.counts()))
     }
 
     /// Adds what this connection has done to the figures of its gate, and returns its own.
@@ -226,7 +222,7 @@ impl Connection {
             link.request_acknowledgement(&mut Context::from_waker(&self.task));
         }
         let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
-        let (foreign, not_received) = (self.foreign_counts(), self.not_received());
+        let (all, not_received) = (self.counts(), self.not_received());
         let figures = ConnectionFigures {
             connected: self.is_connected(),
             waiting: self.queue.len() as u64,
@@ -237,12 +233,12 @@ impl Connection {
             in_flight: not_received,
             latched: self.account.latched,
         };
-        self.activity().add_to_figures(gate);
-        gate.sent += self.sent();
-        gate.replaced += replaced + foreign.replaced;
+        all.activity.add_to_figures(gate);
+        gate.sent += all.sent;
+        gate.replaced += all.replaced;
         gate.dropped_oldest += dropped_oldest;
         gate.dropped_newest += dropped_newest;
-        gate.dropped_for_observers += foreign.dropped;
+        gate.dropped_for_observers += all.dropped_for_observers;
         gate.lost += figures.lost;
         gate.waiting += self.queue.len() as u64;
         gate.peers += u64::from(figures.connected);

@@ -304,14 +304,13 @@ impl Fanout {
     pub(crate) fn stats(&self) -> GateStats {
         let mut stats = GateStats { dropped_for_observers: self.tap.dropped(), ..GateStats::default() };
         for connection in self.connections.iter().map(lock_connection) {
-            let peer = connection.stats();
-            let foreign = connection.foreign_counts();
-            connection.activity().add_to(&mut stats);
-            stats.sent += connection.sent();
-            stats.replaced += peer.replaced + foreign.replaced;
+            let (peer, all) = (connection.stats(), connection.counts());
+            all.activity.add_to(&mut stats);
+            stats.sent += all.sent;
+            stats.replaced += all.replaced;
             stats.dropped_oldest += peer.dropped_oldest;
             stats.dropped_newest += peer.dropped_newest;
-            stats.dropped_for_observers += foreign.dropped;
+            stats.dropped_for_observers += all.dropped_for_observers;
             stats.lost += peer.lost;
             stats.waiting += peer.waiting as usize;
             stats.peers += usize::from(peer.connected);

@@ -17,26 +17,25 @@ pub(super) struct ForeignPeer {
     unwanted: Option<Bytes>,
 }
 
-/// What became of the messages for plain ZeroMQ subscribers.
+/// What became of the messages for some peers of a connection.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ForeignCounts {
+pub(crate) struct Counts {
     /// Handed to them.
     pub(crate) sent: u64,
     /// Replaced by newer ones, because only the newest counts.
     pub(crate) replaced: u64,
-    /// Dropped because they read slowly.
-    pub(crate) dropped: u64,
+    /// Dropped because plain ZeroMQ subscribers read slowly.
+    pub(crate) dropped_for_observers: u64,
     pub(crate) activity: Activity,
 }
 
-impl ForeignCounts {
+impl Counts {
     pub(super) fn plus(self, other: Self) -> Self {
-        let Self { sent, replaced, dropped, activity } = other;
         Self {
-            sent: self.sent + sent,
-            replaced: self.replaced + replaced,
-            dropped: self.dropped + dropped,
-            activity: self.activity.plus(activity),
+            sent: self.sent + other.sent,
+            replaced: self.replaced + other.replaced,
+            dropped_for_observers: self.dropped_for_observers + other.dropped_for_observers,
+            activity: self.activity.plus(other.activity),
         }
     }
 }
@@ -92,9 +91,10 @@ impl ForeignPeer {
         self.queue.is_empty() && self.link.is_written()
     }
 
-    pub(super) fn counts(&self) -> ForeignCounts {
+    pub(super) fn counts(&self) -> Counts {
         let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
-        ForeignCounts { sent: self.sent, replaced, dropped: dropped_oldest + dropped_newest, activity: self.activity }
+        let dropped_for_observers = dropped_oldest + dropped_newest;
+        Counts { sent: self.sent, replaced, dropped_for_observers, activity: self.activity }
     }
 
     pub(super) fn detach(&mut self) {

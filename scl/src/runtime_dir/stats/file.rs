@@ -18,8 +18,8 @@ const LIMIT: usize = 16 << 20;
 /// Attempts to read a file that is written meanwhile, which takes some microseconds of each period.
 const ATTEMPTS: usize = 100;
 
-/// Attempts end after this time. Each waits for a turn, which takes long on a busy machine; and a file whose component was
-/// killed while it wrote will never be whole.
+/// Attempts end after this time. Each waits for a turn, which takes long on a busy machine; and a file whose component
+/// was killed while it wrote will never be whole.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// The stats file of a component of this process. Dropping it removes the file.

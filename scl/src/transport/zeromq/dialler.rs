@@ -202,8 +202,8 @@ impl Dialler {
             self.warn_once(&error.to_string());
         }
         self.attempts = self.attempts.saturating_add(1);
-        // Nothing was learned about the peer if no file descriptor is free, if its user cannot be checked now, or if it has
-        // not accepted others yet.
+        // Nothing was learned about the peer if no file descriptor is free, if its user cannot be checked now, or if it
+        // has not accepted others yet.
         let unknown = |error: &io::Error| is_out_of_descriptors(error) || error.kind() == io::ErrorKind::WouldBlock;
         if !matches!(error, Closed::Io(error) if unknown(error)) {
             self.attempts_since_arrival = self.attempts_since_arrival.saturating_add(1);

@@ -50,8 +50,8 @@ impl Tables {
     }
 }
 
-/// What this thread has taken of the processor. On a busy machine a read lasts much longer than that, and a pause of 19 times
-/// as long would keep peers apart for seconds.
+/// What this thread has taken of the processor. On a busy machine a read lasts much longer than that, and a pause of 19
+/// times as long would keep peers apart for seconds.
 fn processor_time() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec.unsigned_abs() as u32)
