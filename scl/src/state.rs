@@ -382,11 +382,8 @@ impl ComponentState {
 /// Hands over what is left, within [`LINGER`], on the calling thread if it is not ending, and without a runtime.
 impl Drop for ComponentState {
     fn drop(&mut self) {
+        debug_assert!(!self.is_inherited(), "an owner keeps what a forked child inherits");
         let ends = std::mem::take(&mut *lock(&self.ends));
-        if self.is_inherited() {
-            // The sockets and their runtime are the parent's.
-            return std::mem::forget(ends);
-        }
         let ends: Vec<_> = ends.into_iter().map(|one| one.end).collect();
         match is_thread_ending() {
             true => on_another_thread(|| self.hand_over(&ends)),

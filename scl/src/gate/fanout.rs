@@ -331,7 +331,6 @@ pub(super) struct TooLong {
 impl Drop for Fanout {
     fn drop(&mut self) {
         if self.state.is_inherited() {
-            self.connections.iter().cloned().for_each(std::mem::forget);
             return self.tap.leak();
         }
         for connection in self.connections.drain(..) {

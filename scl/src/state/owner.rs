@@ -1,4 +1,5 @@
-//! Shared ownership of a component by its handle and its gates. The last owner closes the component on its own thread.
+//! Shared ownership of a component by its handle and its gates. The last owner closes the component on its own thread; in a
+//! forked child none does.
 
 use super::ComponentState;
 use std::ops::Deref;
@@ -43,11 +44,13 @@ impl Deref for Owner {
 
 impl Drop for Owner {
     fn drop(&mut self) {
-        // In a forked child, nobody would finish what tasks had begun.
-        if self.owners.fetch_sub(1, Ordering::SeqCst) != 1 || self.is_inherited() {
-            return;
+        if self.is_inherited() {
+            // All of it is the parent's, and may be locked or half changed by threads that exist only there.
+            return std::mem::forget(Arc::clone(&self.0));
         }
-        await_other_users(&self.0);
+        if self.owners.fetch_sub(1, Ordering::SeqCst) == 1 {
+            await_other_users(&self.0);
+        }
     }
 }
 
@@ -62,8 +65,10 @@ pub(super) fn await_other_users<T: ?Sized>(value: &Arc<T>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::process_mark::ProcessMark;
     use crate::registry::Unregistered;
     use crate::spec::ComponentSpec;
+    use crate::state::OwnedRuntime;
 
     static SPEC: ComponentSpec =
         ComponentSpec { system: "nav", name: "gps", declared_at: "nav.yaml:1:2", gates: &[], schema: None };
@@ -84,5 +89,22 @@ mod tests {
         drop(another);
         assert_eq!(weak.strong_count(), 0);
         user.join().unwrap();
+    }
+
+    /// The promise: the last owner in a forked child touches nothing of the component's runtime. The thread that waits for it
+    /// exists in the parent only, and its stack, where the runtime's lists of waiting calls lead, has another use by then.
+    #[test]
+    fn a_forked_child_keeps_the_component_of_its_parent() {
+        let runtime = OwnedRuntime::start("gps").unwrap();
+        let mut state = {
+            let _inside = runtime.enter();
+            ComponentState::new(&SPEC, Box::new(Unregistered), None, Some(runtime))
+        };
+        state.process = ProcessMark::inherited();
+        let owner = Owner::new(state);
+        let kept = Arc::downgrade(&owner);
+        drop(owner.clone());
+        drop(owner);
+        assert_eq!(kept.strong_count(), 2);
     }
 }

@@ -2,7 +2,8 @@
 
 use super::Component;
 use crate::gate::ReadySet;
-use crate::state::{ComponentState, Driven};
+use crate::process_mark::ProcessMark;
+use crate::state::Driven;
 use crate::stop;
 use crate::sync::AbortOnDrop;
 use std::io;
@@ -52,8 +53,8 @@ pub struct Readiness {
     set: Arc<ReadySet>,
     /// Watches for a stop request.
     stop: Option<AbortOnDrop>,
-    state: Weak<ComponentState>,
-    _driven: Option<Driven>,
+    driven: Option<Driven>,
+    process: ProcessMark,
 }
 
 /// Wakes when the task that holds it is gone, with its runtime.
@@ -85,7 +86,7 @@ impl Readiness {
         for watch in component.watches.iter().filter(|watch| includes(watch.spec.name)) {
             watch.report_to(Arc::downgrade(&set));
         }
-        Ok(Self { set, stop: Some(stop), state: Arc::downgrade(state), _driven: state.drive_always() })
+        Ok(Self { set, stop: Some(stop), driven: state.drive_always(), process: ProcessMark::new() })
     }
 
     /// A waker that makes the descriptor readable. All wakers of a `Readiness` are the same, so after one wake-up, all
@@ -110,9 +111,9 @@ impl Readiness {
 
 impl Drop for Readiness {
     fn drop(&mut self) {
-        if self.state.upgrade().is_some_and(|state| state.is_inherited()) {
+        if !self.process.is_own() {
             // The task and its runtime are the parent's.
-            std::mem::forget(self.stop.take());
+            std::mem::forget((self.stop.take(), self.driven.take()));
         }
     }
 }
@@ -132,5 +133,27 @@ impl AsRawFd for Readiness {
 impl std::fmt::Debug for Readiness {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("Readiness").field(&self.as_raw_fd()).finish()
+    }
+}
+
+#[cfg(test)]
+#[cfg(feature = "memory")]
+mod tests {
+    use super::*;
+    use crate::OpenOptions;
+    use crate::plan::SystemPlan;
+    use crate::transport::memory::Memory;
+
+    #[test]
+    fn a_forked_child_leaves_the_runtime_to_its_parent() {
+        let system = SystemPlan::from_json(include_str!("../../doc/rover.json")).unwrap();
+        let options = OpenOptions::new().transport(Memory::new());
+        let recorder = Component::open_blocking_with(system.component("recorder").unwrap(), options).unwrap();
+        let calls_may_wait = || recorder.handle.0.direct_wait().is_some();
+        let mut readiness = recorder.readiness().unwrap();
+        assert!(!calls_may_wait());
+        readiness.process = ProcessMark::inherited();
+        drop(readiness);
+        assert!(!calls_may_wait(), "the child tells the thread that drives the runtime");
     }
 }
