@@ -1,7 +1,6 @@
 //! The gate behind a Python object: one call at a time uses it, and others may look at it meanwhile.
 
 use crate::failure::Failure;
-use crate::process::drop_detached;
 use scl::untyped::Gate;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -79,13 +78,6 @@ impl Claimed {
         if matches!(*slot, Slot::Away) {
             *slot = Slot::Here(gate);
         }
-    }
-}
-
-/// Its component may end with it, and then hands over what is left.
-impl Drop for Claimed {
-    fn drop(&mut self) {
-        drop_detached(std::mem::replace(self.slot.get_mut().unwrap_or_else(PoisonError::into_inner), Slot::Closed));
     }
 }
 

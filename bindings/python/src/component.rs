@@ -3,8 +3,9 @@
 use crate::failure::{Failure, no_panic};
 use crate::gate::Gate;
 use crate::limit::Limit;
+use crate::native::Native;
 use crate::plan::Plan;
-use crate::process::{detach, drop_detached};
+use crate::process::detach;
 use crate::readiness::Readiness;
 use crate::shared::Shared;
 use crate::wait_any::wait_any;
@@ -24,8 +25,8 @@ use std::time::Duration;
 pub(crate) struct Component {
     shared: Arc<Shared>,
     gates: Vec<Py<Gate>>,
-    /// `None` once closed.
-    component: Mutex<Option<untyped::Component>>,
+    /// `None` once closed. What is left when it is dropped is handed over.
+    component: Native<Mutex<Option<untyped::Component>>>,
     is_test: bool,
 }
 
@@ -203,7 +204,7 @@ impl Component {
         let gates = plan.gates.iter().zip(gates);
         let gates = gates.map(|(plan, gate)| Py::new(py, Gate::new(plan.clone(), Arc::clone(&shared), gate)));
         let gates = gates.collect::<PyResult<Vec<_>>>()?;
-        Ok(Self { shared, gates, component: Mutex::new(Some(component)), is_test })
+        Ok(Self { component: shared.keep(Mutex::new(Some(component))), shared, gates, is_test })
     }
 
     fn new_readiness(&self, all_gates: bool) -> Result<Readiness, Failure> {
@@ -213,15 +214,7 @@ impl Component {
             true => component.readiness().map_err(|error| Failure::of_box(&error)),
             false => component.readiness_of(&[]).map_err(|error| Failure::of_box(error.inner())),
         };
-        readiness.map(Readiness::new)
-    }
-}
-
-/// What is left is handed over, without the interpreter.
-impl Drop for Component {
-    fn drop(&mut self) {
-        let component = self.component.get_mut().unwrap_or_else(PoisonError::into_inner).take();
-        drop_detached(component);
+        readiness.map(|readiness| Readiness::new(self.shared.keep(readiness)))
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::claimed::{Claim, Claimed, StepError, Unusable};
 use crate::failure::{Failure, no_panic};
 use crate::limit::Limit;
+use crate::native::Native;
 use crate::pending_call::PendingCall;
 use crate::process::detach;
 use crate::readiness::Readiness;
@@ -29,13 +30,15 @@ pub(crate) struct Gate {
     /// Whether a full queue of a peer can make the gate wait.
     may_wait: bool,
     shared: Arc<Shared>,
-    gate: Claimed,
+    /// Its component may end with it, and then hands over what is left.
+    gate: Native<Claimed>,
 }
 
 impl Gate {
     pub(crate) fn new(plan: GatePlan, shared: Arc<Shared>, gate: AnyGate) -> Self {
         let is_sender = matches!(plan.kind, GateKind::Pub | GateKind::Push);
-        Self { may_wait: is_sender && plan.options.backpressure, plan, shared, gate: Claimed::new(gate) }
+        let gate = shared.keep(Claimed::new(gate));
+        Self { may_wait: is_sender && plan.options.backpressure, plan, shared, gate }
     }
 
     pub(crate) fn shared(&self) -> &Arc<Shared> {

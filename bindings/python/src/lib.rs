@@ -10,6 +10,7 @@ mod failure;
 mod gate;
 mod limit;
 mod logging;
+mod native;
 mod pending_call;
 mod plain;
 mod plan;

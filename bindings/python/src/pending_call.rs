@@ -1,7 +1,7 @@
 //! A request that waits for its reply, in steps.
 
 use crate::failure::{Failure, no_panic};
-use crate::process::drop_detached;
+use crate::native::Native;
 use crate::readiness::Readiness;
 use crate::shared::Shared;
 use bytes::Bytes;
@@ -22,7 +22,7 @@ pub(crate) struct PendingCall {
     shared: Arc<Shared>,
     cancelled: Arc<AtomicBool>,
     /// `None` once it is over.
-    call: Mutex<Option<Call>>,
+    call: Native<Mutex<Option<Call>>>,
 }
 
 /// Ends with the reply unless the call was cancelled.
@@ -38,7 +38,7 @@ impl PendingCall {
     ) -> Self {
         let cancelled = Arc::new(AtomicBool::new(false));
         let call = Box::pin(exchange(requester, request, timeout, Arc::clone(&cancelled)));
-        Self { shared, cancelled, call: Mutex::new(Some(call)) }
+        Self { call: shared.keep(Mutex::new(Some(call))), shared, cancelled }
     }
 
     /// Waits for the reply no longer than a given time; `None` if there is none yet.
@@ -101,8 +101,6 @@ impl PendingCall {
 impl Drop for PendingCall {
     fn drop(&mut self) {
         self.cancel();
-        let call = self.call.get_mut().unwrap_or_else(PoisonError::into_inner).take();
-        drop_detached(call);
     }
 }
 

@@ -79,16 +79,6 @@ fn this_thread() -> i32 {
     gettid().as_raw_pid()
 }
 
-/// Drops a value that may wait for peers, without the interpreter where there is one.
-pub(crate) fn drop_detached<T: Send>(value: T) {
-    let mut value = Some(value);
-    Python::try_attach(|py| match Inside::enter() {
-        Some(_inside) => py.detach(|| drop(value.take())),
-        None => drop(value.take()),
-    });
-    drop(value);
-}
-
 /// Remembers the process that created it.
 #[derive(Debug, Clone)]
 pub(crate) struct Origin {

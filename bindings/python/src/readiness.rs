@@ -1,5 +1,6 @@
 //! A file descriptor for event loops.
 
+use crate::native::Native;
 use pyo3::prelude::*;
 use scl::untyped;
 use std::os::fd::AsRawFd;
@@ -8,11 +9,11 @@ use std::task::Waker;
 /// A file descriptor that is readable while there is something to do for an event loop.
 #[pyclass(frozen, module = "scl._native")]
 pub(crate) struct Readiness {
-    readiness: untyped::Readiness,
+    readiness: Native<untyped::Readiness>,
 }
 
 impl Readiness {
-    pub(crate) fn new(readiness: untyped::Readiness) -> Self {
+    pub(crate) fn new(readiness: Native<untyped::Readiness>) -> Self {
         Self { readiness }
     }
 

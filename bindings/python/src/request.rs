@@ -1,6 +1,7 @@
 //! A request that waits for its reply.
 
 use crate::failure::{Failure, no_panic};
+use crate::native::Native;
 use crate::shared::Shared;
 use bytes::Bytes;
 use pyo3::prelude::*;
@@ -13,12 +14,12 @@ pub(crate) struct Request {
     message: Bytes,
     shared: Arc<Shared>,
     /// `None` once answered.
-    request: Mutex<Option<scl::Request<Bytes, Bytes>>>,
+    request: Native<Mutex<Option<scl::Request<Bytes, Bytes>>>>,
 }
 
 impl Request {
     pub(crate) fn new(request: scl::Request<Bytes, Bytes>, shared: Arc<Shared>) -> Self {
-        Self { message: request.message().clone(), shared, request: Mutex::new(Some(request)) }
+        Self { message: request.message().clone(), request: shared.keep(Mutex::new(Some(request))), shared }
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a component's gates share with it: its name, and whether they may still be used.
 
 use crate::failure::Failure;
+use crate::native::Native;
 use crate::process::Origin;
 use scl::untyped::{Closer, Component, Driver};
 use scl::{BlockingError, host};
@@ -21,6 +22,11 @@ impl Shared {
         let (component, system) = (component.to_owned(), system.to_owned());
         let (closer, driver) = (opened.closer(), opened.driver());
         Self { component, system, origin: Origin::here(), closed: AtomicBool::new(false), closer, driver }
+    }
+
+    /// Keeps a value of the component for a Python object.
+    pub(crate) fn keep<T: Send>(&self, value: T) -> Native<T> {
+        Native::new(value, self.origin.clone())
     }
 
     pub(crate) fn driver(&self) -> Driver {

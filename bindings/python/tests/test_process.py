@@ -28,7 +28,7 @@ def test_a_forked_child_is_told_so(system: System) -> None:
             watcher.ready(60)
             print("ready", flush=True)
         else:
-            assert os.waitpid(child, 0)[1] == 0
+            assert (code := os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])) == 0, code
             source.jobs.send(source.jobs.type(value=5))
             print("parent", flush=True)
     """)
@@ -39,6 +39,32 @@ def test_a_forked_child_is_told_so(system: System) -> None:
     program.expect("parent")
     assert program.end() == (0, "")
     assert sink.ask("pull 1") == "5..6"
+
+
+def test_a_forked_child_leaves_to_its_parent_what_it_inherits(system: System) -> None:
+    program = system.python("""
+        import asyncio, os, sys, threading
+        from concurrent.futures import ThreadPoolExecutor
+        sink, source = scl.open(SIX, "sink"), scl.open(SIX, "source")
+        source.ready(60)
+        # Calls of all kinds, whose threads and stacks a child does not have.
+        waits = lambda: sink.wait(sink.newest)
+        for call in [sink.readings.recv, sink.jobs.recv, lambda: asyncio.run(sink.lossless.recv_async()), waits]:
+            threading.Thread(target=call, daemon=True).start()
+        answer = ThreadPoolExecutor().submit(source.question.call, source.question.type(value=7), 1000)
+        request = sink.answer.recv()
+        for _ in range(20):
+            child = os.fork()
+            if child == 0:
+                watcher = scl.open(SIX, "watcher")
+                watcher.ready(60)
+                sys.exit(0)
+            assert (code := os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])) == 0, code
+        request.reply(request.message)
+        print(answer.result().value, flush=True)
+    """)
+    program.expect("7")
+    assert program.end() == (0, "")
 
 
 def test_multiprocessing_children_are_told_so(system: System) -> None:

@@ -1,0 +1,46 @@
+//! Values of the crate `scl` behind Python objects.
+
+use crate::process::{Inside, Origin};
+use pyo3::prelude::*;
+use std::ops::Deref;
+
+/// A value that is dropped without the interpreter, because that may wait for peers, and only in the process that made it.
+///
+/// The interpreter of a forked child drops all objects that it has inherited, too. Their values may be locked, or half
+/// changed, by threads that exist in the parent only.
+pub(crate) struct Native<T: Send> {
+    /// `None` once dropped.
+    value: Option<T>,
+    origin: Origin,
+}
+
+impl<T: Send> Native<T> {
+    pub(crate) fn new(value: T, origin: Origin) -> Self {
+        Self { value: Some(value), origin }
+    }
+}
+
+impl<T: Send> Deref for Native<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        match &self.value {
+            Some(value) => value,
+            None => unreachable!("the value is taken only when it is dropped"),
+        }
+    }
+}
+
+impl<T: Send> Drop for Native<T> {
+    fn drop(&mut self) {
+        let mut value = self.value.take();
+        if self.origin.is_elsewhere() {
+            return std::mem::forget(value);
+        }
+        Python::try_attach(|py| match Inside::enter() {
+            Some(_inside) => py.detach(|| drop(value.take())),
+            None => drop(value.take()),
+        });
+        drop(value);
+    }
+}
