@@ -4,9 +4,8 @@
 //! It is made once per build folder, and again when `tests/requirements.txt` changes. The package is built whenever it is
 //! asked for, which takes a moment if nothing has changed. A lock keeps concurrent tests from making either twice.
 
-use crate::Process;
 use crate::cargo::{build, build_folder, workspace};
-use rustix::fs::{FlockOperation, flock};
+use crate::{Process, lock_file};
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -48,10 +47,7 @@ pub fn python_with_scl() -> &'static Path {
 }
 
 fn lock() -> File {
-    let path = target_folder().join("python.lock");
-    let file = File::create(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    flock(&file, FlockOperation::LockExclusive).expect("the lock of the virtual environment");
-    file
+    lock_file(&target_folder().join("python.lock"))
 }
 
 fn install_packages() -> PathBuf {

@@ -29,7 +29,7 @@ use std::path::PathBuf;
 fn lock_machine() -> File {
     let folder = workspace().join("target/examples");
     std::fs::create_dir_all(&folder).unwrap();
-    system::lock_file(&folder.join("tests.lock"))
+    scl_tests::lock_file(&folder.join("tests.lock"))
 }
 
 /// The folder of an example.

@@ -4,6 +4,7 @@
 mod guard;
 
 pub(crate) use guard::{ChildGuard, SpawnGuarded};
+use scl_tests::lock_file;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -25,13 +26,6 @@ impl BuildFolder {
     pub(crate) fn path(&self) -> PathBuf {
         build_folder_without_programs()
     }
-}
-
-/// Locks a file until it is dropped. A test that fails, or is killed, does not keep others out.
-pub(crate) fn lock_file(path: &Path) -> File {
-    let file = File::create(path).unwrap();
-    file.lock().unwrap();
-    file
 }
 
 /// The same folder, for what builds no programs in it.

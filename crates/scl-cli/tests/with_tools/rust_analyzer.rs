@@ -5,9 +5,9 @@ mod examples;
 mod workspace;
 
 use crate::lsp::Server;
-use crate::system::lock_file;
 use cases::{BROKEN, CASES, Case};
 use scl_needs::needs;
+use scl_tests::lock_file;
 use serde_json::Value;
 use std::fs::File;
 use std::path::Path;

@@ -3,8 +3,9 @@
 mod agreement;
 
 use crate::lsp::Server;
-use crate::system::{System, lock_file};
+use crate::system::System;
 use scl_needs::needs;
+use scl_tests::lock_file;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -3,14 +3,13 @@
 
 use scl_generate::{System, Target, generate};
 use scl_loader::{Request, load};
-use scl_tests::{Compile, c_library};
+use scl_tests::{Compile, c_library, lock_file};
 use std::collections::hash_map::DefaultHasher;
 use std::ffi::OsStr;
 use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// How a program is compiled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -52,8 +51,7 @@ pub(crate) fn include_options() -> Vec<String> {
 
 /// A compiled program: a source, the schema and header of a topology file, and the C library.
 pub(crate) fn program(source: &Path, topology: &Path, build: Build) -> PathBuf {
-    let _alone = lock();
-    let generated = generated_alone(topology);
+    let generated = generated(topology);
     let mut options = include_options();
     options.push(format!("-I{}", generated.folder.display()));
     options.push(format!("-I{}", binding().join("tests/programs").display()));
@@ -69,11 +67,6 @@ pub(crate) fn program(source: &Path, topology: &Path, build: Build) -> PathBuf {
 
 /// The generated header of a topology file, with what protoc makes of its schemas.
 pub(crate) fn generated(topology: &Path) -> Generated {
-    let _alone = lock();
-    generated_alone(topology)
-}
-
-fn generated_alone(topology: &Path) -> Generated {
     let loaded = load(&Request::new(topology));
     let mut system = System::of(&loaded).unwrap_or_else(|| panic!("{topology:?}: {:?}", loaded.diagnostics));
     // The tests of CMake have headers without counterparts.
@@ -102,7 +95,7 @@ fn schemas(system: &System) -> impl Iterator<Item = &str> {
 fn object(source: &Path, folder: &Path, build: Build) -> PathBuf {
     cached(OsStr::new("messages"), &[folder.to_owned(), source.to_owned()], &build.options(), |path| {
         let mut command = Command::new("c++");
-        command.args(["-std=c++17", "-g", "-c"]).arg("-I").arg(folder).args(build.options());
+        command.args(["-std=c++17", "-g1", "-c"]).arg("-I").arg(folder).args(build.options());
         run(command.arg(source).arg("-o").arg(path));
     })
     .with_extension("")
@@ -122,11 +115,12 @@ pub(crate) fn cached(name: &OsStr, inputs: &[PathBuf], more: &impl Hash, make: i
     fs::create_dir_all(&folder).expect("a folder below the build folder");
     let path = folder.join(format!("{}-{:016x}", name.to_string_lossy(), hasher.finish()));
     if !path.exists() {
-        // Another test run may make the same; the first to finish wins.
-        let unfinished = path.with_extension(format!("{}.o", std::process::id()));
-        make(&unfinished);
-        if fs::rename(&unfinished, &path).is_err() {
-            assert!(path.exists(), "{path:?} cannot be made");
+        // Tests of other processes wait for what this one makes.
+        let _alone = lock_file(&path.with_extension("lock"));
+        if !path.exists() {
+            let unfinished = path.with_extension(format!("{}.o", std::process::id()));
+            make(&unfinished);
+            fs::rename(&unfinished, &path).unwrap_or_else(|error| panic!("{path:?}: {error}"));
         }
     }
     path
@@ -151,10 +145,4 @@ pub(crate) fn run(command: &mut Command) -> String {
     let text = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     assert!(output.status.success(), "{command:?}\n{text}");
     text
-}
-
-/// One compilation at a time: they need much memory, and tests share their results.
-fn lock() -> MutexGuard<'static, ()> {
-    static COMPILING: Mutex<()> = Mutex::new(());
-    COMPILING.lock().unwrap_or_else(PoisonError::into_inner)
 }
