@@ -1,7 +1,6 @@
 """What is checked, in order."""
 
 import dataclasses
-import os
 import re
 import shlex
 from pathlib import Path
@@ -84,8 +83,6 @@ CHECKS = [
     Stage("packaging", "cargo package --workspace --no-verify --locked --allow-dirty --quiet --exclude-lockfile"),
 ]
 
-# As under nextest, many tests wait for processes, and do not keep a processor busy.
-SIDE_BY_SIDE = {"RUST_TEST_THREADS": str(2 * os.cpu_count())}
 BUSY = f".ci/packages stress-ng && .ci/busy {nextest('busy', '--workspace')}"
 ALLOCATIONS = Stage("allocations", f"cargo test --locked {NEED_MORE} --test allocations")
 
@@ -93,7 +90,7 @@ GATE = [
     *CHECKS,
     # `.ci/full` has the rest.
     Stage("features", features("--no-default-features -p scl-gates -p scl-cli -p scl-loader -p scl-macros")),
-    Stage("cargo test", second_command(), 40, SIDE_BY_SIDE, tried_again=True),
+    Stage("cargo test", second_command(), 40, tried_again=True),
     # The other languages, editors, the gateway, the benchmarks: what `cargo test` alone does not run.
     Stage("tests", nextest("gate", NEED_MORE), 40, {"SCL_TEST_PACKAGES": NEED_MORE}),
     ALLOCATIONS,
@@ -111,7 +108,7 @@ FULL = [
         ),
     ),
     Stage("rust-analyzer", ".ci/rust-analyzer", 40),
-    Stage("cargo test", second_command(), 60, SIDE_BY_SIDE),
+    Stage("cargo test", second_command(), 60),
     # Their builds select one package each, as a user's do.
     Stage("tests", nextest("full", NEED_MORE), 90, {"SCL_TEST_LONG": "1"}),
     ALLOCATIONS,
