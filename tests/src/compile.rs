@@ -99,7 +99,8 @@ impl Compile {
     /// What the compiler says.
     pub fn try_program(&self, path: &Path) -> Result<(), String> {
         let CLibrary { folder, .. } = (self.library)();
-        let mut rpath = OsString::from("-Wl,-rpath,");
+        // The library that it is linked with, whatever the variables say that cargo sets for tests.
+        let mut rpath = OsString::from("-Wl,--disable-new-dtags,-rpath,");
         rpath.push(folder);
         // Renamed when it is complete, because another test program may be using one of the same name.
         let unfinished = path.with_extension(std::process::id().to_string());
