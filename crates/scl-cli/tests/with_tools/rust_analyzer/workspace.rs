@@ -93,8 +93,11 @@ impl Workspace {
             // Names that are not imported are offered everywhere else too.
             "completion": { "autoimport": { "enable": false } },
         });
+        // Its copies of libraries with macros stay behind, as it is not asked to end.
+        let temporary = self.root.join("temporary");
+        fs::create_dir(&temporary).unwrap();
         let mut command = Command::new(program);
-        command.current_dir(&self.root);
+        command.current_dir(&self.root).env("TMPDIR", temporary);
         let mut server = Server::start(&mut command, &self.root, settings);
         // Without the sources of the standard library and what they depend on, rust-analyzer sees errors in sound programs. It
         // installs them itself where it can.
