@@ -126,7 +126,7 @@ impl ComponentState {
             let _ended = ended;
             std::future::pending::<()>().await;
         });
-        let keeper = AbortOnDrop(keeper.abort_handle());
+        let keeper = AbortOnDrop::new(keeper.abort_handle());
         let (monitor, stats) = monitor::start(spec, stats, &handle);
         let member = service::join(|| reported::follows_calls(runtime.is_some(), &handle));
         Self {
@@ -200,7 +200,7 @@ impl ComponentState {
             }
             None => Poll::Ready(()),
         }));
-        let task = Some(AbortOnDrop(task.abort_handle()));
+        let task = Some(AbortOnDrop::new(task.abort_handle()));
         lock(&self.ends).push(Registered { end: Arc::clone(&end) as _, _task: task });
         end
     }

@@ -1,5 +1,6 @@
 //! Small things about threads and tasks that several parts need.
 
+use crate::process_mark::ProcessMark;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::{self, ScopedJoinHandle};
@@ -38,12 +39,44 @@ pub(crate) fn on_another_thread<T: Send>(call: impl Fn() -> T + Sync) -> T {
     })
 }
 
-/// Ends a task with its owner.
+/// Ends a task with its owner. In a forked child the task and its runtime are the parent's, and dropping does nothing.
 #[derive(Debug)]
-pub(crate) struct AbortOnDrop(pub(crate) AbortHandle);
+pub(crate) struct AbortOnDrop {
+    task: AbortHandle,
+    process: ProcessMark,
+}
+
+impl AbortOnDrop {
+    pub(crate) fn new(task: AbortHandle) -> Self {
+        Self { task, process: ProcessMark::new() }
+    }
+}
 
 impl Drop for AbortOnDrop {
     fn drop(&mut self) {
-        self.0.abort();
+        if self.process.is_own() {
+            self.task.abort();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::future::pending;
+
+    #[tokio::test]
+    async fn a_task_ends_with_its_owner_but_not_in_a_forked_child() {
+        for is_inherited in [true, false] {
+            let task = tokio::spawn(pending::<()>());
+            let mut owner = AbortOnDrop::new(task.abort_handle());
+            if is_inherited {
+                owner.process = ProcessMark::inherited();
+            }
+            drop(owner);
+            // A task that was aborted is dropped in the next turn.
+            tokio::task::yield_now().await;
+            assert_eq!(task.is_finished(), !is_inherited);
+        }
     }
 }

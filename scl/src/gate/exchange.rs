@@ -98,7 +98,7 @@ impl Exchange {
         }));
         let permits = Semaphore::new(watchdogs.len());
         let (watchdogs, last_id) = (Mutex::new(watchdogs), AtomicU64::new(0));
-        Self { end, calls, permits, watchdogs, last_id, _task: AbortOnDrop(task.abort_handle()) }
+        Self { end, calls, permits, watchdogs, last_id, _task: AbortOnDrop::new(task.abort_handle()) }
     }
 
     /// Sends a request and waits for its reply.

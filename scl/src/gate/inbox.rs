@@ -92,7 +92,7 @@ impl SharedInbox {
             }
             Poll::Pending
         }));
-        Self { inbox, io, _task: AbortOnDrop(task.abort_handle()) }
+        Self { inbox, io, _task: AbortOnDrop::new(task.abort_handle()) }
     }
 
     /// Returns the next message, or registers the call and returns `Pending`.

@@ -76,7 +76,7 @@ impl ReplyEnd {
             task_io.wake_call();
             Poll::Pending
         }));
-        Arc::new(Self { link, io, _task: AbortOnDrop(task.abort_handle()) })
+        Arc::new(Self { link, io, _task: AbortOnDrop::new(task.abort_handle()) })
     }
 
     /// Returns the next request with its number, or registers the call and returns `Pending`. `may_vanish`: see [`IoWaker::wait`].

@@ -66,7 +66,7 @@ impl GateTap {
             }
             None => Poll::Ready(()),
         }));
-        Self { shared: Some(shared), _task: Some(AbortOnDrop(task.abort_handle())) }
+        Self { shared: Some(shared), _task: Some(AbortOnDrop::new(task.abort_handle())) }
     }
 
     /// Shows a message to the observers, if there are any.

@@ -101,7 +101,7 @@ pub(super) fn start(
     let monitor = Arc::new(Monitor::new(spec, initial.unwrap_or_else(unwritten)));
     let task = writer.map(|writer| {
         let task = handle.spawn(write_stats(Arc::downgrade(&monitor), writer));
-        AbortOnDrop(task.abort_handle())
+        AbortOnDrop::new(task.abort_handle())
     });
     (monitor, task)
 }

@@ -1,5 +1,5 @@
-//! Shared ownership of a component by its handle and its gates. The last owner closes the component on its own thread; in a
-//! forked child none does.
+//! Shared ownership of a component by its handle and its gates. The last owner closes the component on its own thread;
+//! in a forked child none does.
 
 use super::ComponentState;
 use std::ops::Deref;

@@ -52,7 +52,7 @@ use std::task::Waker;
 pub struct Readiness {
     set: Arc<ReadySet>,
     /// Watches for a stop request.
-    stop: Option<AbortOnDrop>,
+    _stop: AbortOnDrop,
     driven: Option<Driven>,
     process: ProcessMark,
 }
@@ -86,7 +86,7 @@ impl Readiness {
         for watch in component.watches.iter().filter(|watch| includes(watch.spec.name)) {
             watch.report_to(Arc::downgrade(&set));
         }
-        Ok(Self { set, stop: Some(stop), driven: state.drive_always(), process: ProcessMark::new() })
+        Ok(Self { set, _stop: stop, driven: state.drive_always(), process: ProcessMark::new() })
     }
 
     /// A waker that makes the descriptor readable. All wakers of a `Readiness` are the same, so after one wake-up, all
@@ -112,8 +112,8 @@ impl Readiness {
 impl Drop for Readiness {
     fn drop(&mut self) {
         if !self.process.is_own() {
-            // The task and its runtime are the parent's.
-            std::mem::forget((self.stop.take(), self.driven.take()));
+            // The runtime is the parent's.
+            std::mem::forget(self.driven.take());
         }
     }
 }
