@@ -46,7 +46,7 @@ pub fn __topology(input: TokenStream) -> TokenStream {
 /// | returns an error: `scl::Result`, `anyhow::Result`, `Result<(), Box<dyn Error>>` | 1; the error is printed with its causes |
 /// | is stopped by SIGTERM or SIGINT | 0 |
 /// | is still running `SCL_STOP_WITHIN` after the signal | 128 + the number of the signal |
-/// | receives a second signal | 128 + its number |
+/// | receives a second signal, half a second later or more | 128 + its number |
 /// | panics | 101 |
 ///
 /// Messages count as left if the peer is running or the connection has `when_full: wait`. For a peer that is not running

@@ -22,7 +22,7 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 pub use crate::causes::text_with_causes;
-pub use crate::stop::StopSignal;
+pub use crate::stop::{ONE_REQUEST, StopSignal};
 
 /// Writes the log to standard error, as detailed as `SCL_LOG` says, unless the process has a log already.
 ///
@@ -48,7 +48,7 @@ pub fn tell_service_manager(text: &str) {
 }
 
 /// From now on SIGTERM and SIGINT request a stop instead of ending the process. It is ended if it still runs after the
-/// [`grace_period`], or when a second signal arrives. Further calls do nothing.
+/// [`grace_period`], or when a second signal arrives after [`ONE_REQUEST`]. Further calls do nothing.
 ///
 /// # Errors
 /// `SCL_STOP_WITHIN` is not a duration, or the operating system provides no thread or no file descriptor.

@@ -71,7 +71,10 @@ fn a_second_signal_ends_a_program_at_once() {
             let mut program = start(&system, &[mode, "ignore"], &[("SCL_STOP_WITHIN", "1000s")]);
             program.signal(Signal::INT);
             program.expect("stop requested");
-            program.signal(signal);
+            // Signals that follow at once belong to the first one.
+            while program.is_running() {
+                program.signal(signal);
+            }
             assert_eq!(program.wait_for_exit().code(), code, "{mode}, {signal:?}");
         }
     }

@@ -517,7 +517,8 @@ scl_status scl_undecodable(scl_gate *gate,
  *
  * A stop request ends all calls that wait, and makes later ones fail, with SCL_STOPPED, so that a program that returns
  * from `main` after any error stops by itself. If it still runs after the time given by SCL_STOP_WITHIN (default 3s),
- * or when a second signal arrives, it is ended with exit code 128 + the number of the signal.
+ * or when a second signal arrives, half a second after the first or later, it is ended with exit code 128 + the number of
+ * the signal.
  */
 bool scl_stop_requested(void);
 

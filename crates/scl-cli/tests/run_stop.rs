@@ -1,9 +1,13 @@
 //! How `scl run` stops: by itself, on request, when a component fails, and when it is killed.
 
 use crate::system::{FOREVER, SpawnGuarded, Started, System, kill, wait_for_writers_to_end, without_times};
+use std::process::Command;
 
 /// Ignores what asks it to stop; says so each time.
 const STUBBORN: &str = "trap 'echo caught' INT TERM; echo ready; while :; do tail -f /dev/null >/dev/null & wait; done";
+/// Says that it closes its valves when it is asked to stop, and ends in order as soon as the pipe `go` is written to.
+const VALVES: &str =
+    "trap 'echo closing; read line < go; exit 0' INT TERM HUP; echo ready; tail -f /dev/null >/dev/null & wait";
 /// Long enough that only another reason can end the test.
 const NO_END_OF_GRACE: [&str; 2] = ["--grace", "1h"];
 
@@ -81,10 +85,47 @@ fn a_second_request_kills_at_once() {
     run.wait_for_line("sensor | ready");
     run.signal("-INT");
     run.wait_for_line("sensor | caught");
-    run.signal("-INT");
+    // Signals that follow at once belong to the first one.
+    while run.is_running() {
+        run.signal("-INT");
+    }
     let (status, _, err) = run.finish();
     assert!(err.contains("sensor  killed by signal 9 (SIGKILL)"), "{err}");
     assert_eq!(status.code(), Some(1));
+}
+
+/// As `timeout` and wrappers send them.
+#[test]
+fn signals_that_follow_at_once_are_one_request() {
+    let system = System::of(&[("sensor", VALVES)]);
+    let pipe = system.make_pipe("go");
+    let mut run = system.start(&NO_END_OF_GRACE);
+    run.wait_for_line("sensor | ready");
+    let process = run.process_id();
+    // Whichever of them the kernel delivers first is the one that is passed on.
+    let script = format!("kill -TERM {process} && kill -INT {process} && kill -HUP {process}");
+    assert!(Command::new("/bin/sh").args(["-c", &script]).status().unwrap().success());
+    run.wait_for_line("sensor | closing");
+    std::fs::write(pipe, "valves are closed\n").unwrap();
+    let (status, _, err) = run.finish();
+    assert_eq!(status.code(), Some(0), "{err}");
+    assert_eq!(err.matches("once more kills at once").count(), 1, "{err}");
+}
+
+#[test]
+fn the_first_request_kills_nobody_while_all_stop_after_a_failure() {
+    let system = System::of(&[("sensor", VALVES), ("controller", "read line < fail; exit 3")]);
+    let (pipe, fail) = (system.make_pipe("go"), system.make_pipe("fail"));
+    let mut run = system.start(&NO_END_OF_GRACE);
+    run.wait_for_line("sensor     | ready");
+    std::fs::write(fail, "\n").unwrap();
+    run.wait_for_line("sensor     | closing");
+    run.signal("-TERM");
+    run.wait_for_error("scl: already stopping; SIGTERM once more kills at once");
+    std::fs::write(pipe, "valves are closed\n").unwrap();
+    let (status, _, err) = run.finish();
+    assert!(without_times(&err).contains("sensor      ended with exit code 0 after N s\n"), "{err}");
+    assert_eq!(status.code(), Some(1), "{err}");
 }
 
 #[test]

@@ -5,13 +5,14 @@ use super::lifecycle::{Action, Input, Lifecycle, State, Verdict};
 use super::policy::Policy;
 use super::restarts::Time;
 use nix::sys::signal::Signal;
+use scl::host::ONE_REQUEST;
 
 /// What happens to a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum RunEvent {
     /// Something happens to one component.
     One(usize, Input),
-    /// All are to stop by this signal. The second time they are killed.
+    /// All are to stop by this signal. A second request kills them.
     Stop(Signal),
     /// Nobody can see the output any more.
     OutputLost,
@@ -30,6 +31,8 @@ pub(crate) struct RunState {
     stopping: Option<Signal>,
     /// Whether the stop was asked for, and not the consequence of a failure.
     asked: bool,
+    /// When somebody asked for the stop first.
+    requested: Option<Time>,
     killing: bool,
 }
 
@@ -37,7 +40,7 @@ impl RunState {
     /// Components to be started at once, which are stopped at a time, if any; `last` is stopped after all others.
     pub(crate) fn new(policies: impl IntoIterator<Item = Policy>, last: Option<usize>, until: Option<Time>) -> Self {
         let components = policies.into_iter().map(Lifecycle::new).collect();
-        Self { components, last, until, stopping: None, asked: false, killing: false }
+        Self { components, last, until, stopping: None, asked: false, requested: None, killing: false }
     }
 
     pub(crate) fn components(&self) -> &[Lifecycle] {
@@ -52,6 +55,11 @@ impl RunState {
     /// Whether somebody asked for the stop, so that it is not the consequence of a failure.
     pub(crate) fn was_asked(&self) -> bool {
         self.asked
+    }
+
+    /// Whether somebody asked for a stop, so that the next request kills.
+    pub(crate) fn is_requested(&self) -> bool {
+        self.requested.is_some()
     }
 
     /// Whether every component has ended.
@@ -81,11 +89,7 @@ impl RunState {
             // A run that stops starts nothing.
             RunEvent::One(_, Input::Restart) if self.stopping.is_some() => Vec::new(),
             RunEvent::One(index, input) => self.take_input(now, index, &input),
-            RunEvent::Stop(_) if self.stopping.is_some() => self.kill(now),
-            RunEvent::Stop(signal) => {
-                self.asked = true;
-                self.stop(now, signal)
-            }
+            RunEvent::Stop(signal) => self.take_request(now, signal),
             RunEvent::OutputLost => self.stop(now, Signal::SIGTERM),
             RunEvent::Time => self.take_time(now),
         };
@@ -94,6 +98,18 @@ impl RunState {
         }
         actions.extend(self.stop_last(now));
         actions
+    }
+
+    fn take_request(&mut self, now: Time, signal: Signal) -> Vec<(usize, Action)> {
+        match self.requested {
+            None => {
+                self.requested = Some(now);
+                self.asked = self.stopping.is_none();
+                self.stop(now, signal)
+            }
+            Some(requested) if now < requested.saturating_add(ONE_REQUEST) => Vec::new(),
+            Some(_) => self.kill(now),
+        }
     }
 
     fn take_input(&mut self, now: Time, index: usize, input: &Input) -> Vec<(usize, Action)> {

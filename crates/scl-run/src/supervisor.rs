@@ -146,8 +146,12 @@ impl<'a> Supervisor<'a> {
                 self.apply(run, RunEvent::One(index, input));
             }
             Event::Signalled(signal) => {
-                if run.state.stopping().is_none() {
-                    let text = format!("stopping on {}; once more kills at once", signal.as_str());
+                if !run.state.is_requested() {
+                    let name = signal.as_str();
+                    let text = match run.state.stopping() {
+                        None => format!("stopping on {name}; once more kills at once"),
+                        Some(_) => format!("already stopping; {name} once more kills at once"),
+                    };
                     self.surroundings.reports.announce(&text);
                 }
                 self.apply(run, RunEvent::Stop(signal));

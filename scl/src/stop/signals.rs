@@ -10,8 +10,12 @@ use std::thread;
 use std::time::Duration;
 use tokio::runtime::{Builder, Runtime};
 use tokio::signal::unix::{Signal, SignalKind, signal};
+use tokio::time::Instant;
 use tracing::subscriber::NoSubscriber;
 
+/// Signals that follow one this soon belong to the same request: `timeout` signals its program and then the program's group, and
+/// wrappers pass on a Ctrl-C that the program has had from the terminal.
+pub const ONE_REQUEST: Duration = Duration::from_millis(500);
 /// How long the flush after a stop request may take. A program that handles the request itself has it on top of its
 /// grace period.
 pub(crate) const LAST_FLUSH: Duration = Duration::from_millis(500);
@@ -79,8 +83,8 @@ fn run(stop: &StopState, grace_period: Duration, started: impl FnOnce(io::Result
     }
 }
 
-/// Requests the stop on the first signal. Returns the exit code when the process has to be ended: on the second signal,
-/// and when the grace period is over.
+/// Requests the stop on the first signal. Returns the exit code when the process has to be ended: on a second signal that is a
+/// request of its own, and when the grace period is over.
 async fn watch(
     stop: &StopState,
     grace_period: Duration,
@@ -88,8 +92,17 @@ async fn watch(
     log: impl FnOnce(String),
 ) -> u8 {
     let first = next().await;
+    let requested = Instant::now();
     stop.request(first.exit_code());
-    if let Ok(second) = tokio::time::timeout(grace_period, next()).await {
+    let mut second = async || {
+        loop {
+            let signal = next().await;
+            if requested.elapsed() >= ONE_REQUEST {
+                return signal;
+            }
+        }
+    };
+    if let Ok(second) = tokio::time::timeout(grace_period, second()).await {
         return second.exit_code();
     }
     let (name, code) = (first.name(), first.exit_code());
@@ -97,7 +110,7 @@ async fn watch(
     log(format!("the program is still running {grace_period:?} after {name}; exiting with code {code}"));
     if stop.is_handled() {
         stop.end_grace_period();
-        let second = tokio::time::timeout(LAST_FLUSH, next()).await;
+        let second = tokio::time::timeout(LAST_FLUSH, second()).await;
         return second.map_or(code, StopSignal::exit_code);
     }
     code
@@ -145,7 +158,7 @@ mod tests {
     use super::*;
     use std::cell::Cell;
     use std::future::pending;
-    use tokio::time::{Instant, sleep_until};
+    use tokio::time::sleep_until;
 
     const GRACE_PERIOD: Duration = Duration::from_secs(3);
 
@@ -182,10 +195,21 @@ mod tests {
             [(Interrupt, Interrupt, 130), (Terminate, Interrupt, 130), (Interrupt, Terminate, 143)]
         {
             for handled in [false, true] {
-                let watched = watched(&[(10, first), (20, second)], handled).await;
-                assert_eq!((watched.code, watched.logged, watched.lasted.as_millis()), (code, None, 20));
+                let watched = watched(&[(10, first), (510, second)], handled).await;
+                assert_eq!((watched.code, watched.logged, watched.lasted.as_millis()), (code, None, 510));
                 assert_eq!(watched.stop.gates_stopped(), !handled);
             }
+        }
+    }
+
+    #[tokio::test(start_paused = true)]
+    async fn signals_that_follow_at_once_are_part_of_the_first_request() {
+        for handled in [false, true] {
+            let arriving = [(10, Terminate), (10, Terminate), (11, Interrupt), (509, Interrupt)];
+            let watched = watched(&arriving, handled).await;
+            assert_eq!(watched.code, 143, "the grace period has ended it");
+            let flush = if handled { LAST_FLUSH } else { Duration::ZERO };
+            assert_eq!(watched.lasted, Duration::from_millis(10) + GRACE_PERIOD + flush);
         }
     }
 

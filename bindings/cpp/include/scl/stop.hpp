@@ -8,7 +8,8 @@ namespace scl {
 /// Returns true once the program was asked to stop, by SIGTERM or Ctrl-C.
 ///
 /// Calls to gates then throw `scl::Stopped`, also those that wait, and ranges of received messages end. A program that
-/// is still running after `SCL_STOP_WITHIN` (default 3 s) is ended, as is one that receives a second signal.
+/// is still running after `SCL_STOP_WITHIN` (default 3 s) is ended, as is one that receives a second signal,
+/// half a second after the first or later.
 inline bool stop_requested() noexcept { return scl_stop_requested(); }
 
 /// From now on the program handles stop requests itself: its gates keep working after the request, so it asks

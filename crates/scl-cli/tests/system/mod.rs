@@ -188,6 +188,10 @@ impl Started {
         kill(signal, self.process_id());
     }
 
+    pub(crate) fn is_running(&mut self) -> bool {
+        self.process.try_wait().unwrap().is_none()
+    }
+
     /// Waits for the end without reading another byte.
     pub(crate) fn wait_unread(mut self) -> ExitStatus {
         self.process.wait().unwrap()

@@ -200,6 +200,26 @@ fn the_last_one_is_stopped_when_all_others_have_ended() {
 }
 
 #[test]
+fn requests_kill_only_when_they_are_repeated_later() {
+    let is_killed_after = |policy: Policy, first: RunEvent, millis: u64| {
+        let mut world = World::new(vec![policy, Policy::default()], None);
+        world.step(first);
+        world.step(RunEvent::Stop(Signal::SIGTERM));
+        assert_eq!(world.killed, [false, false]);
+        world.now += Duration::from_millis(millis);
+        world.step(RunEvent::Stop(Signal::SIGINT));
+        world.killed[1]
+    };
+    let asked = || RunEvent::Stop(Signal::SIGTERM);
+    assert!(!is_killed_after(Policy::default(), asked(), 499));
+    assert!(is_killed_after(Policy::default(), asked(), 500));
+    // The others stop because one has failed: the first request is the one after that.
+    let failed = || RunEvent::One(0, Input::Exited(Ending::Exited(3)));
+    assert!(!is_killed_after(Policy::default(), failed(), 499));
+    assert!(is_killed_after(Policy::default(), failed(), 500));
+}
+
+#[test]
 fn the_last_one_ends_with_the_others_but_runs_alone() {
     let exited = |index| RunEvent::One(index, Input::Exited(Ending::Exited(0)));
     let mut world = World::new(vec![always(), Policy::default()], Some(0));
