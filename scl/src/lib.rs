@@ -107,7 +107,6 @@ mod observation;
 mod options;
 #[doc(hidden)]
 pub mod private;
-mod process_mark;
 mod registration;
 pub mod registry;
 pub mod runtime_dir;

@@ -1,6 +1,5 @@
 //! The registration of a running component in the runtime folder.
 
-use crate::process_mark::ProcessMark;
 use crate::registry::{EndCheck, Neighbour, Registered};
 use crate::runtime_dir::{
     Announcement, ComponentLock, ComponentProcess, ComponentStats, FolderWatch, OwnedPath, QUIET, RuntimeDirError,
@@ -10,6 +9,7 @@ use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::sync::lock;
 use crate::transport::PeerCheck;
 use crate::transport_choice::TransportChoice;
+use scl_fork::ProcessMark;
 use std::error::Error;
 use std::pin::Pin;
 use std::sync::{Arc, Mutex, Weak};

@@ -20,13 +20,13 @@ use monitor::Monitor;
 
 use crate::error::{BlockingError, Missing, NotFlushed, PeerName, Unflushed};
 use crate::log;
-use crate::process_mark::ProcessMark;
 use crate::registration::StatsWriter;
 use crate::registry::{Neighbour, Registered as RegisteredComponent};
 use crate::runtime_dir::ComponentStats;
 use crate::service::{self, Member};
 use crate::spec::{ComponentSpec, GateSpec};
 use crate::sync::{AbortOnDrop, is_thread_ending, lock, on_another_thread};
+use scl_fork::ProcessMark;
 #[cfg(feature = "protobuf")]
 use scl_shape::FileDescriptorSet;
 use std::future::poll_fn;

@@ -1,6 +1,6 @@
 //! Small things about threads and tasks that several parts need.
 
-use crate::process_mark::ProcessMark;
+use scl_fork::ProcessMark;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::{self, ScopedJoinHandle};

@@ -1,12 +1,10 @@
 //! Children of a program inherit nothing of its component, whether they run another program or not.
 
+use crate::forking::Forking;
 use crate::programs::{PLAIN, open};
 use rustix::process::{Pid, Signal};
 use scl_tests::{System, wait_until};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
-use tempfile::TempDir;
 
 /// The promise: a child that outlives its parent keeps neither the component's lock nor its sockets.
 #[test]
@@ -35,24 +33,14 @@ fn a_child_keeps_nothing_of_the_component() {
 #[test]
 fn a_forked_child_cannot_use_the_component() {
     let system = System::new();
-    let folder = TempDir::with_prefix("scl").expect("a folder");
-    let (input, output) = (folder.path().join("input"), folder.path().join("output"));
-    let preload = fork_on_signal(folder.path());
-    let text = |path: &Path| path.to_str().expect("UTF-8").to_owned();
-    let environment = [("LD_PRELOAD", preload), ("CHILD_INPUT", input.clone()), ("CHILD_OUTPUT", output.clone())];
-    let environment: Vec<_> = environment.iter().map(|(name, path)| (*name, text(path))).collect();
-    let environment: Vec<_> = environment.iter().map(|(name, path)| (*name, path.as_str())).collect();
-    let mut source = system.start_with(PLAIN, &["source"], &environment);
+    let forking = Forking::new();
+    let mut source = forking.start(&system, PLAIN, "source");
     source.expect("open");
     let mut sink = open(&system, "sink");
     source.ask("ready", "ready");
     for command in ["ready", "publish_forever", "push_and_close"] {
-        fs::write(&input, format!("{command}\n")).expect("written");
-        source.signal(Signal::USR1);
-        wait_until("the child has ended", || child_has_ended(source.id()));
-        let said = fs::read_to_string(&output).expect("what the child said");
+        let said = forking.fork(&source, command);
         assert!(said.contains("belongs to the parent process"), "{command}: {said}");
-        fs::remove_file(&output).expect("removed");
         source.ask("reap", "reaped");
     }
     // The parent's lock, sockets and connections are as they were.
@@ -61,22 +49,6 @@ fn a_forked_child_cannot_use_the_component() {
     source.tell("push_and_close");
     sink.ask("pull 1000", "0..1000");
     assert!(source.wait_for_exit().status.success());
-}
-
-/// Builds the library that makes a program fork.
-fn fork_on_signal(folder: &Path) -> PathBuf {
-    let library = folder.join("fork_on_signal.so");
-    let source = concat!(env!("CARGO_MANIFEST_DIR"), "/src/fork_on_signal.c");
-    let built = Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&library).arg(source).status();
-    assert!(built.is_ok_and(|status| status.success()), "needs a C compiler called `cc`");
-    library
-}
-
-/// Returns true if the only child of a program's first thread has ended, and waits for its parent to notice.
-fn child_has_ended(parent: u32) -> bool {
-    let children = fs::read_to_string(format!("/proc/{parent}/task/{parent}/children")).unwrap_or_default();
-    let status = fs::read_to_string(format!("/proc/{}/stat", children.trim())).unwrap_or_default();
-    status.rsplit(')').next().is_some_and(|fields| fields.trim_start().starts_with('Z'))
 }
 
 /// Ended with the test.

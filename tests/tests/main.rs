@@ -9,6 +9,7 @@ mod circle;
 mod descriptors;
 mod drop;
 mod exit;
+mod forking;
 mod freshness;
 mod fuzz;
 mod kill;

@@ -1,7 +1,8 @@
 //! Values of the crate `scl` behind Python objects.
 
-use crate::process::{Inside, Origin};
+use crate::process::Inside;
 use pyo3::prelude::*;
+use scl_fork::ProcessMark;
 use std::ops::Deref;
 
 /// A value that is dropped without the interpreter, because that may wait for peers, and only in the process that made it.
@@ -11,12 +12,12 @@ use std::ops::Deref;
 pub(crate) struct Native<T: Send> {
     /// `None` once dropped.
     value: Option<T>,
-    origin: Origin,
+    process: ProcessMark,
 }
 
 impl<T: Send> Native<T> {
-    pub(crate) fn new(value: T, origin: Origin) -> Self {
-        Self { value: Some(value), origin }
+    pub(crate) fn new(value: T, process: ProcessMark) -> Self {
+        Self { value: Some(value), process }
     }
 }
 
@@ -34,7 +35,7 @@ impl<T: Send> Deref for Native<T> {
 impl<T: Send> Drop for Native<T> {
     fn drop(&mut self) {
         let mut value = self.value.take();
-        if self.origin.is_elsewhere() {
+        if !self.process.is_own() {
             return std::mem::forget(value);
         }
         Python::try_attach(|py| match Inside::enter() {

@@ -1,6 +1,5 @@
-//! The process: whether it is a forked child, and whether its interpreter is ending.
+//! The process: whether its interpreter is ending.
 
-use forkguard::atfork::Guard;
 use pyo3::exceptions::PySystemExit;
 use pyo3::prelude::*;
 use rustix::thread::gettid;
@@ -77,27 +76,4 @@ fn is_ended_by_another() -> bool {
 
 fn this_thread() -> i32 {
     gettid().as_raw_pid()
-}
-
-/// Remembers the process that created it.
-#[derive(Debug, Clone)]
-pub(crate) struct Origin {
-    pid: u32,
-    /// Counts forks without a system call, unless the C library refused to.
-    forks: Option<Guard>,
-}
-
-impl Origin {
-    pub(crate) fn here() -> Self {
-        Self { pid: std::process::id(), forks: Guard::try_new().ok() }
-    }
-
-    /// Returns true in a child that was forked from the process that created this.
-    pub(crate) fn is_elsewhere(&self) -> bool {
-        match &self.forks {
-            // The guard reports a fork once, so a copy is asked.
-            Some(forks) => forks.clone().detected_fork(),
-            None => self.pid != std::process::id(),
-        }
-    }
 }

@@ -2,16 +2,16 @@
 
 use crate::failure::Failure;
 use crate::native::Native;
-use crate::process::Origin;
 use scl::untyped::{Closer, Component, Driver};
 use scl::{BlockingError, host};
+use scl_fork::ProcessMark;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The state of a component, as seen by its calls.
 pub(crate) struct Shared {
     pub(crate) component: String,
     pub(crate) system: String,
-    origin: Origin,
+    process: ProcessMark,
     closed: AtomicBool,
     closer: Closer,
     driver: Driver,
@@ -21,12 +21,12 @@ impl Shared {
     pub(crate) fn new(opened: &Component, component: &str, system: &str) -> Self {
         let (component, system) = (component.to_owned(), system.to_owned());
         let (closer, driver) = (opened.closer(), opened.driver());
-        Self { component, system, origin: Origin::here(), closed: AtomicBool::new(false), closer, driver }
+        Self { component, system, process: ProcessMark::new(), closed: AtomicBool::new(false), closer, driver }
     }
 
     /// Keeps a value of the component for a Python object.
     pub(crate) fn keep<T: Send>(&self, value: T) -> Native<T> {
-        Native::new(value, self.origin.clone())
+        Native::new(value, self.process.clone())
     }
 
     pub(crate) fn driver(&self) -> Driver {
@@ -66,7 +66,7 @@ impl Shared {
     }
 
     pub(crate) fn is_inherited(&self) -> bool {
-        self.origin.is_elsewhere()
+        !self.process.is_own()
     }
 
     pub(crate) fn is_closed(&self) -> bool {

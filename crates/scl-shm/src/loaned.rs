@@ -1,9 +1,11 @@
 //! Memory that was lent to be filled and sent.
 
 use crate::node::SharedMemory;
+use iceoryx2::port::SendError;
 use iceoryx2::sample_mut::SampleMut;
 use iceoryx2::sample_mut_uninit::SampleMutUninit;
 use iceoryx2::service::ipc_threadsafe::Service as Engine;
+use scl_fork::ProcessOwned;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -28,13 +30,18 @@ impl Drop for Counted {
     }
 }
 
-/// Memory lent by a [`SampleSender`](crate::SampleSender). Dropping it gives it back.
+/// Memory lent by a [`SampleSender`](crate::SampleSender). Dropping it gives it back, except in a forked child: the parent may
+/// still fill it.
 ///
 /// What it contains at first is unspecified: zeros or parts of older messages of the same connection.
 pub struct LoanedSample {
-    pub(crate) sample: Sample,
+    held: ProcessOwned<Held>,
     /// Who lent it.
     pub(crate) sender: u128,
+}
+
+struct Held {
+    sample: Sample,
     _counted: Counted,
     // Last: the node must outlive the sample.
     _memory: Arc<SharedMemory>,
@@ -47,17 +54,23 @@ unsafe impl Sync for LoanedSample {}
 
 impl LoanedSample {
     pub(crate) fn new(sample: Sample, sender: u128, counted: Counted, memory: &Arc<SharedMemory>) -> Self {
-        Self { sample, sender, _counted: counted, _memory: memory.clone() }
+        let held = Held { sample, _counted: counted, _memory: memory.clone() };
+        Self { held: ProcessOwned::new(held), sender }
+    }
+
+    /// Sends it. Returns the number of receivers that got it.
+    pub(crate) fn send(self) -> Result<usize, SendError> {
+        self.held.into_inner().sample.send()
     }
 
     /// The content.
     pub fn as_slice(&self) -> &[u8] {
-        self.sample.payload()
+        self.held.sample.payload()
     }
 
     /// The content, to be filled.
     pub fn as_mut_slice(&mut self) -> &mut [u8] {
-        self.sample.payload_mut()
+        self.held.sample.payload_mut()
     }
 }
 

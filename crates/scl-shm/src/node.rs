@@ -7,6 +7,7 @@ use crate::unfinished;
 use iceoryx2::node::{Node, NodeBuilder};
 use iceoryx2::prelude::SignalHandlingMode;
 use iceoryx2::service::ipc_threadsafe::Service as Engine;
+use scl_fork::ProcessMark;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -26,9 +27,11 @@ pub struct SharedMemory {
     /// `None` only while it is dropped.
     node: Option<Mutex<Node<Engine>>>,
     folder: Folder,
+    process: ProcessMark,
 }
 
-/// The nodes of this process. Two in one folder would each take the other's files for those of a stranger.
+/// The nodes of this process, and those that it has inherited of the one that it was forked from. Two of one process in one
+/// folder would each take the other's files for those of a stranger.
 static NODES: Mutex<Option<HashMap<PathBuf, Weak<SharedMemory>>>> = Mutex::new(None);
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -45,7 +48,7 @@ impl SharedMemory {
         let mut nodes = lock(&NODES);
         let nodes = nodes.get_or_insert_default();
         nodes.retain(|_, node| node.strong_count() > 0);
-        if let Some(memory) = nodes.get(system).and_then(Weak::upgrade) {
+        if let Some(memory) = nodes.get(system).and_then(Weak::upgrade).filter(|memory| memory.process.is_own()) {
             return Ok(memory);
         }
         let memory = Arc::new(Self::create(system)?);
@@ -72,7 +75,7 @@ impl SharedMemory {
             node.blocking_cleanup_dead_nodes(CLEANING);
             Ok(node)
         })?;
-        Ok(Self { node: Some(Mutex::new(node)), folder })
+        Ok(Self { node: Some(Mutex::new(node)), folder, process: ProcessMark::new() })
     }
 
     /// A service that no end of SCL would create.
@@ -91,6 +94,9 @@ impl SharedMemory {
 
 impl Drop for SharedMemory {
     fn drop(&mut self) {
+        if !self.process.is_own() {
+            return std::mem::forget(self.node.take());
+        }
         let nodes = lock(&NODES);
         let is_open_again =
             nodes.iter().flatten().any(|(system, node)| node.strong_count() > 0 && self.folder.is_of(system));

@@ -9,6 +9,7 @@ use bytes::Bytes;
 use iceoryx2::port::subscriber::Subscriber;
 use iceoryx2::sample::Sample;
 use iceoryx2::service::ipc_threadsafe::Service as Engine;
+use scl_fork::ProcessOwned;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -22,8 +23,10 @@ pub struct SampleReceiver {
     memory: Arc<SharedMemory>,
 }
 
-/// A received sample, which is given back when it is dropped.
-struct Received {
+/// A received sample, which is given back when it is dropped. Not in a forked child: the parent may still read it.
+struct Received(ProcessOwned<Held>);
+
+struct Held {
     sample: Sample<Engine, [u8], ()>,
     _counted: Counted,
     // Last: the node must outlive the sample.
@@ -32,7 +35,7 @@ struct Received {
 
 impl AsRef<[u8]> for Received {
     fn as_ref(&self) -> &[u8] {
-        self.sample.payload()
+        self.0.sample.payload()
     }
 }
 
@@ -78,8 +81,8 @@ impl SampleReceiver {
             self.copied += 1;
             return Ok(Bytes::copy_from_slice(sample.payload()));
         }
-        let received = Received { sample, _counted: Counted::new(&self.kept), _memory: self.memory.clone() };
-        Ok(Bytes::from_owner(received))
+        let held = Held { sample, _counted: Counted::new(&self.kept), _memory: self.memory.clone() };
+        Ok(Bytes::from_owner(Received(ProcessOwned::new(held))))
     }
 
     /// Number of samples that were copied because too many were kept.

@@ -114,7 +114,7 @@ impl SampleSender {
     /// # Errors
     /// [`SendError`]; the sample is gone.
     pub fn send(&mut self, sample: LoanedSample) -> Result<(), SendError> {
-        match sample.sample.send() {
+        match sample.send() {
             Ok(1..) => Ok(()),
             Ok(0) => Err(SendError::NoReceiver),
             Err(error) => Err(SendError::Engine(format!("{error:?}"))),

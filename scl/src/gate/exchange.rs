@@ -12,6 +12,7 @@ use crate::sync::{AbortOnDrop, lock, try_lock};
 use crate::time::Watchdog;
 use crate::transport::{Answer, Requester};
 use bytes::Bytes;
+use scl_fork::ProcessOwned;
 use std::future::poll_fn;
 use std::pin::pin;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -22,7 +23,7 @@ use tokio::sync::Semaphore;
 use tokio::time::Instant;
 
 pub(super) struct Exchange {
-    end: Arc<Mutex<End>>,
+    end: ProcessOwned<Arc<Mutex<End>>>,
     calls: Arc<CallWakers>,
     /// One for each call that may be in progress.
     permits: Semaphore,
@@ -98,6 +99,7 @@ impl Exchange {
         }));
         let permits = Semaphore::new(watchdogs.len());
         let (watchdogs, last_id) = (Mutex::new(watchdogs), AtomicU64::new(0));
+        let end = ProcessOwned::new(end);
         Self { end, calls, permits, watchdogs, last_id, _task: AbortOnDrop::new(task.abort_handle()) }
     }
 
@@ -204,11 +206,6 @@ impl Exchange {
             }
             true
         })
-    }
-
-    /// Keeps the end from being dropped in a forked child, where that would disturb the parent.
-    pub(super) fn leak(&self) {
-        std::mem::forget(Arc::clone(&self.end));
     }
 
     fn lock(&self) -> MutexGuard<'_, End> {

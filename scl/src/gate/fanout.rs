@@ -331,7 +331,7 @@ pub(super) struct TooLong {
 impl Drop for Fanout {
     fn drop(&mut self) {
         if self.state.is_inherited() {
-            return self.tap.leak();
+            return;
         }
         for connection in self.connections.drain(..) {
             self.state.release(connection);

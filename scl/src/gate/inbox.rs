@@ -15,6 +15,7 @@ use crate::state::{Changes, ComponentState, ReceivingEnd, WakeCall};
 use crate::sync::{AbortOnDrop, lock, try_lock};
 use crate::transport::Receiver;
 use bytes::Bytes;
+use scl_fork::ProcessOwned;
 use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::sync::{Arc, Mutex, Weak};
@@ -69,7 +70,7 @@ pub(super) struct Arrived {
 
 /// The inbox, its waker, and the task that drives it.
 pub(super) struct SharedInbox {
-    inbox: Arc<Mutex<Inbox>>,
+    inbox: ProcessOwned<Arc<Mutex<Inbox>>>,
     pub(super) io: Arc<IoWaker>,
     _task: AbortOnDrop,
 }
@@ -92,7 +93,7 @@ impl SharedInbox {
             }
             Poll::Pending
         }));
-        Self { inbox, io, _task: AbortOnDrop::new(task.abort_handle()) }
+        Self { inbox: ProcessOwned::new(inbox), io, _task: AbortOnDrop::new(task.abort_handle()) }
     }
 
     /// Returns the next message, or registers the call and returns `Pending`.
@@ -136,11 +137,6 @@ impl SharedInbox {
 
     pub(super) fn downgrade(&self) -> Weak<Mutex<Inbox>> {
         Arc::downgrade(&self.inbox)
-    }
-
-    /// Keeps the ends from being dropped in a forked child, where that would disturb the parent.
-    pub(super) fn leak(&self) {
-        std::mem::forget(Arc::clone(&self.inbox));
     }
 }
 

@@ -357,7 +357,7 @@ impl<T> Incoming<T> {
 impl<T> Drop for Incoming<T> {
     fn drop(&mut self) {
         if self.state.is_inherited() {
-            return self.inbox.leak();
+            return;
         }
         // The task may hold the inbox a little longer.
         self.inbox.lock().stop_reporting();

@@ -17,6 +17,7 @@ use crate::sync::lock;
 use crate::transport::{IncomingRequest, Replier, ReplyPath};
 use bytes::Bytes;
 use futures_core::Stream;
+use scl_fork::ProcessOwned;
 use std::ops::Deref;
 use std::pin::Pin;
 use std::sync::{Arc, Mutex};
@@ -41,9 +42,9 @@ use std::time::Duration;
 /// ```
 pub struct Rep<A, B> {
     spec: &'static GateSpec,
-    end: Arc<ReplyEnd>,
+    end: ProcessOwned<Arc<ReplyEnd>>,
     decoder: Decoder<A>,
-    replies: Arc<Replies<B>>,
+    replies: ProcessOwned<Arc<Replies<B>>>,
 }
 
 /// What all requests of a gate need to be answered.
@@ -70,7 +71,7 @@ impl<A, B> Rep<A, B> {
         let encoding = Mutex::new(Encoding::with::<C>());
         let strictest = spec.connections.iter().min_by_key(|connection| connection.max_size);
         let replies = Arc::new(Replies { gate, encoding, tap, strictest, state });
-        Self { spec, end, decoder, replies }
+        Self { spec, end: ProcessOwned::new(end), decoder, replies: ProcessOwned::new(replies) }
     }
 
     /// Waits for the next request.
@@ -206,8 +207,7 @@ impl<A, B> Rep<A, B> {
 impl<A, B> Drop for Rep<A, B> {
     fn drop(&mut self) {
         if self.replies.state.is_inherited() {
-            std::mem::forget(Arc::clone(&self.end));
-            return std::mem::forget(Arc::clone(&self.replies));
+            return;
         }
         self.end.stop_reporting();
         self.replies.state.release(self.end.link());

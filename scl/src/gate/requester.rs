@@ -215,14 +215,6 @@ impl<A, B> Clone for Req<A, B> {
     }
 }
 
-impl<A, B> Drop for Shared<A, B> {
-    fn drop(&mut self) {
-        if self.state.is_inherited() {
-            self.exchange.iter().for_each(Exchange::leak);
-        }
-    }
-}
-
 impl<A, B> super::sealed::Sealed for Req<A, B> {}
 
 impl<A, B> AnyGate for Req<A, B> {

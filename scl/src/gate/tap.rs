@@ -4,6 +4,7 @@ use crate::sync::{AbortOnDrop, lock};
 use crate::transport::Tap;
 use bytes::Bytes;
 use rustix::time::{ClockId, clock_gettime};
+use scl_fork::ProcessOwned;
 use std::future::poll_fn;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, Weak};
@@ -25,7 +26,7 @@ pub(crate) enum Observed {
 
 /// The tap of one gate, shared by everything that the gate's messages pass through.
 pub(crate) struct GateTap {
-    shared: Option<Arc<Shared>>,
+    shared: Option<ProcessOwned<Arc<Shared>>>,
     _task: Option<AbortOnDrop>,
 }
 
@@ -66,7 +67,7 @@ impl GateTap {
             }
             None => Poll::Ready(()),
         }));
-        Self { shared: Some(shared), _task: Some(AbortOnDrop::new(task.abort_handle())) }
+        Self { shared: Some(ProcessOwned::new(shared)), _task: Some(AbortOnDrop::new(task.abort_handle())) }
     }
 
     /// Shows a message to the observers, if there are any.
@@ -88,13 +89,8 @@ impl GateTap {
 
     /// Tells the same for as long as the gate exists.
     pub(crate) fn dropped_later(&self) -> impl Fn() -> u64 + Send + Sync + 'static {
-        let shared = self.shared.as_ref().map(Arc::downgrade);
+        let shared = self.shared.as_deref().map(Arc::downgrade);
         move || shared.as_ref().and_then(Weak::upgrade).map_or(0, |shared| shared.dropped.load(Ordering::Relaxed))
-    }
-
-    /// Keeps the tap from being dropped in a forked child, where that would disturb the parent.
-    pub(crate) fn leak(&self) {
-        std::mem::forget(self.shared.clone());
     }
 }
 

@@ -10,11 +10,11 @@
 //! operating system tells which descriptor a lock was taken through: the second lock on a file leaves the first as it is. A
 //! copy that finds the file locked through another's descriptor keeps its own open, so that the lock stays.
 
-use crate::process_mark::ProcessMark;
 use crate::sync::lock;
 use rustix::fs::{FlockOperation, OFlags};
 use rustix::io::Errno;
 use rustix::process::{Flock, FlockType, fcntl_getlk};
+use scl_fork::ProcessMark;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io;
 use std::os::fd::{AsRawFd, RawFd};

@@ -3,7 +3,7 @@
 use super::SystemDir;
 use super::error::{ComponentProcess, RuntimeDirError};
 use super::held_locks::{Attempt, FileId, LockHolder, lock_holder, try_lock, unlock};
-use crate::process_mark::ProcessMark;
+use scl_fork::ProcessMark;
 use std::fs;
 use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};

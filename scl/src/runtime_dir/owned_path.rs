@@ -1,7 +1,7 @@
 //! Files and sockets that are removed together with the value that created them.
 
-use crate::process_mark::ProcessMark;
 use rustix::fs::{Mode, OFlags};
+use scl_fork::ProcessMark;
 use std::fs::{self, File};
 use std::io;
 use std::os::unix::fs::MetadataExt;

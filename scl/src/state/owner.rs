@@ -65,10 +65,10 @@ pub(super) fn await_other_users<T: ?Sized>(value: &Arc<T>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::process_mark::ProcessMark;
     use crate::registry::Unregistered;
     use crate::spec::ComponentSpec;
     use crate::state::OwnedRuntime;
+    use scl_fork::ProcessMark;
 
     static SPEC: ComponentSpec =
         ComponentSpec { system: "nav", name: "gps", declared_at: "nav.yaml:1:2", gates: &[], schema: None };

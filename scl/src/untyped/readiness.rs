@@ -2,10 +2,10 @@
 
 use super::Component;
 use crate::gate::ReadySet;
-use crate::process_mark::ProcessMark;
 use crate::state::Driven;
 use crate::stop;
 use crate::sync::AbortOnDrop;
+use scl_fork::ProcessOwned;
 use std::io;
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd, RawFd};
 use std::sync::{Arc, Weak};
@@ -53,8 +53,7 @@ pub struct Readiness {
     set: Arc<ReadySet>,
     /// Watches for a stop request.
     _stop: AbortOnDrop,
-    driven: Option<Driven>,
-    process: ProcessMark,
+    _driven: Option<ProcessOwned<Driven>>,
 }
 
 /// Wakes when the task that holds it is gone, with its runtime.
@@ -86,7 +85,7 @@ impl Readiness {
         for watch in component.watches.iter().filter(|watch| includes(watch.spec.name)) {
             watch.report_to(Arc::downgrade(&set));
         }
-        Ok(Self { set, _stop: stop, driven: state.drive_always(), process: ProcessMark::new() })
+        Ok(Self { set, _stop: stop, _driven: state.drive_always().map(ProcessOwned::new) })
     }
 
     /// A waker that makes the descriptor readable. All wakers of a `Readiness` are the same, so after one wake-up, all
@@ -105,15 +104,6 @@ impl Readiness {
     pub fn acknowledge_stop(&self) {
         if stop::was_requested() {
             self.set.acknowledge_stop();
-        }
-    }
-}
-
-impl Drop for Readiness {
-    fn drop(&mut self) {
-        if !self.process.is_own() {
-            // The runtime is the parent's.
-            std::mem::forget(self.driven.take());
         }
     }
 }
@@ -152,7 +142,7 @@ mod tests {
         let calls_may_wait = || recorder.handle.0.direct_wait().is_some();
         let mut readiness = recorder.readiness().unwrap();
         assert!(!calls_may_wait());
-        readiness.process = ProcessMark::inherited();
+        readiness._driven.as_mut().unwrap().inherit();
         drop(readiness);
         assert!(!calls_may_wait(), "the child tells the thread that drives the runtime");
     }

@@ -1,6 +1,7 @@
-//! Plays a component of `images.yaml` and follows commands: `images camera`, `images viewer` or `images worker`.
+//! Plays a component of `images.yaml` and follows commands: `images camera`, `images viewer`, `images keeper` or `images worker`.
 
 mod camera;
+mod keeper;
 mod order;
 mod picture;
 mod viewer;
@@ -9,18 +10,19 @@ mod worker;
 use picture::Picture;
 use scl_tests::say_error;
 use std::process::ExitCode;
+use tokio::runtime::Builder;
 
 scl::topology!("topologies/images.yaml");
 
-#[tokio::main(flavor = "current_thread")]
-async fn main() -> ExitCode {
+fn main() -> ExitCode {
     if let Err(error) = scl::host::start_log() {
         say_error(error);
     }
     let result = match std::env::args().nth(1).unwrap_or_default().as_str() {
-        "camera" => camera::play().await,
-        "viewer" => viewer::play().await,
-        "worker" => worker::play().await,
+        "camera" => run(camera::play()),
+        "viewer" => run(viewer::play()),
+        "worker" => run(worker::play()),
+        "keeper" => keeper::play(),
         other => Err(scl::Error::message(format!("there is no component `{other}`"))),
     };
     match result {
@@ -32,4 +34,8 @@ async fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn run(component: impl Future<Output = scl::Result<()>>) -> scl::Result<()> {
+    Builder::new_current_thread().enable_all().build()?.block_on(component)
 }
