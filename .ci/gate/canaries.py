@@ -33,11 +33,12 @@ FAULTY_TESTS = (
     + test("is_ignored", "", '#[ignore = "needs nothing"]\n')
     + test("leaves_a_file", 'std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/canary"), "").unwrap();')
     + test("leaves_a_temporary_file", 'std::fs::write(std::env::temp_dir().join("canary"), "").unwrap();')
+    + test("leaves_shared_memory", 'std::fs::write("/dev/shm/scl_canary", "").unwrap();')
     + test("leaves_a_process", 'std::process::Command::new("setsid").args(["sleep", "3600"]).spawn().unwrap();')
     + test("kills_itself", "std::process::abort();")
 )
 FOUND = ["canary_fails", "on purpose", "canary_is_ignored", "canary_kills_itself"]
-FOUND += [f"left behind: {what}" for what in ("process", LEFT_BEHIND, "temporary canary")] + ["sleep 3600"]
+FOUND += [f"left behind: {what}" for what in ("process", LEFT_BEHIND, "temporary canary", "shared memory scl_canary")] + ["sleep 3600"]
 HANGING_TEST = test("hangs", "loop { std::thread::park(); }")
 
 CANARIES = {

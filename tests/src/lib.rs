@@ -10,6 +10,7 @@ mod port;
 mod process;
 mod python;
 mod raw_peer;
+mod runtime_folder;
 mod shared_memory;
 mod stream;
 mod system;

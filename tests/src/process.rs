@@ -1,5 +1,6 @@
 //! A program under test: controlled through its input, observed through its output.
 
+use crate::runtime_folder::RuntimeFolder;
 use crate::{HANG_LIMIT, wait_until};
 use rustix::process::{Pid, Signal};
 use std::ffi::OsStr;
@@ -10,7 +11,6 @@ use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::Instant;
-use tempfile::TempDir;
 
 /// A running program; killed when dropped.
 pub struct Process {
@@ -20,7 +20,7 @@ pub struct Process {
     output: Lines,
     log: Lines,
     /// The runtime folder: without it, the program would make one that nobody removes.
-    _folder: Option<Arc<TempDir>>,
+    _folder: Option<Arc<RuntimeFolder>>,
 }
 
 /// How a program ended, and what it printed that no test has read yet.
@@ -58,7 +58,7 @@ impl Process {
     }
 
     /// Keeps a folder until the program has ended.
-    pub(crate) fn keeping(mut self, folder: Arc<TempDir>) -> Self {
+    pub(crate) fn keeping(mut self, folder: Arc<RuntimeFolder>) -> Self {
         self._folder = Some(folder);
         self
     }

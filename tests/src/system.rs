@@ -1,5 +1,6 @@
 //! The folder in which the programs of one test meet.
 
+use crate::runtime_folder::RuntimeFolder;
 use crate::{Address, NEVER, Process};
 use scl::{OpenOptions, TransportKind};
 use std::ffi::OsStr;
@@ -7,11 +8,10 @@ use std::fs::DirBuilder;
 use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tempfile::TempDir;
 
 /// A runtime folder for one test, with a path short enough for any socket.
 pub struct System {
-    folder: Arc<TempDir>,
+    folder: Arc<RuntimeFolder>,
     kind: TransportKind,
 }
 
@@ -30,7 +30,7 @@ impl System {
 
     /// A fresh folder; gates listen on a transport.
     pub fn over(kind: TransportKind) -> Self {
-        Self { folder: Arc::new(TempDir::with_prefix("scl").expect("a folder for the test")), kind }
+        Self { folder: Arc::new(RuntimeFolder::new()), kind }
     }
 
     /// The runtime folder.
@@ -46,6 +46,16 @@ impl System {
     /// For components that the test opens itself.
     pub fn options(&self) -> OpenOptions {
         OpenOptions::new().runtime_dir(self.folder.path()).transport_kind(self.kind)
+    }
+
+    /// The files in shared memory that belong to one of this folder's systems.
+    pub fn shared_files(&self, system: &str) -> Vec<PathBuf> {
+        self.folder.shared_files(system)
+    }
+
+    /// What the names of these files begin with.
+    pub fn shared_prefix(&self, system: &str) -> String {
+        self.folder.shared_prefix(system)
     }
 
     /// Starts a program in this runtime folder.

@@ -40,13 +40,14 @@ impl Host {
 
     /// A program that will run on this host.
     pub(crate) fn command(&self, program: impl AsRef<Path>) -> Command {
-        let mut command = self.namespace.command(program.as_ref());
+        // Inside, because `LD_PRELOAD` would have its effect on the way there.
+        let mut command = self.namespace.command("env");
+        command.args(self.environment.iter().map(|(name, value)| format!("{name}={value}"))).arg(program.as_ref());
         // `SCL_LOG` is that of the test.
         for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS"] {
             command.env_remove(name);
         }
         command.env("SCL_RUNTIME_DIR", self.runtime_dir());
-        command.envs(self.environment.iter().map(|(name, value)| (name, value)));
         command
     }
 

@@ -33,12 +33,15 @@ impl Namespace {
     }
 
     fn hold(mut unshare: Command, clocks_ahead: u32) -> Self {
-        if clocks_ahead > 0 {
-            unshare.args(["--time", "--fork"]);
-            unshare.arg(format!("--monotonic={clocks_ahead}")).arg(format!("--boottime={clocks_ahead}"));
-        }
         // `cat` ends when its input does, with the test.
-        unshare.args(["--net", "sh", "-c", "echo $$; exec cat"]);
+        let mut script = "echo $$; exec cat".to_owned();
+        if clocks_ahead > 0 {
+            unshare.args(["--time", "--fork", "--mount"]);
+            unshare.arg(format!("--monotonic={clocks_ahead}")).arg(format!("--boottime={clocks_ahead}"));
+            // Programs that libfaketime deceives leave files there when they are killed.
+            script.insert_str(0, "mount -t tmpfs scl /dev/shm && ");
+        }
+        unshare.args(["--net", "sh", "-c", &script]);
         unshare.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut holder = unshare.spawn().unwrap_or_else(|error| panic!("{MISSING}\n`unshare`: {error}"));
         let mut line = String::new();
@@ -59,7 +62,7 @@ impl Namespace {
             command.args(["--user", "--preserve-credentials"]);
         }
         if self.has_clocks {
-            command.arg("--time");
+            command.args(["--time", "--mount"]);
         }
         command.arg("--").arg(program);
         command
