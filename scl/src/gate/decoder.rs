@@ -40,6 +40,8 @@ impl<T> Decoder<T> {
         }
     }
 
+    // Inlined, the frame would be moved in pieces.
+    #[inline(never)]
     pub(super) fn decode(&self, frame: Bytes) -> Result<T, DecodeError> {
         if frame.len() > self.unchecked {
             self.check(&frame)?;

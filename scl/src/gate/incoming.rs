@@ -5,7 +5,7 @@ use super::decoder::Decoder;
 use super::inbox::{Arrived, SharedInbox};
 use super::stats::GateStats;
 use super::tap::GateTap;
-use super::undecodable::{AT_ONCE, SkipLimit, Undecodable};
+use super::undecodable::{AT_ONCE, SkipLimit, report, skips};
 #[cfg(feature = "raw")]
 use super::view::View;
 use super::watch::Watch;
@@ -80,12 +80,12 @@ impl<T> Incoming<T> {
     async fn next<R>(&mut self, mut caller: Caller, decode: impl Decode<T, R>) -> Result<R, RecvError> {
         loop {
             for _ in 0..AT_ONCE {
-                let arrived = Recv { gate: self, caller, is_waiting: false }.await?;
+                let arrived = Recv { gate: self, caller, is_waiting: false }.await;
+                let Some(arrived) = arrived else { return self.refuse() };
                 caller = Caller::NewCall;
-                match decode(self, arrived) {
-                    Err(Undecodable::Skipped) => {}
-                    Err(Undecodable::Failed(error)) => return Err(error),
-                    Ok(message) => return Ok(message),
+                let decoded = decode(self, arrived);
+                if decoded.is_ok() || !skips(self.spec) {
+                    return decoded;
                 }
             }
             tokio::task::yield_now().await;
@@ -98,11 +98,13 @@ impl<T> Incoming<T> {
         state.may_block().map_err(blocking)?;
         let caller = match self.wait_directly(Duration::MAX) {
             Err(caller) => caller,
-            Ok(arrived) => match decode(self, arrived) {
-                Err(Undecodable::Skipped) => Caller::NewCall,
-                Err(Undecodable::Failed(error)) => return Err(error),
-                Ok(message) => return Ok(message),
-            },
+            Ok(arrived) => {
+                let decoded = decode(self, arrived);
+                if decoded.is_ok() || !skips(self.spec) {
+                    return decoded;
+                }
+                Caller::NewCall
+            }
         };
         state.block_on(self.next(caller, decode)).map_err(blocking)?
     }
@@ -115,9 +117,9 @@ impl<T> Incoming<T> {
         let caller = match self.wait_directly(timeout) {
             Err(caller) => caller,
             Ok(arrived) => match self.decode(arrived) {
-                Err(Undecodable::Skipped) => Caller::NewCall,
-                Err(Undecodable::Failed(error)) => return Err(error.into()),
                 Ok(message) => return Ok(message),
+                Err(error) if !skips(self.spec) => return Err(error.into()),
+                Err(_) => Caller::NewCall,
             },
         };
         let left = timeout.saturating_sub(started.elapsed());
@@ -142,34 +144,40 @@ impl<T> Incoming<T> {
     /// The next item of a stream, which may be dropped without notice.
     pub(crate) fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<Result<T, RecvError>> {
         for _ in 0..AT_ONCE {
-            let arrived = ready!(self.poll_arrived(cx, Caller::Stream))?;
-            match self.decode(arrived) {
-                Err(Undecodable::Skipped) => {}
-                Err(Undecodable::Failed(error)) => return Poll::Ready(Err(error)),
-                Ok(message) => return Poll::Ready(Ok(message)),
+            let Some(arrived) = ready!(self.poll_arrived(cx, Caller::Stream)) else {
+                return Poll::Ready(self.refuse());
+            };
+            let decoded = self.decode(arrived);
+            if decoded.is_ok() || !skips(self.spec) {
+                return Poll::Ready(decoded);
             }
         }
         cx.waker().wake_by_ref();
         Poll::Pending
     }
 
-    fn poll_arrived(&mut self, cx: &mut Context<'_>, caller: Caller) -> Poll<Result<Arrived, RecvError>> {
-        if let Err(source) = self.state.check() {
-            return Poll::Ready(Err(self.refused(source)));
+    /// Returns no message if the call has to fail, as [`refuse`](Self::refuse) does. An error in its place would overlap with the
+    /// message, which the compiler then moves in pieces: with a short message that takes a noticeable part of the time.
+    fn poll_arrived(&mut self, cx: &mut Context<'_>, caller: Caller) -> Poll<Option<Arrived>> {
+        if self.state.check().is_err() {
+            return Poll::Ready(None);
         }
         // A stopped program's calls stay pending: what waits for them is dropped.
         if self.state.is_stopped() {
             return Poll::Pending;
         }
         match self.inbox.poll_next(cx, caller) {
-            Poll::Ready(arrived) => Poll::Ready(Ok(arrived)),
-            Poll::Pending => self.poll_ended().map(Err),
+            Poll::Ready(arrived) => Poll::Ready(Some(arrived)),
+            // The calls may have been ended before this one could register its waker.
+            Poll::Pending if self.state.check().is_err() => Poll::Ready(None),
+            Poll::Pending => Poll::Pending,
         }
     }
 
-    /// Ready if the calls were ended before a call could register its waker.
-    fn poll_ended(&self) -> Poll<RecvError> {
-        self.state.check().map_or_else(|source| Poll::Ready(self.refused(source)), |()| Poll::Pending)
+    /// The error of a call that the component's state does not allow, and never will again.
+    #[cold]
+    fn refuse<R>(&self) -> Result<R, RecvError> {
+        Err(self.refused(self.state.check().err().unwrap_or(BlockingError::Closed)))
     }
 
     /// Ready when a message can be taken, or a call would fail. It takes none.
@@ -179,7 +187,8 @@ impl<T> Incoming<T> {
         }
         match self.inbox.poll_ready(cx) {
             Poll::Ready(()) => Poll::Ready(Ok(())),
-            Poll::Pending => self.poll_ended().map(Err),
+            Poll::Pending if self.state.check().is_err() => Poll::Ready(self.refuse()),
+            Poll::Pending => Poll::Pending,
         }
     }
 
@@ -193,10 +202,12 @@ impl<T> Incoming<T> {
         loop {
             let Some(arrived) = self.inbox.lock().try_next() else { return Ok(None) };
             match decode(self, arrived) {
-                Err(Undecodable::Skipped) if limit.is_over() => return Ok(None),
-                Err(Undecodable::Skipped) => {}
-                Err(Undecodable::Failed(error)) => return Err(error),
                 Ok(message) => return Ok(Some(message)),
+                Err(error) if !skips(self.spec) => return Err(error),
+                Err(_) => {}
+            }
+            if limit.is_over() {
+                return Ok(None);
             }
         }
     }
@@ -214,9 +225,9 @@ impl<T> Incoming<T> {
     fn newest_of(&mut self, arrived: &mut VecDeque<Arrived>) -> Result<Option<T>, RecvError> {
         while let Some(newest) = arrived.pop_back() {
             match self.decode(newest) {
-                Err(Undecodable::Skipped) => {}
-                Err(Undecodable::Failed(error)) => return Err(error),
                 Ok(message) => return Ok(Some(message)),
+                Err(error) if !skips(self.spec) => return Err(error),
+                Err(_) => {}
             }
         }
         Ok(None)
@@ -265,7 +276,7 @@ impl<T> Incoming<T> {
     }
 
     #[cfg(feature = "raw")]
-    fn view(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<View<T>, Undecodable>
+    fn view(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<View<T>, RecvError>
     where
         T: FromBytes + KnownLayout + Immutable,
     {
@@ -278,21 +289,23 @@ impl<T> Incoming<T> {
         RecvError::Blocking { gate: self.name, source }
     }
 
-    fn decode(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<T, Undecodable> {
+    fn decode(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<T, RecvError> {
         (self.last, self.latched) = (link, latched);
         self.decoder.decode(frame).map_err(|source| self.undecodable(link, source))
     }
 
     #[cold]
-    fn undecodable(&self, link: usize, source: DecodeError) -> Undecodable {
+    fn undecodable(&self, link: usize, source: DecodeError) -> RecvError {
         let first = self.inbox.lock().undecodable.add(link);
         let error = RecvError::Decode { gate: self.name, peers: self.senders(link), source };
-        Undecodable::report(self.spec.options.undecodable, error, first)
+        report(self.spec, &error, first);
+        error
     }
 
     /// Reports the last message, which the program itself could not decode.
     pub(crate) fn reject(&mut self, source: DecodeError) -> Result<(), RecvError> {
-        self.undecodable(self.last, source).into_result()
+        let rejected = Err(self.undecodable(self.last, source));
+        if skips(self.spec) { Ok(()) } else { rejected }
     }
 
     /// The possible senders of a message: a listening gate has one link for all its peers.
@@ -365,9 +378,9 @@ impl<T> Drop for Incoming<T> {
 }
 
 /// Decodes what has arrived.
-trait Decode<T, R>: Fn(&mut Incoming<T>, Arrived) -> Result<R, Undecodable> {}
+trait Decode<T, R>: Fn(&mut Incoming<T>, Arrived) -> Result<R, RecvError> {}
 
-impl<T, R, D: Fn(&mut Incoming<T>, Arrived) -> Result<R, Undecodable>> Decode<T, R> for D {}
+impl<T, R, D: Fn(&mut Incoming<T>, Arrived) -> Result<R, RecvError>> Decode<T, R> for D {}
 
 /// A receiving call. Dropping it before it is ready hands the gate's I/O back to the background task.
 struct Recv<'a, T> {
@@ -377,7 +390,7 @@ struct Recv<'a, T> {
 }
 
 impl<T> Future for Recv<'_, T> {
-    type Output = Result<Arrived, RecvError>;
+    type Output = Option<Arrived>;
 
     fn poll(mut self: std::pin::Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Self::Output> {
         let caller = std::mem::replace(&mut self.caller, Caller::SameCall);

@@ -5,7 +5,7 @@ use super::encoding::Encoding;
 use super::reply_end::{Numbered, ReplyEnd};
 use super::stats::GateStats;
 use super::tap::{GateTap, Observed};
-use super::undecodable::{AT_ONCE, SkipLimit, Undecodable};
+use super::undecodable::{AT_ONCE, SkipLimit, report, skips};
 use super::watch::Watch;
 use super::{AnyGate, ReceivingGate};
 use crate::codec::{Codec, DecodeError};
@@ -121,10 +121,12 @@ impl<A, B> Rep<A, B> {
         loop {
             let Some(request) = self.end.try_next() else { return Ok(None) };
             match self.decode(request) {
-                Err(Undecodable::Skipped) if limit.is_over() => return Ok(None),
-                Err(Undecodable::Skipped) => {}
-                Err(Undecodable::Failed(error)) => return Err(error),
-                Ok(request) => return Ok(Some(request)),
+                Ok(message) => return Ok(Some(message)),
+                Err(error) if !skips(self.spec) => return Err(error),
+                Err(_) => {}
+            }
+            if limit.is_over() {
+                return Ok(None);
             }
         }
     }
@@ -161,9 +163,9 @@ impl<A, B> Rep<A, B> {
         for _ in 0..AT_ONCE {
             let Poll::Ready(request) = self.end.poll_next(cx, may_vanish) else { return self.poll_ended().map(Err) };
             match self.decode(request) {
-                Err(Undecodable::Skipped) => {}
-                Err(Undecodable::Failed(error)) => return Poll::Ready(Err(error)),
-                Ok(request) => return Poll::Ready(Ok(request)),
+                Ok(message) => return Poll::Ready(Ok(message)),
+                Err(error) if !skips(self.spec) => return Poll::Ready(Err(error)),
+                Err(_) => {}
             }
         }
         cx.waker().wake_by_ref();
@@ -181,13 +183,11 @@ impl<A, B> Rep<A, B> {
 
     /// Refuses a request that the program itself could not decode, and reports it.
     pub(crate) fn reject(&mut self, request: Request<A, B>, source: DecodeError) -> Result<(), RecvError> {
-        self.undecodable(&request.envelope, &*request.path, source).into_result()
+        let rejected = Err(self.undecodable(&request.envelope, &*request.path, source));
+        if skips(self.spec) { Ok(()) } else { rejected }
     }
 
-    fn decode(
-        &mut self,
-        (id, IncomingRequest { body, envelope, path }): Numbered,
-    ) -> Result<Request<A, B>, Undecodable> {
+    fn decode(&mut self, (id, IncomingRequest { body, envelope, path }): Numbered) -> Result<Request<A, B>, RecvError> {
         self.replies.tap.observe(Observed::Request, id, &body);
         match self.decoder.decode(body) {
             Ok(message) => Ok(Request { message, id, envelope, path, replies: Arc::clone(&self.replies) }),
@@ -196,11 +196,12 @@ impl<A, B> Rep<A, B> {
     }
 
     #[cold]
-    fn undecodable(&self, envelope: &Bytes, path: &dyn ReplyPath, source: DecodeError) -> Undecodable {
+    fn undecodable(&self, envelope: &Bytes, path: &dyn ReplyPath, source: DecodeError) -> RecvError {
         path.refuse(envelope);
         let first = self.end.count_undecodable();
         let error = RecvError::Decode { gate: self.replies.gate, peers: Peers::of(self.spec), source };
-        Undecodable::report(self.spec.options.undecodable, error, first)
+        report(self.spec, &error, first);
+        error
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::causes::text_with_causes;
 use crate::error::RecvError;
-use crate::spec;
+use crate::spec::{GateSpec, Undecodable};
 use std::time::{Duration, Instant};
 
 /// How many undecodable messages a waiting call skips before other tasks have their turn.
@@ -33,33 +33,17 @@ impl UndecodableCount {
     }
 }
 
-/// What became of a message that cannot be decoded.
-pub(super) enum Undecodable {
-    Skipped,
-    /// It is an error of the receiving call.
-    Failed(RecvError),
+/// Whether the gate passes such messages over.
+pub(super) fn skips(gate: &GateSpec) -> bool {
+    gate.options.undecodable == Undecodable::Skip
 }
 
-impl Undecodable {
-    /// Does what the gate declares. Only the `first` message of a peer is logged, because a peer whose messages are
-    /// undecodable sends many of them.
-    #[cold]
-    pub(super) fn report(declared: spec::Undecodable, error: RecvError, first: bool) -> Self {
-        if declared == spec::Undecodable::Fail {
-            return Self::Failed(error);
-        }
-        if first {
-            let error = text_with_causes(&error);
-            tracing::warn!("{error}; such messages are skipped and counted, and not logged again for this peer");
-        }
-        Self::Skipped
-    }
-
-    pub(super) fn into_result(self) -> Result<(), RecvError> {
-        match self {
-            Self::Skipped => Ok(()),
-            Self::Failed(error) => Err(error),
-        }
+/// Logs a message that is skipped, if it is the `first` of its peer, because a peer whose messages are undecodable sends many of
+/// them.
+pub(super) fn report(gate: &GateSpec, error: &RecvError, first: bool) {
+    if first && skips(gate) {
+        let error = text_with_causes(error);
+        tracing::warn!("{error}; such messages are skipped and counted, and not logged again for this peer");
     }
 }
 
