@@ -38,7 +38,8 @@ FAULTY_TESTS = (
     + test("kills_itself", "std::process::abort();")
 )
 FOUND = ["canary_fails", "on purpose", "canary_is_ignored", "canary_kills_itself"]
-FOUND += [f"left behind: {what}" for what in ("process", LEFT_BEHIND, "temporary canary", "shared memory scl_canary")] + ["sleep 3600"]
+LEFT = ["process", LEFT_BEHIND, "temporary canary", "shared memory scl_canary"]
+FOUND += [f"left behind: {what}" for what in LEFT] + ["sleep 3600"]
 HANGING_TEST = test("hangs", "loop { std::thread::park(); }")
 
 CANARIES = {

@@ -45,20 +45,15 @@ pub async fn catches_up_with_a_busy_sender(transport: &dyn Transport) {
         send(&mut sender, &mut last, MANY).await;
         for _ in 0..10 {
             let called_at = last;
-            let newest = loop {
-                let polled = poll_fn(|cx| {
-                    for _ in 0..100 {
-                        last += 1;
-                        sender.replace(message(last));
-                        sender.poll(cx);
-                    }
-                    Poll::Ready(poll_newest(&mut receiver, cx))
-                });
-                match polled.await {
-                    Poll::Ready(newest) => break newest,
-                    Poll::Pending => sockets_looked_at().await,
+            let newest = until_caught_up(|cx| {
+                for _ in 0..100 {
+                    last += 1;
+                    sender.replace(message(last));
+                    sender.poll(cx);
                 }
-            };
+                poll_newest(&mut receiver, cx)
+            });
+            let newest = newest.await;
             assert!(newest >= called_at, "{pattern:?}: {newest} is older than the call, {called_at}");
             let sent = last - called_at;
             assert!(sent <= MANY, "{pattern:?}: the sender sent {sent} messages until the receiver had caught up");
@@ -83,22 +78,17 @@ pub async fn catches_up_with_senders_that_answer_in_turn(transport: &dyn Transpo
     for _ in 0..10 {
         let called_at = last;
         let (mut turn, mut turn_began) = (0, Instant::now());
-        let newest = loop {
+        let newest = until_caught_up(|cx| {
             if turn_began.elapsed() >= TURN {
                 (turn, turn_began) = (turn + 1, Instant::now());
             }
-            let polled = poll_fn(|cx| {
-                let pusher = &mut pushers[turn % 2];
-                last += 1;
-                pusher.replace(message(last));
-                pusher.poll(cx);
-                Poll::Ready(poll_newest(&mut puller, cx))
-            });
-            match polled.await {
-                Poll::Ready(newest) => break newest,
-                Poll::Pending => sockets_looked_at().await,
-            }
-        };
+            let pusher = &mut pushers[turn % 2];
+            last += 1;
+            pusher.replace(message(last));
+            pusher.poll(cx);
+            poll_newest(&mut puller, cx)
+        });
+        let newest = newest.await;
         assert!(newest >= called_at, "{newest} is older than the call, {called_at}");
         assert!(turn <= MOST_TURNS, "the pushers had {turn} turns until the puller had caught up");
     }
@@ -166,6 +156,16 @@ async fn send(sender: &mut TestSender, last: &mut u64, count: u64) {
             }
         })
         .await;
+    }
+}
+
+/// Polls a sender that does not pause, and its receiver, until that has caught up.
+async fn until_caught_up(mut poll: impl FnMut(&Context<'_>) -> Poll<u64>) -> u64 {
+    loop {
+        match poll_fn(|cx| Poll::Ready(poll(cx))).await {
+            Poll::Ready(newest) => return newest,
+            Poll::Pending => sockets_looked_at().await,
+        }
     }
 }
 
