@@ -12,6 +12,7 @@ mod inbox;
 mod incoming;
 mod io_waker;
 mod latch;
+mod links;
 mod loaned;
 mod outgoing;
 mod publisher;

@@ -387,9 +387,9 @@ pub trait Receiver: Send {
     }
 
     /// Tells how many of the messages that were returned wait in the gate's queue, for [`Link::not_received`]: the program
-    /// has received the others, or the queue has dropped them. Called after each attempt to receive, so it must be cheap.
-    fn note_waiting(&mut self, waiting: u64) {
-        let _does_not_tell_its_senders = waiting;
+    /// has received the others, or the queue has dropped them. Called often, so it must be cheap.
+    fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) {
+        let _does_not_tell_its_senders = (cx, waiting);
     }
 
     /// Tells that the message returned last was dropped at once, because the gate's queue was full: the messages that wait

@@ -3,8 +3,8 @@
 //! The senders may be slow to answer, each at another time, and the program may give up each of its calls after a
 //! while. It must have their newest message nevertheless, and one that is not older than its call.
 
-use crate::transport::Receiver;
-use std::task::{Context, Poll};
+use super::links::Links;
+use std::task::Poll;
 use std::time::{Duration, Instant};
 
 /// How old a question may be for the call of a stream, whose beginning is not known.
@@ -44,18 +44,18 @@ impl CatchUp {
 
     /// Ready when each sender has said, since the call began, that it holds back nothing newer. To know that, the links
     /// may have read messages that were not there before.
-    pub(super) fn poll(&mut self, cx: &mut Context<'_>, links: &mut [Box<dyn Receiver>], caller: Caller) -> Poll<()> {
+    pub(super) fn poll(&mut self, links: &mut Links, caller: Caller) -> Poll<()> {
         match &mut self.asked {
             Some(asked) => asked.is_old |= !asked.counts_for(caller),
-            None => forget_answers(links),
+            None => links.forget_answers(),
         }
-        if is_behind(cx, links) {
+        if links.are_behind() {
             self.asked.get_or_insert_with(|| Asked::now(false));
             return Poll::Pending;
         }
         if self.asked.take().is_some_and(|asked| asked.is_old) {
-            forget_answers(links);
-            if is_behind(cx, links) {
+            links.forget_answers();
+            if links.are_behind() {
                 self.asked = Some(Asked::now(true));
                 return Poll::Pending;
             }
@@ -77,13 +77,4 @@ impl Asked {
             Caller::Stream => self.at.elapsed() <= FRESH,
         }
     }
-}
-
-fn forget_answers(links: &mut [Box<dyn Receiver>]) {
-    links.iter_mut().for_each(|link| link.forget_answers());
-}
-
-/// Asks every sender, even if an earlier one is behind.
-fn is_behind(cx: &mut Context<'_>, links: &mut [Box<dyn Receiver>]) -> bool {
-    links.iter_mut().fold(false, |behind, link| link.poll_caught_up(cx).is_pending() | behind)
 }

@@ -1,7 +1,8 @@
-//! The ends of a receiving gate and its queue, shared by the calls of the program and the gate's background task.
+//! The links of a receiving gate and its queue, shared by the calls of the program and the gate's background task.
 
 use super::catch_up::{Caller, CatchUp};
 use super::io_waker::IoWaker;
+use super::links::{Arrived, Links};
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::ready_set::{ReadySet, ReadySignals};
 use super::stats::Activity;
@@ -11,15 +12,14 @@ use crate::error::Missing;
 use crate::figures::{FigureSource, FiguresInWait};
 use crate::runtime_dir::GateFigures;
 use crate::spec::{GateSpec, WhenFull};
-use crate::state::{Changes, ComponentState, ReceivingEnd, WakeCall};
+use crate::state::{ComponentState, ReceivingEnd, WakeCall};
 use crate::sync::{AbortOnDrop, lock, try_lock};
 use crate::transport::Receiver;
-use bytes::Bytes;
 use scl_fork::ProcessOwned;
 use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::sync::{Arc, Mutex, Weak};
-use std::task::{Context, Poll, Waker, ready};
+use std::task::{Context, Poll, ready};
 use std::time::{Duration, Instant};
 
 /// How many messages one call takes in at most, so that a fast peer cannot keep a call from returning.
@@ -30,9 +30,7 @@ const CATCH_UP: Duration = Duration::from_millis(10);
 
 /// What has arrived at a gate and was not given to the program yet.
 pub(super) struct Inbox {
-    links: Vec<Box<dyn Receiver>>,
-    /// The link to ask first, so that all get their turn.
-    next: usize,
+    links: Links,
     queue: Queue<Arrived>,
     /// Whether the last receiving call found nothing, and nothing was taken in since.
     was_empty: bool,
@@ -42,30 +40,12 @@ pub(super) struct Inbox {
     newest_only: bool,
     /// Whether one link serves all peers.
     listens: bool,
-    pub(super) received: u64,
-    /// The same for each link.
-    received_over: Vec<u64>,
-    /// Whether the sender of each link keeps its last message for those that join.
-    latched: Vec<bool>,
-    /// How many messages of each link wait in the queue.
-    waiting_of: Vec<u64>,
     /// Messages that the codec could not read.
     pub(super) undecodable: UndecodableCount,
     pub(super) activity: Activity,
     in_wait: Arc<FiguresInWait>,
     tap: GateTap,
-    waker: Waker,
-    connected: Vec<usize>,
-    changes: Changes,
     ready: ReadySignals,
-}
-
-/// A message and the link that it came from.
-pub(super) struct Arrived {
-    pub(super) link: usize,
-    pub(super) frame: Bytes,
-    /// When it was sent, if that was before this gate had joined.
-    pub(super) latched: Option<Instant>,
 }
 
 /// The inbox, its waker, and the task that drives it.
@@ -80,8 +60,8 @@ impl SharedInbox {
     pub(super) fn new(spec: &GateSpec, links: Vec<Box<dyn Receiver>>, tap: GateTap, state: &ComponentState) -> Self {
         let io = Arc::new(IoWaker::default());
         state.register_calls(Arc::downgrade(&io) as _);
-        let waker = Waker::from(Arc::clone(&io));
-        let inbox = Arc::new(Mutex::new(Inbox::new(spec, links, tap, state.changes(), waker)));
+        let links = Links::new(links, Arc::clone(&io), state.changes());
+        let inbox = Arc::new(Mutex::new(Inbox::new(spec, links, tap)));
         state.register_receiving(Arc::downgrade(&inbox) as _);
         // Weak, so that the ends are gone with the gate, and not only when the runtime drops the task.
         let (driven, task_io) = (Arc::downgrade(&inbox), Arc::clone(&io));
@@ -141,28 +121,20 @@ impl SharedInbox {
 }
 
 impl Inbox {
-    fn new(spec: &GateSpec, links: Vec<Box<dyn Receiver>>, tap: GateTap, changes: Changes, waker: Waker) -> Self {
+    fn new(spec: &GateSpec, links: Links, tap: GateTap) -> Self {
         let policy = QueuePolicy { capacity: spec.options.queue as usize, when_full: spec.options.when_full };
         Self {
-            connected: vec![0; links.len()],
-            received_over: vec![0; links.len()],
-            latched: vec![false; links.len()],
-            waiting_of: vec![0; links.len()],
             links,
-            next: 0,
             queue: Queue::new(policy),
             was_empty: false,
             is_stalled: false,
             catch_up: CatchUp::default(),
             newest_only: spec.newest_only(),
             listens: !spec.endpoint.is_empty(),
-            received: 0,
             undecodable: UndecodableCount::of_links(spec.connections.len()),
             in_wait: Arc::new(FiguresInWait::new(spec.connections.len())),
             activity: Activity::default(),
             tap,
-            waker,
-            changes,
             ready: ReadySignals::default(),
         }
     }
@@ -185,10 +157,13 @@ impl Inbox {
             }
             return polled;
         }
+        if self.newest_only {
+            // What a sender has said counts only if its link was looked at just now.
+            self.links.look_again();
+        }
         self.take_in();
         if self.newest_only {
-            let cx = &mut Context::from_waker(&self.waker);
-            ready!(self.catch_up.poll(cx, &mut self.links, caller));
+            ready!(self.catch_up.poll(&mut self.links, caller));
             self.take_in();
         }
         let first = self.pop();
@@ -218,7 +193,7 @@ impl Inbox {
             let within = within.checked_sub(started.elapsed())?;
             let in_wait = Arc::clone(&self.in_wait);
             let waiting = in_wait.begin(|figures| self.read_figures(figures));
-            let arrived = self.links[0].wait(within);
+            let arrived = self.links.wait(within);
             drop(waiting);
             if !arrived {
                 return None;
@@ -243,18 +218,17 @@ impl Inbox {
         self.was_empty = false;
         self.fetch();
         self.take_in();
-        if !self.queue.waits() && self.is_lossless() {
+        if !self.queue.waits() && self.links.are_lossless() {
             // The sender waits for each of its messages: at any time there is only one.
             arrived.extend(self.pop());
             return self.report_ready();
         }
         std::mem::swap(self.queue.items_mut(), arrived);
-        self.waiting_of.fill(0);
-        self.note_waiting();
+        self.links.count_all_gone();
         if self.queue.waits() {
             // Such a gate takes in no more than its queue holds, but what is passed over keeps no publisher waiting.
             self.pass_over(arrived);
-            self.note_waiting();
+            self.links.note_waiting();
         }
         self.report_ready();
     }
@@ -268,7 +242,7 @@ impl Inbox {
             arrived.push_back(newer);
         }
         // There is more, as in `drain_links`.
-        self.waker.wake_by_ref();
+        self.links.ask_later();
     }
 
     /// From now on reports to a set whether something can be received.
@@ -294,58 +268,34 @@ impl Inbox {
         self.ready.report(!self.queue.is_empty());
     }
 
-    /// Drains the links into the queue, as far as it makes its senders wait, and notes what the program has received.
+    /// Drains the links into the queue, as far as it makes its senders wait, and tells them what the program has received.
     fn take_in(&mut self) {
+        if !self.links.may_have_more() {
+            return;
+        }
+        // Before as well: what has arrived may be the question how much that is.
+        self.links.note_waiting();
         self.drain_links();
-        self.note_waiting();
+        self.links.note_waiting();
+        debug_assert_eq!(
+            self.links.waiting(),
+            self.queue.len() as u64,
+            "each message in the queue is counted for its sender"
+        );
     }
 
     fn drain_links(&mut self) {
         for _ in 0..TAKE_IN {
-            self.is_stalled = self.queue.is_full() && (self.queue.waits() || self.is_lossless());
+            self.is_stalled = self.queue.is_full() && (self.queue.waits() || self.links.are_lossless());
             if self.is_stalled {
-                return self.connect_links();
+                return self.links.connect();
             }
             if !self.take_in_one() {
                 return;
             }
         }
         // There is more: the task continues after others had their turn.
-        self.waker.wake_by_ref();
-    }
-
-    fn keep(&mut self, arrived: Arrived) {
-        if arrived.latched.is_some() && self.queue.policy().when_full == WhenFull::DropNewest {
-            // It is the state that holds; those before it are not.
-            self.waiting_of[arrived.link] += 1;
-            if let Some(newest) = self.queue.push_over_newest(arrived) {
-                self.waiting_of[newest.link] -= 1;
-            }
-            return;
-        }
-        let (link, oldest) = (arrived.link, self.queue.front().map(|oldest| oldest.link));
-        match (self.queue.push(arrived), oldest) {
-            (Pushed::Dropped, _) => return self.links[link].note_dropped(),
-            (Pushed::ReplacedOldest, Some(oldest)) => self.waiting_of[oldest] -= 1,
-            _ => {}
-        }
-        self.waiting_of[link] += 1;
-    }
-
-    fn pop(&mut self) -> Option<Arrived> {
-        let arrived = self.queue.pop()?;
-        let (link, waiting) = (arrived.link, &mut self.waiting_of[arrived.link]);
-        *waiting -= 1;
-        if *waiting == 0 {
-            // The program may receive nothing for long, and its sender may wait for this.
-            self.links[link].note_waiting(0);
-        }
-        if self.is_stalled {
-            // For the same reason: a sender that closes asks what was received, and waits for the answer. There is room
-            // for one message now, and the links are connected already.
-            self.is_stalled = self.take_in_one();
-        }
-        Some(arrived)
+        self.links.ask_later();
     }
 
     /// Returns false if nothing has arrived; the links then wake the task as soon as something does.
@@ -356,68 +306,58 @@ impl Inbox {
         true
     }
 
-    fn note_waiting(&mut self) {
-        for (link, waiting) in self.links.iter_mut().zip(&self.waiting_of) {
-            link.note_waiting(*waiting);
-        }
-    }
-
-    /// Without this, a component that takes nothing before all of its peers are there would wait forever, once the first
-    /// of them has filled the queue.
-    fn connect_links(&mut self) {
-        let cx = &mut Context::from_waker(&self.waker);
-        for ((link, connected), latched) in self.links.iter_mut().zip(&mut self.connected).zip(&mut self.latched) {
-            link.connect(cx);
-            if report_peers(&**link, connected, &self.changes) {
-                *latched = link.is_latched();
-            }
-        }
-    }
-
-    /// Whether a sender relies on this gate not to drop messages, although its queue would.
-    fn is_lossless(&self) -> bool {
-        self.links.iter().any(|link| link.is_lossless())
-    }
-
     fn poll_links(&mut self) -> Poll<Arrived> {
-        let cx = &mut Context::from_waker(&self.waker);
-        let count = self.links.len();
-        for offset in 0..count {
-            let link = (self.next + offset) % count;
-            let polled = self.links[link].poll_recv(cx);
-            if report_peers(&*self.links[link], &mut self.connected[link], &self.changes) {
-                self.latched[link] = self.links[link].is_latched();
-            }
-            if let Poll::Ready(frame) = polled {
-                self.next = (link + 1) % count;
-                self.received += 1;
-                self.received_over[link] += 1;
-                self.activity.add(frame.len());
-                self.tap.observe(Observed::Message, 0, &frame);
-                let latched = if self.latched[link] { self.links[link].take_latched() } else { None };
-                return Poll::Ready(Arrived { link, frame, latched });
-            }
-        }
-        Poll::Pending
+        let arrived = ready!(self.links.poll_next());
+        self.activity.add(arrived.frame.len());
+        self.tap.observe(Observed::Message, 0, &arrived.frame);
+        Poll::Ready(arrived)
     }
 
-    /// Asks the operating system, because the runtime may not have had a turn for long.
+    fn keep(&mut self, arrived: Arrived) {
+        let link = arrived.link;
+        let gone = if !self.queue.is_full() {
+            self.queue.push(arrived);
+            None
+        } else if arrived.latched.is_some() && self.queue.policy().when_full == WhenFull::DropNewest {
+            // It is the state that holds; those before it are not.
+            self.queue.push_over_newest(arrived).map(|newest| newest.link)
+        } else {
+            let oldest = self.queue.front().map(|oldest| oldest.link);
+            if self.queue.push(arrived) == Pushed::Dropped {
+                return self.links.note_dropped(link);
+            }
+            oldest
+        };
+        self.links.count_waiting(link);
+        if let Some(gone) = gone {
+            self.links.count_gone(gone);
+        }
+    }
+
+    fn pop(&mut self) -> Option<Arrived> {
+        let arrived = self.queue.pop()?;
+        self.links.count_gone(arrived.link);
+        if self.is_stalled {
+            // A sender that closes asks what was received, and waits for the answer. There is room for one message now, and
+            // the links are connected already.
+            self.is_stalled = self.take_in_one();
+        }
+        Some(arrived)
+    }
+
     fn fetch(&mut self) {
-        let within = if self.newest_only { CATCH_UP } else { Duration::ZERO };
-        self.links.iter_mut().for_each(|link| link.catch_up(within));
+        self.links.fetch(if self.newest_only { CATCH_UP } else { Duration::ZERO });
     }
 
     /// The required peers that are not connected, of a gate with one link per peer.
     pub(super) fn missing(&self, spec: &'static GateSpec) -> Vec<Missing> {
-        let links = spec.connections.iter().zip(&self.links);
-        let missing = links.filter(|(link, end)| link.required && end.peers() == 0);
-        missing.map(|(connection, end)| Missing { connection, refusal: end.refusal() }).collect()
+        self.links.missing(spec)
     }
 
     /// Brings the figures of the gate up to date.
     pub(super) fn read_figures(&self, figures: &mut GateFigures) {
         figures.clear();
-        figures.received = self.received;
+        figures.received = self.received();
         figures.rejected = self.rejected();
         figures.undecodable = self.undecodable.total();
         figures.replaced = self.queue.replaced;
@@ -429,17 +369,19 @@ impl Inbox {
         figures.peers = self.peers() as u64;
         self.activity.add_to_figures(figures);
         if self.listens {
-            return figures.share(self.peers() as u64, self.received);
+            return figures.share(self.peers() as u64, self.received());
         }
-        let links = self.links.iter().zip(&self.received_over);
-        for (connection, (link, received)) in figures.connections.iter_mut().zip(links) {
-            (connection.connected, connection.taken) = (link.peers() > 0, *received);
-        }
+        self.links.add_to_figures(figures);
+    }
+
+    /// Number of messages that arrived.
+    pub(super) fn received(&self) -> u64 {
+        self.links.received()
     }
 
     /// Number of messages that could not be used.
     pub(super) fn rejected(&self) -> u64 {
-        self.undecodable.total() + self.malformed()
+        self.undecodable.total() + self.links.malformed()
     }
 
     pub(super) fn queue(&self) -> &Queue<Arrived> {
@@ -450,21 +392,15 @@ impl Inbox {
         self.tap.dropped()
     }
 
-    /// Number of messages that were not one frame.
-    fn malformed(&self) -> u64 {
-        self.links.iter().map(|link| link.malformed()).sum()
-    }
-
     /// Number of connected peers.
     pub(super) fn peers(&self) -> usize {
-        self.links.iter().map(|link| link.peers()).sum()
+        self.links.peers()
     }
 }
 
 impl ReceivingEnd for Inbox {
     fn acknowledge_last(&mut self) {
-        self.note_waiting();
-        self.links.iter_mut().for_each(|link| link.acknowledge_last());
+        self.links.acknowledge_last();
     }
 }
 
@@ -472,15 +408,4 @@ impl Drop for Inbox {
     fn drop(&mut self) {
         self.acknowledge_last();
     }
-}
-
-/// Called after every poll of a link: a waiting call is woken instead of the task, and completes the connection.
-/// Returns true if their number has changed.
-fn report_peers(link: &dyn Receiver, connected: &mut usize, changes: &Changes) -> bool {
-    let peers = link.peers();
-    let has_changed = std::mem::replace(connected, peers) != peers;
-    if has_changed {
-        changes.report();
-    }
-    has_changed
 }

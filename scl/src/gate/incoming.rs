@@ -2,7 +2,8 @@
 
 use super::catch_up::Caller;
 use super::decoder::Decoder;
-use super::inbox::{Arrived, SharedInbox};
+use super::inbox::SharedInbox;
+use super::links::Arrived;
 use super::stats::GateStats;
 use super::tap::GateTap;
 use super::undecodable::{AT_ONCE, SkipLimit, report, skips};
@@ -351,7 +352,7 @@ impl<T> Incoming<T> {
     pub(crate) fn stats(&self) -> GateStats {
         let inbox = self.inbox.lock();
         let mut stats = GateStats {
-            received: inbox.received,
+            received: inbox.received(),
             rejected: inbox.rejected(),
             undecodable: inbox.undecodable.total(),
             replaced: inbox.queue().replaced,

@@ -6,12 +6,15 @@
 
 use crate::state::WakeCall;
 use crate::sync::lock;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::task::{Wake, Waker};
 
 #[derive(Default)]
 pub(crate) struct IoWaker {
     wakers: Mutex<Wakers>,
+    /// Whether there was an event since [`Drained`] asked last.
+    has_event: AtomicBool,
 }
 
 #[derive(Default)]
@@ -71,6 +74,7 @@ impl Wake for IoWaker {
     }
 
     fn wake_by_ref(self: &Arc<Self>) {
+        self.has_event.store(true, Ordering::Release);
         let (call, task) = {
             let mut wakers = lock(&self.wakers);
             let call = wakers.call.take();
@@ -78,6 +82,41 @@ impl Wake for IoWaker {
             (call, task)
         };
         call.into_iter().chain(task).for_each(Waker::wake);
+    }
+}
+
+/// Whether ends that are polled under an [`IoWaker`] had nothing when all of them were polled last. Then they need not be
+/// polled again before an event: to look at them costs as much as a short message.
+pub(super) struct Drained {
+    io: Arc<IoWaker>,
+    /// Set and not reset.
+    is_set: bool,
+}
+
+impl Drained {
+    pub(super) fn new(io: Arc<IoWaker>) -> Self {
+        Self { io, is_set: false }
+    }
+
+    /// Returns true if there was no event since [`set`](Self::set).
+    pub(super) fn still_holds(&mut self) -> bool {
+        self.is_set = self.is_set && !self.take_event();
+        self.is_set
+    }
+
+    /// To be called when all ends were polled since `still_holds` and none had anything.
+    pub(super) fn set(&mut self) {
+        self.is_set = true;
+    }
+
+    /// To be called when an end may have something without an event.
+    pub(super) fn reset(&mut self) {
+        self.is_set = false;
+    }
+
+    fn take_event(&self) -> bool {
+        let has_event = &self.io.has_event;
+        has_event.load(Ordering::Relaxed) && has_event.swap(false, Ordering::AcqRel)
     }
 }
 
@@ -117,5 +156,22 @@ mod tests {
         io.wake_by_ref();
         io.cancel();
         assert_eq!(wakes(), (3, 3), "cancelled after an event that nobody handled");
+    }
+
+    #[test]
+    fn what_is_drained_stays_so_until_an_event() {
+        let io = Arc::new(IoWaker::default());
+        let mut drained = Drained::new(Arc::clone(&io));
+        assert!(!drained.still_holds(), "not polled yet");
+        drained.set();
+        assert!(drained.still_holds() && drained.still_holds(), "nothing has happened");
+        io.wake_by_ref();
+        assert!(!drained.still_holds() && !drained.still_holds(), "an event");
+        io.wake_by_ref();
+        drained.set();
+        assert!(!drained.still_holds(), "an event while the ends were polled");
+        drained.set();
+        drained.reset();
+        assert!(!drained.still_holds(), "reset");
     }
 }

@@ -72,7 +72,7 @@ impl Receiver for Subscriber {
         self.publisher.as_ref()?.latched(self.inbound.fetched.len() as u64)
     }
 
-    fn note_waiting(&mut self, waiting: u64) {
+    fn note_waiting(&mut self, _: &mut Context<'_>, waiting: u64) {
         if let Some(publisher) = &self.publisher {
             publisher.note_waiting(waiting + self.inbound.fetched.len() as u64);
         }
@@ -152,7 +152,7 @@ impl Receiver for Puller {
         open + self.listener.count(PipeReader::is_open)
     }
 
-    fn note_waiting(&mut self, waiting: u64) {
+    fn note_waiting(&mut self, _: &mut Context<'_>, waiting: u64) {
         let pushers = &mut self.pushers;
         self.waiting.keep_newest(waiting + self.inbound.fetched.len() as u64, |sender, count| {
             if let Some(pusher) = pushers.iter_mut().find(|pusher| pusher.number == sender) {

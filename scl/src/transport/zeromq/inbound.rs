@@ -237,10 +237,12 @@ impl Inbound {
     }
 
     /// Notes how many of the messages returned wait in the gate, and tells the sender if it has asked.
-    pub(super) fn note_waiting(&mut self, waiting: u64) {
+    pub(super) fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) {
         let waiting = waiting + self.ahead.len() as u64;
         if self.credit.as_mut().is_some_and(|credit| credit.note_waiting(waiting)) {
             self.acknowledge();
+            // Nothing else may happen on this connection until the sender has read that.
+            let _reported_by_reading = self.session.flush(cx);
         }
     }
 

@@ -107,9 +107,9 @@ impl Receiver for Subscriber {
         }
     }
 
-    fn note_waiting(&mut self, waiting: u64) {
+    fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) {
         if let Some(publisher) = &mut self.publisher {
-            publisher.note_waiting(waiting);
+            publisher.note_waiting(cx, waiting);
         }
     }
 

@@ -1,0 +1,217 @@
+//! The links of a receiving gate, asked in turn for what has arrived.
+
+use super::io_waker::{Drained, IoWaker};
+use crate::error::Missing;
+use crate::runtime_dir::GateFigures;
+use crate::spec::GateSpec;
+use crate::state::Changes;
+use crate::transport::Receiver;
+use bytes::Bytes;
+use std::sync::Arc;
+use std::task::{Context, Poll, Waker};
+use std::time::{Duration, Instant};
+
+/// One link per peer, or one for all peers of a gate that listens.
+pub(super) struct Links {
+    links: Vec<Link>,
+    /// The link to ask first, so that all get their turn.
+    next: usize,
+    drained: Drained,
+    waker: Waker,
+    changes: Changes,
+}
+
+struct Link {
+    end: Box<dyn Receiver>,
+    /// Number of connected peers when it was asked last.
+    peers: usize,
+    /// Whether its sender keeps its last message for those that join.
+    is_latched: bool,
+    /// Number of messages that it has returned.
+    received: u64,
+    /// How many of them wait in the gate's queue.
+    waiting: u64,
+}
+
+/// A message and the link that it came from.
+pub(super) struct Arrived {
+    pub(super) link: usize,
+    pub(super) frame: Bytes,
+    /// When it was sent, if that was before this gate had joined.
+    pub(super) latched: Option<Instant>,
+}
+
+impl Links {
+    /// `io` is woken when it is worth asking the links again.
+    pub(super) fn new(ends: Vec<Box<dyn Receiver>>, io: Arc<IoWaker>, changes: Changes) -> Self {
+        let to_link = |end| Link { end, peers: 0, is_latched: false, received: 0, waiting: 0 };
+        let (links, waker) = (ends.into_iter().map(to_link).collect(), Waker::from(Arc::clone(&io)));
+        Self { links, next: 0, drained: Drained::new(io), waker, changes }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.links.len()
+    }
+
+    /// Returns false if nothing has arrived since all of them had nothing.
+    pub(super) fn may_have_more(&mut self) -> bool {
+        !self.drained.still_holds()
+    }
+
+    /// Asks all of them the next time, whatever they had.
+    pub(super) fn look_again(&mut self) {
+        self.drained.reset();
+    }
+
+    /// Returns the next message, if one has arrived.
+    pub(super) fn poll_next(&mut self) -> Poll<Arrived> {
+        if !self.may_have_more() {
+            return Poll::Pending;
+        }
+        let cx = &mut Context::from_waker(&self.waker);
+        let count = self.links.len();
+        for offset in 0..count {
+            let number = (self.next + offset) % count;
+            let link = &mut self.links[number];
+            let polled = link.end.poll_recv(cx);
+            link.report_peers(&self.changes);
+            if let Poll::Ready(frame) = polled {
+                self.next = (number + 1) % count;
+                link.received += 1;
+                let latched = if link.is_latched { link.end.take_latched() } else { None };
+                return Poll::Ready(Arrived { link: number, frame, latched });
+            }
+        }
+        self.drained.set();
+        Poll::Pending
+    }
+
+    /// Lets the links connect while there is no room for their messages.
+    pub(super) fn connect(&mut self) {
+        self.drained.reset();
+        let cx = &mut Context::from_waker(&self.waker);
+        for link in &mut self.links {
+            link.end.connect(cx);
+            link.report_peers(&self.changes);
+        }
+    }
+
+    /// Asks again after others had their turn.
+    pub(super) fn ask_later(&mut self) {
+        self.drained.reset();
+        self.waker.wake_by_ref();
+    }
+
+    /// Asks the operating system, because the runtime may not have had a turn for long.
+    pub(super) fn fetch(&mut self, within: Duration) {
+        self.drained.reset();
+        self.links.iter_mut().for_each(|link| link.end.catch_up(within));
+    }
+
+    /// Waits for the only link on the calling thread. Returns true if something has arrived.
+    pub(super) fn wait(&mut self, within: Duration) -> bool {
+        self.drained.reset();
+        let [link] = &mut self.links[..] else { return false };
+        link.end.wait(within)
+    }
+
+    /// A call begins, for which no earlier answer of a sender counts.
+    pub(super) fn forget_answers(&mut self) {
+        self.links.iter_mut().for_each(|link| link.end.forget_answers());
+    }
+
+    /// Whether a sender may hold something newer. Asks each, even if an earlier one is behind.
+    pub(super) fn are_behind(&mut self) -> bool {
+        // They may read messages that were not there before.
+        self.drained.reset();
+        let cx = &mut Context::from_waker(&self.waker);
+        self.links.iter_mut().fold(false, |behind, link| link.end.poll_caught_up(cx).is_pending() | behind)
+    }
+
+    /// A message that was returned waits in the queue from now on.
+    pub(super) fn count_waiting(&mut self, link: usize) {
+        self.links[link].waiting += 1;
+    }
+
+    /// A message has left the queue.
+    pub(super) fn count_gone(&mut self, link: usize) {
+        let link = &mut self.links[link];
+        link.waiting -= 1;
+        if link.waiting == 0 {
+            // The program may receive nothing for long, and its sender may wait for this.
+            link.end.note_waiting(&mut Context::from_waker(&self.waker), 0);
+        }
+    }
+
+    /// No message waits in the queue any more.
+    pub(super) fn count_all_gone(&mut self) {
+        self.links.iter_mut().for_each(|link| link.waiting = 0);
+        self.note_waiting();
+    }
+
+    /// The message returned last was dropped at once.
+    pub(super) fn note_dropped(&mut self, link: usize) {
+        self.links[link].end.note_dropped();
+    }
+
+    /// Tells the links how many messages wait.
+    pub(super) fn note_waiting(&mut self) {
+        let cx = &mut Context::from_waker(&self.waker);
+        self.links.iter_mut().for_each(|link| link.end.note_waiting(cx, link.waiting));
+    }
+
+    pub(super) fn acknowledge_last(&mut self) {
+        self.note_waiting();
+        self.links.iter_mut().for_each(|link| link.end.acknowledge_last());
+    }
+
+    /// Number of messages that wait in the queue.
+    pub(super) fn waiting(&self) -> u64 {
+        self.links.iter().map(|link| link.waiting).sum()
+    }
+
+    /// Number of messages returned.
+    pub(super) fn received(&self) -> u64 {
+        self.links.iter().map(|link| link.received).sum()
+    }
+
+    /// Whether a sender relies on this gate not to drop messages, although its queue would.
+    pub(super) fn are_lossless(&self) -> bool {
+        self.links.iter().any(|link| link.end.is_lossless())
+    }
+
+    /// Number of messages that were not one frame.
+    pub(super) fn malformed(&self) -> u64 {
+        self.links.iter().map(|link| link.end.malformed()).sum()
+    }
+
+    /// Number of connected peers.
+    pub(super) fn peers(&self) -> usize {
+        self.links.iter().map(|link| link.end.peers()).sum()
+    }
+
+    /// The required peers that are not connected, of a gate with one link per peer.
+    pub(super) fn missing(&self, spec: &'static GateSpec) -> Vec<Missing> {
+        let links = spec.connections.iter().zip(&self.links);
+        let missing = links.filter(|(connection, link)| connection.required && link.end.peers() == 0);
+        missing.map(|(connection, link)| Missing { connection, refusal: link.end.refusal() }).collect()
+    }
+
+    /// Brings the figures of each connection up to date, of a gate with one link per peer.
+    pub(super) fn add_to_figures(&self, figures: &mut GateFigures) {
+        for (connection, link) in figures.connections.iter_mut().zip(&self.links) {
+            (connection.connected, connection.taken) = (link.end.peers() > 0, link.received);
+        }
+    }
+}
+
+impl Link {
+    /// Called after every poll: a waiting call is woken instead of the task, and completes the connection.
+    fn report_peers(&mut self, changes: &Changes) {
+        let peers = self.end.peers();
+        if std::mem::replace(&mut self.peers, peers) != peers {
+            self.is_latched = self.end.is_latched();
+            changes.report();
+        }
+    }
+}
