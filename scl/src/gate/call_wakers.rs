@@ -5,24 +5,38 @@
 
 use crate::state::WakeCall;
 use crate::sync::lock;
+use crate::time::Watchdog;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::task::{Wake, Waker};
 
-#[derive(Default)]
 pub(super) struct CallWakers {
     wakers: Mutex<Wakers>,
+    /// Number of calls in progress, which is read more often than the wakers.
+    in_progress: AtomicUsize,
 }
 
-#[derive(Default)]
 struct Wakers {
     /// The calls in progress, with what wakes those that wait.
     calls: Vec<(u64, Option<Waker>)>,
+    /// Timers of calls, those of calls in progress excepted.
+    watchdogs: Vec<Watchdog>,
     task: Option<Waker>,
 }
 
 impl CallWakers {
-    pub(super) fn begin(&self, call: u64) {
-        lock(&self.wakers).calls.push((call, None));
+    /// For as many calls as there are watchdogs.
+    pub(super) fn new(watchdogs: Vec<Watchdog>) -> Self {
+        let calls = Vec::with_capacity(watchdogs.len());
+        Self { wakers: Mutex::new(Wakers { calls, watchdogs, task: None }), in_progress: AtomicUsize::new(0) }
+    }
+
+    /// Returns the timer of the call, which [`end`](Self::end) takes back.
+    pub(super) fn begin(&self, call: u64) -> Option<Watchdog> {
+        let mut wakers = lock(&self.wakers);
+        wakers.calls.push((call, None));
+        self.in_progress.store(wakers.calls.len(), Ordering::Release);
+        wakers.watchdogs.pop()
     }
 
     /// Registers a call that waits. To be used under the lock of what it waits for, after it was polled.
@@ -40,12 +54,15 @@ impl CallWakers {
         waker.into_iter().for_each(Waker::wake);
     }
 
-    pub(super) fn end(&self, call: u64) {
-        lock(&self.wakers).calls.retain(|(id, _)| *id != call);
+    pub(super) fn end(&self, call: u64, watchdog: Option<Watchdog>) {
+        let mut wakers = lock(&self.wakers);
+        wakers.calls.retain(|(id, _)| *id != call);
+        self.in_progress.store(wakers.calls.len(), Ordering::Release);
+        wakers.watchdogs.extend(watchdog);
     }
 
     pub(super) fn in_progress(&self) -> usize {
-        lock(&self.wakers).calls.len()
+        self.in_progress.load(Ordering::Acquire)
     }
 
     pub(super) fn set_task(&self, task: &Waker) {
@@ -104,24 +121,24 @@ mod tests {
         let counts: [Arc<Count>; 3] = std::array::from_fn(|_| Arc::default());
         let [first, second, task] = counts.clone().map(Waker::from);
         let wakes = || counts.each_ref().map(|count| count.0.load(Ordering::SeqCst));
-        let calls = Arc::new(CallWakers::default());
+        let calls = Arc::new(CallWakers::new(Vec::new()));
         calls.set_task(&task);
         calls.wake_by_ref();
         assert_eq!(wakes(), [0, 0, 1], "no call");
-        calls.begin(1);
+        assert!(calls.begin(1).is_none());
         calls.wait(1, &first);
         calls.wake_by_ref();
         assert_eq!(wakes(), [1, 0, 1], "one call that waits");
         calls.wake_by_ref();
         assert_eq!(wakes(), [1, 0, 2], "a call that was woken and not polled yet");
         calls.wait(1, &first);
-        calls.begin(2);
+        assert!(calls.begin(2).is_none());
         calls.wait(2, &second);
         calls.wake_by_ref();
         assert_eq!(wakes(), [1, 0, 3], "two calls");
         calls.wake_one(2);
         assert_eq!(wakes(), [1, 1, 3], "a reply for one of them");
-        calls.end(2);
+        calls.end(2, None);
         calls.wake_by_ref();
         assert_eq!(wakes(), [2, 1, 3], "one is left");
         calls.wait(1, &first);

@@ -27,8 +27,6 @@ pub(super) struct Exchange {
     calls: Arc<CallWakers>,
     /// One for each call that may be in progress.
     permits: Semaphore,
-    /// As many, except those that calls in progress have.
-    watchdogs: Mutex<Vec<Watchdog>>,
     last_id: AtomicU64,
     _task: AbortOnDrop,
 }
@@ -70,7 +68,8 @@ pub(super) enum ExchangeError {
 impl Exchange {
     /// Starts to connect. As many calls can be in progress as there are watchdogs. Needs a tokio runtime.
     pub(super) fn new(link: Box<dyn Requester>, watchdogs: Vec<Watchdog>, state: &ComponentState) -> Self {
-        let (calls, changes) = (Arc::new(CallWakers::default()), state.changes());
+        let permits = Semaphore::new(watchdogs.len());
+        let (calls, changes) = (Arc::new(CallWakers::new(watchdogs)), state.changes());
         state.register_calls(Arc::downgrade(&calls) as _);
         let waker = Waker::from(Arc::clone(&calls));
         let end = Arc::new(Mutex::new(End {
@@ -97,10 +96,8 @@ impl Exchange {
             }
             Poll::Pending
         }));
-        let permits = Semaphore::new(watchdogs.len());
-        let (watchdogs, last_id) = (Mutex::new(watchdogs), AtomicU64::new(0));
-        let end = ProcessOwned::new(end);
-        Self { end, calls, permits, watchdogs, last_id, _task: AbortOnDrop::new(task.abort_handle()) }
+        let (end, last_id) = (ProcessOwned::new(end), AtomicU64::new(0));
+        Self { end, calls, permits, last_id, _task: AbortOnDrop::new(task.abort_handle()) }
     }
 
     /// Sends a request and waits for its reply.
@@ -113,7 +110,8 @@ impl Exchange {
         let _permit = match self.permits.try_acquire() {
             Ok(permit) => permit,
             Err(_) => {
-                let permit = until(self.permits.acquire(), deadline, state).await?;
+                // Boxed, because every call is moved with the room for this, which few need.
+                let permit = Box::pin(until(self.permits.acquire(), deadline, state)).await?;
                 permit.unwrap_or_else(|_| unreachable!("the semaphore is never closed"))
             }
         };
@@ -218,10 +216,9 @@ impl End {
     /// look at the connection.
     fn drive(&mut self) -> bool {
         if self.sent_calls.is_empty() && self.calls.in_progress() == 0 {
-            let waker = self.waker.clone();
-            let _connected = self.link.poll_connected(&mut Context::from_waker(&waker));
+            let _connected = self.link.poll_connected(&mut Context::from_waker(&self.waker));
         } else {
-            self.take_answers();
+            self.take_answers(None);
         }
         self.report_change();
         self.sent_calls.len() < self.calls.in_progress()
@@ -231,7 +228,7 @@ impl End {
         if let Some(body) = unsent.take() {
             *unsent = self.request(id, body);
         }
-        self.take_answers();
+        self.take_answers(Some(id));
         let Some(index) = self.sent_calls.iter().position(|call| call.id == id) else { return Poll::Pending };
         match self.sent_calls[index].result.take() {
             Some(result) => {
@@ -244,17 +241,15 @@ impl End {
 
     /// Sends a request, or returns it if that is not possible now.
     fn request(&mut self, id: u64, body: Bytes) -> Option<Bytes> {
-        let waker = self.waker.clone();
-        let cx = &mut Context::from_waker(&waker);
         // This discards replies, so it is for the first call only: the others find the connection as that one left it.
         if self.sent_calls.iter().all(|call| call.result.is_some()) {
-            let connected = self.link.poll_connected(cx);
+            let connected = self.link.poll_connected(&mut Context::from_waker(&self.waker));
             self.report_change();
             if connected.is_pending() {
                 return Some(body);
             }
         }
-        match self.link.request(cx, id, body) {
+        match self.link.request(&mut Context::from_waker(&self.waker), id, body) {
             Ok(()) => {
                 self.sent += 1;
                 self.sent_calls.push(SentCall { id, result: None });
@@ -268,24 +263,25 @@ impl End {
         }
     }
 
-    /// Hands each reply that has arrived to its call, and wakes it. Requests of a broken connection get none.
-    fn take_answers(&mut self) {
-        let waker = self.waker.clone();
-        let cx = &mut Context::from_waker(&waker);
+    /// Hands each reply that has arrived to its call, and wakes it unless it is the caller. Requests of a broken connection
+    /// get none.
+    fn take_answers(&mut self, caller: Option<u64>) {
         while self.sent_calls.iter().any(|call| call.result.is_none()) {
-            match self.link.poll_answer(cx) {
-                Poll::Ready(Answer::Reply { id, body }) => self.finish(id, Ok(body)),
-                Poll::Ready(Answer::Refused { id }) => self.finish(id, Err(ExchangeError::Refused)),
+            let (id, result) = match self.link.poll_answer(&mut Context::from_waker(&self.waker)) {
+                Poll::Ready(Answer::Reply { id, body }) => (id, Ok(body)),
+                Poll::Ready(Answer::Refused { id }) => (id, Err(ExchangeError::Refused)),
                 Poll::Ready(Answer::Lost) => {
                     let lost: Vec<u64> = self.sent_calls.iter().map(|call| call.id).collect();
-                    lost.into_iter().for_each(|id| self.finish(id, Err(ExchangeError::Lost)));
+                    lost.into_iter().for_each(|id| self.finish(id, Err(ExchangeError::Lost), caller));
+                    continue;
                 }
                 Poll::Pending => return,
-            }
+            };
+            self.finish(id, result, caller);
         }
     }
 
-    fn finish(&mut self, id: u64, result: Result<Bytes, ExchangeError>) {
+    fn finish(&mut self, id: u64, result: Result<Bytes, ExchangeError>, caller: Option<u64>) {
         let Some(call) = self.sent_calls.iter_mut().find(|call| call.id == id && call.result.is_none()) else {
             return tracing::debug!("discarded the reply to an earlier call");
         };
@@ -294,7 +290,9 @@ impl End {
             self.activity.add(body.len());
         }
         call.result = Some(result);
-        self.calls.wake_one(id);
+        if caller != Some(id) {
+            self.calls.wake_one(id);
+        }
     }
 
     /// Waits for the reply on the calling thread.
@@ -366,14 +364,12 @@ async fn until<F: Future>(future: F, deadline: Instant, state: &ComponentState) 
 struct InCall<'a> {
     exchange: &'a Exchange,
     id: u64,
-    /// Taken from the exchange, and given back.
     watchdog: Option<Watchdog>,
 }
 
 impl<'a> InCall<'a> {
     fn begin(exchange: &'a Exchange, id: u64) -> Self {
-        exchange.calls.begin(id);
-        Self { exchange, id, watchdog: lock(&exchange.watchdogs).pop() }
+        Self { exchange, id, watchdog: exchange.calls.begin(id) }
     }
 
     /// Ready when the deadline has passed. Without its timer a call could wait forever, so a timer that fails ends it too.
@@ -384,10 +380,9 @@ impl<'a> InCall<'a> {
 
 impl Drop for InCall<'_> {
     fn drop(&mut self) {
-        lock(&self.exchange.watchdogs).extend(self.watchdog.take());
         let mut end = self.exchange.lock();
         end.sent_calls.retain(|call| call.id != self.id);
-        self.exchange.calls.end(self.id);
+        self.exchange.calls.end(self.id, self.watchdog.take());
         // Polled once more, so that an event reported to the call is handled, and the next one wakes the task or another
         // call.
         if end.drive() {

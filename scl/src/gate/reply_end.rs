@@ -1,6 +1,6 @@
 //! The end of a `rep` gate, shared by its calls, its requests and its background task.
 
-use super::io_waker::IoWaker;
+use super::io_waker::{Drained, IoWaker};
 use super::ready_set::{ReadySet, ReadySignals};
 use super::stats::Activity;
 use super::tap::GateTap;
@@ -29,6 +29,7 @@ pub(super) struct ReplyEnd {
 
 struct Link {
     replier: Box<dyn Replier>,
+    drained: Drained,
     waker: Waker,
     written: bool,
     peers: usize,
@@ -56,6 +57,7 @@ impl ReplyEnd {
         let waker = Waker::from(Arc::clone(&io));
         let link = Arc::new(Mutex::new(Link {
             replier,
+            drained: Drained::new(Arc::clone(&io)),
             waker,
             written: true,
             peers: 0,
@@ -177,7 +179,7 @@ impl Link {
     fn poll_next(&mut self) -> Poll<Numbered> {
         let request = match self.next.take() {
             Some(request) => request,
-            None => ready!(self.replier.poll_request(&mut Context::from_waker(&self.waker))),
+            None => ready!(self.poll_request()),
         };
         self.counts.received += 1;
         self.counts.activity.add(request.body.len());
@@ -185,14 +187,26 @@ impl Link {
         Poll::Ready((self.counts.received, request))
     }
 
+    fn poll_request(&mut self) -> Poll<IncomingRequest> {
+        if self.drained.still_holds() {
+            return Poll::Pending;
+        }
+        let polled = self.replier.poll_request(&mut Context::from_waker(&self.waker));
+        if polled.is_pending() {
+            self.drained.set();
+        }
+        polled
+    }
+
     /// The program may handle a request for long. Whatever woke its call wakes nobody again before the connections are polled,
     /// so their heartbeats would not be answered meanwhile.
     fn keep_alive(&mut self) {
-        let waker = self.waker.clone();
-        if self.replier.peers() <= DRIVEN_BY_CALLS {
+        if self.replier.peers() > DRIVEN_BY_CALLS {
+            self.waker.wake_by_ref();
+        } else if self.look_ahead() {
+            // Only some of them were polled.
+            let waker = self.waker.clone();
             self.drive(&mut Context::from_waker(&waker));
-        } else {
-            waker.wake();
         }
     }
 
@@ -210,7 +224,7 @@ impl Link {
     /// Returns true if there is a request.
     fn look_ahead(&mut self) -> bool {
         if self.next.is_none()
-            && let Poll::Ready(request) = self.replier.poll_request(&mut Context::from_waker(&self.waker))
+            && let Poll::Ready(request) = self.poll_request()
         {
             self.next = Some(request);
         }
@@ -238,6 +252,7 @@ impl Link {
 impl SendingEnd for Link {
     fn poll_flushed(&mut self, _acknowledged: bool, cx: &mut Context<'_>) -> Poll<()> {
         let waker = self.waker.clone();
+        self.drained.reset();
         self.written = self.replier.drive(&mut Context::from_waker(&waker));
         if self.written {
             return Poll::Ready(());
@@ -258,6 +273,7 @@ impl SendingEnd for Link {
     }
 
     fn drive(&mut self, cx: &mut Context<'_>) {
+        self.drained.reset();
         self.written = self.replier.drive(cx);
         if self.written {
             self.waiting_flushes.drain(..).for_each(Waker::wake);
