@@ -319,21 +319,13 @@ impl Connection {
     /// Gives the link what waits, in order, as much as it takes.
     fn hand_over(&mut self) {
         let mut cx = Context::from_waker(&self.task);
-        if let Some(link) = &mut self.peer {
-            let account = &mut self.account;
-            let joined = self.latch.as_ref().and_then(|latch| latch.take_joined(&mut self.queue));
-            link.send_all(&mut cx, self.queue.items_mut(), &mut |length| account.hand(length));
-            if let (Some((message, age)), Some(latch)) = (joined, &mut self.latch) {
-                let length = message.len();
-                let sent = if self.queue.is_empty() { link.send_latched(&mut cx, message, age) } else { Err(message) };
-                match sent {
-                    Ok(()) => {
-                        account.hand(length);
-                        latch.note_sent();
-                    }
-                    Err(message) => self.queue.items_mut().push_back(message),
-                }
+        let account = &mut self.account;
+        match (&mut self.peer, &mut self.latch) {
+            (Some(link), None) => {
+                link.send_all(&mut cx, self.queue.items_mut(), &mut |length| account.hand(length));
             }
+            (Some(link), Some(latch)) => hand_over_latched(&mut **link, latch, &mut self.queue, account, &mut cx),
+            (None, _) => {}
         }
         self.dropping &= !self.queue.is_empty();
         // A flush looks at acknowledgements as well, which arrive without a change of the queue.
@@ -398,6 +390,28 @@ impl Connection {
         let (gate, foreign) = (self.gate, self.foreign.len());
         let state = if self.peer.is_some() { "connected" } else { "disconnected" };
         tracing::debug!(%gate, foreign, "{} is {state}", self.peer_name());
+    }
+}
+
+/// Gives the link what waits, with the age of a last message that is older than the link.
+fn hand_over_latched(
+    link: &mut dyn Link,
+    latch: &mut Latch,
+    queue: &mut Queue<Frame>,
+    account: &mut Account,
+    cx: &mut Context<'_>,
+) {
+    let joined = latch.take_joined(queue);
+    link.send_all(cx, queue.items_mut(), &mut |length| account.hand(length));
+    let Some((message, age)) = joined else { return };
+    let length = message.len();
+    let sent = if queue.is_empty() { link.send_latched(cx, message, age) } else { Err(message) };
+    match sent {
+        Ok(()) => {
+            account.hand(length);
+            latch.note_sent();
+        }
+        Err(message) => queue.items_mut().push_back(message),
     }
 }
 
