@@ -5,7 +5,7 @@ use super::io_waker::IoWaker;
 use super::links::{Arrived, Links};
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::ready_set::{ReadySet, ReadySignals};
-use super::stats::Activity;
+use super::stats::{Activity, CoarseTime};
 use super::tap::{GateTap, Observed};
 use super::undecodable::UndecodableCount;
 use crate::error::Missing;
@@ -34,8 +34,10 @@ pub(super) struct Inbox {
     queue: Queue<Arrived>,
     /// Whether the last receiving call found nothing, and nothing was taken in since.
     was_empty: bool,
-    /// Whether the queue was full when the links were drained last, so that they will not wake anybody.
+    /// Whether the queue was full when the links were drained last, so that messages will not wake anybody.
     is_stalled: bool,
+    /// The time of the last message when the links of a full queue were last told what the program has received.
+    told_at: Option<CoarseTime>,
     catch_up: CatchUp,
     newest_only: bool,
     /// Whether one link serves all peers.
@@ -128,6 +130,7 @@ impl Inbox {
             queue: Queue::new(policy),
             was_empty: false,
             is_stalled: false,
+            told_at: None,
             catch_up: CatchUp::default(),
             newest_only: spec.newest_only(),
             listens: !spec.endpoint.is_empty(),
@@ -227,6 +230,7 @@ impl Inbox {
         self.links.count_all_gone();
         if self.queue.waits() {
             // Such a gate takes in no more than its queue holds, but what is passed over keeps no publisher waiting.
+            self.links.look_again();
             self.pass_over(arrived);
             self.links.note_waiting();
         }
@@ -298,6 +302,20 @@ impl Inbox {
         self.links.ask_later();
     }
 
+    /// Takes in a message in place of one that has left a full queue. The links are connected already.
+    fn take_in_for_room(&mut self) {
+        // Not for each message, because a fast program would notice that.
+        let last = self.activity.last();
+        if std::mem::replace(&mut self.told_at, last) != last {
+            self.links.note_waiting();
+        }
+        self.links.look_again();
+        self.is_stalled = self.take_in_one();
+        if self.is_stalled {
+            self.links.rest();
+        }
+    }
+
     /// Returns false if nothing has arrived; the links then wake the task as soon as something does.
     fn take_in_one(&mut self) -> bool {
         let Poll::Ready(arrived) = self.poll_links() else { return false };
@@ -338,9 +356,8 @@ impl Inbox {
         let arrived = self.queue.pop()?;
         self.links.count_gone(arrived.link);
         if self.is_stalled {
-            // A sender that closes asks what was received, and waits for the answer. There is room for one message now, and
-            // the links are connected already.
-            self.is_stalled = self.take_in_one();
+            // A sender that closes asks what was received, and waits for the answer.
+            self.take_in_for_room();
         }
         Some(arrived)
     }

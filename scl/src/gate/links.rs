@@ -63,6 +63,11 @@ impl Links {
         self.drained.reset();
     }
 
+    /// Asks none of them before an event.
+    pub(super) fn rest(&mut self) {
+        self.drained.set();
+    }
+
     /// Returns the next message, if one has arrived.
     pub(super) fn poll_next(&mut self) -> Poll<Arrived> {
         if !self.may_have_more() {
@@ -86,9 +91,9 @@ impl Links {
         Poll::Pending
     }
 
-    /// Lets the links connect while there is no room for their messages.
+    /// Lets the links connect, and asks them for no messages before an event, because there is no room.
     pub(super) fn connect(&mut self) {
-        self.drained.reset();
+        self.rest();
         let cx = &mut Context::from_waker(&self.waker);
         for link in &mut self.links {
             link.end.connect(cx);

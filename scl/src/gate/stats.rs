@@ -81,6 +81,11 @@ impl Activity {
         self.last = Some(CoarseTime::now());
     }
 
+    /// When something was added last, to a few milliseconds.
+    pub(crate) fn last(&self) -> Option<CoarseTime> {
+        self.last
+    }
+
     pub(crate) fn plus(self, other: Self) -> Self {
         Self { bytes: self.bytes + other.bytes, last: self.last.max(other.last) }
     }
@@ -99,7 +104,7 @@ impl Activity {
 /// The operating system's coarse clock, exact to a few milliseconds. It is read for each message and costs a sixth of the
 /// exact one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct CoarseTime(Duration);
+pub(crate) struct CoarseTime(Duration);
 
 impl CoarseTime {
     fn now() -> Self {
