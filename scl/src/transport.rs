@@ -387,9 +387,11 @@ pub trait Receiver: Send {
     }
 
     /// Tells how many of the messages that were returned wait in the gate's queue, for [`Link::not_received`]: the program
-    /// has received the others, or the queue has dropped them. Called often, so it must be cheap.
-    fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) {
+    /// has received the others, or the queue has dropped them. Called after an event, when no message waits any more, and as
+    /// long as it returns true for each message that leaves the queue: because a sender waits to be told. So it must be cheap.
+    fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) -> bool {
         let _does_not_tell_its_senders = (cx, waiting);
+        false
     }
 
     /// Tells that the message returned last was dropped at once, because the gate's queue was full: the messages that wait

@@ -31,6 +31,8 @@ struct Link {
     received: u64,
     /// How many of them wait in the gate's queue.
     waiting: u64,
+    /// Whether a sender waits to be told that they do not wait any more.
+    is_awaited: bool,
 }
 
 /// A message and the link that it came from.
@@ -44,7 +46,7 @@ pub(super) struct Arrived {
 impl Links {
     /// `io` is woken when it is worth asking the links again.
     pub(super) fn new(ends: Vec<Box<dyn Receiver>>, io: Arc<IoWaker>, changes: Changes) -> Self {
-        let to_link = |end| Link { end, peers: 0, is_latched: false, received: 0, waiting: 0 };
+        let to_link = |end| Link { end, peers: 0, is_latched: false, received: 0, waiting: 0, is_awaited: false };
         let (links, waker) = (ends.into_iter().map(to_link).collect(), Waker::from(Arc::clone(&io)));
         Self { links, next: 0, drained: Drained::new(io), waker, changes }
     }
@@ -142,9 +144,9 @@ impl Links {
     pub(super) fn count_gone(&mut self, link: usize) {
         let link = &mut self.links[link];
         link.waiting -= 1;
-        if link.waiting == 0 {
-            // The program may receive nothing for long, and its sender may wait for this.
-            link.end.note_waiting(&mut Context::from_waker(&self.waker), 0);
+        if link.waiting == 0 || link.is_awaited {
+            // The program may receive nothing more for long.
+            link.note_waiting(&mut Context::from_waker(&self.waker));
         }
     }
 
@@ -162,7 +164,7 @@ impl Links {
     /// Tells the links how many messages wait.
     pub(super) fn note_waiting(&mut self) {
         let cx = &mut Context::from_waker(&self.waker);
-        self.links.iter_mut().for_each(|link| link.end.note_waiting(cx, link.waiting));
+        self.links.iter_mut().for_each(|link| link.note_waiting(cx));
     }
 
     pub(super) fn acknowledge_last(&mut self) {
@@ -211,6 +213,10 @@ impl Links {
 }
 
 impl Link {
+    fn note_waiting(&mut self, cx: &mut Context<'_>) {
+        self.is_awaited = self.end.note_waiting(cx, self.waiting);
+    }
+
     /// Called after every poll: a waiting call is woken instead of the task, and completes the connection.
     fn report_peers(&mut self, changes: &Changes) {
         let peers = self.end.peers();

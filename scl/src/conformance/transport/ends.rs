@@ -237,7 +237,7 @@ impl TestReceiver {
 
     /// Drops the end as a gate does in which some of the messages wait that were returned last.
     pub(super) fn leave(mut self, waiting: u64) {
-        self.watched.end.note_waiting(&mut Context::from_waker(&self.watched.waker), waiting);
+        let _awaited = self.watched.end.note_waiting(&mut Context::from_waker(&self.watched.waker), waiting);
         self.watched.end.acknowledge_last();
     }
 

@@ -72,10 +72,12 @@ impl Receiver for Subscriber {
         self.publisher.as_ref()?.latched(self.inbound.fetched.len() as u64)
     }
 
-    fn note_waiting(&mut self, _: &mut Context<'_>, waiting: u64) {
+    fn note_waiting(&mut self, _: &mut Context<'_>, waiting: u64) -> bool {
         if let Some(publisher) = &self.publisher {
             publisher.note_waiting(waiting + self.inbound.fetched.len() as u64);
         }
+        // Its sender looks at the number whenever it wants to.
+        true
     }
 
     fn is_lossless(&self) -> bool {
@@ -152,7 +154,7 @@ impl Receiver for Puller {
         open + self.listener.count(PipeReader::is_open)
     }
 
-    fn note_waiting(&mut self, _: &mut Context<'_>, waiting: u64) {
+    fn note_waiting(&mut self, _: &mut Context<'_>, waiting: u64) -> bool {
         let pushers = &mut self.pushers;
         self.waiting.keep_newest(waiting + self.inbound.fetched.len() as u64, |sender, count| {
             if let Some(pusher) = pushers.iter_mut().find(|pusher| pusher.number == sender) {
@@ -160,6 +162,7 @@ impl Receiver for Puller {
             }
         });
         self.pushers.iter().for_each(|pusher| pusher.pipe.note_waiting(pusher.waiting));
+        true
     }
 
     fn note_dropped(&mut self) {

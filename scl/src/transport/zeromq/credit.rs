@@ -149,6 +149,11 @@ impl ReceiveCredit {
         self.awaited.take_if(|awaited| *awaited <= self.received).is_some()
     }
 
+    /// Whether the sender waits to be told.
+    pub(super) fn is_awaited(&self) -> bool {
+        self.awaited.is_some()
+    }
+
     /// The sender wants to know when the program has received everything taken so far.
     pub(super) fn await_received(&mut self) {
         self.awaited = (self.received < self.taken).then_some(self.taken);

@@ -236,14 +236,18 @@ impl Inbound {
         self.write_acknowledgement(numbers);
     }
 
-    /// Notes how many of the messages returned wait in the gate, and tells the sender if it has asked.
-    pub(super) fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) {
-        let waiting = waiting + self.ahead.len() as u64;
-        if self.credit.as_mut().is_some_and(|credit| credit.note_waiting(waiting)) {
+    /// Notes how many of the messages returned wait in the gate, and tells the sender if it waits for that. Returns true if it
+    /// still waits.
+    pub(super) fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) -> bool {
+        let Some(credit) = &mut self.credit else { return false };
+        let is_due = credit.note_waiting(waiting + self.ahead.len() as u64);
+        let is_awaited = credit.is_awaited();
+        if is_due {
             self.acknowledge();
             // Nothing else may happen on this connection until the sender has read that.
             let _reported_by_reading = self.session.flush(cx);
         }
+        is_awaited
     }
 
     /// Acknowledges what the gate has taken and its program has received, before the connection is closed.

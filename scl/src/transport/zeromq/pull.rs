@@ -153,7 +153,7 @@ impl Receiver for Puller {
         }
     }
 
-    fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) {
+    fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) -> bool {
         let pushers = &mut self.pushers;
         self.waiting.keep_newest(waiting, |sender, count| {
             // One that has left counts its messages as lost.
@@ -161,7 +161,7 @@ impl Receiver for Puller {
                 pusher.waiting -= count;
             }
         });
-        pushers.iter_mut().for_each(|pusher| pusher.inbound.note_waiting(cx, pusher.waiting));
+        pushers.iter_mut().fold(false, |any, pusher| pusher.inbound.note_waiting(cx, pusher.waiting) | any)
     }
 
     fn note_dropped(&mut self) {

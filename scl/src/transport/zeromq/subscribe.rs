@@ -107,10 +107,8 @@ impl Receiver for Subscriber {
         }
     }
 
-    fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) {
-        if let Some(publisher) = &mut self.publisher {
-            publisher.note_waiting(cx, waiting);
-        }
+    fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) -> bool {
+        self.publisher.as_mut().is_some_and(|publisher| publisher.note_waiting(cx, waiting))
     }
 
     fn acknowledge_last(&mut self) {

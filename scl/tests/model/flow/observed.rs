@@ -205,8 +205,8 @@ impl Receiver for Observed<Box<dyn Receiver>> {
         self.end.malformed()
     }
 
-    fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) {
-        self.end.note_waiting(cx, waiting);
+    fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) -> bool {
+        self.end.note_waiting(cx, waiting)
     }
 
     fn note_dropped(&mut self) {
