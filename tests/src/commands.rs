@@ -10,6 +10,8 @@ pub struct Commands {
     lines: UnboundedReceiver<String>,
     /// The next one, if it has been looked for.
     peeked: Option<String>,
+    /// Whether none follows.
+    ended: bool,
 }
 
 impl Commands {
@@ -21,7 +23,7 @@ impl Commands {
                 let _program_ends = sender.send(line);
             }
         });
-        Self { lines: receiver, peeked: None }
+        Self { lines: receiver, peeked: None, ended: false }
     }
 
     /// Whether a command has arrived, or none will.
@@ -29,10 +31,12 @@ impl Commands {
         self.peeked.is_some() || !self.lines.is_empty() || self.lines.is_closed()
     }
 
-    /// Waits until [`next`](Self::next) returns at once.
+    /// Waits until [`next`](Self::next) returns at once, without a turn for other tasks.
     pub async fn arrived(&mut self) {
-        if self.peeked.is_none() {
+        // Not asked again at the end: whatever is ready, the runtime may give others their turn first.
+        if self.peeked.is_none() && !self.ended {
             self.peeked = self.lines.recv().await;
+            self.ended = self.peeked.is_none();
         }
     }
 

@@ -73,6 +73,7 @@ pub(super) async fn receive(sink: &mut Sink, commands: &mut Commands) -> scl::Re
             }
         }
     }
+    // From here to the end of the program, no task of a gate has a turn in which its queue could drop one message more.
     let taken = [
         reading.messages + dropped(&readings.stats()),
         value.messages + dropped(&newest.stats()),
