@@ -30,6 +30,8 @@ use crate::locate::{self, Surroundings};
 use context::Context;
 use proc_macro2::TokenStream;
 use quote::quote;
+#[cfg(all(test, feature = "protobuf"))]
+pub(crate) use schemas::generate_messages;
 
 /// Expands one invocation of the macro.
 pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -> TokenStream {
@@ -49,9 +51,8 @@ pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -
         None => skeleton::expand_skeleton(&context),
     };
     let types = found_types::expand_lookups(&context);
-    let messages = schemas::expand_modules(&context);
-    let json = schemas::expand_json(&context);
+    let messages = schemas::expand_messages(&context);
     let unknown = schemas::expand_unknown(&context);
     let tracking = tracking::expand_tracking(&loaded.files_read, surroundings);
-    quote! { #problems #components #types #messages #json #unknown #tracking }
+    quote! { #problems #components #types #messages #unknown #tracking }
 }

@@ -68,7 +68,9 @@ pub(crate) fn locate(arguments: &Arguments, surroundings: &Surroundings) -> Requ
         None => written,
     };
     let max_size = arguments.max_size.unwrap_or(Request::MAX_SIZE);
-    Request { path, shown_as, max_size, looked_in: candidates }
+    let mut request = Request { shown_as, max_size, looked_in: candidates, ..Request::new(path) };
+    request.crates.extend(surroundings.extern_crates.iter().flatten().cloned());
+    request
 }
 
 /// `SCL0006`: a path that does not exist on other machines, or that a published package does not contain.

@@ -3,6 +3,8 @@
 mod editor;
 mod mutations;
 #[cfg(feature = "protobuf")]
+mod schema_names;
+#[cfg(feature = "protobuf")]
 mod schemas;
 mod spec;
 

@@ -22,7 +22,7 @@ mod unreadable;
 pub use request::{LookedIn, Request};
 #[cfg(feature = "protobuf")]
 pub use schemas::{Descriptors, files_for};
-pub use schemas::{Outline, Schemas};
+pub use schemas::{Outline, Schemas, rust};
 
 use scl_topology::check::{Facts, check};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics};

@@ -1,5 +1,6 @@
 //! What to load, and how messages call it.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// Which file to load.
@@ -13,6 +14,9 @@ pub struct Request {
     pub max_size: u64,
     /// Every place in which the file was looked for, to be listed if it is nowhere.
     pub looked_in: Vec<LookedIn>,
+    /// The crates that a Rust program with this topology can name: a package of the schemas may hide one. Those that every
+    /// program has by default.
+    pub crates: BTreeSet<String>,
 }
 
 /// One place in which a file was looked for.
@@ -34,7 +38,8 @@ impl Request {
     pub fn new(path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         let shown_as = path.display().to_string();
-        Self { path, shown_as, max_size: Self::MAX_SIZE, looked_in: Vec::new() }
+        let crates = ["alloc", "core", "scl", "std"].map(str::to_owned).into();
+        Self { path, shown_as, max_size: Self::MAX_SIZE, looked_in: Vec::new(), crates }
     }
 
     /// The system's name if the file gives none: the file's name without its ending.

@@ -14,6 +14,9 @@ mod entry;
 mod limits;
 #[cfg_attr(not(feature = "protobuf"), allow(dead_code))]
 mod outline;
+#[cfg(feature = "protobuf")]
+mod place;
+pub mod rust;
 #[cfg(not(feature = "protobuf"))]
 mod switched_off;
 

@@ -4,7 +4,7 @@
 use crate::rule::{Examples, Rule, Severity};
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 19] = [
+pub(crate) const RULES: [&Rule; 21] = [
     &FILE_NOT_FOUND,
     &UNREADABLE_FILE,
     &NOT_UTF8,
@@ -15,6 +15,8 @@ pub(crate) const RULES: [&Rule; 19] = [
     &SCHEMA,
     &SCHEMA_ELSEWHERE,
     &SCHEMA_TWICE,
+    &SCHEMA_NAME,
+    &HIDDEN_CRATE,
     &DIFFERENT_RUST_TYPES,
     &NOT_A_MESSAGE,
     &TYPE_NOT_FOUND,
@@ -151,6 +153,33 @@ pub const SCHEMA_TWICE: Rule = Rule {
     title: "schema named twice",
     explanation: "Two entries of `schemas` lead to the same file, perhaps in two spellings such as `rover.proto` and \
                   `./rover.proto`. Each message would be declared twice. Remove one of them.",
+    examples: Examples::None,
+};
+
+/// SCL0417.
+pub const SCHEMA_NAME: Rule = Rule {
+    code: "SCL0417",
+    severity: Severity::Error,
+    title: "declaration of a schema has no Rust name of its own",
+    explanation: "Rust has other rules for names than protobuf, so two declarations of the schemas can become one name: \
+                  the messages `GPSFix` and `GpsFix` both become `GpsFix`, and the enum values `MODE_AUTO` and `AUTO` of \
+                  `Mode` both become `Mode::Auto`. What a message declares inside, its oneofs included, lies in a module: \
+                  `Status` becomes `status`, as the package `rover.status` does in `rover`. A message without a package \
+                  lies beside the components. A name of underscores only becomes nothing. Rename one; the bytes of \
+                  messages contain no names. docs/messages.md has the rules.",
+    examples: Examples::None,
+};
+
+/// SCL0418.
+pub const HIDDEN_CRATE: Rule = Rule {
+    code: "SCL0418",
+    severity: Severity::Warning,
+    title: "package of a schema hides a crate",
+    explanation: "The first part of a package becomes a Rust module where the macro is called. If a crate of the program \
+                  has this name, `log` or `std` for example, Rust code of that module means the package, or finds the \
+                  name ambiguous. Call the macro in a module of its own, as `mod wiring { ::scl::topology!(\"..\"); }`, \
+                  where nothing else is, and then allow this warning. `scl check` knows the crates `std`, `core`, `alloc` \
+                  and `scl`; the macro knows all that the program depends on.",
     examples: Examples::None,
 };
 

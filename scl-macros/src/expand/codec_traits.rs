@@ -173,7 +173,9 @@ fn trait_name(gate: &Gate, number: usize, span: Span) -> Ident {
     let codec = gate.codec().word().rsplit("::").next().unwrap_or_default();
     let words = format!("{}_supported_by_{codec}", gate.payload().to_string().replace(" -> ", "_and_"));
     let camel: String = words.split(['_', '.']).map(capitalized).filter(|word| is_alphanumeric(word)).collect();
-    Ident::new(&format!("{camel}_{number}"), span)
+    // A type may be called `_1`.
+    let start = if camel.starts_with(|first: char| first.is_ascii_digit()) { "_" } else { "" };
+    Ident::new(&format!("{start}{camel}_{number}"), span)
 }
 
 fn is_alphanumeric(word: &str) -> bool {

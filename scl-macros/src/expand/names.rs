@@ -2,18 +2,19 @@
 
 use proc_macro2::Span;
 use quote::format_ident;
+use scl_topology::rust_name::is_keyword;
 use scl_topology::topology::{Component, Gate};
 use syn::Ident;
 
 /// An identifier, raw if the name is a keyword; `None` if the name cannot be an identifier.
 pub(super) fn identifier(name: &str, span: Span) -> Option<Ident> {
-    let has_no_raw_form = matches!(name, "" | "_" | "self" | "Self" | "super" | "crate");
-    if let Ok(mut ident) = syn::parse_str::<Ident>(name) {
-        ident.set_span(span);
-        return Some(ident);
+    // The list is SCL's own, because syn does not know the keywords of newer editions.
+    if is_keyword(name) {
+        return Some(Ident::new_raw(name, span));
     }
-    // Only a keyword fails to parse as an identifier and succeeds with `r#`.
-    (!has_no_raw_form && syn::parse_str::<Ident>(&format!("r#{name}")).is_ok()).then(|| Ident::new_raw(name, span))
+    let mut ident = syn::parse_str::<Ident>(name).ok()?;
+    ident.set_span(span);
+    Some(ident)
 }
 
 /// The struct of a component.
@@ -47,7 +48,7 @@ mod tests {
         let cases = [
             ("sensor", Some("sensor")),
             ("type", Some("r#type")),
-            ("gen", Some("gen")),
+            ("gen", Some("r#gen")),
             ("self", None),
             ("crate", None),
             ("_", None),

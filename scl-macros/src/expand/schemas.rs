@@ -11,9 +11,9 @@ mod unknown;
 
 pub(super) use embedded::EmbeddedSchemas;
 #[cfg(feature = "protobuf")]
-pub(super) use json::expand_json;
-#[cfg(feature = "protobuf")]
-pub(super) use modules::expand_modules;
+pub(super) use modules::expand_messages;
+#[cfg(all(test, feature = "protobuf"))]
+pub(crate) use modules::generate_messages;
 #[cfg(not(feature = "protobuf"))]
-pub(super) use switched_off::{expand_json, expand_modules};
+pub(super) use switched_off::expand_messages;
 pub(super) use unknown::expand_unknown;

@@ -1,8 +1,6 @@
 //! Message types: the Rust path of a type such as `rover.Measurement` in the file.
 
 mod lookup;
-#[cfg(feature = "protobuf")]
-mod rust_paths;
 
 pub(super) use lookup::{Lookup, Lookups, Start};
 
@@ -38,7 +36,7 @@ impl MessageTypes {
     ) -> Self {
         let of_schemas = match &loaded.schemas {
             #[cfg(feature = "protobuf")]
-            Some(schemas) => SchemaTypes::Known(rust_paths::rust_paths(schemas)),
+            Some(schemas) => SchemaTypes::Known(scl_loader::rust::rust_paths(schemas)),
             _ if loaded.model.schemas.is_empty() => SchemaTypes::Known(HashMap::new()),
             _ => SchemaTypes::Unknown,
         };

@@ -1,12 +1,12 @@
 //! The words for a schema that does not compile, at its own line, with the line of the topology file as second place.
 
 use super::disk::SchemaFile;
+use super::place::shown_beside;
 use crate::request::Request;
 use miette::Diagnostic as _;
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::SCHEMA;
 use scl_topology::source::{Sources, Span, Spanned};
-use std::path::Path;
 
 /// One problem of one schema file.
 pub(super) fn diagnose(
@@ -42,11 +42,6 @@ fn place(
     let id = sources.add(shown_beside(&request.shown_as, &file.name), file.text.clone());
     let span = Span { file: id, start: start.min(end) as u32, end: end as u32 };
     Some((span, found.and_then(|label| label.label().map(in_backticks)).unwrap_or_default()))
-}
-
-/// The path under which messages name a schema, in the manner of the topology file's own.
-fn shown_beside(topology: &str, name: &str) -> String {
-    Path::new(topology).with_file_name(name).display().to_string()
 }
 
 /// The compiler quotes names with apostrophes, SCL with backticks.

@@ -4,6 +4,8 @@ use super::broken;
 use super::disk::{Disk, FilesRead, SchemaFile};
 use super::entry::{Named, elsewhere};
 use super::outline::outline;
+use super::place::Places;
+use super::rust::{find_clashes, find_hidden_crates};
 use super::{Compiled, Schemas};
 use crate::read::{Unreadable, read_text};
 use crate::request::Request;
@@ -14,6 +16,7 @@ use scl_topology::diagnostic::{Diagnostic, Diagnostics};
 use scl_topology::external::SCHEMA;
 use scl_topology::model::Model;
 use scl_topology::source::{Sources, Spanned};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -45,12 +48,23 @@ pub(crate) fn compile(request: &Request, model: &Model, sources: &mut Sources, p
     }
     let files = snapshot(&files);
     let outlines = if all_well { Vec::new() } else { files.iter().map(|file| outline(&file.text)).collect() };
-    let files_read = files.into_iter().map(|file| file.path).collect();
+    let files_read = files.iter().map(|file| file.path.clone()).collect();
     if !all_well {
         return Compiled { files_read, outlines, ..Compiled::default() };
     }
-    let schemas = Some(Schemas { descriptors: compiler.file_descriptor_set() });
-    Compiled { messages: Some(messages_by_entry(&compiler, model)), schemas, files_read, outlines }
+    let messages = Some(messages_by_entry(&compiler, model));
+    let schemas = Schemas { descriptors: compiler.file_descriptor_set() };
+    let compiled = &schemas.descriptors.file;
+    let mut places = Places { request, sources, files: &files, compiled, added: HashMap::new() };
+    let entry = |file: &str| Some(model.schemas.get(entry_of(model, file))?.span);
+    problems.extend(find_hidden_crates(compiled, request, entry, &mut places));
+    let clashes = find_clashes(compiled, model, &mut places);
+    if !clashes.is_empty() {
+        problems.extend(clashes);
+        let outlines = files.iter().map(|file| outline(&file.text)).collect();
+        return Compiled { messages, files_read, outlines, schemas: None };
+    }
+    Compiled { messages, schemas: Some(schemas), files_read, outlines }
 }
 
 /// Imports are looked for beside the topology file, then beside the schemas that it names.
@@ -90,18 +104,21 @@ fn messages_by_entry(compiler: &Compiler, model: &Model) -> Vec<SchemaMessages> 
         if file.package_name() == "google.protobuf" {
             continue;
         }
-        let entry = model.schemas.iter().position(|schema| schema.value == file.name()).unwrap_or(0);
-        if let Some(entry) = by_entry.get_mut(entry) {
+        if let Some(entry) = by_entry.get_mut(entry_of(model, file.name())) {
             entry.names.push(message.full_name().to_owned());
         }
     }
     for file in pool.files().filter(|file| file.package_name() != "google.protobuf") {
-        let entry = model.schemas.iter().position(|schema| schema.value == file.name()).unwrap_or(0);
-        if let Some(entry) = by_entry.get_mut(entry) {
+        if let Some(entry) = by_entry.get_mut(entry_of(model, file.name())) {
             entry.packages.push(file.package_name().to_owned());
         }
     }
     by_entry
+}
+
+/// The entry of `schemas:` that names a file; the first one for a file that is only imported.
+fn entry_of(model: &Model, file: &str) -> usize {
+    model.schemas.iter().position(|schema| schema.value == file).unwrap_or(0)
 }
 
 fn snapshot(files: &Mutex<Vec<SchemaFile>>) -> Vec<SchemaFile> {

@@ -6,7 +6,7 @@ use quote::{quote, quote_spanned};
 use std::collections::BTreeSet;
 
 /// The implementations for all messages. A broken topology gets none: they would only be more to compile.
-pub(in crate::expand) fn expand_json(context: &Context<'_>) -> TokenStream {
+pub(super) fn expand_json(context: &Context<'_>) -> TokenStream {
     let (Some(schemas), Some(_)) = (&context.loaded.schemas, &context.loaded.topology) else {
         return TokenStream::new();
     };

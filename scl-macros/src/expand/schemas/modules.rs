@@ -4,11 +4,14 @@
 //! text, which cannot contain `$crate`. Therefore the text names an import, and every module starts with that import.
 
 use super::super::context::Context;
+use super::json::expand_json;
+use super::unknown::expand_stand_ins;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use prost_build::{Config, Module};
 use prost_types::FileDescriptorProto;
 use quote::{format_ident, quote, quote_spanned};
 use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 // The generator strips leading underscores, so these names have none.
 const PROST: &str = "scl_private_prost";
@@ -21,30 +24,63 @@ struct Tree {
     inner: BTreeMap<String, Tree>,
 }
 
-/// One public module for each package of the compiled schemas.
-pub(in crate::expand) fn expand_modules(context: &Context<'_>) -> TokenStream {
+/// One public module for each package of the compiled schemas, with the messages and their JSON.
+pub(in crate::expand) fn expand_messages(context: &Context<'_>) -> TokenStream {
     let Some(schemas) = &context.loaded.schemas else { return TokenStream::new() };
-    let files = schemas.file_descriptor_set().file.iter().cloned();
+    match no_panic(|| generate(&schemas.file_descriptor_set().file)) {
+        Ok(root) => {
+            let (modules, json) = (expand_root(context, root), expand_json(context));
+            quote! { #modules #json }
+        }
+        Err(error) => {
+            let (problem, stand_ins) = (refused(context, &error), expand_stand_ins(context));
+            quote! { #problem #stand_ins }
+        }
+    }
+}
+
+/// The modules as prost generates them.
+fn generate(files: &[FileDescriptorProto]) -> Result<Tree, String> {
+    let files = files.iter().cloned();
     let requests =
         files.map(|file: FileDescriptorProto| (Module::from_protobuf_package_name(file.package()), file)).collect();
     let generated = Config::new().prost_path(PROST).prost_types_path(PROST_TYPES).generate(requests);
-    let modules = match generated {
-        Ok(modules) => modules,
-        Err(error) => return refused(context, &error.to_string()),
-    };
+    let modules = generated.map_err(|error| error.to_string())?;
     let mut root = Tree::default();
     // The generator needs the well-known files to resolve their types, but prost-types already has these types.
     let well_known = Module::from_protobuf_package_name("google.protobuf");
     for (module, text) in modules.into_iter().filter(|(module, _)| *module != well_known) {
-        match text.parse::<TokenStream>() {
-            Ok(code) => root.descend(module.parts()).code = code,
-            Err(error) => return refused(context, &format!("{module}: {error}")),
-        }
+        root.descend(module.parts()).code = text.parse().map_err(|error| format!("{module}: {error}"))?;
     }
-    expand_root(context, root)
+    Ok(root)
+}
+
+/// Runs the generator, which panics on what it does not support. The checks know of no such schema, but a panic would hide
+/// every other problem of the file.
+fn no_panic<T>(generate: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(generate)).unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        Err(text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("the generator panicked").to_owned())
+    })
+}
+
+/// What the generator writes for these files, or what it says.
+#[cfg(test)]
+pub(crate) fn generate_messages(files: &[FileDescriptorProto]) -> Result<TokenStream, String> {
+    let root = no_panic(|| generate(files))?;
+    let inner = root.inner.iter().map(|(name, tree)| tree.all(name));
+    let code = &root.code;
+    Ok(quote! { #code #(#inner)* })
 }
 
 impl Tree {
+    #[cfg(test)]
+    fn all(&self, name: &str) -> TokenStream {
+        let module: TokenStream = name.parse().unwrap_or_default();
+        let (code, inner) = (&self.code, self.inner.iter().map(|(name, tree)| tree.all(name)));
+        quote! { pub mod #module { #code #(#inner)* } }
+    }
+
     /// The tree at this path, which is created if it does not exist.
     fn descend<'a>(&mut self, path: impl Iterator<Item = &'a str>) -> &mut Tree {
         path.fold(self, |tree, part| tree.inner.entry(part.to_owned()).or_default())
@@ -121,6 +157,25 @@ fn with_imports_inside(context: &Context<'_>, body: TokenTree) -> TokenTree {
 }
 
 fn refused(context: &Context<'_>, error: &str) -> TokenStream {
-    let problem = format!("[SCL0406] cannot generate Rust from the schemas of `{}`: {error}", context.path);
+    let schemas = context.loaded.model.schemas.iter().map(|schema| format!("`{}`", schema.value)).collect::<Vec<_>>();
+    let problem = format!(
+        "[SCL0406] cannot generate Rust from the schemas of `{}`: {error}\n\
+         = note: this is a bug of SCL; please report it with {}",
+        context.path,
+        schemas.join(", ")
+    );
     quote_spanned! { context.span => ::core::compile_error! { #problem } }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::no_panic;
+
+    #[test]
+    fn a_panic_of_the_generator_is_an_error() {
+        assert_eq!(no_panic(|| Ok(1)), Ok(1));
+        let words = "variant names overlap";
+        assert_eq!(no_panic::<()>(|| panic!("{words}: `Auto`")), Err("variant names overlap: `Auto`".to_owned()));
+        assert_eq!(no_panic::<()>(|| panic!("plain")), Err("plain".to_owned()));
+    }
 }

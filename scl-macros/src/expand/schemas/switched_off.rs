@@ -3,10 +3,6 @@
 use super::super::context::Context;
 use proc_macro2::TokenStream;
 
-pub(in crate::expand) fn expand_modules(_: &Context<'_>) -> TokenStream {
-    TokenStream::new()
-}
-
-pub(in crate::expand) fn expand_json(_: &Context<'_>) -> TokenStream {
+pub(in crate::expand) fn expand_messages(_: &Context<'_>) -> TokenStream {
     TokenStream::new()
 }

@@ -5,9 +5,9 @@
 use super::super::context::Context;
 use super::super::names::identifier;
 use super::super::problems::expand_unknown_type;
-use heck::{ToSnakeCase, ToUpperCamelCase};
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
+use scl_loader::rust::names::{snake_case, upper_camel_case};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A module with its types.
@@ -23,6 +23,12 @@ pub(in crate::expand) fn expand_unknown(context: &Context<'_>) -> TokenStream {
     if loaded.schemas.is_some() || loaded.model.schemas.is_empty() {
         return TokenStream::new();
     }
+    expand_stand_ins(context)
+}
+
+/// The modules as far as they are known: those that the schemas seem to declare, and those that gates name.
+pub(super) fn expand_stand_ins(context: &Context<'_>) -> TokenStream {
+    let loaded = context.loaded;
     let mut root = Module::default();
     for outline in &loaded.outlines {
         let package: Vec<&str> = outline.package.split('.').filter(|part| !part.is_empty()).collect();
@@ -70,8 +76,8 @@ impl Module {
     fn declare<'a>(&mut self, path: impl IntoIterator<Item = &'a str>) {
         let path: Vec<&str> = path.into_iter().collect();
         if let Some((last, before)) = path.split_last() {
-            let module = before.iter().fold(self, |it, name| it.inner.entry(name.to_snake_case()).or_default());
-            module.types.insert(last.to_upper_camel_case());
+            let module = before.iter().fold(self, |it, name| it.inner.entry(snake_case(name)).or_default());
+            module.types.insert(upper_camel_case(last));
         }
     }
 }

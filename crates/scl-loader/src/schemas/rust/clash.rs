@@ -1,0 +1,88 @@
+//! SCL0417: declarations of the schemas that would get the same Rust name, or none.
+
+use super::declared::{Declared, Place, of_components, of_schema};
+use crate::schemas::place::Places;
+use prost_types::FileDescriptorProto;
+use scl_topology::diagnostic::Diagnostic;
+use scl_topology::external::SCHEMA_NAME;
+use scl_topology::model::Model;
+use scl_topology::source::Span;
+use std::collections::{HashMap, HashSet};
+
+/// Every two declarations whose names meet in one scope, and those that have no name.
+pub(in crate::schemas) fn find_clashes(
+    files: &[FileDescriptorProto],
+    model: &Model,
+    places: &mut Places<'_>,
+) -> Vec<Diagnostic> {
+    let own = files.iter().filter(|file| file.package() != "google.protobuf");
+    let all: Vec<Declared<'_>> = own.flat_map(of_schema).collect();
+    let (named, nameless): (Vec<_>, Vec<_>) = all.iter().partition(|declared| is_identifier(&declared.name));
+    let mut told = HashSet::new();
+    let nameless = nameless.into_iter().filter(|declared| told.insert(declared.what.as_str()));
+    let mut found: Vec<Diagnostic> = nameless.map(|declared| report_nameless(declared, places)).collect();
+
+    // Two components with one name are another rule's.
+    let components: Vec<Declared<'_>> = of_components(model).collect();
+    let key = |declared: &'_ Declared<'_>| (declared.scope.clone(), declared.name.clone());
+    let mut first: HashMap<_, &Declared<'_>> = components.iter().map(|component| (key(component), component)).collect();
+    let mut told = HashSet::new();
+    for declared in named {
+        let other = *first.entry(key(declared)).or_insert(declared);
+        // Packages whose names become one share a module, and a package may have several files.
+        let is_one = other.what == declared.what || is_package(other) && is_package(declared);
+        // Several names come from one declaration; one of them tells enough.
+        if !is_one && told.insert((&other.place, &declared.place)) {
+            found.push(report(other, declared, places));
+        }
+    }
+    found
+}
+
+fn is_package(declared: &Declared<'_>) -> bool {
+    declared.what.starts_with("package ")
+}
+
+/// prost gives an empty name to what consists of underscores, and its derive macro cannot name the methods of a map of
+/// enums whose field is a keyword.
+fn is_identifier(name: &str) -> bool {
+    !name.is_empty() && !name.trim_start_matches("r#").contains('#')
+}
+
+fn report_nameless(declared: &Declared<'_>, places: &mut Places<'_>) -> Diagnostic {
+    let what = &declared.what;
+    let headline = match declared.name.as_str() {
+        "" => format!("{what} has no name in Rust, because it has neither letters nor digits"),
+        name => format!("{what} would get the method `{name}`, which is not a name in Rust"),
+    };
+    at(declared, headline, "", places).help("choose another name").note(NOT_IN_BYTES)
+}
+
+fn report(first: &Declared<'_>, second: &Declared<'_>, places: &mut Places<'_>) -> Diagnostic {
+    let Declared { scope, name, what, .. } = second;
+    let headline = format!("{} and {what} would both become `{name}` {scope}", first.what);
+    let mut problem = at(second, headline, &format!("also becomes `{name}`"), places);
+    if let Some(span) = span(first, places) {
+        problem = problem.label(span, format!("becomes `{name}`"));
+    }
+    match first.place {
+        Place::Topology(_) => problem.help("rename the component, or give the schema a `package`"),
+        Place::Schema { .. } => problem.help("rename one of them").note(NOT_IN_BYTES),
+    }
+}
+
+fn at(declared: &Declared<'_>, headline: String, label: &str, places: &mut Places<'_>) -> Diagnostic {
+    match span(declared, places) {
+        Some(span) => SCHEMA_NAME.at(headline, span, label),
+        None => SCHEMA_NAME.without_place(headline),
+    }
+}
+
+fn span(declared: &Declared<'_>, places: &mut Places<'_>) -> Option<Span> {
+    match &declared.place {
+        Place::Topology(span) => Some(*span),
+        Place::Schema { file, path } => places.of(file, path),
+    }
+}
+
+const NOT_IN_BYTES: &str = "names are part of a message's JSON, but not of its protobuf bytes";
