@@ -108,9 +108,9 @@ FULL = [
         ),
     ),
     Stage("rust-analyzer", ".ci/rust-analyzer", 40),
-    Stage("cargo test", second_command(), 60),
+    Stage("cargo test", second_command(), 60, {"SCL_TEST_SCHEMAS": "500"}),
     # Their builds select one package each, as a user's do.
-    Stage("tests", nextest("full", NEED_MORE), 90, {"SCL_TEST_LONG": "1"}),
+    Stage("tests", nextest("full", NEED_MORE), 90, {"SCL_TEST_LONG": "1", "SCL_TEST_SCHEMAS": "500"}),
     ALLOCATIONS,
     Stage("wheel", ".ci/wheel"),
     Stage("canaries", ".ci/canaries", 60),

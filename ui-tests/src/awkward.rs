@@ -15,7 +15,7 @@ pub struct System {
 
 /// Words that meet in some language: keywords, names of the standard libraries, of generated code and of SCL, and words
 /// that differ only in case or underscores.
-const WORDS: [&str; 84] = [
+const WORDS: [&str; 86] = [
     "gps",
     "GPS",
     "Gps",
@@ -97,6 +97,8 @@ const WORDS: [&str; 84] = [
     "test",
     "x",
     "DESCRIPTOR",
+    "keys",
+    "Name",
     "A",
     "A_b",
     "aB",
@@ -148,7 +150,8 @@ pub fn system(seed: u64) -> System {
         schemas.push((format!("schema_{index}.proto"), text + &file.text));
     }
     let names: Vec<&str> = schemas.iter().map(|(name, _)| name.as_str()).collect();
-    let mut topology = format!("schemas: [{}]\nconnections: []\ncomponents:\n", names.join(", "));
+    let mut topology =
+        format!("system: random_{seed}\nschemas: [{}]\nconnections: []\ncomponents:\n", names.join(", "));
     let mut components = HashSet::new();
     for _ in 0..=random.below(2) {
         writeln!(topology, "  - name: {}\n    gates:", random.word(&mut components)).expect("a text takes all");

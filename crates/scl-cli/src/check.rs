@@ -6,6 +6,8 @@ mod fix;
 mod report;
 mod watch;
 
+#[cfg(feature = "generate")]
+use crate::generate::Language;
 use crate::load::{MaxSize, STDIN};
 use checked::{Checked, check_file};
 use clap::{Args, ValueEnum};
@@ -24,6 +26,7 @@ Examples:
   scl check                         topology.yaml in the working folder
   scl check a.yaml b.yaml --lints   two files, and what is off by default
   scl check --deny warnings         for continuous integration: nothing to complain about, or exit code 1
+  scl check --for cpp --for python  also names that C++ or Python cannot tell apart
   scl check --deny SCL0402          untyped connections are errors here
   scl check --fix --dry-run         what would be fixed, as a diff
   scl check --fix                   fix what is sure, and say what is left
@@ -56,6 +59,10 @@ pub(crate) struct CheckArguments {
     /// Print the fixes as a unified diff, change no file, and check it as it is.
     #[arg(long, requires = "fix")]
     dry_run: bool,
+    /// Also report names that `scl generate` would refuse for this language; may be repeated.
+    #[cfg(feature = "generate")]
+    #[arg(long = "for", value_name = "LANGUAGE")]
+    languages: Vec<Language>,
     #[command(flatten)]
     max_size: MaxSize,
 }

@@ -58,7 +58,7 @@ pub(crate) struct GenerateArguments {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-enum Language {
+pub(crate) enum Language {
     /// The sockets of the system, for programs with only a ZeroMQ library.
     Zmq,
     /// A header and a source.
@@ -141,10 +141,18 @@ impl GenerateArguments {
     fn target(&self) -> Target {
         match (self.target, self.format) {
             (Language::Zmq, Some(TextFormat::Yaml)) => Target::Zmq(Format::Yaml),
-            (Language::Zmq, Some(TextFormat::Json) | None) => Target::Zmq(Format::Json),
-            (Language::C, _) => Target::C,
-            (Language::Cpp, _) => Target::Cpp,
-            (Language::Python, _) => Target::Python,
+            (language, _) => language.target(),
+        }
+    }
+}
+
+impl Language {
+    pub(crate) fn target(self) -> Target {
+        match self {
+            Language::Zmq => Target::Zmq(Format::Json),
+            Language::C => Target::C,
+            Language::Cpp => Target::Cpp,
+            Language::Python => Target::Python,
         }
     }
 }

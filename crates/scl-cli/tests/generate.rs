@@ -205,6 +205,10 @@ components:
     "#]]
     .assert_eq(clash);
     assert_eq!(output.status.code(), Some(1));
+    let checked = system.scl(&["check", "--for", "cpp", "--for", "c"]).output().unwrap();
+    let told = String::from_utf8_lossy(&checked.stderr);
+    assert!(told.contains(clash.trim_end()), "{told}");
+    assert_eq!(checked.status.code(), Some(1));
     let explained = system.scl(&["explain", "SCL1102"]).output().unwrap();
     assert!(explained.status.success());
 }

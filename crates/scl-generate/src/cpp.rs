@@ -11,6 +11,7 @@ use crate::system::{Component, Gate, MessageUse, System};
 use crate::writer::Writer;
 use messages::Messages;
 use scl_plan::GateKind;
+use scl_topology::diagnostic::Diagnostic;
 
 /// Namespaces that a system must not become: those of the standard library and of SCL itself.
 const TAKEN_NAMESPACES: [&str; 2] = ["std", "scl"];
@@ -42,6 +43,11 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         }));
     }
     declarations
+}
+
+/// Names that the header cannot write.
+pub(crate) fn unwritable(system: &System) -> Vec<Diagnostic> {
+    messages::unwritable(system)
 }
 
 /// `<system>.scl.hpp`.

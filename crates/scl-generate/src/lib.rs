@@ -42,7 +42,7 @@ pub enum Target {
 /// Makes the files for one language.
 ///
 /// # Errors
-/// Names of the topology that would be one name in that language, each with its places in the topology file.
+/// Names of the topology that would be one name in that language, or none, each with its places in the topology file.
 pub fn generate(system: &System, target: Target) -> Result<Vec<File>, Vec<Diagnostic>> {
     let declarations = match target {
         Target::Zmq(_) => Vec::new(),
@@ -50,7 +50,10 @@ pub fn generate(system: &System, target: Target) -> Result<Vec<File>, Vec<Diagno
         Target::Cpp => cpp::declarations(system),
         Target::Python => python::declarations(system),
     };
-    let clashes = clash::find(&declarations);
+    let mut clashes = clash::find(&declarations);
+    if target == Target::Cpp {
+        clashes.extend(cpp::unwritable(system));
+    }
     if !clashes.is_empty() {
         return Err(clashes);
     }

@@ -116,3 +116,44 @@ connections:
     let told = clashes(yaml, "syntax = \"proto3\"; message rover {}", Target::Cpp);
     assert!(told.contains("message `rover` would both become `rover` in the global C++ namespace"), "{told}");
 }
+
+/// The verdict on a topology with a gate of this message, whose schema has this package and this declaration.
+fn verdict(message: &str, schema: &str) -> String {
+    let yaml = format!(
+        "system: rover\nschemas: [rover.proto]\nconnections: []\ncomponents:\n  - name: sensor\n    gates:\n      \
+         - values: {{pub: {message}, unconnected: ok}}\n"
+    );
+    let told = clashes(&yaml, &format!("syntax = \"proto3\"; {schema}"), Target::Cpp);
+    told.lines().next().unwrap_or_default().to_owned()
+}
+
+#[test]
+fn names_that_protoc_does_not_escape_are_refused() {
+    for package in ["export", "rover.class.v1", "a.NULL", "concept"] {
+        let part = package.split('.').find(|part| !["rover", "a"].contains(part)).unwrap();
+        let expected = format!(
+            "error: [SCL1103] `{part}` in the package of `{package}.Fix` is reserved in C++, and protoc does not escape \
+             it there"
+        );
+        assert_eq!(verdict(&format!("{package}.Fix"), &format!("package {package}; message Fix {{}}")), expected);
+    }
+    for word in ["concept", "requires", "co_await", "char8_t"] {
+        let expected = format!(
+            "error: [SCL1103] the message `rover.{word}` is `{word}` in C++ with some versions of protoc, and `{word}_` \
+             with others"
+        );
+        assert_eq!(verdict(&format!("rover.{word}"), &format!("package rover; message {word} {{}}")), expected);
+    }
+    assert_eq!(verdict("rover.Fix", "package rover; message Fix {} message concept {}"), "");
+    assert_eq!(verdict("rover.Fix.concept", "package rover; message Fix { message concept {} }"), "");
+}
+
+#[test]
+fn names_are_escaped_as_by_protoc() {
+    for (word, expected) in [("NULL", "NULL_"), ("class", "class_"), ("linux", "linux"), ("restrict", "restrict")] {
+        let gates = format!("      - word: {{pub: rover.{word}}}");
+        let text = header(&gates, &format!("syntax = \"proto3\"; package rover; message {word} {{}}"));
+        let line = format!("::scl::Pub<::rover::{expected}> word{{");
+        assert!(text.contains(&line), "{line} is not in\n{text}");
+    }
+}

@@ -109,3 +109,25 @@ components:
          = help: rename the message `rover._PLAN`
     "#]].assert_eq(&clashes(yaml, &schema, Target::Python));
 }
+
+/// mypy takes a name that the module declares further down for the one that Python has.
+#[test]
+fn messages_called_like_something_of_python_have_another_name_in_annotations() {
+    let yaml = "\
+schemas: [rover.proto]
+components:
+  - name: sensor
+    gates:
+      - alarm: {pub: rover.Warning, unconnected: ok}
+      - values: {pub: rover.list, unconnected: ok}
+      - fix: {pub: rover.Fix, unconnected: ok}
+";
+    let folder = tempfile::tempdir().unwrap();
+    let schema = "syntax = \"proto3\"; package rover; message Warning {} message list {} message Fix {}";
+    std::fs::write(folder.path().join("topology.yaml"), yaml).unwrap();
+    std::fs::write(folder.path().join("rover.proto"), schema).unwrap();
+    let text = module("topology", folder.path().join("topology.yaml"));
+    for line in ["alarm: _scl.Pub[_type_Warning]", "values: _scl.Pub[_type_list]", "fix: _scl.Pub[Fix]"] {
+        assert!(text.contains(line), "{line} is not in\n{text}");
+    }
+}

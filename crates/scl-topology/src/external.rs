@@ -4,7 +4,7 @@
 use crate::rule::{Examples, Rule, Severity};
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 21] = [
+pub(crate) const RULES: [&Rule; 22] = [
     &FILE_NOT_FOUND,
     &UNREADABLE_FILE,
     &NOT_UTF8,
@@ -26,6 +26,7 @@ pub(crate) const RULES: [&Rule; 21] = [
     &UNKNOWN_IN_CODE,
     &MESSAGE_CLASH,
     &NAME_CLASH,
+    &UNWRITABLE_NAME,
 ];
 
 /// SCL0001.
@@ -274,7 +275,7 @@ pub const MESSAGE_CLASH: Rule = Rule {
     title: "component and message become one name in another language",
     explanation: "In generated code of some languages, components and messages share the namespace of the system: the \
                   component `sensor` and the message `rover.Sensor` would both become `rover::Sensor` in C++. Only \
-                  `scl generate` for such a language reports it; Rust keeps the two apart. Rename one of them.",
+                  `scl generate` and `scl check --for` report it; Rust keeps the two apart. Rename one of them.",
     examples: Examples::None,
 };
 
@@ -285,6 +286,18 @@ pub const NAME_CLASH: Rule = Rule {
     title: "two names become one in another language",
     explanation: "Different names of the topology become one name in generated code: C joins the names of system, \
                   component and gate by `_`, so gate `b_c` of component `a` and gate `c` of component `a_b` become the \
-                  same functions. Only `scl generate` for such a language reports it. Rename one of them.",
+                  same functions. Only `scl generate` and `scl check --for` report it. Rename one of them.",
+    examples: Examples::None,
+};
+
+/// SCL1103.
+pub const UNWRITABLE_NAME: Rule = Rule {
+    code: "SCL1103",
+    severity: Severity::Error,
+    title: "message has no certain name in another language",
+    explanation: "A gate carries a message whose C++ name SCL cannot know or write. protoc does not escape keywords in \
+                  packages, so `package export;` gives a header that no compiler accepts; and keywords that are new in \
+                  C++20, such as `concept`, get an underscore from newer versions of protoc only. Only `scl generate` and \
+                  `scl check --for` report it. Rename the package or the message.",
     examples: Examples::None,
 };

@@ -24,9 +24,23 @@ pub(super) struct Checked {
 pub(super) fn check_file(path: &Path, arguments: &CheckArguments) -> Checked {
     let mut loaded = load_file(path, arguments.max_size);
     let outcome = arguments.fix.then(|| fix_file(path, &mut loaded, arguments)).flatten();
-    let all = std::mem::take(&mut loaded.diagnostics).into_iter().map(|it| deny(it, &arguments.deny));
+    let all = std::mem::take(&mut loaded.diagnostics).into_iter().chain(refusals(&loaded, arguments));
+    let all = all.map(|it| deny(it, &arguments.deny));
     let shown = all.filter(|it| arguments.lints || it.severity != Severity::Lint).collect();
     Checked { path: path.to_path_buf(), loaded, shown, outcome }
+}
+
+/// What `scl generate` would say of a topology without errors, for the languages that were named.
+#[cfg(feature = "generate")]
+fn refusals(loaded: &Loaded, arguments: &CheckArguments) -> Vec<Diagnostic> {
+    let Some(system) = scl_generate::System::of(loaded) else { return Vec::new() };
+    let targets = arguments.languages.iter().map(|language| language.target());
+    targets.filter_map(|target| scl_generate::generate(&system, target).err()).flatten().collect()
+}
+
+#[cfg(not(feature = "generate"))]
+fn refusals(_: &Loaded, _: &CheckArguments) -> Vec<Diagnostic> {
+    Vec::new()
 }
 
 impl Checked {

@@ -1,10 +1,12 @@
 //! The C++ names that protoc gives to the messages of the schemas.
 
 use crate::clash::{Declaration, Origin};
-use crate::identifier;
 use crate::system::{MessageUse, System};
 use prost_types::{DescriptorProto, FileDescriptorProto};
-use std::collections::{BTreeSet, HashMap};
+use scl_topology::diagnostic::Diagnostic;
+use scl_topology::external::UNWRITABLE_NAME;
+use scl_topology::keywords::CPP;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// The messages of the schemas by their dotted names.
 pub(super) struct Messages(HashMap<String, Message>);
@@ -70,11 +72,11 @@ pub(super) fn declarations(system: &System, namespace: &str, inside: &str) -> Ve
             }
         });
         for outer in &file.enum_type {
-            let name = identifier::c_family(outer.name());
+            let name = protoc_identifier(outer.name());
             declare(name, Origin::generated(format!("enum `{}`", dotted_name(file, outer.name()))));
             for value in &outer.value {
                 let origin = Origin::generated(format!("enum value `{}`", dotted_name(file, value.name())));
-                declare(identifier::c_family(value.name()), origin);
+                declare(protoc_identifier(value.name()), origin);
             }
         }
     }
@@ -122,7 +124,62 @@ fn dotted_name(file: &FileDescriptorProto, name: &str) -> String {
 
 /// A nested message is a class beside the outer one, named by both.
 fn class_name(path: &[&str]) -> String {
-    identifier::c_family(&path.join("_"))
+    protoc_identifier(&path.join("_"))
+}
+
+/// The keywords that only some versions of protoc escape.
+const ESCAPED_BY_SOME: [&str; 10] = [
+    "char8_t",
+    "char16_t",
+    "char32_t",
+    "co_await",
+    "co_return",
+    "co_yield",
+    "concept",
+    "consteval",
+    "constinit",
+    "requires",
+];
+
+/// A name as protoc writes it. It knows no macros but `NULL`.
+fn protoc_identifier(name: &str) -> String {
+    let is_escaped = name == "NULL" || CPP.contains(&name) && !ESCAPED_BY_SOME.contains(&name);
+    if is_escaped { format!("{name}_") } else { name.to_owned() }
+}
+
+/// SCL1103: messages of gates whose C++ name depends on the version of protoc, or is none because protoc does not escape
+/// packages.
+pub(super) fn unwritable(system: &System) -> Vec<Diagnostic> {
+    let mut told = HashSet::new();
+    let gates = system.components.iter().flat_map(|component| &component.gates);
+    let used = gates.flat_map(|gate| &gate.types).filter(|used| used.in_schemas && told.insert(used.dotted.as_str()));
+    used.filter_map(|used| {
+        let (package, path) = files(system).find_map(|file| Some((package(file), path_in(file, &used.dotted)?)))?;
+        let is_reserved = |part: &&String| part.as_str() == "NULL" || CPP.contains(&part.as_str());
+        let message = &used.dotted;
+        let headline = if let Some(part) = package.iter().find(is_reserved) {
+            format!("`{part}` in the package of `{message}` is reserved in C++, and protoc does not escape it there")
+        } else if ESCAPED_BY_SOME.contains(&path.as_str()) {
+            format!(
+                "the message `{message}` is `{path}` in C++ with some versions of protoc, and `{path}_` with others"
+            )
+        } else {
+            return None;
+        };
+        Some(UNWRITABLE_NAME.at(headline, used.span, "carried by a gate").help("rename it in the schema"))
+    })
+    .collect()
+}
+
+/// The name of a message in its file, if it declares it.
+fn path_in(file: &FileDescriptorProto, message: &str) -> Option<String> {
+    let mut found = None;
+    for_each_message(file, &mut |path, _| {
+        if dotted(file, path) == message {
+            found = Some(path.join("_"));
+        }
+    });
+    found
 }
 
 fn header(proto: &str) -> String {

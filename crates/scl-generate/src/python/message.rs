@@ -4,7 +4,7 @@ mod field;
 mod methods;
 
 use super::layout::{Doc, Layout};
-use super::names::Names;
+use super::names::{self, Names};
 use super::schema::{
     ENUM_VALUE, FILE_ENUM, FILE_MESSAGE, MESSAGE_ENUM, MESSAGE_FIELD, MESSAGE_NESTED, Path, Schema, SchemaFile,
 };
@@ -136,6 +136,9 @@ impl Messages<'_> {
                 out.blank();
             }
             self.write_values(declared, scope.full_name, scope.path, scope.file, out);
+            if !declared.value.iter().any(|value| names::is_value_attribute(value.name())) {
+                out.line("pass");
+            }
         });
     }
 
@@ -150,7 +153,7 @@ impl Messages<'_> {
         let class_var = self.imports.of("typing", "ClassVar");
         let reference = self.names.reference(full_name, self.imports);
         for (index, value) in declared.value.iter().enumerate() {
-            if identifier::python(value.name()) != value.name() {
+            if !names::is_value_attribute(value.name()) {
                 // Reached by `getattr` or `Value` only.
                 out.line(format!("# {}: no attribute of Python", value.name()));
                 continue;

@@ -5,6 +5,7 @@ use super::schema::{Schema, SchemaFile};
 use crate::identifier;
 use crate::system::{Component, Gate, System};
 use prost_types::DescriptorProto;
+use scl_topology::keywords::PYTHON_BUILTINS;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Names that the module has besides components and messages.
@@ -67,6 +68,14 @@ pub(super) fn gate(gate: &Gate) -> String {
 pub(super) fn is_attribute(field: &str) -> bool {
     // Python rewrites names that start with two underscores inside of classes.
     identifier::python(field) == field && !OF_MESSAGES.contains(&field) && !field.starts_with("__")
+}
+
+/// Methods of enums: values of these names are reached by `Value` only.
+const OF_ENUMS: &[&str] = &["Name", "Value", "items", "keys", "values"];
+
+/// Whether a value of an enum can be written as an attribute, of the enum and of the message that declares it.
+pub(super) fn is_value_attribute(value: &str) -> bool {
+    is_attribute(value) && !OF_ENUMS.contains(&value)
 }
 
 /// The names of messages and enums.
@@ -178,16 +187,18 @@ impl Names {
             return format!("{}{}", imports.of("google.protobuf", module), &found.path[module.len()..]);
         }
         let head = found.path.split('.').next().unwrap_or_default();
-        if self.attributes.contains(head) {
-            format!("{}{}", alias(head), &found.path[head.len()..])
-        } else {
-            found.path.clone()
-        }
+        if self.is_hidden(head) { format!("{}{}", alias(head), &found.path[head.len()..]) } else { found.path.clone() }
     }
 
-    /// Names of the module that some class hides with an attribute, and the name by which annotations reach them.
+    /// Whether an annotation in a class would mean something else: an attribute of the class, or what Python has itself, which
+    /// mypy takes for a name that the module declares further down.
+    fn is_hidden(&self, name: &str) -> bool {
+        self.attributes.contains(name) || PYTHON_BUILTINS.contains(&name)
+    }
+
+    /// Hidden names of the module, and the name by which annotations reach them.
     pub(super) fn aliases(&self) -> impl Iterator<Item = (String, &str)> {
-        let hidden = self.top_level().map(|(name, _)| name).filter(|name| self.attributes.contains(*name));
+        let hidden = self.top_level().map(|(name, _)| name).filter(|name| self.is_hidden(name));
         hidden.map(|name| (alias(name), name))
     }
 

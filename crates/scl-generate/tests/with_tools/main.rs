@@ -7,4 +7,5 @@ mod cpp;
 #[allow(dead_code, reason = "the other tests use the rest")]
 #[path = "../fixture.rs"]
 mod fixture;
+mod names;
 mod testable;
