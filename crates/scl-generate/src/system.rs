@@ -18,6 +18,8 @@ pub struct System {
     pub components: Vec<Component>,
     /// The compiled `schemas:`, each file after the files that it imports, with comments; none without `schemas:`.
     pub descriptors: Option<FileDescriptorSet>,
+    /// The folders in which these files are found by their names, relative to that of the topology file, in order.
+    pub schema_folders: Vec<String>,
 }
 
 /// A component with all that its program needs.
@@ -82,6 +84,7 @@ impl System {
             topology_file: loaded.file.map(|file| file_name(loaded.sources.file(file).path())).unwrap_or_default(),
             components,
             descriptors: loaded.schemas.as_ref().map(|schemas| schemas.file_descriptor_set().clone()),
+            schema_folders: loaded.schemas.as_ref().map(|schemas| schemas.folders().to_vec()).unwrap_or_default(),
         })
     }
 

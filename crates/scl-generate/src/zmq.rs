@@ -39,6 +39,7 @@ struct Document<'a> {
     topology: &'a str,
     system: &'a str,
     schemas: Vec<&'a str>,
+    schema_folders: &'a [String],
     components: InOrder<ComponentEntry<'a>>,
 }
 
@@ -82,6 +83,7 @@ impl<'a> Document<'a> {
             topology: &system.topology_file,
             system: &system.name,
             schemas: files.collect(),
+            schema_folders: &system.schema_folders,
             components: InOrder(system.components.iter().map(component).collect()),
         }
     }

@@ -11,7 +11,15 @@ mod disk;
 #[cfg(feature = "protobuf")]
 mod entry;
 #[cfg(feature = "protobuf")]
+mod folders;
+#[cfg(feature = "protobuf")]
+mod imports;
+#[cfg_attr(not(feature = "protobuf"), allow(dead_code))]
+mod lexemes;
+#[cfg(feature = "protobuf")]
 mod limits;
+#[cfg(feature = "protobuf")]
+mod mistake;
 #[cfg_attr(not(feature = "protobuf"), allow(dead_code))]
 mod outline;
 #[cfg(feature = "protobuf")]
@@ -36,6 +44,8 @@ use std::path::PathBuf;
 pub struct Schemas {
     #[cfg(feature = "protobuf")]
     descriptors: prost_types::FileDescriptorSet,
+    #[cfg(feature = "protobuf")]
+    folders: Vec<String>,
 }
 
 #[cfg(feature = "protobuf")]
@@ -43,6 +53,11 @@ impl Schemas {
     /// Each file after the files that it imports; comments are kept.
     pub fn file_descriptor_set(&self) -> &prost_types::FileDescriptorSet {
         &self.descriptors
+    }
+
+    /// The folders in which these files are found by their names, relative to that of the topology file, in order.
+    pub fn folders(&self) -> &[String] {
+        &self.folders
     }
 }
 

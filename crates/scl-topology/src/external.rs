@@ -119,7 +119,9 @@ pub const SCHEMA: Rule = Rule {
     severity: Severity::Error,
     title: "schema file cannot be read or compiled",
     explanation: "A schema that the file names does not exist, cannot be read, or has a mistake in it. Schemas are \
-                  looked for beside the topology file. A mistake inside is shown in its own file.",
+                  looked for beside the topology file, and what they import also beside each of them, or only in the \
+                  folders of `schema_roots`. An import that two different files can mean is refused. A mistake inside is \
+                  shown in its own file.",
     examples: Examples::Topology {
         bad: "schemas: [uav.prot]
 components:

@@ -12,6 +12,8 @@ pub struct Model {
     pub system: Option<Spanned<String>>,
     /// `schemas:`.
     pub schemas: Vec<Spanned<String>>,
+    /// `schema_roots:`.
+    pub schema_roots: Vec<Spanned<String>>,
     /// `codec:`.
     pub codec: Option<Spanned<String>>,
     /// `components:`, in file order.

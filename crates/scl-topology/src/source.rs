@@ -147,6 +147,14 @@ impl Sources {
         FileId((self.files.len() - 1) as u16)
     }
 
+    /// The file of this path, which is added if there is none.
+    pub fn add_once(&mut self, path: &str, text: &str) -> FileId {
+        match self.files.iter().position(|file| file.path == path) {
+            Some(index) => FileId(index as u16),
+            None => self.add(path, text),
+        }
+    }
+
     /// The file behind an id.
     pub fn file(&self, id: FileId) -> &SourceFile {
         &self.files[usize::from(id.0)]

@@ -46,11 +46,14 @@ fn list_schema(key: &Key, item: Item, names: &Names) -> Value {
         Item::File => {
             json!({ "type": "string", "pattern": "\\S", "description": "A file, for example `rover.proto`." })
         }
+        Item::Folder => {
+            json!({ "type": "string", "pattern": "\\S", "description": "A folder, for example `proto`." })
+        }
         Item::Gate => gate_schema(names),
     };
     // A list of components or gates that is still empty is a warning, not an error.
     match (key.is_required, item) {
-        (true, _) | (_, Item::File) => json!({ "type": "array", "items": items }),
+        (true, _) | (_, Item::File | Item::Folder) => json!({ "type": "array", "items": items }),
         (false, _) => json!({ "type": ["array", "null"], "items": items }),
     }
 }

@@ -1,48 +1,80 @@
 //! The words for a schema that does not compile, at its own line, with the line of the topology file as second place.
 
 use super::disk::SchemaFile;
-use super::place::shown_beside;
-use crate::request::Request;
+use super::mistake::Mistake;
+use super::place::Texts;
 use miette::Diagnostic as _;
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::SCHEMA;
-use scl_topology::source::{Sources, Span, Spanned};
+use scl_topology::source::Spanned;
+use std::path::Path;
 
-/// One problem of one schema file.
-pub(super) fn diagnose(
-    error: &protox::Error,
-    schema: &Spanned<String>,
-    files: &[SchemaFile],
-    request: &Request,
-    sources: &mut Sources,
-) -> Diagnostic {
-    let wrong = in_backticks(&error.to_string());
-    let message = format!("the schema file `{}` does not compile: {wrong}", error.file().unwrap_or(&schema.value));
-    let mut problem = match place(error, files, request, sources) {
-        Some((span, label)) => SCHEMA.at(message, span, label).label(schema.span, "compiled because of this line"),
-        None => SCHEMA.at(message, schema.span, "named here"),
-    };
-    if let Some(help) = error.help() {
-        problem = problem.help(in_backticks(&help.to_string()));
+/// What is shown of the files.
+pub(super) struct Shown<'s>(pub(super) Texts<'s>);
+
+impl Shown<'_> {
+    /// What is wrong with an entry: the mistakes in its files, or else the compiler's error. `told` are the mistakes that
+    /// were reported with an earlier entry.
+    pub(super) fn all(
+        &mut self,
+        error: &protox::Error,
+        mistakes: Vec<Mistake>,
+        told: &mut Vec<Mistake>,
+        schema: &Spanned<String>,
+    ) -> Vec<Diagnostic> {
+        if mistakes.is_empty() {
+            return vec![self.error(error, schema)];
+        }
+        let new: Vec<Mistake> = mistakes.into_iter().filter(|mistake| !told.contains(mistake)).collect();
+        let problems = new.iter().map(|mistake| self.mistake(mistake, schema)).collect();
+        told.extend(new);
+        problems
     }
-    problem
+
+    /// The compiler's error.
+    fn error(&mut self, error: &protox::Error, schema: &Spanned<String>) -> Diagnostic {
+        let wrong = in_backticks(&error.to_string());
+        let file = self.0.files.iter().find(|file| Some(file.name.as_str()) == error.file());
+        let shown = file.map(|file| self.0.folders.relative(&file.path).display().to_string());
+        let name = shown.as_deref().or(error.file()).unwrap_or(&schema.value);
+        let message = format!("the schema file `{name}` does not compile: {wrong}");
+        let found = error.labels().and_then(|mut labels| labels.next());
+        let mut problem = match (file, error.labels()) {
+            (Some(file), Some(_)) => {
+                let at = found.as_ref().map_or((file.text.len(), 0), |label| (label.offset(), label.len()));
+                let label = found.as_ref().and_then(|label| label.label().map(in_backticks)).unwrap_or_default();
+                let span = self.0.span(file, at.0..at.0.saturating_add(at.1));
+                SCHEMA.at(message, span, label).label(schema.span, BECAUSE)
+            }
+            _ => SCHEMA.at(message, schema.span, "named here"),
+        };
+        if let Some(help) = error.help() {
+            problem = problem.help(in_backticks(&help.to_string()));
+        }
+        problem
+    }
+
+    /// One mistake in one schema file.
+    fn mistake(&mut self, mistake: &Mistake, schema: &Spanned<String>) -> Diagnostic {
+        let is_its_file = |file: &&SchemaFile| self.0.folders.relative(&file.path) == Path::new(&mistake.file);
+        let mut problem = match self.0.files.iter().find(is_its_file) {
+            Some(file) => {
+                let span = self.0.span(file, mistake.at.clone());
+                SCHEMA.at(&mistake.message, span, &mistake.label).label(schema.span, BECAUSE)
+            }
+            None => SCHEMA.at(&mistake.message, schema.span, "named here"),
+        };
+        if let Some(help) = &mistake.help {
+            problem = problem.help(help);
+        }
+        if let Some(note) = &mistake.note {
+            problem = problem.note(note);
+        }
+        problem
+    }
 }
 
-/// Where in the schema it is, with the compiler's own word on it; adds the schema's text to the sources.
-fn place(
-    error: &protox::Error,
-    files: &[SchemaFile],
-    request: &Request,
-    sources: &mut Sources,
-) -> Option<(Span, String)> {
-    let file = files.iter().find(|file| Some(file.name.as_str()) == error.file())?;
-    let found = error.labels()?.next();
-    let (start, length) = found.as_ref().map_or((file.text.len(), 0), |label| (label.offset(), label.len()));
-    let end = start.saturating_add(length).min(file.text.len());
-    let id = sources.add(shown_beside(&request.shown_as, &file.name), file.text.clone());
-    let span = Span { file: id, start: start.min(end) as u32, end: end as u32 };
-    Some((span, found.and_then(|label| label.label().map(in_backticks)).unwrap_or_default()))
-}
+const BECAUSE: &str = "compiled because of this line";
 
 /// The compiler quotes names with apostrophes, SCL with backticks.
 fn in_backticks(text: &str) -> String {

@@ -1,11 +1,15 @@
 //! The schema files on disk, as the schema compiler asks for them, with the limits of every file that SCL reads.
 
+use super::folders::Folders;
+use super::imports::{Imported, is_built_in, look_up};
 use super::limits;
+use super::mistake::Mistake;
 use crate::read::{Unreadable, read_text};
 use protox::Error;
 use protox::file::{File, FileResolver, GoogleFileResolver};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A schema file that was read.
 #[derive(Debug, Clone)]
@@ -18,14 +22,40 @@ pub(super) struct SchemaFile {
     pub(super) text: String,
 }
 
-/// Everything that was read so far, shared with the resolver that the compiler owns.
-pub(super) type FilesRead = Arc<Mutex<Vec<SchemaFile>>>;
+/// What was read so far and what is wrong with it, shared with the resolver that the compiler owns.
+#[derive(Debug, Default)]
+pub(super) struct Seen {
+    pub(super) files: Vec<SchemaFile>,
+    /// The files that imports can mean.
+    pub(super) imported: Vec<PathBuf>,
+    /// The mistakes since they were last taken.
+    pub(super) mistakes: Vec<Mistake>,
+}
 
-/// Finds schema files: beside the topology file, beside the schemas it names, and the well-known ones in the program.
+impl Seen {
+    /// All files on which the result depends.
+    pub(super) fn into_paths(self) -> Vec<PathBuf> {
+        let mut known = HashSet::new();
+        let read = self.files.into_iter().map(|file| file.path);
+        read.chain(self.imported).filter(|path| known.insert(path.clone())).collect()
+    }
+}
+
+/// A cell for [`Seen`]. A panic elsewhere leaves it whole, so a poisoned lock may be used.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SharedSeen(Arc<Mutex<Seen>>);
+
+impl SharedSeen {
+    pub(super) fn get(&self) -> MutexGuard<'_, Seen> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Finds schema files in their folders, and the well-known ones in the program.
 pub(super) struct Disk {
-    pub(super) folders: Vec<PathBuf>,
+    pub(super) folders: Folders,
     pub(super) max_size: u64,
-    pub(super) files: FilesRead,
+    pub(super) seen: SharedSeen,
 }
 
 impl FileResolver for Disk {
@@ -34,15 +64,18 @@ impl FileResolver for Disk {
     }
 
     fn open_file(&self, name: &str) -> Result<File, Error> {
-        for folder in &self.folders {
-            let path = folder.join(name);
+        // A copy on disk must not differ from what each language has built in.
+        if is_built_in(name) {
+            return GoogleFileResolver::new().open_file(name);
+        }
+        for path in self.folders.paths(name) {
             match read_text(&path, self.max_size) {
-                Err(Unreadable::Missing) => {}
+                Err(Unreadable::Missing | Unreadable::NotAFile(_)) => {}
                 Err(cause) => return Err(Error::new(why(&path, cause))),
                 Ok(text) => return self.open_text(name, path, text),
             }
         }
-        GoogleFileResolver::new().open_file(name)
+        Err(Error::file_not_found(name))
     }
 }
 
@@ -58,21 +91,24 @@ impl Disk {
                 "`{name}` and `{other}` are the same file; use one of the two names everywhere"
             )));
         }
-        let parsed = File::from_source(name, &text);
-        let file = SchemaFile { name: name.to_owned(), path, text };
-        // A panic elsewhere leaves the list whole, so a poisoned lock may be used.
-        self.files.lock().unwrap_or_else(PoisonError::into_inner).push(file);
+        let Imported { mistakes, files } = look_up(&text, &path, &self.folders);
+        let parsed = match mistakes.as_slice() {
+            [] => File::from_source(name, &text),
+            [first, ..] => Err(Error::new(first.message.clone())),
+        };
+        let mut seen = self.seen.get();
+        seen.mistakes.extend(mistakes);
+        seen.imported.extend(files);
+        seen.files.push(SchemaFile { name: name.to_owned(), path, text });
         parsed
     }
-}
 
-impl Disk {
     /// The other name under which the compiler already knows a file: its messages would be declared twice.
     fn other_name(&self, name: &str, path: &Path) -> Option<String> {
         let path = path.canonicalize().ok()?;
-        let files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        let seen = self.seen.get();
         let same = |file: &&SchemaFile| file.name != name && file.path.canonicalize().is_ok_and(|other| other == path);
-        files.iter().find(same).map(|file| file.name.clone())
+        seen.files.iter().find(same).map(|file| file.name.clone())
     }
 }
 

@@ -1,6 +1,6 @@
 //! How much a schema may declare. The schema compiler checks some things in quadratic time, and it runs inside of rustc.
 
-use super::outline::Tokens;
+use super::lexemes::words;
 
 /// Declarations in one message, enum or file. Far more than in any schema that is known.
 const MOST_IN_ONE: usize = 2_500;
@@ -13,7 +13,7 @@ pub(super) fn exceeded(text: &str) -> Option<String> {
     let mut all = 0;
     // The declarations of each open brace; the first counts those of the file.
     let mut open = vec![0];
-    for token in Tokens(text) {
+    for token in words(text) {
         match token {
             ";" | "{" => {
                 all += 1;

@@ -2,6 +2,8 @@
 //!
 //! While a schema is broken, programs that use its messages must not be told that these do not exist.
 
+use super::lexemes;
+
 /// The package of a schema file and the messages and enums in it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Outline {
@@ -23,7 +25,7 @@ pub(super) fn outline(text: &str) -> Outline {
     // The message of each open brace, or `None` for a brace of something else.
     let mut open: Vec<Option<String>> = Vec::new();
     let mut words: Vec<&str> = Vec::new();
-    for token in Tokens(text) {
+    for token in lexemes::words(text) {
         match token {
             ";" => {
                 if let (["package", name @ ..], true) = (words.as_slice(), open.is_empty()) {
@@ -68,40 +70,6 @@ impl Outline {
             path.push(name.to_owned());
             self.types.push(path);
         }
-    }
-}
-
-/// Words and punctuation, without comments and strings.
-pub(super) struct Tokens<'t>(pub(super) &'t str);
-
-impl<'t> Iterator for Tokens<'t> {
-    type Item = &'t str;
-
-    fn next(&mut self) -> Option<&'t str> {
-        loop {
-            self.0 = self.0.trim_start();
-            let first = self.0.chars().next()?;
-            let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
-            let length = match first {
-                '/' if self.0.starts_with("//") => self.0.find('\n').unwrap_or(self.0.len()),
-                '/' if self.0.starts_with("/*") => self.0.find("*/").map_or(self.0.len(), |end| end + 2),
-                '"' | '\'' => self.0[1..].find([first, '\n']).map_or(self.0.len(), |end| end + 2),
-                _ if is_word(first) => {
-                    let length = self.0.find(|letter| !is_word(letter)).unwrap_or(self.0.len());
-                    return Some(self.take(length));
-                }
-                _ => return Some(self.take(first.len_utf8())),
-            };
-            self.take(length);
-        }
-    }
-}
-
-impl<'t> Tokens<'t> {
-    fn take(&mut self, length: usize) -> &'t str {
-        let (token, rest) = self.0.split_at(length);
-        self.0 = rest;
-        token
     }
 }
 

@@ -1,21 +1,35 @@
-//! Places in schema files: where a declaration is written.
+//! Places in schema files.
 
 use super::disk::SchemaFile;
+use super::folders::Folders;
 use crate::request::Request;
 use prost_types::FileDescriptorProto;
-use scl_topology::source::{FileId, Sources, Span};
-use std::collections::HashMap;
+use scl_topology::source::{Sources, Span};
+use std::ops::Range;
 use std::path::Path;
 
-/// Finds declarations of compiled schemas in their texts.
-pub(super) struct Places<'a> {
-    pub(super) request: &'a Request,
-    pub(super) sources: &'a mut Sources,
-    /// The files as they were read.
-    pub(super) files: &'a [SchemaFile],
-    pub(super) compiled: &'a [FileDescriptorProto],
-    /// The files that have been added to `sources`.
-    pub(super) added: HashMap<String, FileId>,
+/// The schema files as they were read, and how messages name them.
+pub(super) struct Texts<'s> {
+    pub(super) request: &'s Request,
+    pub(super) folders: &'s Folders,
+    pub(super) files: &'s [SchemaFile],
+    pub(super) sources: &'s mut Sources,
+}
+
+/// Finds the declarations of compiled schemas in their texts.
+pub(super) struct Places<'s> {
+    pub(super) texts: Texts<'s>,
+    pub(super) compiled: &'s [FileDescriptorProto],
+}
+
+impl Texts<'_> {
+    /// A place in a schema, whose text is added to the sources.
+    pub(super) fn span(&mut self, file: &SchemaFile, at: Range<usize>) -> Span {
+        let end = at.end.min(file.text.len());
+        let shown = Path::new(&self.request.shown_as).with_file_name(self.folders.relative(&file.path));
+        let id = self.sources.add_once(&shown.display().to_string(), &file.text);
+        Span { file: id, start: at.start.min(end) as u32, end: end as u32 }
+    }
 }
 
 impl Places<'_> {
@@ -30,18 +44,11 @@ impl Places<'_> {
             [line, start, last, end] => ((line, start), (last, end)),
             _ => return None,
         };
-        let text = &self.files.iter().find(|read| read.name == file)?.text;
+        let read = self.texts.files.iter().find(|read| read.name == file)?;
         let [start, end] = [start, end].map(|(line, column)| {
-            let before: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
-            (before + column).min(text.len()) as u32
+            let before: usize = read.text.split_inclusive('\n').take(line).map(str::len).sum();
+            before + column
         });
-        let shown = shown_beside(&self.request.shown_as, file);
-        let id = *self.added.entry(file.to_owned()).or_insert_with(|| self.sources.add(shown, text.clone()));
-        Some(Span { file: id, start, end })
+        Some(self.texts.span(read, start..end))
     }
-}
-
-/// The path under which messages name a schema, in the manner of the topology file's own.
-pub(super) fn shown_beside(topology: &str, name: &str) -> String {
-    Path::new(topology).with_file_name(name).display().to_string()
 }

@@ -28,7 +28,7 @@ pub const FORMAT: u32 = 1;
 pub const OWN_PREFIX: &str = "x-";
 
 /// The sections, in the order in which messages list them.
-pub static SECTIONS: [Key; 6] = [
+pub static SECTIONS: [Key; 7] = [
     Key {
         key: "components",
         shape: Shape::List(Item::Component),
@@ -74,6 +74,16 @@ connections:
         summary: "Protobuf files beside this one, from which the macro generates Rust types.",
         text: "A gate names their messages with their package: `rover.Measurement`.",
         example: "schemas: [rover.proto]\n",
+    },
+    Key {
+        key: "schema_roots",
+        shape: Shape::List(Item::Folder),
+        is_required: false,
+        default: "this folder, and those of the `schemas`",
+        summary: "The folders in which the `import` statements of the `schemas` begin, as protoc's `-I`.",
+        text: "Paths from this file's folder, `.` for itself. Each of the `schemas` must be in one of them. See \
+               [imports](messages.md#imports).",
+        example: "schemas: [proto/nav/fix.proto]\nschema_roots: [proto]\n",
     },
     Key {
         key: "codec",

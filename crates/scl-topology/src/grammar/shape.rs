@@ -59,6 +59,8 @@ pub enum Item {
     Connection,
     /// Names of files.
     File,
+    /// Paths of folders.
+    Folder,
     /// Gates.
     Gate,
 }
@@ -107,6 +109,7 @@ impl Shape {
             Shape::List(Item::Component) => "a list of components".to_owned(),
             Shape::List(Item::Connection) => "a list of pairs".to_owned(),
             Shape::List(Item::File) => "a list of files".to_owned(),
+            Shape::List(Item::Folder) => "a list of folders".to_owned(),
             Shape::List(Item::Gate) => "a list of gates".to_owned(),
         }
     }

@@ -43,7 +43,7 @@ impl Reader<'_> {
     /// The word with the characters that were meant, where some only look like them.
     pub(super) fn in_ascii(&mut self, node: &Node, word: Spanned<String>, what: &str) -> Spanned<String> {
         // Files may have any name.
-        if word.value.is_ascii() || what == "schema file" {
+        if word.value.is_ascii() || matches!(what, "schema file" | "folder of schemas") {
             return word;
         }
         let Some(problem) = pitfall::look_alike::in_word(node, &word.value, what, self.source) else { return word };

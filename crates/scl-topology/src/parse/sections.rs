@@ -4,6 +4,7 @@ use super::field::{Field, Fields};
 use super::words::SECTIONS;
 use super::{Reader, shape};
 use crate::grammar;
+use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
 
@@ -14,7 +15,14 @@ impl Reader<'_> {
             match field.key {
                 "system" => self.model.system = self.name_in(*field, "system name"),
                 "codec" => self.model.codec = self.name_in(*field, "codec"),
-                "schemas" => self.read_schemas(*field),
+                "schemas" => {
+                    let files = self.read_files(*field, "schema file", "a schema");
+                    self.model.schemas.extend(files);
+                }
+                "schema_roots" => {
+                    let folders = self.read_files(*field, "folder of schemas", "a folder of schemas");
+                    self.model.schema_roots.extend(folders);
+                }
                 "scl" => self.read_version(*field),
                 "components" | "connections" => self.read_lists(&fields, field.key),
                 key if key.starts_with(grammar::OWN_PREFIX) => self.check_extension(*field),
@@ -49,21 +57,17 @@ impl Reader<'_> {
         }
     }
 
-    fn read_schemas(&mut self, field: Field<'_>) {
+    fn read_files(&mut self, field: Field<'_>, what: &str, one: &str) -> Vec<Spanned<String>> {
         match &field.value.kind {
-            NodeKind::Unread => {}
-            NodeKind::Sequence { items } => {
-                for item in items {
-                    let file = self.name(item, "schema file", "a schema");
-                    self.model.schemas.extend(file);
-                }
-            }
+            NodeKind::Unread => Vec::new(),
+            NodeKind::Sequence { items } => items.iter().filter_map(|item| self.name(item, what, one)).collect(),
             _ if super::name::is_empty(field.value) => {
-                self.name_in(field, "list of schemas");
+                self.name_in(field, "list of files");
+                Vec::new()
             }
             _ => {
-                self.report(shape::section_kind::schemas(field));
-                self.model.schemas.extend(super::scalar(field.value));
+                self.report(shape::section_kind::files(field));
+                super::scalar(field.value).into_iter().collect()
             }
         }
     }

@@ -75,6 +75,26 @@ fn a_component_is_testable_if_asked_for() {
     run(&mut Command::new(project.path("build/controller")));
 }
 
+/// The promise: protoc is told where the imports of the schemas begin.
+#[test]
+fn schemas_are_found_below_their_root() {
+    let project = Project::new();
+    let schemas = "schemas: [proto/msg/rover.proto]\nschema_roots: [proto]";
+    project.edit("topology.yaml", "schemas: [rover.proto]", schemas);
+    for folder in ["proto/msg", "proto/common"] {
+        fs::create_dir_all(project.path(folder)).expect("a folder");
+    }
+    fs::rename(project.path("rover.proto"), project.path("proto/msg/rover.proto")).expect("moved");
+    let common = "syntax = \"proto3\";\npackage common;\nmessage Header {}\n";
+    fs::write(project.path("proto/common/header.proto"), common).expect("a schema");
+    project.edit("proto/msg/rover.proto", "package rover;", "package rover;\nimport \"common/header.proto\";");
+    project.configure(&source_tree()).expect("configured");
+    let built = project.build_target("sensor").expect("built");
+    for name in ["common/header.proto", "msg/rover.proto"] {
+        assert!(built.contains(&format!("Compiling {name} with protoc")), "{built}");
+    }
+}
+
 /// The promise: what is missing is named, with the way to get it.
 #[test]
 fn what_is_missing_is_named() {
@@ -194,6 +214,10 @@ impl Project {
 
     fn build(&self) -> Result<String, String> {
         output(Command::new("cmake").arg("--build").arg(self.path("build")))
+    }
+
+    fn build_target(&self, target: &str) -> Result<String, String> {
+        output(Command::new("cmake").arg("--build").arg(self.path("build")).args(["--target", target]))
     }
 
     #[track_caller]

@@ -59,12 +59,12 @@ pub(in crate::parse) fn connections(section: Field<'_>) -> Diagnostic {
         .help("write:\nconnections:\n  - [sensor.measurements, controller.sensor]")
 }
 
-/// `schemas: rover.proto`.
-pub(in crate::parse) fn schemas(section: Field<'_>) -> Diagnostic {
+/// `schemas: rover.proto`, `schema_roots: proto`.
+pub(in crate::parse) fn files(section: Field<'_>) -> Diagnostic {
     let problem = wrong_kind(section, first_key(section.value), String::new());
     match &section.value.kind {
-        NodeKind::Scalar { text, .. } => problem.help(format!("write `schemas: [{text}]`")),
-        _ => problem.help("write the names of the files in brackets: `schemas: [rover.proto]`"),
+        NodeKind::Scalar { text, .. } => problem.help(format!("write `{}: [{text}]`", section.key)),
+        _ => problem.help("write the paths in brackets: `schemas: [rover.proto]`, `schema_roots: [proto]`"),
     }
 }
 

@@ -43,15 +43,15 @@ mod tests {
         check(
             &RULE,
             expect![[r#"
-            error: [SCL0202] unknown section `conections`
-             --> topology.yaml:2:1
-              |
-            2 | conections: []
-              | ^^^^^^^^^^ not a section of a topology
-              |
-              = help: a section with a similar name exists: `connections`
-              = note: sections: `components`, `connections`, `system`, `schemas`, `codec`, `scl`
-              = note: keys that start with `x-` are ignored, for your own use"#]],
+                error: [SCL0202] unknown section `conections`
+                 --> topology.yaml:2:1
+                  |
+                2 | conections: []
+                  | ^^^^^^^^^^ not a section of a topology
+                  |
+                  = help: a section with a similar name exists: `connections`
+                  = note: sections: `components`, `connections`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
+                  = note: keys that start with `x-` are ignored, for your own use"#]],
         );
     }
 }

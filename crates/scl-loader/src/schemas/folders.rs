@@ -1,0 +1,153 @@
+//! The folders in which schemas are looked for, and the files that a name can mean there.
+
+use crate::read::read_text;
+use scl_topology::model::Model;
+use std::collections::HashMap;
+use std::path::{Component, Path, PathBuf};
+
+/// Where imports are looked for: in the folders of `schema_roots`, or else beside the topology file and beside the schemas
+/// that it names.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Folders {
+    topology: PathBuf,
+    /// As the topology file names them; empty is its own folder.
+    all: Vec<PathBuf>,
+    /// Whether the topology file declares them.
+    are_roots: bool,
+    /// The entries of `schemas` by the names under which the compiler knows them.
+    entries: HashMap<String, PathBuf>,
+    max_size: u64,
+}
+
+/// The files that a name can mean.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Found {
+    /// None.
+    Missing,
+    /// One file, or several with the same content.
+    One(Vec<PathBuf>),
+    /// Two files with different content, perhaps of more.
+    Two(PathBuf, PathBuf),
+}
+
+impl Folders {
+    pub(super) fn of(topology: &Path, model: &Model, max_size: u64) -> Self {
+        let roots = model.schema_roots.iter().map(|root| plain(Path::new(&root.value)));
+        let beside = model.schemas.iter().filter_map(|schema| Path::new(&schema.value).parent().map(plain));
+        let are_roots = !model.schema_roots.is_empty();
+        let wanted: Vec<PathBuf> =
+            if are_roots { roots.collect() } else { std::iter::once(PathBuf::new()).chain(beside).collect() };
+        let mut folders = Self { topology: topology.to_path_buf(), are_roots, max_size, ..Self::default() };
+        for folder in wanted {
+            if !folders.all.contains(&folder) {
+                folders.all.push(folder);
+            }
+        }
+        for schema in &model.schemas {
+            if let Some(name) = folders.name_of_entry(&schema.value) {
+                folders.entries.insert(name, topology.join(&schema.value));
+            }
+        }
+        folders
+    }
+
+    /// The folders as entries of `schema_roots` name them.
+    pub(super) fn shown(&self) -> Vec<String> {
+        self.all.iter().map(|folder| as_root(folder)).collect()
+    }
+
+    /// The way out that adds a folder to `schema_roots`.
+    pub(super) fn with_root(&self, folder: &Path) -> String {
+        let known = self.all.iter().filter(|_| self.are_roots).map(|known| as_root(known));
+        let roots: Vec<String> = known.chain([as_root(folder)]).collect();
+        format!("name the folder in which imports begin: `schema_roots: [{}]`", roots.join(", "))
+    }
+
+    pub(super) fn are_roots(&self) -> bool {
+        self.are_roots
+    }
+
+    /// The name under which the compiler knows an entry of `schemas`; `None` if it is in none of the roots.
+    pub(super) fn name_of_entry(&self, entry: &str) -> Option<String> {
+        if self.are_roots { self.import_name(&self.topology.join(entry)) } else { Some(entry.to_owned()) }
+    }
+
+    /// The name by which an import reaches a file from the first folder that contains it.
+    pub(super) fn import_name(&self, path: &Path) -> Option<String> {
+        self.all.iter().find_map(|folder| below(&self.topology.join(folder), path))
+    }
+
+    /// The files that `name` means in an import. Files with the same bytes mean the same, so that a copy does no harm.
+    pub(super) fn find(&self, name: &str) -> Found {
+        let mut found: Vec<PathBuf> = Vec::new();
+        for path in self.candidates(name).filter(|path| path.is_file()) {
+            match found.first() {
+                Some(first) if !self.has_same_content(first, &path) => return Found::Two(first.clone(), path),
+                _ => found.push(path),
+            }
+        }
+        if found.is_empty() { Found::Missing } else { Found::One(found) }
+    }
+
+    /// The path of an entry of `schemas`, and the paths where other files of this name may be.
+    pub(super) fn paths(&self, name: &str) -> Vec<PathBuf> {
+        self.entries.get(name).cloned().into_iter().chain(self.candidates(name)).collect()
+    }
+
+    /// The entry of `schemas` that is this file and has another name.
+    pub(super) fn entry_with_other_name(&self, name: &str, path: &Path) -> Option<&str> {
+        let path = path.canonicalize().ok()?;
+        let is_other = |(known, entry): &(&String, &PathBuf)| {
+            *known != name && entry.file_name() == path.file_name() && entry.canonicalize().is_ok_and(|it| it == path)
+        };
+        self.entries.iter().filter(is_other).map(|(known, _)| known.as_str()).min()
+    }
+
+    /// The path of a file that the topology file would name like this.
+    pub(super) fn path(&self, relative: &Path) -> PathBuf {
+        self.topology.join(relative)
+    }
+
+    /// A path of a file as the topology file would name it.
+    pub(super) fn relative<'p>(&self, path: &'p Path) -> &'p Path {
+        path.strip_prefix(&self.topology).unwrap_or(path)
+    }
+
+    /// Where a file of this name may be.
+    pub(super) fn candidates(&self, name: &str) -> impl Iterator<Item = PathBuf> {
+        self.all.iter().map(move |folder| self.topology.join(folder).join(name))
+    }
+
+    fn has_same_content(&self, one: &Path, other: &Path) -> bool {
+        let is_same_file = || one.canonicalize().ok() == other.canonicalize().ok();
+        let has_same_text = || match (read_text(one, self.max_size), read_text(other, self.max_size)) {
+            (Ok(one), Ok(other)) => one == other,
+            _ => false,
+        };
+        is_same_file() || has_same_text()
+    }
+}
+
+/// The path of a file from a folder, as an import has it; `None` if the file is not below the folder.
+fn below(folder: &Path, path: &Path) -> Option<String> {
+    let as_written = || from(&plain(folder), &plain(path));
+    let on_disk = || from(&folder.canonicalize().ok()?, &path.canonicalize().ok()?);
+    as_written().or_else(on_disk)
+}
+
+fn from(folder: &Path, path: &Path) -> Option<String> {
+    let parts = path.strip_prefix(folder).ok()?.components();
+    let names: Option<Vec<&str>> =
+        parts.map(|part| if let Component::Normal(it) = part { it.to_str() } else { None }).collect();
+    names.map(|names| names.join("/"))
+}
+
+/// A folder as an entry of `schema_roots`.
+fn as_root(folder: &Path) -> String {
+    if folder.as_os_str().is_empty() { ".".to_owned() } else { folder.display().to_string() }
+}
+
+/// The path without `.`.
+fn plain(path: &Path) -> PathBuf {
+    path.components().filter(|part| *part != Component::CurDir).collect()
+}
