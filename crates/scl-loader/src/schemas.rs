@@ -9,6 +9,8 @@ mod descriptors;
 #[cfg(feature = "protobuf")]
 mod disk;
 #[cfg(feature = "protobuf")]
+mod edition;
+#[cfg(feature = "protobuf")]
 mod entry;
 #[cfg(feature = "protobuf")]
 mod folders;

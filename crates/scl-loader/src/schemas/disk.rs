@@ -1,5 +1,6 @@
 //! The schema files on disk, as the schema compiler asks for them, with the limits of every file that SCL reads.
 
+use super::edition;
 use super::folders::Folders;
 use super::imports::{Imported, is_built_in, look_up};
 use super::limits;
@@ -91,7 +92,8 @@ impl Disk {
                 "`{name}` and `{other}` are the same file; use one of the two names everywhere"
             )));
         }
-        let Imported { mistakes, files } = look_up(&text, &path, &self.folders);
+        let Imported { mut mistakes, files } = look_up(&text, &path, &self.folders);
+        mistakes.extend(edition::find(&text, self.folders.relative(&path)));
         let parsed = match mistakes.as_slice() {
             [] => File::from_source(name, &text),
             [first, ..] => Err(Error::new(first.message.clone())),

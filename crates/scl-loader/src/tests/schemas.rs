@@ -294,3 +294,62 @@ fn bad_schemas_are_errors_and_never_more() {
         a string without end: SCL0406 the schema file `rover.proto` does not compile: expected string terminator, but reached end of file
     "#]].assert_eq(&told);
 }
+
+#[test]
+fn editions_and_their_features_are_refused() {
+    let edition = PROTO.replace("syntax = \"proto3\"", "edition = \"2023\"");
+    says(
+        &[("t.yaml", &typed("[rover.proto]", "rover.Measurement")), ("rover.proto", &edition)],
+        "t.yaml",
+        expect![[r#"
+            error: [SCL0406] `rover.proto` uses an edition of protobuf, which SCL does not read yet
+             --> rover.proto:1:1
+              |
+            1 | edition = "2023";
+              | ^^^^^^^^^^^^^^^^ only `proto2` and `proto3` are read
+              |
+             ::: t.yaml:1:11
+              |
+            1 | schemas: [rover.proto]
+              |           ----------- compiled because of this line
+              |
+              = help: write `syntax = "proto3";`, and `optional` before each field that has presence
+              = note: the bytes of messages stay the same unless the file sets features
+        "#]],
+    );
+    let feature = PROTO.replace("data = 1", "data = 1 [features.field_presence = EXPLICIT]");
+    says(
+        &[("t.yaml", &typed("[rover.proto]", "rover.Measurement")), ("rover.proto", &feature)],
+        "t.yaml",
+        expect![[r#"
+        error: [SCL0406] `rover.proto` sets a feature, which has no effect without an edition
+         --> rover.proto:3:40
+          |
+        3 | message Measurement { double data = 1 [features.field_presence = EXPLICIT]; }
+          |                                        ^^^^^^^^^^^^^^^^^^^^^^^ a feature of an edition of protobuf
+          |
+         ::: t.yaml:1:11
+          |
+        1 | schemas: [rover.proto]
+          |           ----------- compiled because of this line
+          |
+          = help: remove it, and write `optional` before each field that has presence
+          = note: SCL reads `proto2` and `proto3`, and no editions yet
+    "#]],
+    );
+    for text in [
+        PROTO.replace("message", "option features.enum_type = CLOSED;\nmessage"),
+        PROTO
+            .replace("proto3", "proto2")
+            .replace("double", "optional double")
+            .replace(" }", " option features = {}; }"),
+        format!("// edition = \"2023\";\n{}", edition.replace("2023", "2024")),
+        edition.replace("package", "import \"nowhere.proto\";\npackage"),
+    ] {
+        let told = headline(&[("rover.proto", text.as_bytes())]);
+        assert!(
+            told.contains("`rover.proto` uses an edition") || told.contains("`rover.proto` sets a feature"),
+            "{told}"
+        );
+    }
+}
