@@ -23,7 +23,7 @@ pub(crate) enum FieldKind {
 impl FieldKind {
     /// The kind of a value.
     pub(crate) fn of(value: &Value) -> Self {
-        match value {
+        match value.meaning() {
             Value::Null => Self::Null,
             Value::Bool(_) => Self::Boolean,
             Value::Int(_) | Value::Uint(_) | Value::Float(_) => Self::Number,
@@ -31,7 +31,7 @@ impl FieldKind {
             Value::Bytes(_) => Self::Bytes,
             Value::List(_) => Self::List(Box::new(Self::Unknown)),
             Value::Map(_) => Self::Map(Box::new(Self::Unknown)),
-            Value::Opaque(_) => Self::Unknown,
+            Value::Opaque(_) | Value::Written(_) => Self::Unknown,
         }
     }
 

@@ -9,7 +9,7 @@ use crate::path::{FieldPath, UnknownField};
 use crate::protobuf::{self, Unknown};
 use crate::self_describing::{read_cbor, read_json, read_msgpack, write_cbor, write_json, write_msgpack};
 use crate::text;
-use crate::value::{Opaque, Value};
+use crate::value::{Opaque, Value, key_text};
 use bytes::Bytes;
 use prost::Message;
 use prost_reflect::{DescriptorPool, MessageDescriptor};
@@ -134,9 +134,9 @@ impl MessageType {
                 let json = serde_json::to_vec(&message).map_err(|error| EncodeError::new(error.to_string()))?;
                 Ok(json.into())
             }
-            Form::Json => Ok(write_json(value)),
-            Form::Cbor => write_cbor(value),
-            Form::Msgpack => write_msgpack(value),
+            Form::Json => exact(value).map(|()| write_json(value)),
+            Form::Cbor => exact(value).and_then(|()| write_cbor(value)),
+            Form::Msgpack => exact(value).and_then(|()| write_msgpack(value)),
             Form::Opaque { why } => text::opaque_bytes(value).map(Bytes::from).map_err(|error| error.note(why)),
         }
     }
@@ -171,6 +171,31 @@ impl MessageType {
             Form::Protobuf(message) | Form::ProtobufJson(message) => Some(message),
             Form::Json | Form::Cbor | Form::Msgpack | Form::Opaque { .. } => None,
         }
+    }
+}
+
+/// Refuses whole numbers that were read as floats because they have more than 64 bits.
+fn exact(value: &Value) -> Result<(), EncodeError> {
+    match value {
+        Value::Written(written) if matches!(written.meaning, Value::Float(_)) => {
+            let text = &written.text;
+            let is_whole = text.trim_start_matches(['-', '+']).bytes().all(|byte| byte.is_ascii_digit());
+            let error = || EncodeError::new(format!("the number {text} has more than 64 bits"));
+            if is_whole {
+                Err(error().help(format!("quote it, or write `{text}.0` for the nearest float")))
+            } else {
+                Ok(())
+            }
+        }
+        Value::List(items) => {
+            let mut items = items.iter().enumerate();
+            items.try_for_each(|(index, item)| exact(item).map_err(|error| error.below(&format!("[{index}]"))))
+        }
+        Value::Map(entries) => entries.iter().try_for_each(|(key, value)| {
+            let name = key_text(key);
+            exact(key).and_then(|()| exact(value)).map_err(|error| error.below(&name))
+        }),
+        _ => Ok(()),
     }
 }
 

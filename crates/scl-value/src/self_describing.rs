@@ -245,6 +245,7 @@ impl Serialize for Wire<'_> {
                 map.end()
             }
             Value::Opaque(opaque) => Wire(&opaque.fields()).serialize(output),
+            Value::Written(written) => Wire(&written.meaning).serialize(output),
         }
     }
 }

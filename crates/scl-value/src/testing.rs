@@ -18,6 +18,7 @@ import "google/protobuf/timestamp.proto";
 import "google/protobuf/wrappers.proto";
 
 enum Mode { IDLE = 0; AUTO = 1; MANUAL = 2; }
+enum Word { NULL = 0; TRUE = 1; Inf = 2; }
 message Point { double x = 1; double y = 2; }
 message Measurement {
   float speed = 1;
@@ -50,6 +51,7 @@ message Known {
   google.protobuf.ListValue list = 8;
   google.protobuf.Empty empty = 9;
 }
+message Words { Word word = 1; repeated Word words = 2; map<string, Word> by_name = 3; google.protobuf.StringValue maybe = 4; }
 message Newer { float speed = 1; string added = 100; int32 number = 101; }
 "#;
 

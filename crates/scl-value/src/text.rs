@@ -1,5 +1,6 @@
 //! Values as texts: YAML and rows of a table.
 
+mod as_written;
 mod documents;
 mod table;
 mod yaml;
@@ -9,33 +10,60 @@ pub use table::Table;
 pub use yaml::{ReadError, read_yaml, to_yaml};
 
 use crate::error::EncodeError;
-use crate::value::Value;
+use crate::value::{Value, key_text};
 
-/// The bytes of an opaque message: bytes, or a map with `hex` or `text`.
+/// The bytes of an opaque message: bytes, or a map with `hex` or `text`, whose values are taken as they were written.
 pub(crate) fn opaque_bytes(value: &Value) -> Result<Vec<u8>, EncodeError> {
     let wrong = |reason: &str| EncodeError::new(reason).help("write `{hex: 01ff}`, `{text: hello}` or `!binary AQL/`");
     let hex = match value {
         Value::Bytes(bytes) => return Ok(bytes.clone()),
         Value::Opaque(opaque) => opaque.hex.clone(),
-        map => match (map.get("text"), map.get("hex")) {
-            (Some(Value::Text(text)), None) => return Ok(text.clone().into_bytes()),
-            (None, Some(Value::Text(hex))) => hex.clone(),
-            // `{hex: 10}` is a number in YAML.
-            (None, Some(Value::Int(number))) => number.to_string(),
+        map => match (map.get("text").and_then(written), map.get("hex").and_then(written)) {
+            (Some(text), None) => return Ok(text.into_bytes()),
+            (None, Some(hex)) => hex,
             _ => return Err(wrong("expected bytes")),
         },
     };
     if hex.ends_with("...") {
         return Err(wrong("the hexadecimal text is not complete"));
     }
-    let digits: Vec<u8> = hex.bytes().filter(|byte| !byte.is_ascii_whitespace()).collect();
+    from_hex(&hex).ok_or_else(|| wrong(&format!("expected pairs of hexadecimal digits, found `{}`", shortened(&hex))))
+}
+
+/// A scalar as it was written; `None` if it is no scalar, or nothing.
+fn written(value: &Value) -> Option<String> {
+    match value.meaning() {
+        Value::Text(_) | Value::Bool(_) | Value::Int(_) | Value::Uint(_) | Value::Float(_) => Some(key_text(value)),
+        _ => None,
+    }
+}
+
+/// Pairs of digits, perhaps in groups with spaces between them, each perhaps after `0x`.
+pub(crate) fn from_hex(text: &str) -> Option<Vec<u8>> {
+    let mut digits: Vec<u8> = Vec::with_capacity(text.len());
+    for group in text.split_ascii_whitespace() {
+        match group.strip_prefix("0x").or_else(|| group.strip_prefix("0X")) {
+            Some(group) if group.is_empty() || !group.len().is_multiple_of(2) => return None,
+            Some(group) => digits.extend(group.bytes()),
+            None => digits.extend(group.bytes()),
+        }
+    }
     let pair = |pair: &[u8]| match pair {
         [high, low] => Some((digit(*high)? << 4) | digit(*low)?),
         _ => None,
     };
-    digits.chunks(2).map(pair).collect::<Option<_>>().ok_or_else(|| wrong("expected pairs of hexadecimal digits"))
+    digits.chunks(2).map(pair).collect()
 }
 
 fn digit(byte: u8) -> Option<u8> {
     char::from(byte).to_digit(16).and_then(|digit| u8::try_from(digit).ok())
+}
+
+/// The text, or its start if it is long.
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
+    }
 }

@@ -6,8 +6,8 @@ pub use json::to_json;
 
 /// A decoded message or a part of it.
 ///
-/// Numbers are [`Int`](Value::Int) whenever they fit, so that equal numbers are equal values.
-#[derive(Debug, Clone, PartialEq)]
+/// Numbers are [`Int`](Value::Int) whenever they fit, so that equal numbers are equal values, however they are written.
+#[derive(Debug, Clone)]
 pub enum Value {
     /// Nothing: `null` in JSON and YAML.
     Null,
@@ -30,6 +30,17 @@ pub enum Value {
     Map(Vec<(Value, Value)>),
     /// A payload that cannot be decoded without its type.
     Opaque(Opaque),
+    /// A scalar that [`read_yaml`](crate::read_yaml) has read, where its meaning alone loses what was written.
+    Written(Box<Written>),
+}
+
+/// A scalar of YAML: `0x10` means 16.
+#[derive(Debug, Clone)]
+pub struct Written {
+    /// What was written.
+    pub text: String,
+    /// What it means to YAML; no list or map.
+    pub meaning: Value,
 }
 
 /// A payload that is shown as bytes.
@@ -77,9 +88,17 @@ impl Value {
         by_name.or_else(|| entries.iter().find(|(key, _)| key_text(key) == name)).map(|(_, value)| value)
     }
 
+    /// The value without the text that was written for it.
+    pub fn meaning(&self) -> &Value {
+        match self {
+            Value::Written(written) => &written.meaning,
+            value => value,
+        }
+    }
+
     /// The value of a number of any kind, to be compared with others. Whole numbers from 2^53 on are rounded.
     pub fn as_number(&self) -> Option<f64> {
-        match self {
+        match self.meaning() {
             Value::Int(number) => Some(*number as f64),
             Value::Uint(number) => Some(*number as f64),
             Value::Float(number) => Some(*number),
@@ -89,7 +108,7 @@ impl Value {
 
     /// What this is, for messages: `a number`.
     pub(crate) fn kind(&self) -> &'static str {
-        match self {
+        match self.meaning() {
             Value::Null => "null",
             Value::Bool(_) => "a boolean",
             Value::Int(_) | Value::Uint(_) | Value::Float(_) => "a number",
@@ -97,7 +116,25 @@ impl Value {
             Value::Bytes(_) => "bytes",
             Value::List(_) => "a list",
             Value::Map(_) => "a map",
-            Value::Opaque(_) => "an undecoded payload",
+            Value::Opaque(_) | Value::Written(_) => "an undecoded payload",
+        }
+    }
+}
+
+impl PartialEq for Value {
+    fn eq(&self, other: &Self) -> bool {
+        match (self.meaning(), other.meaning()) {
+            (Value::Null, Value::Null) => true,
+            (Value::Bool(one), Value::Bool(other)) => one == other,
+            (Value::Int(one), Value::Int(other)) => one == other,
+            (Value::Uint(one), Value::Uint(other)) => one == other,
+            (Value::Float(one), Value::Float(other)) => one == other,
+            (Value::Text(one), Value::Text(other)) => one == other,
+            (Value::Bytes(one), Value::Bytes(other)) => one == other,
+            (Value::List(one), Value::List(other)) => one == other,
+            (Value::Map(one), Value::Map(other)) => one == other,
+            (Value::Opaque(one), Value::Opaque(other)) => one == other,
+            _ => false,
         }
     }
 }
@@ -106,6 +143,7 @@ impl Value {
 pub(crate) fn key_text(key: &Value) -> String {
     match key {
         Value::Text(text) => text.clone(),
+        Value::Written(written) => written.text.clone(),
         Value::Int(number) => number.to_string(),
         Value::Uint(number) => number.to_string(),
         Value::Bool(flag) => flag.to_string(),

@@ -1,5 +1,7 @@
 //! Reading and writing messages in every codec.
 
+mod written;
+
 use super::*;
 use crate::testing::{descriptor, descriptors, message_type};
 use crate::{read_yaml, to_json, to_yaml};

@@ -1,11 +1,14 @@
 //! From values to messages of protobuf, with errors that name the field.
 
+mod number;
 mod short_form;
 
 use super::UNKNOWN;
-use crate::base64::from_base64;
+use crate::base64::{from_base64, to_base64};
 use crate::error::EncodeError;
+use crate::text::from_hex;
 use crate::value::{Value, key_text};
+use number::{float, integer};
 use prost_reflect::{DynamicMessage, EnumDescriptor, FieldDescriptor, Kind, MapKey, MessageDescriptor, Value as Field};
 use scl_terminal::{closest_name, quoted_list};
 use std::collections::HashMap;
@@ -48,7 +51,7 @@ pub(crate) fn from_value(
             continue;
         };
         check_given(&field, &given)?;
-        let is_null = *value == Value::Null && !is_any_value(&field.kind());
+        let is_null = *value.meaning() == Value::Null && !takes_null(&field.kind(), value);
         if !is_null {
             let read = read_field(&field, value, unknown).map_err(|error| error.below(&name))?;
             result.set_field(&field, read);
@@ -106,8 +109,11 @@ fn check_given(field: &FieldDescriptor, given: &[FieldDescriptor]) -> Result<(),
     }
 }
 
-fn is_any_value(kind: &Kind) -> bool {
-    kind.as_message().is_some_and(|message| message.full_name() == "google.protobuf.Value")
+/// Whether null is a value of this kind, not its absence.
+fn takes_null(kind: &Kind, null: &Value) -> bool {
+    let is_any = kind.as_message().is_some_and(|message| message.full_name() == "google.protobuf.Value");
+    let is_named = || kind.as_enum().is_some_and(|names| names.get_value_by_name(&key_text(null)).is_some());
+    is_any || is_named()
 }
 
 fn read_field(field: &FieldDescriptor, value: &Value, unknown: &mut Unknown) -> Result<Field, EncodeError> {
@@ -143,18 +149,16 @@ fn read_value(kind: &Kind, value: &Value, unknown: &mut Unknown) -> Result<Field
     Ok(match kind {
         Kind::Message(message) => Field::Message(from_value(message, value, unknown)?),
         Kind::Enum(descriptor) => Field::EnumNumber(enum_number(descriptor, value)?),
-        Kind::Bool => match value {
+        Kind::Bool => match value.meaning() {
             Value::Bool(flag) => Field::Bool(*flag),
-            other => return Err(wrong("true or false", other)),
+            Value::Text(word) => return Err(boolean_word(word, wrong("true or false", value))),
+            _ => return Err(wrong("true or false", value)),
         },
-        Kind::String => match value {
+        Kind::String => match value.meaning() {
             Value::Text(text) => Field::String(text.clone()),
-            Value::Int(_) | Value::Uint(_) | Value::Float(_) | Value::Bool(_) => {
-                return Err(wrong("a text", value).help(format!("quote it: '{}'", key_text(value))));
-            }
-            other => return Err(wrong("a text", other)),
+            _ => return Err(unquoted(value, wrong("a text", value))),
         },
-        Kind::Bytes => match value {
+        Kind::Bytes => match value.meaning() {
             Value::Bytes(bytes) => Field::Bytes(bytes.clone().into()),
             Value::Text(text) => {
                 let decoded = from_base64(text).map_err(|reason| {
@@ -162,7 +166,14 @@ fn read_value(kind: &Kind, value: &Value, unknown: &mut Unknown) -> Result<Field
                 })?;
                 Field::Bytes(decoded.into())
             }
-            other => return Err(wrong("bytes as base64", other)),
+            _ => {
+                let error = wrong("bytes as base64", value);
+                let in_hex = Some(key_text(value)).filter(|text| text.starts_with("0x")).and_then(|hex| from_hex(&hex));
+                return Err(match in_hex {
+                    Some(bytes) => error.help(format!("as base64, these bytes are '{}'", to_base64(&bytes))),
+                    None => unquoted(value, error),
+                });
+            }
         },
         Kind::Double => Field::F64(float(value, "double")?),
         Kind::Float => {
@@ -187,68 +198,57 @@ fn wrong(expected: &str, found: &Value) -> EncodeError {
 /// A value for a message: short ones themselves, others by their kind.
 fn told(value: &Value) -> String {
     const LONGEST: usize = 40;
-    match value {
+    match value.meaning() {
         Value::Text(text) if text.chars().count() <= LONGEST => format!("the text `{text}`"),
         Value::Bool(_) | Value::Int(_) | Value::Uint(_) | Value::Float(_) => key_text(value),
         other => other.kind().to_owned(),
     }
 }
 
-fn float(value: &Value, word: &str) -> Result<f64, EncodeError> {
-    let number = match value {
-        Value::Float(number) => Some(*number),
-        Value::Int(number) => Some(*number as f64),
-        Value::Uint(number) => Some(*number as f64),
-        // As in protobuf's JSON.
-        Value::Text(text) => match text.as_str() {
-            "NaN" => Some(f64::NAN),
-            "Infinity" => Some(f64::INFINITY),
-            "-Infinity" => Some(f64::NEG_INFINITY),
-            text => text.parse().ok().filter(|number: &f64| number.is_finite()),
-        },
-        _ => None,
-    };
-    number.ok_or_else(|| wrong(&format!("a number ({word})"), value))
+/// The error about a scalar without quotes where a text belongs.
+fn unquoted(value: &Value, error: EncodeError) -> EncodeError {
+    match value.meaning() {
+        Value::Int(_) | Value::Uint(_) | Value::Float(_) | Value::Bool(_) => {
+            error.help(format!("quote it: '{}'", key_text(value)))
+        }
+        _ => error,
+    }
 }
 
-fn integer<N>(value: &Value, word: &str, least: N, most: N) -> Result<N, EncodeError>
-where
-    N: TryFrom<i128> + std::fmt::Display,
-{
-    let number = match value {
-        Value::Int(number) => Some(i128::from(*number)),
-        Value::Uint(number) => Some(i128::from(*number)),
-        Value::Float(number) if number.fract() == 0.0 && number.abs() < 2_f64.powi(64) => Some(*number as i128),
-        Value::Text(text) => text.parse().ok(),
-        _ => None,
-    };
-    let fitting = number.and_then(|number| N::try_from(number).ok());
-    fitting.ok_or_else(|| wrong(&format!("a whole number from {least} to {most} ({word})"), value))
+/// The error about a text where a boolean belongs.
+fn boolean_word(word: &str, error: EncodeError) -> EncodeError {
+    match word.to_ascii_lowercase().as_str() {
+        "yes" | "y" | "on" => error.help("write `true`"),
+        "no" | "n" | "off" => error.help("write `false`"),
+        _ => error,
+    }
 }
 
 fn enum_number(descriptor: &EnumDescriptor, value: &Value) -> Result<i32, EncodeError> {
-    match value {
-        Value::Text(name) => match descriptor.get_value_by_name(name) {
-            Some(value) => Ok(value.number()),
-            None => {
-                let names: Vec<String> = descriptor.values().map(|value| value.name().to_owned()).collect();
-                let error = EncodeError::new(format!("`{}` has no value `{name}`", descriptor.full_name()));
-                let error = match closest_name(name, names.iter().map(String::as_str)) {
-                    Some(near) => error.help(format!("did you mean `{near}`?")),
-                    None => error,
-                };
-                let listed = quoted_list(names.iter().take(LISTED).map(String::as_str));
-                Err(error.note(format!("its values: {listed}{}", if names.len() > LISTED { ", ..." } else { "" })))
-            }
-        },
+    // A name may be a word of YAML: `NULL`, `TRUE`.
+    let name = key_text(value);
+    if let Some(named) = descriptor.get_value_by_name(&name) {
+        return Ok(named.number());
+    }
+    match value.meaning() {
+        Value::Text(_) => {
+            let names: Vec<String> = descriptor.values().map(|value| value.name().to_owned()).collect();
+            let error = EncodeError::new(format!("`{}` has no value `{name}`", descriptor.full_name()));
+            let error = match closest_name(&name, names.iter().map(String::as_str)) {
+                Some(near) => error.help(format!("did you mean `{near}`?")),
+                None => error,
+            };
+            let listed = quoted_list(names.iter().take(LISTED).map(String::as_str));
+            Err(error.note(format!("its values: {listed}{}", if names.len() > LISTED { ", ..." } else { "" })))
+        }
         Value::Int(_) | Value::Uint(_) | Value::Float(_) => integer(value, "int32", i32::MIN, i32::MAX),
-        other => Err(wrong(&format!("a value of `{}`", descriptor.full_name()), other)),
+        _ => Err(wrong(&format!("a value of `{}`", descriptor.full_name()), value)),
     }
 }
 
 /// Keys are texts in JSON, whatever their type.
 fn map_key(kind: &Kind, key: &Value) -> Result<MapKey, EncodeError> {
-    let flag = match key {
+    let flag = match key.meaning() {
         Value::Bool(flag) => Some(*flag),
         Value::Text(text) => text.parse().ok(),
         _ => None,

@@ -40,7 +40,7 @@ impl Table {
 }
 
 fn cell(value: &Value) -> String {
-    match value {
+    match value.meaning() {
         Value::Null => String::new(),
         Value::Text(text) => text.clone(),
         Value::Float(number) if number.is_nan() => "NaN".to_owned(),

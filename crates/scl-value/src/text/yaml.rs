@@ -1,5 +1,6 @@
 //! Values as YAML, and from YAML or JSON, as users write them.
 
+use super::as_written::AsWritten;
 use crate::base64::to_base64;
 use crate::limits::Budget;
 use crate::self_describing::AnyValue;
@@ -31,7 +32,9 @@ pub fn read_yaml(text: &str) -> Result<Value, ReadError> {
     if text.trim().is_empty() {
         return Ok(Value::Map(Vec::new()));
     }
-    let read = AnyValue::new(&Budget::new()).deserialize(serde_yaml::Deserializer::from_str(text));
+    let input = || serde_yaml::Deserializer::from_str(text);
+    let read = AnyValue::new(&Budget::new()).deserialize(input());
+    let read = read.and_then(|value| AsWritten(value).deserialize(input()));
     read.map_err(|error| ReadError { reason: error.to_string() })
 }
 
@@ -65,6 +68,7 @@ impl Serialize for Yaml<'_> {
                 map.end()
             }
             Value::Opaque(opaque) => Yaml(&opaque.fields()).serialize(output),
+            Value::Written(written) => Yaml(&written.meaning).serialize(output),
         }
     }
 }

@@ -39,6 +39,7 @@ impl Serialize for Json<'_> {
                 map.end()
             }
             Value::Opaque(opaque) => Json(&opaque.fields()).serialize(output),
+            Value::Written(written) => Json(&written.meaning).serialize(output),
         }
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn lengthen(
         })
     };
     Some(match short(message)? {
-        Short::Text => match value {
+        Short::Text => match value.meaning() {
             Value::Text(text) => {
                 let text = serde_json::Value::String(text.clone());
                 DynamicMessage::deserialize(message.clone(), text)
@@ -88,7 +88,7 @@ fn anything(message: &MessageDescriptor, value: &Value) -> Result<DynamicMessage
             let items: Vec<_> = items.iter().map(|item| nested("Value", item)).collect::<Result<_, _>>()?;
             ("values", Field::List(items))
         }
-        ("Value", value) => match value {
+        ("Value", value) => match value.meaning() {
             Value::Null => ("null_value", Field::EnumNumber(0)),
             Value::Bool(flag) => ("bool_value", Field::Bool(*flag)),
             Value::Int(number) => ("number_value", Field::F64(*number as f64)),
@@ -97,7 +97,7 @@ fn anything(message: &MessageDescriptor, value: &Value) -> Result<DynamicMessage
             Value::Text(text) => ("string_value", Field::String(text.clone())),
             Value::List(_) => ("list_value", nested("ListValue", value)?),
             Value::Map(_) => ("struct_value", nested("Struct", value)?),
-            Value::Bytes(_) | Value::Opaque(_) => {
+            Value::Bytes(_) | Value::Opaque(_) | Value::Written(_) => {
                 return Err(EncodeError::new(format!("expected a value as in JSON, found {}", value.kind())));
             }
         },
