@@ -10,6 +10,7 @@ mod profile;
 mod reader;
 mod settings;
 mod transports;
+mod yaml;
 
 pub(crate) use entry::{LaunchComponent, Source};
 pub(crate) use settings::Settings;
@@ -89,7 +90,7 @@ impl<'a> LaunchDocument<'a> {
     /// The first place that is not YAML.
     pub(crate) fn parse(path: &'a str, text: &'a str) -> Result<Self, Problem> {
         let text = LaunchText::new(path, text);
-        let value = serde_yaml::from_str(text.text()).map_err(|error| text.syntax_problem(&error))?;
+        let value = yaml::read(text.text()).map_err(|error| text.syntax_problem(&error))?;
         Ok(Self { text, value })
     }
 

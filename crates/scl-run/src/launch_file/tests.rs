@@ -68,7 +68,7 @@ fn controller() -> LaunchComponent {
     LaunchComponent {
         name: "controller".to_owned(),
         source: command(&["/bin/sh", "-c", "./controller 2>> log"]),
-        environment: pairs(&[("GAIN", "0.5")]),
+        environment: pairs(&[("GAIN", "0.50")]),
         settings: in_folder("control"),
         ..LaunchComponent::default()
     }
@@ -121,7 +121,7 @@ fn the_topology_is_named_with_its_place() {
 fn a_profile_replaces_programs_or_changes_keys_and_later_ones_win() {
     let file = parse_launch_file(GOOD, None).unwrap();
     let running = |line: &[&str]| LaunchComponent { source: command(line), ..controller() };
-    let environment = |more: &[(&str, &str)]| [pairs(&[("GAIN", "0.5")]), pairs(more)].concat();
+    let environment = |more: &[(&str, &str)]| [pairs(&[("GAIN", "0.50")]), pairs(more)].concat();
     let display = || LaunchComponent {
         name: "display".to_owned(),
         source: command(&["./display"]),
@@ -312,4 +312,52 @@ fn texts_made_to_break_a_parser_are_rejected() {
         let start: String = text.chars().take(20).collect();
         assert!(parse_launch_file(&text, None).is_err(), "{start}");
     }
+}
+
+#[test]
+fn programs_get_what_is_written() {
+    let scalars = "0x68, True, 1.10, 1234e56, 18446744073709551616, -170141183460469231731687303715884105729, 017, +5, .5, \
+                   1_000, 2026-01-02, yes, .inf, 0o17, 1e3, '0x1', \"a b\"";
+    let expected = "0x68 True 1.10 1234e56 18446744073709551616 -170141183460469231731687303715884105729 017 +5 .5 \
+                    1_000 2026-01-02 yes .inf 0o17 1e3 0x1 a b";
+    let names: Vec<String> = (0..17).map(|at| format!("V{at}")).collect();
+    let variables: Vec<String> =
+        names.iter().zip(scalars.split(", ")).map(|(name, scalar)| format!("{name}: {scalar}")).collect();
+    let variables = variables.join(", ");
+    let text = format!(
+        "environment: {{{variables}, True: 1, 0x1: 2}}
+build: &b [make, {scalars}]
+components:
+  command: {{command: [./a, {scalars}], environment: {{{variables}}}, build: *b, essential: True, cpu: 0x1}}
+profiles:
+  environment:
+    command: {{command: [./b, {scalars}], environment: {{{variables}}}}}
+"
+    );
+    let file = parse_launch_file(&text, None).unwrap();
+    let values = |variables: &[(String, String)]| {
+        variables.iter().take(17).map(|(_, value)| value.clone()).collect::<Vec<_>>().join(" ")
+    };
+    let arguments = |line: &[String]| line[1..].join(" ");
+    assert_eq!(values(&file.environment), expected);
+    assert_eq!(file.environment[17..], pairs(&[("True", "1"), ("0x1", "2")]));
+    assert_eq!(file.build.as_deref().map(arguments).as_deref(), Some(expected));
+    for profiles in [&[][..], &["environment"]] {
+        let component = file.components_with(&words(profiles)).unwrap().remove(0);
+        let Source::Command(line) = &component.source else { panic!("{:?}", component.source) };
+        assert_eq!(arguments(line), expected, "{profiles:?}");
+        assert_eq!(values(&component.environment), expected, "{profiles:?}");
+        assert_eq!((component.settings.essential, component.settings.cpu), (Some(true), Some(vec![1])));
+    }
+}
+
+#[test]
+fn a_number_that_no_key_can_have_has_its_place() {
+    let text = "components:\n  a: {command: ls, cpu: 18446744073709551616, restart_limit: 1234e56}\n";
+    let problems = parse_launch_file(text, None).unwrap_err();
+    let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    assert!(
+        told.iter().any(|it| it.contains("not `18446744073709551616`") && it.contains("launch.yaml:2:20")),
+        "{told:?}"
+    );
 }
