@@ -4,8 +4,10 @@
 
 mod entry;
 mod environment;
+mod explained;
 mod hosts;
 mod keys;
+mod merge;
 mod profile;
 mod reader;
 mod settings;
@@ -108,7 +110,13 @@ impl<'a> LaunchDocument<'a> {
     /// Every mistake of the file.
     pub(crate) fn read(&self, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Problem>> {
         let mut reader = Reader { text: self.text, known, problems: Vec::new() };
-        let file = reader.read_file(&self.value);
+        reader.report_merge_keys(&self.value, &[]);
+        // What they would add is no further mistake.
+        let mut merged = self.value.clone();
+        let file = match merged.apply_merge() {
+            Ok(()) => reader.read_file(&merged),
+            Err(_) => reader.read_file(&self.value),
+        };
         if reader.problems.is_empty() { Ok(file) } else { Err(reader.problems) }
     }
 }
@@ -169,4 +177,4 @@ impl Reader<'_> {
 #[cfg(test)]
 mod tests;
 
-pub use keys::{LaunchKey, launch_keys};
+pub use explained::{LaunchKey, launch_keys};

@@ -82,6 +82,14 @@ const RESTARTS: &[&str] = &{
 
 const KEY: Key = Key { name: "", also: &[], form: Form::Command, default: "", meaning: "", in_defaults: false };
 
+/// The merge key of YAML 1.1, which is no key of any mapping.
+pub(super) const MERGE: &str = "<<";
+
+/// Whether a key at the top of the file is the user's own, which is ignored as in a topology file.
+pub(super) fn is_own(key: &str) -> bool {
+    key.starts_with("x-")
+}
+
 /// The keys at the top of the file.
 pub(super) const TOP: &[Key] = &[
     Key { name: "build", meaning: "Runs first, in the folder of the launch file.", default: "nothing", ..KEY },
@@ -329,64 +337,6 @@ pub(super) const GATEWAY: &[Key] = &[
         ..KEY
     },
 ];
-
-/// A key of launch files with its documentation.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LaunchKey {
-    /// As in the file.
-    pub word: &'static str,
-    /// Names that other tools use for it.
-    pub also: &'static [&'static str],
-    /// Where it stands: `key of a host`.
-    pub what: &'static str,
-    /// What it means, in one sentence.
-    pub summary: &'static str,
-    /// Everything there is to know, as Markdown.
-    pub text: String,
-}
-
-/// Every key of launch files, in the order of the page.
-pub fn launch_keys() -> Vec<LaunchKey> {
-    let all = [
-        (TOP, "key of a launch file"),
-        (COMPONENT, "key of a program"),
-        (HOST, "key of a host"),
-        (GATEWAY, "key of `gateway`"),
-    ];
-    all.iter().flat_map(|(keys, what)| keys.iter().map(|key| explained(key, what))).collect()
-}
-
-fn explained(key: &Key, what: &'static str) -> LaunchKey {
-    // Links lead to other parts of the page.
-    let sentences = without_links(key.meaning);
-    let summary = key.meaning.split(". ").next().unwrap_or_default().trim_end_matches('.');
-    let meaning = sentences.split(" See ").next().unwrap_or_default();
-    let defaults = if key.in_defaults { "It may also stand in `defaults`, for all programs.\n" } else { "" };
-    let text = format!(
-        "# {} ({what})\n\n{meaning}\n\nValue: {}\nDefault: {}\n{defaults}\nSee docs/launch.md.\n",
-        key.name,
-        without_links(&key.form.description()),
-        without_links(key.default),
-    );
-    LaunchKey { word: key.name, also: key.also, what, summary, text }
-}
-
-/// `[Hosts](#hosts)` as `Hosts`.
-fn without_links(text: &str) -> String {
-    let mut plain = String::new();
-    let mut rest = text;
-    while let Some((before, after)) = rest.split_once('[') {
-        let Some((name, after)) =
-            after.split_once("](").and_then(|(name, after)| Some((name, after.split_once(')')?.1)))
-        else {
-            break;
-        };
-        plain.push_str(before);
-        plain.push_str(name);
-        rest = after;
-    }
-    plain + rest
-}
 
 /// The row of a key. Unknown names get an empty row, which no caller asks for.
 pub(super) fn form_of(name: &str) -> Form {

@@ -2,7 +2,7 @@
 
 use super::super::launch_text::LaunchText;
 use super::super::system_names::SystemNames;
-use super::keys::Key;
+use super::keys::{Key, MERGE, is_own};
 use scl_terminal::{Problem, closest_name, quoted_list};
 use serde_yaml::{Mapping, Value};
 
@@ -30,13 +30,18 @@ impl Reader<'_> {
         let names = || allowed.iter().map(|key| key.name);
         for key in keys.keys() {
             let word = key.as_str();
-            if word.is_some_and(|word| names().any(|name| name == word)) {
+            let is_own = word.is_some_and(is_own);
+            if word == Some(MERGE)
+                || is_own && at.is_empty()
+                || word.is_some_and(|word| names().any(|name| name == word))
+            {
                 continue;
             }
             let path: Vec<&str> = at.iter().copied().chain(word).collect();
             let problem = Problem::new(format!("unknown key {} {whose}", shown(key))).at(self.text.place(&path));
             let close = word.and_then(|word| likely_key(word, allowed.iter().copied()));
             self.problems.push(match close {
+                _ if is_own => problem.help("keys of your own, which start with `x-`, belong at the top of the file"),
                 Some(close) => problem.help(format!("did you mean `{close}`?")),
                 None => problem.note(format!("the keys are {}", quoted_list(names()))),
             });

@@ -18,6 +18,7 @@ pub(super) mod unknown_section;
 pub(super) mod version;
 
 use crate::diagnostic::Diagnostic;
+use crate::grammar;
 use crate::rule::Rule;
 use crate::suggest::similar;
 
@@ -44,6 +45,14 @@ pub(crate) const RULES: [&Rule; 16] = [
 /// Words in backticks, joined by commas.
 fn ticked<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     words.into_iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// Adds the place where a key of the user's own may stand, if it is one.
+fn own_key(problem: Diagnostic, key: &str) -> Diagnostic {
+    match key.starts_with(grammar::OWN_PREFIX) {
+        true => problem.help("keys of your own, which start with `x-`, belong at the top of the file"),
+        false => problem,
+    }
 }
 
 /// Adds the names that a misspelt one may have meant; `thing` is what they name, for example `key`.

@@ -1,6 +1,6 @@
 //! SCL0207: an unknown key in a component.
 
-use super::{suggest, ticked};
+use super::{own_key, suggest, ticked};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::parse::field::{Field, Fields};
@@ -33,6 +33,7 @@ pub(crate) const RULE: Rule = Rule {
 pub(in crate::parse) fn diagnose(field: Field<'_>, component: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in component `{component}`", field.key);
     let problem = RULE.at(message, field.key_span, "not a key of a component");
+    let problem = own_key(problem, field.key);
     suggest(problem, "key", field.key, COMPONENT_KEYS).note(format!("keys of a component: {}", ticked(COMPONENT_KEYS)))
 }
 

@@ -1,6 +1,6 @@
 //! SCL0212: an unknown key in a gate.
 
-use super::ticked;
+use super::{own_key, ticked};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Severity;
 use crate::grammar::{OPTIONS, option};
@@ -35,7 +35,7 @@ pub(crate) const RULE: Rule = Rule {
 /// `kind` is the kind as written, `path` the gate with its component.
 pub(in crate::parse) fn diagnose(field: Field<'_>, kind: &str, path: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in gate `{path}`", field.key);
-    let mut problem = RULE.at(message, field.key_span, "");
+    let mut problem = own_key(RULE.at(message, field.key_span, ""), field.key);
     let similar = similar(field.key, OPTIONS.iter().map(|option| option.key));
     // An option of other kinds would be the next mistake.
     if similar.iter().all(|name| only_of(name, kind).is_empty()) {
