@@ -10,7 +10,8 @@ use std::process::ExitCode;
 /// Make a complete recording of one that was cut off, for example by a crash or a full disk.
 ///
 /// Keeps every message that is there, and writes a new index. Without `-o`, the file is replaced once the new one is
-/// complete, which needs as much disk space as the file.
+/// complete, and stays beside it as `flight.mcap.bak`. A file that was closed in order, but is damaged inside, is never
+/// replaced.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -32,16 +33,23 @@ pub(crate) fn recover(arguments: &RecoverArguments) -> ExitCode {
 }
 
 fn run(arguments: &RecoverArguments) -> Result<ExitCode, Problem> {
-    let Recovered { path, messages, dropped, was_complete } =
+    let Recovered { path, messages, dropped, was_complete, kept } =
         recover_file(&arguments.file, arguments.output.as_deref())?;
     let path = path.to_string_lossy();
     let path = escape(&path);
-    print_out(&match (was_complete, dropped) {
-        (true, _) => format!("{path}: complete already, {messages} messages\n"),
-        (false, 0) => format!("{path}: recovered {messages} messages\n"),
+    let mut text = match (was_complete, dropped) {
+        (true, _) => format!("{path}: complete already, {messages} messages"),
+        (false, 0) => format!("{path}: recovered {messages} messages"),
         (false, _) => {
-            format!("{path}: recovered {messages} messages, {} were incomplete\n", bytes_text(dropped as f64))
+            let dropped = bytes_text(dropped as f64);
+            format!("{path}: recovered {messages} messages, {dropped} were incomplete or damaged")
         }
-    });
+    };
+    if let Some(kept) = kept {
+        let folder = std::env::current_dir().unwrap_or_default();
+        let kept = kept.strip_prefix(folder).unwrap_or(&kept).to_string_lossy();
+        text += &format!("; the old file is now `{}`", escape(&kept));
+    }
+    print_out(&format!("{text}\n"));
     Ok(ExitCode::SUCCESS)
 }

@@ -9,7 +9,15 @@ use mcap::sans_io::linear_reader::LinearReaderOptions;
 use std::borrow::Cow;
 
 /// Greatest ratio of LZ4: a byte of a length stands for 255 bytes.
-const MOST_COMPRESSION: usize = 255;
+const MOST_LZ4: usize = 255;
+/// Greatest ratio of zstd: a block of four bytes stands for 128 KiB.
+const MOST_ZSTD: usize = 32 << 10;
+
+/// Bytes of a chunk's content up to the name of its compression, with the name's length and the longest name known here.
+pub(crate) const CHUNK_HEAD: usize = 36;
+
+/// What can be decompressed, for messages.
+pub(crate) const COMPRESSIONS: &str = "lz4 and zstd";
 
 /// What a chunk may contain however short it is.
 const SHORT: usize = 64 << 10;
@@ -26,12 +34,13 @@ pub(crate) fn parse(opcode: u8, content: &[u8]) -> Option<Record<'_>> {
     }
 }
 
-/// Options for reading one chunk of this length in the file.
-pub(crate) fn chunk_options(length: usize) -> LinearReaderOptions {
+/// Options for reading one chunk of this length in the file, whose content begins with `head`.
+pub(crate) fn chunk_options(head: &[u8], length: usize) -> LinearReaderOptions {
+    let most = if head.get(28..CHUNK_HEAD) == Some(b"\x04\0\0\0zstd") { MOST_ZSTD } else { MOST_LZ4 };
     LinearReaderOptions::default()
         .with_skip_start_magic(true)
         .with_skip_end_magic(true)
-        .with_record_length_limit(length.saturating_mul(MOST_COMPRESSION).saturating_add(SHORT).min(LONGEST))
+        .with_record_length_limit(length.saturating_mul(most).saturating_add(SHORT).min(LONGEST))
 }
 
 /// A part of a record's content.

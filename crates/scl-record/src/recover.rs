@@ -2,16 +2,21 @@
 //!
 //! Everything that is there is read in order and written anew with an index. Of a chunk that is cut in the middle, the
 //! messages before the cut are kept. A chunk whose checksum is wrong is left out.
+//!
+//! In place, only a file without its end is replaced, and stays beside the new one: what looks damaged here may be
+//! sound to another program.
 
 mod records;
 mod target;
 
+use crate::parse::COMPRESSIONS;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mcap::McapError;
-use records::{FileRecord, FileRecords};
-use scl_terminal::{Problem, bytes_text, closest_name};
+use mcap::{MAGIC, McapError};
+use records::{ChunkEnd, FileRecord, FileRecords};
+use scl_terminal::{Problem, bytes_text, closest_name, escape};
 use std::fs::{self, File};
 use std::io::{self, BufReader};
+use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use target::Target;
 
@@ -27,14 +32,17 @@ pub struct Recovered {
     pub dropped: u64,
     /// Whether the recording was complete before, so that it was left as it is.
     pub was_complete: bool,
+    /// Where the damaged recording is, if the complete one has its name.
+    pub kept: Option<PathBuf>,
 }
 
 /// Recovers `input`, in place unless there is an `output`. The new file is written beside its final name and then
-/// renamed, so that there always is one of the two.
+/// renamed; in place, the damaged file stays under its name with `.bak` behind it.
 ///
 /// # Errors
-/// The input cannot be read, is no recording, or is being recorded; it has no message that can be recovered, or most of it
-/// would be lost in place; the output exists or cannot be written. Then the input is as it was.
+/// The input cannot be read, is no recording, or is being recorded; it has no message that can be recovered; in place,
+/// it was closed in order, so that something inside it is damaged, or has chunks of an unknown compression; the output
+/// or the copy exists or cannot be written. Then the input is as it was.
 pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem> {
     let file = File::open(input).map_err(|error| cannot_open(input, &error))?;
     let unreadable = |error: &io::Error| Problem::new(format!("cannot read `{}`: {error}", input.display()));
@@ -62,34 +70,50 @@ pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem
     let mut copy = Target::create(target, &metadata)?;
     let copied = copy_records(records, &mut copy, &progress);
     progress.finish_and_clear();
-    let Copied { messages, dropped, unread, is_complete } = copied.map_err(|error| match error {
+    let Copied { messages, dropped, unsupported, is_complete } = copied.map_err(|error| match error {
         CopyError::Read(error) => unreadable(&error),
         CopyError::Write(error) => Problem::new(format!("cannot write `{}`: {}", target.display(), text_of(&error))),
     })?;
-    if is_complete && output.is_none() {
-        return Ok(Recovered { path: input.to_owned(), messages, dropped, was_complete: true });
-    }
-    if messages == 0 && !is_complete {
-        return Err(Problem::new(format!("no message can be recovered from `{}`", input.display()))
-            .note("the file was left as it is"));
-    }
-    // What is unreadable now, another program may be able to read.
-    if output.is_none() && unread > size / 2 {
-        let (unread, size) = (bytes_text(unread as f64), bytes_text(size as f64));
-        return Err(Problem::new(format!("{unread} of the {size} of `{}` cannot be read", input.display()))
-            .help(format!("`scl recover {} -o FILE` writes the {messages} messages before them", input.display()))
-            .note("the file was left as it is"));
-    }
-    copy.publish()?;
     let path = output.unwrap_or(input).to_owned();
-    Ok(Recovered { path, messages, dropped, was_complete: is_complete })
+    let mut recovered = Recovered { path, messages, dropped, was_complete: is_complete && dropped == 0, kept: None };
+    if recovered.was_complete && output.is_none() {
+        return Ok(recovered);
+    }
+    let reason = match unsupported {
+        Some(name) => format!("its chunks are compressed with `{}`; scl reads {COMPRESSIONS}", escape(&name)),
+        None => format!("{} of it are damaged", bytes_text(dropped as f64)),
+    };
+    let unchanged = |message: String| Problem::new(message).note("the file was left as it is");
+    if messages == 0 && !recovered.was_complete {
+        let message = format!("no message can be recovered from `{}`", input.display());
+        return Err(unchanged(if was_closed(&file, size) { format!("{message}: {reason}") } else { message }));
+    }
+    if output.is_some() {
+        copy.publish()?;
+        return Ok(recovered);
+    }
+    if was_closed(&file, size) {
+        return Err(unchanged(format!("`{}` was closed in order, but {reason}", input.display())).help(format!(
+            "`scl recover {} -o FILE` writes the {messages} messages that can be read",
+            input.display()
+        )));
+    }
+    recovered.kept = Some(copy.publish_keeping_old()?);
+    Ok(recovered)
+}
+
+/// Whether the file has its end, so that nothing was cut off.
+fn was_closed(file: &File, size: u64) -> bool {
+    let mut end = [0; MAGIC.len()];
+    let at = size.saturating_sub(MAGIC.len() as u64);
+    at > 0 && file.read_exact_at(&mut end, at).is_ok() && end == MAGIC
 }
 
 struct Copied {
     messages: u64,
     dropped: u64,
-    /// Those of the dropped bytes that follow the last record.
-    unread: u64,
+    /// An unknown compression of a chunk.
+    unsupported: Option<String>,
     is_complete: bool,
 }
 
@@ -117,6 +141,7 @@ fn copy_records(
     progress: &ProgressBar,
 ) -> Result<Copied, CopyError> {
     let mut unusable = 0;
+    let mut unsupported = None;
     loop {
         progress.set_position(records.position());
         let Some(record) = records.next()? else { break };
@@ -127,8 +152,16 @@ fn copy_records(
                 }
             }
             FileRecord::Chunk(chunk) => {
-                unusable +=
+                let end =
                     chunk.read(|opcode, body| target.add_record(opcode, body).map(|_| ()).map_err(CopyError::from))?;
+                match end {
+                    ChunkEnd::Sound => {}
+                    ChunkEnd::Damaged(size) => unusable += size,
+                    ChunkEnd::Unsupported(size, name) => {
+                        unusable += size;
+                        unsupported = Some(name);
+                    }
+                }
             }
         }
     }
@@ -136,8 +169,8 @@ fn copy_records(
     Ok(Copied {
         messages: target.messages(),
         dropped: unusable + records.rest(),
-        unread: records.rest(),
-        is_complete: records.is_complete() && unusable == 0,
+        unsupported,
+        is_complete: records.is_complete(),
     })
 }
 
@@ -182,3 +215,6 @@ fn progress_bar(size: u64) -> ProgressBar {
     }
     bar
 }
+
+#[cfg(test)]
+mod tests;

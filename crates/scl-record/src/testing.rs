@@ -36,11 +36,15 @@ impl Recorder {
     }
 
     pub fn with_profile(profile: &str) -> Self {
-        let options = WriteOptions::new()
-            .profile(profile)
-            .compression(Some(Compression::Lz4))
-            .chunk_size(Some(1 << 20))
-            .disable_seeking(true);
+        Self::with_options(WriteOptions::new().profile(profile).compression(Some(Compression::Lz4)))
+    }
+
+    pub fn with_compression(compression: Option<Compression>) -> Self {
+        Self::with_options(WriteOptions::new().profile(PROFILE).compression(compression))
+    }
+
+    fn with_options(options: WriteOptions) -> Self {
+        let options = options.chunk_size(Some(1 << 20)).disable_seeking(true);
         let writer = options.create(Cursor::new(Vec::new())).unwrap();
         Self { writer, channels: BTreeMap::new(), plan: None, sequence: 0 }
     }
@@ -97,6 +101,12 @@ impl Recorder {
 
     pub fn end_chunk(mut self) -> Self {
         self.writer.flush().unwrap();
+        self
+    }
+
+    /// A record of another program.
+    pub fn private_record(mut self, opcode: u8, data: &[u8]) -> Self {
+        self.writer.write_private_record(opcode, data, Default::default()).unwrap();
         self
     }
 

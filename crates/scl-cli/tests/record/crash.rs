@@ -29,7 +29,8 @@ fn a_killed_recorder_loses_at_most_its_last_second() {
     assert_eq!(sequences, (sequences[0]..=*sequences.last().unwrap()).collect::<Vec<_>>());
 
     let text = source.rover.text(&["recover", "flight.mcap"]);
-    assert_eq!(text, format!("flight.mcap: recovered {} messages\n", kept.len()));
+    let expected = "messages; the old file is now `flight.mcap.bak`";
+    assert_eq!(text, format!("flight.mcap: recovered {} {expected}\n", kept.len()));
     assert_eq!(messages(&file), kept);
     let summary = summary(&file);
     assert_eq!(summary.stats.unwrap().message_count, kept.len() as u64);

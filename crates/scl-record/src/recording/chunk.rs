@@ -10,7 +10,7 @@ use mcap::{McapError, McapResult};
 /// # Errors
 /// The chunk is damaged, or compressed with an unknown method.
 pub(super) fn read(content: &[u8], each: impl FnMut(Record<'_>)) -> McapResult<()> {
-    let checked = chunk_options(content.len()).with_prevalidate_chunk_crcs(true);
+    let checked = chunk_options(content, content.len()).with_prevalidate_chunk_crcs(true);
     read_with(checked, content, each)
 }
 
@@ -18,7 +18,7 @@ pub(super) fn read(content: &[u8], each: impl FnMut(Record<'_>)) -> McapResult<(
 pub(super) fn read_cut(content: &[u8]) -> Vec<Record<'static>> {
     let mut records = Vec::new();
     let _ends_with_an_error =
-        read_with(chunk_options(content.len()), content, |record| records.push(record.into_owned()));
+        read_with(chunk_options(content, content.len()), content, |record| records.push(record.into_owned()));
     records
 }
 

@@ -3,7 +3,7 @@
 use super::channel::{RecordedChannel, RecordedSchema};
 use super::chunk;
 use super::records::{RecordHeader, Records};
-use crate::parse::parse;
+use crate::parse::{COMPRESSIONS, parse};
 use bytes::Bytes;
 use mcap::McapError;
 use mcap::records::{MessageHeader, Record, op};
@@ -147,7 +147,7 @@ impl From<McapError> for Fault {
         match error {
             McapError::UnsupportedCompression(name) => {
                 let name = escape(&name);
-                Self::Unusable(format!("its chunks are compressed with `{name}`; scl reads lz4"))
+                Self::Unusable(format!("its chunks are compressed with `{name}`; scl reads {COMPRESSIONS}"))
             }
             McapError::BadChunkCrc { .. } => Self::damaged("a chunk has a wrong checksum"),
             error => Self::damaged(error),

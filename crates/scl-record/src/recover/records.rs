@@ -1,9 +1,9 @@
 //! The records of a recording that may end anywhere.
 
-use crate::parse::{LONGEST, chunk_options};
-use mcap::MAGIC;
+use crate::parse::{CHUNK_HEAD, LONGEST, chunk_options};
 use mcap::records::op;
 use mcap::sans_io::{LinearReadEvent, LinearReader};
+use mcap::{MAGIC, McapError};
 use std::io::{self, Read};
 
 /// Opcode and length.
@@ -32,6 +32,17 @@ pub(super) struct Chunk<'a, R> {
     /// Bytes of the chunk's record in the file, and whether that is all of it.
     size: u64,
     is_whole: bool,
+    /// Bytes of it that were not read yet.
+    unread: u64,
+}
+
+/// What became of a chunk.
+pub(super) enum ChunkEnd {
+    Sound,
+    /// Number of bytes in the file that are not a complete and undamaged chunk.
+    Damaged(u64),
+    /// As many bytes, compressed with a method of this name.
+    Unsupported(u64, String),
 }
 
 impl<R: Read> FileRecords<R> {
@@ -74,7 +85,7 @@ impl<R: Read> FileRecords<R> {
         let (opcode, length) = (prefix[0], length_of(&prefix));
         let available = self.size - self.position - PREFIX as u64;
         if opcode == op::CHUNK {
-            return Ok(Some(FileRecord::Chunk(self.chunk(&prefix, length, available))));
+            return Ok(Some(FileRecord::Chunk(self.chunk(&prefix, length, available)?)));
         }
         if opcode == 0 || length > available.min(LONGEST as u64) {
             self.ended = true;
@@ -91,17 +102,21 @@ impl<R: Read> FileRecords<R> {
         Ok(Some(FileRecord::Record(opcode, body)))
     }
 
-    fn chunk(&mut self, prefix: &[u8; PREFIX], length: u64, available: u64) -> Chunk<'_, R> {
+    fn chunk(&mut self, prefix: &[u8; PREFIX], length: u64, available: u64) -> io::Result<Chunk<'_, R>> {
         let (size, is_whole) = (length.min(available), length <= available);
+        let mut head = Vec::with_capacity(CHUNK_HEAD);
+        (&mut self.input).take(size.min(CHUNK_HEAD as u64)).read_to_end(&mut head)?;
         // Of a whole chunk, nothing is used if its checksum is wrong; what is left of another one cannot be checked.
         let mut reader = LinearReader::new_with_options(
-            chunk_options(usize::try_from(size).unwrap_or(usize::MAX))
+            chunk_options(&head, usize::try_from(size).unwrap_or(usize::MAX))
                 .with_validate_chunk_crcs(is_whole)
                 .with_prevalidate_chunk_crcs(is_whole),
         );
-        reader.insert(PREFIX).copy_from_slice(prefix);
-        reader.notify_read(PREFIX);
-        Chunk { file: self, reader: Box::new(reader), size, is_whole }
+        let begin = [&prefix[..], &head].concat();
+        reader.insert(begin.len()).copy_from_slice(&begin);
+        reader.notify_read(begin.len());
+        let unread = size - head.len() as u64;
+        Ok(Chunk { file: self, reader: Box::new(reader), size, is_whole, unread })
     }
 
     /// Whether summary, footer and magic follow, and nothing else.
@@ -127,14 +142,13 @@ impl<R: Read> FileRecords<R> {
 
 impl<R: Read> Chunk<'_, R> {
     /// Gives `take` each record up to the end of the chunk, to where it is cut off, or to where it is damaged.
-    ///
-    /// Returns the number of bytes in the file that are not a complete and undamaged chunk.
     pub(super) fn read<E: From<io::Error>>(
         mut self,
         mut take: impl FnMut(u8, &[u8]) -> Result<(), E>,
-    ) -> Result<u64, E> {
-        let mut unread = self.size;
-        let is_sound = loop {
+    ) -> Result<ChunkEnd, E> {
+        let mut unread = self.unread;
+        let size = PREFIX as u64 + self.size;
+        let end = loop {
             match self.reader.next_event() {
                 Some(Ok(LinearReadEvent::ReadRequest(wanted))) => {
                     let wanted = wanted.min(usize::try_from(unread).unwrap_or(usize::MAX)).min(READ);
@@ -142,18 +156,18 @@ impl<R: Read> Chunk<'_, R> {
                     self.reader.notify_read(read);
                     unread -= read as u64;
                     if read == 0 {
-                        break self.is_whole && unread == 0;
+                        break if self.is_whole && unread == 0 { ChunkEnd::Sound } else { ChunkEnd::Damaged(size) };
                     }
                 }
                 Some(Ok(LinearReadEvent::Record { opcode, data })) => take(opcode, data)?,
-                Some(Err(_)) | None => break false,
+                Some(Err(McapError::UnsupportedCompression(name))) => break ChunkEnd::Unsupported(size, name),
+                Some(Err(_)) | None => break ChunkEnd::Damaged(size),
             }
         };
         io::copy(&mut (&mut self.file.input).take(unread), &mut io::sink())?;
-        let size = PREFIX as u64 + self.size;
         self.file.position += size;
         self.file.ended |= !self.is_whole;
-        Ok(if is_sound { 0 } else { size })
+        Ok(end)
     }
 }
 

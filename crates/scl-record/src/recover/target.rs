@@ -14,6 +14,9 @@ use std::path::{Path, PathBuf};
 /// Uncompressed size of a chunk.
 const CHUNK: u64 = 1 << 20;
 
+/// Records of other programs have this opcode or a greater one.
+const PRIVATE: u8 = 0x80;
+
 /// A file that takes the place of another one, or none if it is not published.
 pub(super) struct Target {
     path: PathBuf,
@@ -82,6 +85,9 @@ impl Target {
                 data: Cow::Borrowed(&data),
             }),
             Record::Metadata(metadata) => writer.write_metadata(&metadata),
+            Record::Unknown { opcode: PRIVATE.., data } => {
+                writer.write_private_record(opcode, &data, Default::default())
+            }
             _ => Ok(()),
         };
         if self.pending >= CHUNK {
@@ -103,6 +109,20 @@ impl Target {
             writer.finish()?;
         }
         Ok(())
+    }
+
+    /// Gives the file its name, after the file with this name got another one, which is returned.
+    pub(super) fn publish_keeping_old(self) -> Result<PathBuf, Problem> {
+        let mut kept = self.path.clone().into_os_string();
+        kept.push(".bak");
+        let kept = PathBuf::from(kept);
+        // A link fails if the name is taken, and leaves the file where it is until the new one replaces it.
+        fs::hard_link(&self.path, &kept).map_err(|error| {
+            Problem::new(format!("cannot keep the damaged file as `{}`: {error}", kept.display()))
+                .help("name a new file with `-o`")
+        })?;
+        self.publish().inspect_err(|_| drop(fs::remove_file(&kept)))?;
+        Ok(kept)
     }
 
     /// Gives the file its name, with its content safely on the disk.
