@@ -60,6 +60,7 @@ pub(crate) struct CompareArguments {
 pub(crate) fn compare(arguments: &CompareArguments) -> ExitCode {
     match run(arguments) {
         Ok(report) => {
+            report.notes.iter().for_each(|note| print_err(&format!("note: {note}\n")));
             match arguments.format.is_json() {
                 true => print_json(&report.to_json()),
                 false => print_out(&report.to_text()),

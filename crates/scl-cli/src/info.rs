@@ -1,5 +1,7 @@
-//! `scl info`: everything about one gate, or one component and its gates in short.
+//! `scl info`: everything about one gate, or one component and its gates in short, or what is in a recording.
 
+#[cfg(feature = "record")]
+mod recording;
 mod text;
 
 use crate::format::{FormatArgument, print_json};
@@ -14,21 +16,24 @@ use std::time::{Duration, SystemTime};
 /// How long to wait for a second reading of the figures. A component writes them twice a second by default.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// Show everything about a gate, or about a component and its gates.
+/// Show everything about a gate, or about a component and its gates, or what is in a recording.
 ///
 /// Type, codec, queue, contract and peers are those that the running program was built with. Rates are measured between two
 /// figures that the component writes, half a second apart by default.
+///
+/// A name with a slash or the ending `.mcap` is that of a recording, for which all of it is read.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   scl info controller.sensor               a gate
   scl info controller                      a component
   scl info controller.sensor --format json
+  scl info flight.mcap                     a recording
 
-Exit code: 0 shown, 2 there is no such system, component or gate, or the component is not running.")]
+Exit code: 0 shown, 2 there is no such system, component, gate or recording, or the component is not running.")]
 pub(crate) struct InfoArguments {
-    /// The gate or the component.
-    #[arg(value_name = "GATE|COMPONENT")]
+    /// The gate, the component or the recording.
+    #[arg(value_name = "GATE|COMPONENT|FILE")]
     name: String,
     #[command(flatten)]
     system: SystemArgument,
@@ -42,6 +47,11 @@ pub(crate) fn info(arguments: &InfoArguments) -> ExitCode {
 }
 
 fn print_info(arguments: &InfoArguments) -> Result<ExitCode, Problem> {
+    #[cfg(feature = "record")]
+    if recording::is_recording(&arguments.name) {
+        recording::print_recording(&arguments.name, arguments.format)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let system = arguments.system.find()?;
     let (component, gate) = system.component_and_gate(&arguments.name)?;
     let reading = Reading::take(&system, component);

@@ -116,11 +116,14 @@ fn run(files: &[PathBuf], options: &ReplayOptions) -> Result<ReplayReport, Probl
     let recording = Recording::open(&find_files(files)?)?;
     // `scl run` and systemd may have started it in place of the component's own program.
     scl::host::notify_service_manager();
-    recording.notes().iter().for_each(|note| print_err(&format!("note: {note}\n")));
+    let survey = recording.survey()?;
+    // Without messages, the error tells what there is instead.
+    let notes = recording.notes().into_iter().chain(survey.first_ns.map(|_| survey.notes()).into_iter().flatten());
+    notes.for_each(|note| print_err(&format!("note: {note}\n")));
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")))?;
     let progress = Progress::new("replaying", recording.duration());
-    runtime.block_on(play(&recording, options, &|position| progress.set(position)))
+    runtime.block_on(play(&recording, &survey, options, &|position| progress.set(position)))
 }
 
 fn parse_rate(text: &str) -> Result<Rate, String> {

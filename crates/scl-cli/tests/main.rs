@@ -37,6 +37,8 @@ mod graph;
 mod hz;
 #[cfg(feature = "observe")]
 mod info;
+#[cfg(feature = "record")]
+mod info_recording;
 #[cfg(feature = "observe")]
 mod json;
 #[cfg(feature = "observe")]

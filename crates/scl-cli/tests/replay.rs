@@ -298,7 +298,7 @@ fn mistakes_are_explained() {
     rover.record("flight.mcap", &[(MEASUREMENTS, 0, "1")]);
     rover.system.write("empty.mcap", "");
     rover.system.write("notes.txt", "speed");
-    Recorder::with_profile("ros2").messages(&[(MEASUREMENTS, 0, "1")]).write_to(&rover.system.path(""), "ros.mcap");
+    rover.recorder().other_message(("/tf", "cdr", "ros2msg"), b"").write_to(&rover.system.path(""), "ros.mcap");
     rover.record("silent.mcap", &[]);
     for (arguments, expected) in [
         (
@@ -309,7 +309,7 @@ fn mistakes_are_explained() {
         (&["nothing.mcap"], "error: there is no file `nothing.mcap`\n"),
         (&["empty.mcap"], "error: the recording `empty.mcap` is empty\n"),
         (&["notes.txt"], "error: `notes.txt` is not a recording\n"),
-        (&["ros.mcap"], "error: `ros.mcap` was not recorded by SCL: its profile is `ros2`\n"),
+        (&["ros.mcap"], "  = note: `/tf` was not recorded by SCL: it is not `/<comp"),
         (&["silent.mcap"], "error: the recording `silent.mcap` has no messages\n"),
         (&["flight.mcap", "--rate", "fast"], "expected a factor above 0, like `0.5` or `2`, or `max`"),
         (&["flight.mcap", "--rate", "0"], "expected a factor above 0"),

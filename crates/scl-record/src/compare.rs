@@ -11,11 +11,11 @@ mod values;
 pub use report::{CompareReport, Difference, DifferenceKind, GateComparison};
 
 use crate::format::Topic;
-use crate::recording::Recording;
+use crate::recording::{Recording, Survey};
 use align::Alignment;
 use scl_terminal::{Problem, closest_name, escape, quoted_list};
 use scl_value::FieldPath;
-use side::{Contents, Side};
+use side::{Side, check_types};
 use std::collections::BTreeSet;
 use std::time::Duration;
 use values::Rules;
@@ -48,10 +48,11 @@ pub fn compare(
     options: &CompareOptions,
     progress: &dyn Fn(Duration),
 ) -> Result<CompareReport, Problem> {
-    let contents = [Contents::read(first)?, Contents::read(second)?];
-    let topics = choose_topics(&contents, options)?;
-    contents[0].check_types(&contents[1], &topics)?;
-    let mut sides = [Side::new(first, &contents[0], &topics), Side::new(second, &contents[1], &topics)];
+    let surveys = [first.survey()?, second.survey()?];
+    let names = [first.name(), second.name()];
+    let topics = choose_topics(&surveys, options)?;
+    check_types(names.each_ref().map(String::as_str), &surveys, &topics)?;
+    let mut sides = [Side::new(first, &surveys[0], &topics), Side::new(second, &surveys[1], &topics)];
     let mut rules = Rules::new(options);
     let mut alignments: Vec<_> = topics.iter().map(|topic| Alignment::new(topic, options)).collect();
     // Also topics of which nothing has to be read.
@@ -66,18 +67,21 @@ pub fn compare(
         progress(sides[0].position());
     }
     rules.check_fields()?;
+    let notes = |(name, survey): (&String, &Survey)| {
+        survey.notes().into_iter().map(|note| format!("`{name}`: {note}")).collect::<Vec<_>>()
+    };
+    let notes: Vec<_> = names.iter().zip(&surveys).flat_map(notes).collect();
     let gates: Vec<_> = alignments.into_iter().map(Alignment::finish).collect();
     if gates.iter().all(|gate| gate.messages() == 0) {
-        let names = [first.name(), second.name()];
         let message = format!("there is nothing to compare: no messages in `{}` and `{}`", names[0], names[1]);
-        return Err(Problem::new(message));
+        return Err(notes.into_iter().fold(Problem::new(message), Problem::note));
     }
-    Ok(CompareReport { gates })
+    Ok(CompareReport { gates, notes })
 }
 
 /// The topics that are compared: of the named gates, or all.
-fn choose_topics(contents: &[Contents; 2], options: &CompareOptions) -> Result<Vec<Topic>, Problem> {
-    let all: BTreeSet<&Topic> = contents.iter().flat_map(Contents::topics).collect();
+fn choose_topics(surveys: &[Survey; 2], options: &CompareOptions) -> Result<Vec<Topic>, Problem> {
+    let all: BTreeSet<&Topic> = surveys.iter().flat_map(|survey| survey.topics.keys()).collect();
     let names: BTreeSet<String> = all.iter().map(|topic| topic.gate_name()).collect();
     if let Some(gate) = options.gates.iter().find(|gate| !names.contains(*gate)) {
         let problem = Problem::new(format!("neither recording has messages of a gate `{}`", escape(gate)));

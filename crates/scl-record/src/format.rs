@@ -1,6 +1,7 @@
 //! What a recording contains: names, encodings and numbers on which the writer and the readers agree.
 //!
-//! A recording is an MCAP file with the profile [`PROFILE`]. Times are nanoseconds since 1970 (`CLOCK_REALTIME`):
+//! The recorder writes an MCAP file with the profile [`PROFILE`]; readers do not insist on it, because tools that copy
+//! recordings change it. Times are nanoseconds since 1970 (`CLOCK_REALTIME`):
 //! `publish_time` is when the gate sent or received the message, `log_time` is when the recorder received it. Messages
 //! stand in the order of arrival at the recorder, so `log_time` of one gate never decreases unless the clock was set
 //! back.

@@ -10,12 +10,14 @@ mod files;
 mod messages;
 mod overview;
 mod records;
+mod survey;
 
-pub use channel::RecordedChannel;
 pub(crate) use channel::type_and_codec;
+pub use channel::{OtherTopic, RecordedChannel};
 pub use files::find_files;
 pub use messages::{Messages, RecordedMessage};
 pub use overview::Attachment;
+pub use survey::{Survey, SurveyedTopic};
 
 use crate::format::{GateTotals, PLAN, Totals};
 use overview::Overview;
@@ -35,7 +37,7 @@ impl Recording {
     /// Opens the files of one recording, which are read one after the other.
     ///
     /// # Errors
-    /// A file cannot be read, is empty, is not an MCAP file or was not recorded by SCL.
+    /// A file cannot be read, is empty, or is not an MCAP file.
     pub fn open(files: &[PathBuf]) -> Result<Self, Problem> {
         let files = files.iter().map(|path| Ok((path.clone(), Overview::read(path)?)));
         let mut files: Vec<_> = files.collect::<Result<_, Problem>>()?;
@@ -49,6 +51,14 @@ impl Recording {
     /// The messages, in the order of the files.
     pub fn messages(&self) -> Messages {
         Messages::new(self.paths().map(Path::to_owned).collect())
+    }
+
+    /// Reads all messages once, and says what there is.
+    ///
+    /// # Errors
+    /// A file cannot be read or is damaged.
+    pub fn survey(&self) -> Result<Survey, Problem> {
+        Survey::take(self)
     }
 
     /// The plans of the components that were recorded; `None` if the recording has none.
@@ -110,6 +120,11 @@ impl Recording {
     /// For messages: the name of the first file.
     pub fn name(&self) -> String {
         self.paths().next().map(|path| path.display().to_string()).unwrap_or_default()
+    }
+
+    /// The files that were recorded beside the messages, the newest last.
+    pub fn attachments(&self) -> impl Iterator<Item = &Attachment> {
+        self.files.iter().flat_map(|(_, overview)| &overview.attachments)
     }
 
     fn attachment(&self, name: &str) -> Option<(&Path, &Attachment)> {

@@ -16,7 +16,7 @@ mod timeline;
 
 pub use report::{AnswerReport, GateReport, Late, NotTaken, ReplayReport};
 
-use crate::recording::{RecordedChannel, Recording};
+use crate::recording::{RecordedChannel, Recording, Survey};
 use answers::read_answers;
 use pace::Pace;
 use participants::Participants;
@@ -69,13 +69,14 @@ impl Rate {
 
 /// Replays a recording until its end, or until the program is asked to stop. Needs a tokio runtime.
 ///
-/// `progress` is told the position in the recording.
+/// `survey` is what the recording contains, and `progress` is told the position in it.
 ///
 /// # Errors
 /// The recording cannot be read, has no plan, or does not fit the running system; a component cannot be opened; a peer is
 /// missing.
 pub async fn replay(
     recording: &Recording,
+    survey: &Survey,
     options: &ReplayOptions,
     progress: &dyn Fn(Duration),
 ) -> Result<ReplayReport, Problem> {
@@ -87,7 +88,7 @@ pub async fn replay(
     };
     let cast = Participants::choose(&plan, options)?;
     check_only(&plan, options)?;
-    let (origin, span) = span(recording, options)?;
+    let (origin, span) = span(recording, survey, options)?;
     // Read before anything is opened, so that a recording that does not fit disturbs nobody.
     let mut batches = timeline::read(recording, span.clone());
     let first = batches.recv().await.unwrap_or_else(|| Ok(Batch::default()))?;
@@ -259,12 +260,12 @@ fn answering_gates(cast: &Participants) -> Vec<GateId> {
 }
 
 /// The time at which the recording begins, and the times that are played.
-fn span(recording: &Recording, options: &ReplayOptions) -> Result<(u64, Range<u64>), Problem> {
-    let Some(message) = recording.messages().read()? else {
-        return Err(Problem::new(format!("the recording `{}` has no messages", recording.name())));
-    };
+fn span(recording: &Recording, survey: &Survey, options: &ReplayOptions) -> Result<(u64, Range<u64>), Problem> {
     // Of almost the first message to be sent; the recorder received it somewhat later.
-    let first = message.sent_ns;
+    let Some(first) = survey.first_ns else {
+        let problem = Problem::new(format!("the recording `{}` has no messages", recording.name()));
+        return Err(survey.notes().into_iter().fold(problem, Problem::note));
+    };
     let (length, start, end) = (recording.duration(), options.start, options.end);
     if start > length {
         let message = format!("`--start {start:?}` is behind the end of the recording, which is {length:.1?} long");

@@ -104,6 +104,14 @@ impl Recorder {
         self
     }
 
+    /// A message that SCL did not record: its topic, message encoding and encoding of the schema.
+    pub fn other_message(mut self, (topic, encoding, schema): (&str, &str, &str), payload: &[u8]) -> Self {
+        let schema = self.writer.add_schema("other/Type", schema, b"float64 x").unwrap();
+        let channel_id = self.writer.add_channel(schema, topic, encoding, &BTreeMap::new()).unwrap();
+        self.write(channel_id, 0, payload);
+        self
+    }
+
     /// A record of another program.
     pub fn private_record(mut self, opcode: u8, data: &[u8]) -> Self {
         self.writer.write_private_record(opcode, data, Default::default()).unwrap();

@@ -1,6 +1,6 @@
 //! What a comparison has found.
 
-use crate::format::{Part, Topic};
+use crate::format::Topic;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::time::Duration;
@@ -10,6 +10,8 @@ use std::time::Duration;
 pub struct CompareReport {
     /// By topic, in alphabetical order.
     pub gates: Vec<GateComparison>,
+    /// What was left out.
+    pub notes: Vec<String>,
 }
 
 /// The comparison of one topic.
@@ -95,12 +97,7 @@ impl CompareReport {
 
 impl GateComparison {
     pub(super) fn new(topic: &Topic) -> Self {
-        let name = match topic.part {
-            Part::Message => topic.gate_name(),
-            Part::Request => format!("{} request", topic.gate_name()),
-            Part::Reply => format!("{} reply", topic.gate_name()),
-        };
-        Self { name, paired: 0, different: 0, missing: 0, additional: 0, differences: Vec::new() }
+        Self { name: topic.name(), paired: 0, different: 0, missing: 0, additional: 0, differences: Vec::new() }
     }
 
     /// Number of messages of both recordings, those of a pair counted once.

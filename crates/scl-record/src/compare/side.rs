@@ -1,64 +1,29 @@
 //! One of the two recordings: what it contains, and its messages by gate.
 
 use crate::format::Topic;
-use crate::recording::{Messages, RecordedChannel, RecordedMessage, Recording};
+use crate::recording::{Messages, RecordedChannel, RecordedMessage, Recording, Survey};
 use bytes::Bytes;
 use scl_terminal::Problem;
 use scl_value::{MessageType, Value};
 use std::cell::OnceCell;
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 use std::time::Duration;
 
-/// The topics of a recording.
-pub(super) struct Contents {
-    name: String,
-    /// With the first of its channels and the number of messages.
-    topics: BTreeMap<Topic, (RecordedChannel, u64)>,
-    start_ns: u64,
-}
-
-impl Contents {
-    /// Reads a recording once, to know how many messages there will be.
-    pub(super) fn read(recording: &Recording) -> Result<Self, Problem> {
-        let mut messages = recording.messages();
-        let mut counts = Vec::new();
-        let mut start_ns = None;
-        while let Some(message) = messages.read()? {
-            counts.resize(counts.len().max(message.channel + 1), 0);
-            counts[message.channel] += 1;
-            start_ns.get_or_insert(message.sent_ns);
+/// Checks that both recordings have messages of the same types.
+pub(super) fn check_types(names: [&str; 2], surveys: &[Survey; 2], topics: &[Topic]) -> Result<(), Problem> {
+    for topic in topics {
+        let [Some(first), Some(second)] = surveys.each_ref().map(|survey| survey.topics.get(topic)) else { continue };
+        let [first, second] = [first, second].map(|topic| topic.channel.type_and_codec());
+        if first != second {
+            let [first_name, second_name] = names;
+            return Err(Problem::new(format!(
+                "`{}` cannot be compared: it is {first} in `{first_name}`, but {second} in `{second_name}`",
+                topic.gate_name(),
+            ))
+            .help("compare other gates with `--gate`"));
         }
-        counts.resize(messages.channels().len(), 0);
-        let mut topics = BTreeMap::new();
-        for (channel, count) in messages.channels().iter().zip(counts) {
-            topics.entry(channel.topic.clone()).or_insert_with(|| (channel.clone(), 0)).1 += count;
-        }
-        Ok(Self { name: recording.name(), topics, start_ns: start_ns.unwrap_or_default() })
     }
-
-    pub(super) fn topics(&self) -> impl Iterator<Item = &Topic> {
-        self.topics.keys()
-    }
-
-    /// Checks that both recordings have messages of the same types.
-    pub(super) fn check_types(&self, other: &Self, topics: &[Topic]) -> Result<(), Problem> {
-        let both =
-            topics.iter().filter_map(|topic| Some((topic, &self.topics.get(topic)?.0, &other.topics.get(topic)?.0)));
-        for (topic, own, others) in both {
-            if own.type_and_codec() != others.type_and_codec() {
-                return Err(Problem::new(format!(
-                    "`{}` cannot be compared: it is {} in `{}`, but {} in `{}`",
-                    topic.gate_name(),
-                    own.type_and_codec(),
-                    self.name,
-                    others.type_and_codec(),
-                    other.name
-                ))
-                .help("compare other gates with `--gate`"));
-            }
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 /// A message that waits for its counterpart.
@@ -104,8 +69,8 @@ pub(super) struct Side {
 }
 
 impl Side {
-    pub(super) fn new(recording: &Recording, contents: &Contents, topics: &[Topic]) -> Self {
-        let left = topics.iter().map(|topic| contents.topics.get(topic).map_or(0, |(_, count)| *count));
+    pub(super) fn new(recording: &Recording, survey: &Survey, topics: &[Topic]) -> Self {
+        let left = topics.iter().map(|topic| survey.topics.get(topic).map_or(0, |topic| topic.messages));
         let left: Vec<u64> = left.collect();
         Self {
             messages: recording.messages(),
@@ -117,7 +82,7 @@ impl Side {
             left,
             by_channel: Vec::new(),
             types: Vec::new(),
-            start_ns: contents.start_ns,
+            start_ns: survey.first_ns.unwrap_or_default(),
             position: Duration::ZERO,
         }
     }

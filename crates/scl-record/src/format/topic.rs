@@ -38,6 +38,16 @@ impl Topic {
         complete.then(|| Self { component: component.to_owned(), gate: gate.to_owned(), part })
     }
 
+    /// The topic as the command line writes it: `sensor.measurements`, `controller.commands request`.
+    pub fn name(&self) -> String {
+        let gate = self.gate_name();
+        match self.part {
+            Part::Message => gate,
+            Part::Request => format!("{gate} request"),
+            Part::Reply => format!("{gate} reply"),
+        }
+    }
+
     /// The gate as the command line writes it: `sensor.measurements`.
     pub fn gate_name(&self) -> String {
         format!("{}.{}", self.component, self.gate)

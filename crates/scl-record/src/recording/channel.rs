@@ -16,9 +16,31 @@ pub struct RecordedChannel {
     pub schema: Bytes,
 }
 
+/// A topic of another program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OtherTopic {
+    pub topic: String,
+    /// MCAP's message encoding: `cdr`.
+    pub encoding: String,
+    /// Name of the schema: `sensor_msgs/msg/Imu`; empty if there is none.
+    pub schema_name: String,
+    /// Why it is none of SCL: `its metadata has no `kind``.
+    pub reason: String,
+    /// Messages read so far, which are left out.
+    pub messages: u64,
+}
+
+impl OtherTopic {
+    pub(super) fn new(channel: &Channel, schema_name: &str, reason: String) -> Self {
+        let (topic, encoding) = (channel.topic.clone(), channel.message_encoding.clone());
+        Self { topic, encoding, schema_name: schema_name.to_owned(), reason, messages: 0 }
+    }
+}
+
 /// A schema of a file.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RecordedSchema {
+    pub(super) name: String,
     pub(super) encoding: String,
     pub(super) data: Bytes,
 }
@@ -27,15 +49,11 @@ impl RecordedChannel {
     /// Reads a channel's record.
     ///
     /// # Errors
-    /// What is missing in a channel that SCL did not write.
+    /// What is missing in a channel that SCL did not write: `its metadata has no `kind``.
     pub(super) fn new(channel: &Channel, schema: RecordedSchema) -> Result<Self, String> {
-        let name = escape(&channel.topic);
-        let topic = Topic::parse(&channel.topic)
-            .ok_or_else(|| format!("topic `{name}` was not recorded by SCL: it is not `/<component>/<gate>`"))?;
-        let metadata = ChannelMetadata::from_map(&channel.metadata).ok_or_else(|| {
-            let missing = ChannelMetadata::missing(&channel.metadata);
-            format!("topic `{name}` was not recorded by SCL: its metadata has no {missing}")
-        })?;
+        let topic = Topic::parse(&channel.topic).ok_or("it is not `/<component>/<gate>`")?;
+        let metadata = ChannelMetadata::from_map(&channel.metadata)
+            .ok_or_else(|| format!("its metadata has no {}", ChannelMetadata::missing(&channel.metadata)))?;
         Ok(Self { topic, metadata, schema_encoding: schema.encoding, schema: schema.data })
     }
 

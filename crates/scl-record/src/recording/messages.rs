@@ -1,12 +1,12 @@
-//! The messages of a recording, one by one.
+//! The messages of a recording, one by one. Those of topics that SCL did not record are counted and left out.
 
-use super::channel::{RecordedChannel, RecordedSchema};
+use super::channel::{OtherTopic, RecordedChannel, RecordedSchema};
 use super::chunk;
 use super::records::{RecordHeader, Records};
 use crate::parse::{COMPRESSIONS, parse};
 use bytes::Bytes;
 use mcap::McapError;
-use mcap::records::{MessageHeader, Record, op};
+use mcap::records::{Channel, MessageHeader, Record, op};
 use scl_terminal::{Problem, escape};
 use std::collections::{HashMap, VecDeque};
 use std::path::PathBuf;
@@ -32,29 +32,38 @@ pub struct Messages {
     records: Option<Records>,
     /// Of the current file, by its ids.
     schemas: HashMap<u16, RecordedSchema>,
-    channel_ids: HashMap<u16, usize>,
+    channel_ids: HashMap<u16, Origin>,
     channels: Vec<RecordedChannel>,
+    others: Vec<OtherTopic>,
     ready: VecDeque<RecordedMessage>,
+}
+
+/// Who recorded a channel, as an index into the channels of SCL or the topics of others.
+#[derive(Debug, Clone, Copy)]
+enum Origin {
+    Scl(usize),
+    Other(usize),
 }
 
 /// Why a record cannot be used.
 enum Fault {
     /// Other records may be sound.
     Damaged(String),
-    /// SCL did not write it.
+    /// It cannot be read.
     Unusable(String),
 }
 
 impl Messages {
     pub(super) fn new(files: VecDeque<PathBuf>) -> Self {
         let (schemas, channel_ids) = Default::default();
-        Self { files, records: None, schemas, channel_ids, channels: Vec::new(), ready: VecDeque::new() }
+        let (channels, others) = Default::default();
+        Self { files, records: None, schemas, channel_ids, channels, others, ready: VecDeque::new() }
     }
 
     /// The next message; `None` at the end.
     ///
     /// # Errors
-    /// A file cannot be read, is damaged, or was not recorded by SCL.
+    /// A file cannot be read or is damaged.
     pub fn read(&mut self) -> Result<Option<RecordedMessage>, Problem> {
         loop {
             if let Some(message) = self.ready.pop_front() {
@@ -79,6 +88,11 @@ impl Messages {
     /// The channels seen so far.
     pub fn channels(&self) -> &[RecordedChannel] {
         &self.channels
+    }
+
+    /// The topics seen so far that SCL did not record.
+    pub fn others(&self) -> &[OtherTopic] {
+        &self.others
     }
 
     fn read_record(&mut self, records: &mut Records, header: RecordHeader) -> Result<(), Problem> {
@@ -113,24 +127,24 @@ impl Messages {
     fn take(&mut self, record: Record<'_>) -> Result<(), Fault> {
         match record {
             Record::Schema { header, data } => {
-                let schema = RecordedSchema { encoding: header.encoding, data: Bytes::copy_from_slice(&data) };
-                self.schemas.insert(header.id, schema);
+                let (id, data) = (header.id, Bytes::copy_from_slice(&data));
+                self.schemas.insert(id, RecordedSchema { name: header.name, encoding: header.encoding, data });
             }
             Record::Channel(channel) => {
-                let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
-                let recorded = RecordedChannel::new(&channel, schema).map_err(Fault::Unusable)?;
-                // All files of a recording repeat the channels.
-                let known = self.channels.iter().position(|known| *known == recorded);
-                let index = known.unwrap_or_else(|| {
-                    self.channels.push(recorded);
-                    self.channels.len() - 1
-                });
-                self.channel_ids.insert(channel.id, index);
+                // Chunks and files of a recording repeat the channels.
+                let origin = self.origin(&channel);
+                self.channel_ids.insert(channel.id, origin);
             }
             Record::Message { header, data } => {
                 let MessageHeader { channel_id, sequence, log_time, publish_time } = header;
                 let known = self.channel_ids.get(&channel_id);
-                let channel = *known.ok_or_else(|| Fault::damaged("a message belongs to no channel"))?;
+                let channel = match *known.ok_or_else(|| Fault::damaged("a message belongs to no channel"))? {
+                    Origin::Scl(channel) => channel,
+                    Origin::Other(index) => {
+                        self.others[index].messages += 1;
+                        return Ok(());
+                    }
+                };
                 let payload = Bytes::copy_from_slice(&data);
                 let message =
                     RecordedMessage { channel, sequence, sent_ns: publish_time, received_ns: log_time, payload };
@@ -140,6 +154,27 @@ impl Messages {
         }
         Ok(())
     }
+
+    fn origin(&mut self, channel: &Channel) -> Origin {
+        let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+        let schema_name = schema.name.clone();
+        match RecordedChannel::new(channel, schema) {
+            Ok(recorded) => Origin::Scl(index_of(&mut self.channels, |known| *known == recorded, || recorded.clone())),
+            Err(reason) => {
+                let is_known = |other: &OtherTopic| other.topic == channel.topic;
+                let new = || OtherTopic::new(channel, &schema_name, reason);
+                Origin::Other(index_of(&mut self.others, is_known, new))
+            }
+        }
+    }
+}
+
+/// Index of the first element that `is_it`, which is added if there is none.
+fn index_of<T>(all: &mut Vec<T>, is_it: impl Fn(&T) -> bool, new: impl FnOnce() -> T) -> usize {
+    all.iter().position(is_it).unwrap_or_else(|| {
+        all.push(new());
+        all.len() - 1
+    })
 }
 
 impl From<McapError> for Fault {

@@ -2,11 +2,10 @@
 
 use super::chunk;
 use super::records::Records;
-use crate::format::PROFILE;
 use crate::parse::parse;
 use bytes::Bytes;
 use mcap::records::{Record, op};
-use scl_terminal::{Problem, escape};
+use scl_terminal::Problem;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -36,7 +35,7 @@ impl Overview {
     /// Walks over a file.
     ///
     /// # Errors
-    /// It cannot be read, is empty, is not an MCAP file, or was not recorded by SCL.
+    /// It cannot be read, is empty, or is not an MCAP file.
     pub(super) fn read(path: &Path) -> Result<Self, Problem> {
         let mut records = Records::open(path)?;
         let mut overview = Self::default();
@@ -51,10 +50,10 @@ impl Overview {
             }
             match header.opcode {
                 op::CHUNK => overview.add_times(&records.content(CHUNK_TIMES)?),
-                op::HEADER | op::ATTACHMENT | op::METADATA | op::MESSAGE => {
+                op::ATTACHMENT | op::METADATA | op::MESSAGE => {
                     let content = records.content(u64::MAX)?;
                     let damaged = || records.problem(header.offset, "the recording is damaged: unreadable record");
-                    overview.add(path, parse(header.opcode, &content).ok_or_else(damaged)?)?;
+                    overview.add(parse(header.opcode, &content).ok_or_else(damaged)?);
                 }
                 op::DATA_END => {
                     is_complete = true;
@@ -69,9 +68,8 @@ impl Overview {
         Ok(overview)
     }
 
-    fn add(&mut self, path: &Path, record: Record<'_>) -> Result<(), Problem> {
+    fn add(&mut self, record: Record<'_>) {
         match record {
-            Record::Header(header) => check_profile(path, &header.profile)?,
             Record::Attachment { header, data, .. } => {
                 self.attachments.push(Attachment { name: header.name, data: data.into_owned().into() });
             }
@@ -81,7 +79,6 @@ impl Overview {
             Record::Message { header, .. } => self.add_time(header.log_time),
             _ => {}
         }
-        Ok(())
     }
 
     fn add_times(&mut self, content: &[u8]) {
@@ -109,13 +106,4 @@ impl Overview {
         let (first, last) = self.times.unwrap_or((time, time));
         self.times = Some((first.min(time), last.max(time)));
     }
-}
-
-/// An empty profile may be left by tools that copy recordings.
-fn check_profile(path: &Path, profile: &str) -> Result<(), Problem> {
-    if [PROFILE, ""].contains(&profile) {
-        return Ok(());
-    }
-    let message = format!("`{}` was not recorded by SCL: its profile is `{}`", path.display(), escape(profile));
-    Err(Problem::new(message).help("make recordings with `scl record`"))
 }

@@ -138,22 +138,10 @@ fn parts_are_read_in_order_whatever_the_order_of_the_arguments() {
 }
 
 #[test]
-fn files_that_scl_did_not_record_are_refused() {
+fn what_is_no_recording_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let foreign = Recorder::with_profile("ros2").messages(&SAMPLES).finish();
-    let mut other: Writer<_> = WriteOptions::new().profile("").create(Cursor::new(Vec::new())).unwrap();
-    let channel = other.add_channel(0, "/chatter/data", "json", &BTreeMap::new()).unwrap();
-    let header = mcap::records::MessageHeader { channel_id: channel, sequence: 0, log_time: 1, publish_time: 1 };
-    other.write_to_known_channel(&header, b"{}").unwrap();
-    other.finish().unwrap();
-    let files: [(&str, &[u8]); 4] = [
-        ("empty", b""),
-        ("text", b"speed,time\n1,2\n"),
-        ("ros", &foreign),
-        ("unknown", &other.into_inner().into_inner()),
-    ];
     let mut problems = String::new();
-    for (name, content) in files {
+    for (name, content) in [("empty", &b""[..]), ("text", b"speed,time\n1,2\n")] {
         let path = write_file(folder.path(), name, content);
         let problem = read_file(&path).unwrap_err().to_string();
         problems += &problem.replace(&folder.path().display().to_string(), "");
@@ -166,10 +154,6 @@ fn files_that_scl_did_not_record_are_refused() {
           = help: the recorder was stopped before it wrote anything, or the disk was full
         error: `/text` is not a recording
           = help: recordings are MCAP files, written by `scl record`
-        error: `/ros` was not recorded by SCL: its profile is `ros2`
-          = help: make recordings with `scl record`
-        error: topic `/chatter/data` was not recorded by SCL: its metadata has no `kind`, `codec`, `contract`, `peers`
-         --> /unknown, byte 41
         error: `/folder` is not a file
           = help: name a file written by `scl record`
         error: there is no file `no_such.mcap`
@@ -179,8 +163,39 @@ fn files_that_scl_did_not_record_are_refused() {
 }
 
 #[test]
-fn copies_without_a_profile_are_read() {
+fn copies_with_another_profile_or_compression_are_read() {
     let folder = tempfile::tempdir().unwrap();
-    let path = Recorder::with_profile("").messages(&SAMPLES).write_to(folder.path(), "copy.mcap");
-    assert_eq!(read_file(&path).unwrap().1, expected());
+    for profile in ["", "ros2"] {
+        let path = Recorder::with_profile(profile).messages(&SAMPLES).write_to(folder.path(), "copy.mcap");
+        assert_eq!(read_file(&path).unwrap().1, expected());
+    }
+    for compression in [None, Some(mcap::Compression::Lz4), Some(mcap::Compression::Zstd)] {
+        let path = Recorder::with_compression(compression).messages(&SAMPLES).write_to(folder.path(), "copy.mcap");
+        assert_eq!(read_file(&path).unwrap().1, expected());
+    }
+}
+
+/// Topics of other programs, some of which look almost like ours, among those of SCL: before, between and after them,
+/// with schemas of other encodings, and with the profile of another program.
+#[test]
+fn topics_of_other_programs_are_left_out_and_named() {
+    let others = [("/tf", "cdr", "ros2msg"), ("/a/b", "json", "jsonschema"), ("/a/b/c", "flatbuffer", "")];
+    let folder = tempfile::tempdir().unwrap();
+    let mut recorder = Recorder::with_profile("ros2");
+    for (at, sample) in SAMPLES.iter().enumerate() {
+        for other in &others[..at.min(3)] {
+            recorder = recorder.other_message(*other, b"\0\x01\0\0");
+        }
+        recorder = recorder.messages(&[*sample]).end_chunk();
+    }
+    let path = recorder.write_to(folder.path(), "mixed.mcap");
+    let (recording, read) = read_file(&path).unwrap();
+    assert_eq!(read, expected());
+    let survey = recording.survey().unwrap();
+    assert_eq!(survey.topics.values().map(|topic| topic.messages).collect::<Vec<_>>(), [1, 3]);
+    expect![[r#"
+        `/tf` was not recorded by SCL: it is not `/<component>/<gate>`; messages left out: 3
+        `/a/b` was not recorded by SCL: its metadata has no `kind`, `codec`, `contract`, `peers`; messages left out: 2
+        `/a/b/c` was not recorded by SCL: it is not `/<component>/<gate>`; messages left out: 1"#]]
+    .assert_eq(&survey.notes().join("\n"));
 }

@@ -1,0 +1,136 @@
+//! What is in a recording.
+
+use crate::format::{FormatArgument, print_json};
+use scl_record::format::{GateTotals, Topic};
+use scl_record::recording::{Recording, Survey, SurveyedTopic, find_files};
+use scl_terminal::{Align, Problem, Table, bytes_text, print_err, print_out, timestamp};
+use serde_json::{Value, json};
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+/// Whether an argument names a recording, and not a gate or a component.
+pub(super) fn is_recording(name: &str) -> bool {
+    name.contains('/') || name.ends_with(".mcap")
+}
+
+/// Prints what is in a recording, for which all of it is read.
+///
+/// # Errors
+/// A file cannot be read or is damaged.
+pub(super) fn print_recording(name: &str, format: FormatArgument) -> Result<(), Problem> {
+    let recording = Recording::open(&find_files(&[name.into()])?)?;
+    let survey = recording.survey()?;
+    match format.is_json() {
+        true => print_json(&to_json(&recording, &survey)),
+        false => {
+            recording.notes().iter().for_each(|note| print_err(&format!("note: {note}\n")));
+            print_out(&to_text(&recording, &survey));
+        }
+    }
+    Ok(())
+}
+
+fn to_text(recording: &Recording, survey: &Survey) -> String {
+    let mut facts = Table::plain(2).indented(2);
+    for path in recording.paths() {
+        facts.row(["file", &format!("{}, {}", path.display(), bytes_text(size(path) as f64))]);
+    }
+    if let Some(first) = first_time(survey) {
+        facts.row(["recorded", &format!("{first}, for {:.1} s", recording.duration().as_secs_f64())]);
+    }
+    if let Ok(Some(plan)) = recording.plan() {
+        facts.row(["system", &plan.system]);
+    }
+    let attachments: Vec<_> = recording.attachments().map(|attachment| attachment.name.as_str()).collect();
+    facts.row(["attachments", &if attachments.is_empty() { "none".to_owned() } else { attachments.join(", ") }]);
+    let mut text = facts.text();
+    let totals = recording.totals();
+    if !survey.topics.is_empty() {
+        let mut gates = Table::new([
+            ("GATE", Align::Left),
+            ("KIND", Align::Left),
+            ("TYPE", Align::Left),
+            ("CODEC", Align::Left),
+            ("MESSAGES", Align::Right),
+            ("BYTES", Align::Right),
+            ("LOST", Align::Right),
+        ]);
+        for (topic, SurveyedTopic { channel, messages, bytes }) in &survey.topics {
+            let lost = totals.get(&topic.gate_name()).map_or_else(|| "?".to_owned(), |totals| totals.lost.to_string());
+            let metadata = &channel.metadata;
+            gates.row([
+                topic.name(),
+                metadata.kind.word().to_owned(),
+                metadata.type_name.clone().unwrap_or_else(|| "bytes".to_owned()),
+                metadata.codec.clone(),
+                messages.to_string(),
+                bytes_text(*bytes as f64),
+                lost,
+            ]);
+        }
+        text += &gates.text();
+    }
+    if !survey.others.is_empty() {
+        let mut others = Table::new([
+            ("NOT RECORDED BY SCL", Align::Left),
+            ("ENCODING", Align::Left),
+            ("SCHEMA", Align::Left),
+            ("MESSAGES", Align::Right),
+        ]);
+        for other in &survey.others {
+            others.row([&other.topic, &other.encoding, &other.schema_name, &other.messages.to_string()]);
+        }
+        text += &others.text();
+    }
+    text
+}
+
+fn to_json(recording: &Recording, survey: &Survey) -> Value {
+    let totals = recording.totals();
+    let files = recording.paths().map(|path| json!({"path": path.display().to_string(), "bytes": size(path)}));
+    let gates =
+        survey.topics.iter().map(|(topic, surveyed)| gate_to_json(topic, surveyed, totals.get(&topic.gate_name())));
+    let others = survey.others.iter().map(|other| {
+        json!({
+            "topic": other.topic,
+            "encoding": other.encoding,
+            "schema": other.schema_name,
+            "messages": other.messages,
+            "reason": other.reason,
+        })
+    });
+    json!({
+        "files": files.collect::<Vec<_>>(),
+        "recorded": first_time(survey),
+        "seconds": recording.duration().as_secs_f64(),
+        "system": recording.plan().ok().flatten().map(|plan| plan.system),
+        "attachments": recording.attachments().map(|attachment| &attachment.name).collect::<Vec<_>>(),
+        "gates": gates.collect::<Vec<_>>(),
+        "others": others.collect::<Vec<_>>(),
+        "notes": recording.notes(),
+    })
+}
+
+/// What was lost is of the whole gate, requests and replies together.
+fn gate_to_json(topic: &Topic, surveyed: &SurveyedTopic, totals: Option<&GateTotals>) -> Value {
+    let metadata = &surveyed.channel.metadata;
+    json!({
+        "gate": topic.name(),
+        "kind": metadata.kind.word(),
+        "type": metadata.type_name,
+        "codec": metadata.codec,
+        "contract": metadata.contract,
+        "peers": metadata.peers,
+        "messages": surveyed.messages,
+        "bytes": surveyed.bytes,
+        "lost": totals.map(|totals| totals.lost),
+    })
+}
+
+fn first_time(survey: &Survey) -> Option<String> {
+    Some(timestamp(SystemTime::UNIX_EPOCH + Duration::from_nanos(survey.first_ns?)))
+}
+
+fn size(path: &Path) -> u64 {
+    std::fs::metadata(path).map_or(0, |metadata| metadata.len())
+}
