@@ -7,14 +7,16 @@ use cbor4ii::core::dec::Read;
 use cbor4ii::core::utils::SliceReader;
 use cbor4ii::serde::Deserializer;
 use serde::{Serialize, de::DeserializeOwned};
+use std::convert::Infallible;
 
 /// Encodes any serde type as one CBOR item (RFC 8949), structs as maps with field names.
 ///
 /// Unknown fields are skipped and missing optional fields become `None`, so the two ends may use different versions of
 /// a type. Floats are decoded from numbers of any sort, because other languages have floats of one width only and write
-/// whole numbers as integers. Values nested deeper than 128 levels (each `Some` is one level), 16-bit floats, and data
-/// after the item are refused. The unit type is encoded as an empty list, and types that accept any value decode it as
-/// such: `serde_json::Value::Null` becomes an empty array.
+/// whole numbers as integers, or shorten floats to 16 bits. A tag is left out: what is under it is decoded as if it
+/// stood there alone. Values nested deeper than 128 levels (each `Some` is one level), and data after the item are
+/// refused. The unit type is encoded as an empty list, and types that accept any value decode it as such:
+/// `serde_json::Value::Null` becomes an empty array.
 #[derive(Debug)]
 pub struct Cbor;
 
@@ -32,14 +34,35 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Cbor {
     }
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
-        let refused = |reason| DecodeError::new(<Self as Codec<T>>::NAME, reason);
-        let mut input = Deserializer::new(SliceReader::new(&bytes));
-        let message = bounded::decode(&mut input, bytes.len(), Floats::OfAnyNumber).map_err(|error| {
-            refused(format!("this {}-byte frame is not a CBOR item of the expected type", bytes.len())).caused_by(error)
-        })?;
-        match input.into_inner().fill(1) {
-            Ok(rest) if rest.as_ref().is_empty() => Ok(message),
-            _ => Err(refused(format!("data follows the CBOR item in this {}-byte frame", bytes.len()))),
-        }
+        let decoded = decode(&bytes).or_else(|error| match scl_cbor::simplify(&bytes) {
+            Some(simple) => decode(&simple),
+            None => Err(error),
+        });
+        decoded.map_err(|error| match error {
+            Refused::Item(error) => {
+                let reason = format!("this {}-byte frame is not a CBOR item of the expected type", bytes.len());
+                DecodeError::new(<Self as Codec<T>>::NAME, reason).caused_by(error)
+            }
+            Refused::Rest => {
+                let reason = format!("data follows the CBOR item in this {}-byte frame", bytes.len());
+                DecodeError::new(<Self as Codec<T>>::NAME, reason)
+            }
+        })
+    }
+}
+
+/// Why a frame is not decoded.
+enum Refused {
+    Item(cbor4ii::serde::DecodeError<Infallible>),
+    /// Data follows the item.
+    Rest,
+}
+
+fn decode<T: DeserializeOwned>(frame: &[u8]) -> Result<T, Refused> {
+    let mut input = Deserializer::new(SliceReader::new(frame));
+    let message = bounded::decode(&mut input, frame.len(), Floats::OfAnyNumber).map_err(Refused::Item)?;
+    match input.into_inner().fill(1) {
+        Ok(rest) if rest.as_ref().is_empty() => Ok(message),
+        _ => Err(Refused::Rest),
     }
 }

@@ -208,16 +208,49 @@ fn cbor() {
 #[test]
 fn cbor_decodes_floats_from_numbers_of_any_sort() {
     use super::Cbor;
-    for (frame, value) in
-        [(&b"\xfb\x3f\xf8\0\0\0\0\0\0"[..], 1.5), (b"\xfa\x3f\xc0\0\0", 1.5), (b"\x07", 7.0), (b"\x20", -1.0)]
-    {
+    for (frame, value) in [
+        (&b"\xfb\x3f\xf8\0\0\0\0\0\0"[..], 1.5),
+        (b"\xfa\x3f\xc0\0\0", 1.5),
+        (b"\xf9\x3e\0", 1.5),
+        (b"\xc1\xf9\x3e\0", 1.5),
+        (b"\x07", 7.0),
+        (b"\x20", -1.0),
+    ] {
         let frame = Bytes::copy_from_slice(frame);
         assert_eq!(<Cbor as Codec<f32>>::decode(frame.clone()).unwrap(), value);
         assert_eq!(<Cbor as Codec<f64>>::decode(frame.clone()).unwrap(), f64::from(value));
         assert!(<Cbor as Codec<Vec<f32>>>::decode(frame).is_err());
     }
     refused::<Cbor, f64>("a text", b"\x61\x31");
-    refused::<Cbor, f32>("16 bits", b"\xf9\x3e\0");
+    refused::<Cbor, f32>("half of 16 bits", b"\xf9\x3e");
+}
+
+/// What encoders of other languages may write for the same message: tags on items, keys and the whole, floats as short
+/// as possible, texts, lists and maps without a length, and fields that this type does not have.
+#[cfg(feature = "cbor")]
+#[test]
+fn cbor_decodes_what_other_encoders_write() {
+    use super::Cbor;
+    #[derive(Debug, PartialEq, Serialize, Deserialize)]
+    struct Fix {
+        t: f64,
+        n: u64,
+        s: String,
+        l: Vec<f32>,
+        o: Option<i8>,
+    }
+    let fix = Fix { t: 1.5, n: 7, s: "ab".into(), l: vec![0.5, -2.0], o: None };
+    // `at` is the text `t`, and so on.
+    let frames: [&[u8]; 5] = [
+        b"\xa5at\xf9\x3e\0an\x07as\x62abal\x82\xf9\x38\0\xf9\xc0\0ao\xf6",
+        b"\xd9\xd9\xf7\xa5\xc0at\xc1\xf9\x3e\0an\xd8\x40\x07as\xc0\x62abal\xd8\x28\x82\xf9\x38\0\xf9\xc0\0ao\xf7",
+        b"\xbfat\xfa\x3f\xc0\0\0\x7fan\xff\x1b\0\0\0\0\0\0\0\x07as\x7faaab\xffal\x9f\xf9\x38\0\x21\xff\xff",
+        b"\xa5az\xc0\x61xat\xf9\x3e\0an\x18\x07as\x62abal\x82\xf9\x38\0\x21",
+        b"\xa5al\x82\xf9\x38\0\x21as\x62aban\x07at\xf9\x3e\0az\x82\xc2\x49\x01\0\0\0\0\0\0\0\0\xf9\x7e\0",
+    ];
+    for frame in frames {
+        assert_eq!(decoded::<Cbor, Fix>(frame).unwrap(), fix, "{frame:x?}");
+    }
 }
 
 #[cfg(feature = "msgpack")]
@@ -236,6 +269,30 @@ fn msgpack() {
     let error = refused::<Msgpack, u32>("two values", b"\x01\x02");
     let text = "codec `msgpack` cannot decode this message: the value ends after 1 of 2 bytes";
     assert_eq!(error.to_string(), text);
+}
+
+/// The same of MessagePack: numbers of any width, extensions in fields that this type does not have.
+#[cfg(feature = "msgpack")]
+#[test]
+fn msgpack_decodes_what_other_encoders_write() {
+    use super::Msgpack;
+    #[derive(Debug, PartialEq, Serialize, Deserialize)]
+    struct Fix {
+        t: f64,
+        n: u64,
+        s: String,
+    }
+    let fix = Fix { t: 1.5, n: 7, s: "ab".into() };
+    let frames: [&[u8]; 4] = [
+        b"\x83\xa1t\xca\x3f\xc0\0\0\xa1n\xd3\0\0\0\0\0\0\0\x07\xa1s\xa2ab",
+        b"\xde\0\x03\xa1t\xcb\x3f\xf8\0\0\0\0\0\0\xd9\x01n\xcc\x07\xa1s\xdb\0\0\0\x02ab",
+        b"\x84\xa1z\xd6\xff\0\0\0\x01\xa1t\xca\x3f\xc0\0\0\xa1n\x07\xa1s\xa2ab",
+        b"\x84\xa1t\xca\x3f\xc0\0\0\xa1n\xd0\x07\xa1s\xa2ab\xa1z\x92\xc7\0\x05\xc7\x0c\xff\0\0\0\0\0\0\0\0\0\0\0\0",
+    ];
+    for frame in frames {
+        assert_eq!(decoded::<Msgpack, Fix>(frame).unwrap(), fix, "{frame:x?}");
+    }
+    assert_eq!(decoded::<Msgpack, f32>(b"\xff").unwrap(), -1.0);
 }
 
 #[cfg(feature = "postcard")]

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import importlib
 import io
-import struct
 from typing import Any, NoReturn
 
 from scl._errors import EncodeError, UnsupportedCodecError
@@ -52,18 +51,12 @@ def cbor(owner: Owner, name: str) -> Codec:
         _plain.check(owner.gate, name, "CBOR", value)
         try:
             frame: bytes = cbor2.dumps(value, default=fields)
-            if b"\xf9" in frame:
-                # cbor2 shortens infinity and NaN to 16 bits, which serde does not read.
-                frame = cbor2.dumps(value, default=fields, encoders={float: wide})
         except (TypeError, ValueError, RecursionError, cbor2.CBOREncodeError) as error:
             raise _refused(owner.gate, name, "CBOR", value, error) from error
         return frame
 
     def fields(encoder: Any, value: object) -> None:
         encoder.encode(_fields(value))
-
-    def wide(encoder: Any, value: float) -> None:
-        encoder.write(struct.pack(">Bd", 0xFB, value))
 
     def decode(frame: bytes) -> object:
         input = io.BytesIO(frame)
