@@ -93,7 +93,7 @@ async fn run(arguments: &CallArguments) -> Result<ExitCode, Problem> {
             let reply = replies.show(&bytes);
             print_out(&match arguments.format {
                 ReplyFormat::Yaml => to_yaml(&reply).lines().map(|line| format!("{}\n", escape(line))).collect(),
-                ReplyFormat::Json => format!("{}\n", to_json(&reply)),
+                ReplyFormat::Json => format!("{}\n", to_json(&replies.for_json(reply))),
             });
             Ok(ExitCode::SUCCESS)
         }

@@ -116,6 +116,12 @@ impl MessageType {
         self.decode(bytes).unwrap_or_else(|error| Value::Opaque(Opaque::new(bytes, error.to_string())))
     }
 
+    /// A decoded message as it is printed in JSON. Of a type that is described, whole numbers beyond 2^53 are texts, as
+    /// in protobuf's JSON, and [`encode`](Self::encode) takes them back; in other messages they would stay texts.
+    pub fn for_json(&self, value: Value) -> Value {
+        if self.is_described() { value.with_large_numbers_as_texts() } else { value }
+    }
+
     /// Writes a message.
     ///
     /// It accepts everything that `decode` returns, and what protobuf's JSON accepts: names in lowerCamelCase, numbers

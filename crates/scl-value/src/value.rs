@@ -106,6 +106,21 @@ impl Value {
         }
     }
 
+    /// Whole numbers beyond 2^53 as texts, because most readers of JSON would round them; keys are texts anyway.
+    #[must_use]
+    pub fn with_large_numbers_as_texts(self) -> Self {
+        match self {
+            Value::Int(number) if number.unsigned_abs() > EXACT => Value::Text(number.to_string()),
+            Value::Uint(number) => Value::Text(number.to_string()),
+            Value::List(items) => Value::List(items.into_iter().map(Self::with_large_numbers_as_texts).collect()),
+            Value::Map(entries) => {
+                let entries = entries.into_iter().map(|(key, value)| (key, value.with_large_numbers_as_texts()));
+                Value::Map(entries.collect())
+            }
+            other => other,
+        }
+    }
+
     /// What this is, for messages: `a number`.
     pub(crate) fn kind(&self) -> &'static str {
         match self.meaning() {
@@ -138,6 +153,9 @@ impl PartialEq for Value {
         }
     }
 }
+
+/// Up to this number, a float has every whole number.
+const EXACT: u64 = 1 << 53;
 
 /// A key of a map as the text that a field path and JSON use.
 pub(crate) fn key_text(key: &Value) -> String {

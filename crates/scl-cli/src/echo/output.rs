@@ -51,7 +51,7 @@ impl<'a> Output<'a> {
     pub(super) fn print(&mut self, gate: &Watched, seen: &Observation, message: &Value) {
         let text = match self.format {
             MessageFormat::Yaml => self.document(gate, seen, &selected(message, self.fields)).into_bytes(),
-            MessageFormat::Json => line(gate, seen, &selected(message, self.fields)).into_bytes(),
+            MessageFormat::Json => line(gate, seen, selected(message, self.fields)).into_bytes(),
             MessageFormat::Csv => self.row(gate, seen, message),
         };
         print_out_bytes(&text);
@@ -122,7 +122,7 @@ fn csv_row(cells: impl Iterator<Item = String>) -> Vec<u8> {
 }
 
 /// A message as JSON on one line.
-fn line(gate: &Watched, seen: &Observation, shown: &Value) -> String {
+fn line(gate: &Watched, seen: &Observation, shown: Value) -> String {
     let mut fields = vec![
         ("gate", gate.name().into()),
         ("time", exact_time(seen).into()),
@@ -130,12 +130,12 @@ fn line(gate: &Watched, seen: &Observation, shown: &Value) -> String {
         ("kind", word(seen.kind).into()),
     ];
     if seen.kind != ObservedKind::Message {
-        fields.push(("call", seen.call_id.into()));
+        fields.push(("call", Value::from(seen.call_id).with_large_numbers_as_texts()));
     }
     if seen.latched {
         fields.push(("latched", true.into()));
     }
-    fields.push(("message", shown.clone()));
+    fields.push(("message", gate.for_json(seen, shown)));
     format!("{}\n", to_json(&Value::fields(fields)))
 }
 

@@ -106,9 +106,18 @@ impl Watched {
 
     /// The message, or its bytes and why they cannot be decoded.
     pub(super) fn decode(&self, seen: &Observation) -> Value {
+        self.type_of(seen).show(&seen.payload)
+    }
+
+    /// A message or a part of it as it is printed in JSON.
+    pub(super) fn for_json(&self, seen: &Observation, shown: Value) -> Value {
+        self.type_of(seen).for_json(shown)
+    }
+
+    fn type_of(&self, seen: &Observation) -> &MessageType {
         match seen.kind {
-            ObservedKind::Reply => self.reply.show(&seen.payload),
-            ObservedKind::Message | ObservedKind::Request => self.message.show(&seen.payload),
+            ObservedKind::Reply => &self.reply,
+            ObservedKind::Message | ObservedKind::Request => &self.message,
         }
     }
 }

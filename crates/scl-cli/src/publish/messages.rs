@@ -64,7 +64,7 @@ fn read_input() -> Receiver<io::Result<Result<Value, ReadError>>> {
     let (sender, receiver) = channel(AHEAD);
     thread::spawn(move || {
         let mut documents = Documents::default();
-        for line in io::stdin().lock().lines() {
+        for line in text_lines(io::stdin().lock()) {
             let message = match line {
                 Ok(line) => documents.line(&line).map(Ok),
                 Err(error) => Some(Err(error)),
@@ -78,4 +78,37 @@ fn read_input() -> Receiver<io::Result<Result<Value, ReadError>>> {
         let _ = documents.end().map(|message| sender.blocking_send(Ok(message)));
     });
     receiver
+}
+
+/// The lines of a text in UTF-8.
+fn text_lines(mut input: impl BufRead) -> impl Iterator<Item = io::Result<String>> {
+    // No text in UTF-8 begins so, but a byte order mark of UTF-16 or UTF-32.
+    let wrong = match input.fill_buf().map(<[u8]>::first) {
+        Ok(Some(0xfe | 0xff)) => Some(io::Error::other("it is text in UTF-16, but must be UTF-8")),
+        Ok(_) => None,
+        Err(error) => Some(error),
+    };
+    // A caller ends at the first error.
+    wrong.map(Err).into_iter().chain(input.lines())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_in_utf_16_is_named() {
+        for input in [&b"\xff\xfe{\0}\0\n\0"[..], b"\xfe\xff\0{\0}\0\n", b"\xff\xfe\0\0"] {
+            let error = text_lines(input).next().unwrap().unwrap_err();
+            assert_eq!(error.to_string(), "it is text in UTF-16, but must be UTF-8");
+        }
+    }
+
+    #[test]
+    fn other_lines_are_read_as_they_are() {
+        let lines: Vec<_> = text_lines("\u{feff}{a: 1}\r\n\nä".as_bytes()).map(Result::unwrap).collect();
+        assert_eq!(lines, ["\u{feff}{a: 1}", "", "ä"]);
+        assert!(text_lines(&b""[..]).next().is_none());
+        assert!(text_lines(&b"a\xff"[..]).next().unwrap().is_err());
+    }
 }

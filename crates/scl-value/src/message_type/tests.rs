@@ -1,5 +1,6 @@
 //! Reading and writing messages in every codec.
 
+mod json;
 mod written;
 
 use super::*;

@@ -1,6 +1,6 @@
 //! A stream of messages as text: YAML documents, or one JSON value a line.
 
-use super::yaml::{ReadError, read_yaml};
+use super::yaml::{BYTE_ORDER_MARK, ReadError, read_yaml};
 use crate::value::Value;
 
 /// Splits lines into messages: a line that is a whole list or map, as in JSON lines, and everything between lines of
@@ -22,6 +22,8 @@ pub struct Documents {
 impl Documents {
     /// Adds a line, without its end. Returns the message that it completes.
     pub fn line(&mut self, line: &str) -> Option<Result<Value, ReadError>> {
+        // At the beginning of each file, if several were joined.
+        let line = line.trim_start_matches(BYTE_ORDER_MARK);
         if let Some(start) = line.strip_prefix("---").filter(|rest| rest.is_empty() || rest.starts_with([' ', '\t'])) {
             let complete = self.end();
             self.add(start.trim_start());
@@ -72,6 +74,10 @@ mod tests {
             ("---\na: 1\n...\n# comment\n---\na: 2\n---\n", "{\"a\":1} {\"a\":2}"),
             ("{a: 1,\n b: 2}\n---\n[3]\n4", "{\"a\":1,\"b\":2} [3] 4"),
             ("\n# nothing\n---\n\n", ""),
+            ("\u{feff}{a: 1}\n{a: 2}\n\u{feff}{a: 3}\n", "{\"a\":1} {\"a\":2} {\"a\":3}"),
+            ("\u{feff}---\r\na: 1\r\n\u{feff}---\r\na: 2\r\n", "{\"a\":1} {\"a\":2}"),
+            ("\u{feff}a: 1\nb: 2\n", "{\"a\":1,\"b\":2}"),
+            ("\u{feff}# nothing\n\u{feff}", ""),
             ("{a: 1\n---\na: 2", "error {\"a\":2}"),
         ];
         for (text, expected) in cases {

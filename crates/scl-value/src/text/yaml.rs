@@ -3,13 +3,16 @@
 use super::as_written::AsWritten;
 use crate::base64::to_base64;
 use crate::limits::Budget;
-use crate::self_describing::AnyValue;
+use crate::self_describing::{AnyValue, read_json};
 use crate::value::{Value, to_json};
 use scl_terminal::Problem;
 use serde::de::DeserializeSeed;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 use serde_yaml::value::{Tag, TaggedValue};
 use thiserror::Error;
+
+/// What may stand before a text in UTF-8.
+pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// A text is not one value in YAML or JSON.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -24,18 +27,22 @@ impl From<ReadError> for Problem {
     }
 }
 
-/// Reads a value from YAML, which includes JSON: `{speed: 1.0}`. An empty text is an empty map.
+/// Reads a value from YAML, which includes JSON: `{speed: 1.0}`. An empty text is an empty map. A byte order mark is
+/// ignored.
 ///
 /// # Errors
 /// The text is not YAML, has several documents, or unfolds into too many values.
 pub fn read_yaml(text: &str) -> Result<Value, ReadError> {
+    // Editors of Windows begin files with it.
+    let text = text.trim_start_matches(BYTE_ORDER_MARK);
     if text.trim().is_empty() {
         return Ok(Value::Map(Vec::new()));
     }
     let input = || serde_yaml::Deserializer::from_str(text);
-    let read = AnyValue::new(&Budget::new()).deserialize(input());
-    let read = read.and_then(|value| AsWritten(value).deserialize(input()));
-    read.map_err(|error| ReadError { reason: error.to_string() })
+    // YAML has nearly all texts of JSON, but for example none with unescaped control characters above U+007E.
+    let read = read_json(text.as_bytes()).or_else(|_| AnyValue::new(&Budget::new()).deserialize(input()));
+    let value = read.map_err(|error| ReadError { reason: error.to_string() })?;
+    Ok(AsWritten(value.clone()).deserialize(input()).unwrap_or(value))
 }
 
 /// A value as YAML, as a user would write it; it ends with a line end. `read_yaml` reads it back.
@@ -128,6 +135,9 @@ mod tests {
             (r#"{"speed": 1, "unit": "m/s"}"#, r#"{"speed":1,"unit":"m/s"}"#),
             ("speed: 1e3\nlist:\n- a\n- yes", r#"{"speed":1000.0,"list":["a","yes"]}"#),
             ("", "{}"),
+            ("{\"a\": \"\u{7f}\u{9b}\", \"b\": \"\\ud83d\\ude00\"}", "{\"a\":\"\\u007f\\u009b\",\"b\":\"😀\"}"),
+            ("\u{feff}", "{}"),
+            ("\u{feff}{a: 1}", r#"{"a":1}"#),
             ("3", "3"),
             ("!binary AQL/", r#""AQL/""#),
             ("{bytes: !binary AQL/}", r#"{"bytes":"AQL/"}"#),
