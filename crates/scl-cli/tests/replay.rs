@@ -211,7 +211,7 @@ fn requests_are_repeated_and_answered() {
     let report: serde_json::Value = serde_json::from_slice(&replay.wait_with_output().stdout).unwrap();
     assert_eq!(
         report["answers"][0],
-        serde_json::json!({"gate": "controller.commands", "answered": 3, "unanswered": 0})
+        serde_json::json!({"gate": "controller.commands", "answered": 3, "in_order": 0, "unanswered": 0})
     );
     assert_eq!(report["gates"][0]["reason"], format!("`user_interface` is running as process {}", std::process::id()));
 }

@@ -17,10 +17,10 @@ mod timeline;
 pub use report::{AnswerReport, GateReport, Late, NotTaken, ReplayReport};
 
 use crate::recording::{RecordedChannel, Recording, Survey};
-use answers::read_answers;
+use answers::{GateId, read_answers};
 use pace::Pace;
 use participants::Participants;
-use players::{GateId, Players};
+use players::Players;
 use routes::{Route, route};
 use scl_plan::{GateKind, SystemPlan};
 use scl_terminal::{Problem, closest_name, escape, quoted_list};

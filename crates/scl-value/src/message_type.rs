@@ -9,7 +9,7 @@ use crate::path::{FieldPath, UnknownField};
 use crate::protobuf::{self, Unknown};
 use crate::self_describing::{read_cbor, read_json, read_msgpack, write_cbor, write_json, write_msgpack};
 use crate::text;
-use crate::value::{Opaque, Value, key_text};
+use crate::value::{Opaque, Value, canonical, key_text};
 use bytes::Bytes;
 use prost::Message;
 use prost_reflect::{DescriptorPool, MessageDescriptor};
@@ -120,6 +120,15 @@ impl MessageType {
     /// in protobuf's JSON, and [`encode`](Self::encode) takes them back; in other messages they would stay texts.
     pub fn for_json(&self, value: Value) -> Value {
         if self.is_described() { value.with_large_numbers_as_texts() } else { value }
+    }
+
+    /// Bytes that two messages have in common if they mean the same, whatever the order of their fields and maps; the
+    /// payload itself if it cannot be decoded.
+    pub fn canonical(&self, payload: &[u8]) -> Bytes {
+        match self.decode(payload) {
+            Ok(Value::Opaque(_)) | Err(_) => Bytes::copy_from_slice(payload),
+            Ok(value) => canonical(&value).into(),
+        }
     }
 
     /// Writes a message.

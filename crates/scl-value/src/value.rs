@@ -1,7 +1,9 @@
 //! A message as a value that has no type of its own.
 
+mod canonical;
 mod json;
 
+pub(crate) use canonical::canonical;
 pub use json::to_json;
 
 /// A decoded message or a part of it.

@@ -1,7 +1,7 @@
 //! One of the two recordings: what it contains, and its messages by gate.
 
 use crate::format::Topic;
-use crate::recording::{Messages, RecordedChannel, RecordedMessage, Recording, Survey};
+use crate::recording::{Messages, RecordedMessage, Recording, Survey};
 use bytes::Bytes;
 use scl_terminal::Problem;
 use scl_value::{MessageType, Value};
@@ -96,7 +96,7 @@ impl Side {
         self.position = self.since_start(message.sent_ns);
         for channel in &self.messages.channels()[self.types.len()..] {
             self.by_channel.push(self.topics.iter().position(|topic| *topic == channel.topic));
-            self.types.push(message_type(channel));
+            self.types.push(channel.message_type());
         }
         let RecordedMessage { channel, sent_ns, sequence, payload, .. } = message;
         let Some(topic) = self.by_channel[channel] else { return Ok(None) };
@@ -151,10 +151,4 @@ impl Side {
     pub(super) fn position(&self) -> Duration {
         self.position
     }
-}
-
-fn message_type(channel: &RecordedChannel) -> MessageType {
-    let (type_name, codec) = (channel.metadata.type_name.as_deref(), &channel.metadata.codec);
-    MessageType::new(type_name, codec, channel.descriptors())
-        .unwrap_or_else(|error| MessageType::opaque(error.to_string()))
 }

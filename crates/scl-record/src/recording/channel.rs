@@ -4,6 +4,7 @@ use crate::format::{ChannelMetadata, Topic};
 use bytes::Bytes;
 use mcap::records::Channel;
 use scl_terminal::escape;
+use scl_value::MessageType;
 
 /// What a recording says about the messages of one topic.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -60,6 +61,13 @@ impl RecordedChannel {
     /// The serialized `FileDescriptorSet` of the messages, if the recording has one.
     pub fn descriptors(&self) -> Option<&[u8]> {
         (self.schema_encoding == "protobuf").then_some(&*self.schema)
+    }
+
+    /// How its messages are read; opaque if the recording does not describe them.
+    pub fn message_type(&self) -> MessageType {
+        let (type_name, codec) = (self.metadata.type_name.as_deref(), &self.metadata.codec);
+        MessageType::new(type_name, codec, self.descriptors())
+            .unwrap_or_else(|error| MessageType::opaque(error.to_string()))
     }
 
     /// The type and the codec, for messages: `` `rover.Measurement` (protobuf) ``.

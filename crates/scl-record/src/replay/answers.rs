@@ -4,45 +4,73 @@ use crate::format::Part;
 use crate::recording::Recording;
 use bytes::Bytes;
 use scl_terminal::Problem;
+use scl_value::{MessageType, to_json};
 use std::collections::{HashMap, VecDeque};
+
+/// A component and one of its gates.
+pub(super) type GateId = (String, String);
 
 /// The most memory for the requests and replies of a replay, in bytes.
 const LIMIT: usize = 256 << 20;
 
 /// The recorded replies of one gate.
 ///
-/// A request is answered with the reply to the same request: with the oldest that was not given yet, or else with the last
-/// one again. A request that was never recorded gets the oldest reply that was not given yet: requests may contain a time
-/// or a number that differs in each run.
-#[derive(Debug, Default)]
+/// A request is answered with the reply to an equal request: with the oldest that was not given yet, or else with the
+/// last one again. A request that was never recorded gets the oldest reply that was not given yet: requests may contain
+/// a time or a number that differs in each run.
+#[derive(Debug)]
 pub(super) struct Answers {
+    /// Requests are compared by what they mean: another program may write maps in another order.
+    requests: MessageType,
     replies: Vec<Bytes>,
     given: Vec<bool>,
-    /// By request, indices of its replies.
+    /// By request in its canonical form, indices of its replies.
     by_request: HashMap<Bytes, Vec<usize>>,
     /// All replies before this one were given.
     first: usize,
 }
 
+/// The reply to a request.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Answer {
+    /// To an equal request.
+    Recorded(Bytes),
+    /// The oldest one left: no equal request was recorded.
+    NextInOrder(Bytes),
+    /// The recording has none that could be meant.
+    Missing,
+}
+
 impl Answers {
+    fn new(requests: MessageType) -> Self {
+        let (replies, given, by_request) = Default::default();
+        Self { requests, replies, given, by_request, first: 0 }
+    }
+
     fn add(&mut self, request: Bytes, reply: Bytes) {
         self.by_request.entry(request).or_default().push(self.replies.len());
         self.replies.push(reply);
         self.given.push(false);
     }
 
-    /// The reply to a request; `None` if the recording has none that could be meant.
-    pub(super) fn answer(&mut self, request: &[u8]) -> Option<Bytes> {
-        let own = self.by_request.get(request);
-        let index = match own {
-            Some(own) => *own.iter().find(|&&index| !self.given[index]).or(own.last())?,
-            None => {
-                while self.given.get(self.first) == Some(&true) {
-                    self.first += 1;
-                }
-                self.first
-            }
-        };
+    /// The reply to a request.
+    pub(super) fn answer(&mut self, request: &[u8]) -> Answer {
+        if let Some(own) = self.by_request.get(&self.requests.canonical(request)) {
+            let chosen = own.iter().find(|&&index| !self.given[index]).or(own.last()).copied();
+            return chosen.and_then(|index| self.give(index)).map_or(Answer::Missing, Answer::Recorded);
+        }
+        while self.given.get(self.first) == Some(&true) {
+            self.first += 1;
+        }
+        self.give(self.first).map_or(Answer::Missing, Answer::NextInOrder)
+    }
+
+    /// A request as JSON, for messages.
+    pub(super) fn shown(&self, request: &[u8]) -> String {
+        to_json(&self.requests.show(request))
+    }
+
+    fn give(&mut self, index: usize) -> Option<Bytes> {
         *self.given.get_mut(index)? = true;
         self.replies.get(index).cloned()
     }
@@ -52,11 +80,8 @@ impl Answers {
 ///
 /// # Errors
 /// The recording cannot be read, or has more of them than fit into memory.
-pub(super) fn read_answers(
-    recording: &Recording,
-    wanted: &[(String, String)],
-) -> Result<HashMap<(String, String), Answers>, Problem> {
-    let mut answers: HashMap<_, _> = wanted.iter().map(|gate| (gate.clone(), Answers::default())).collect();
+pub(super) fn read_answers(recording: &Recording, wanted: &[GateId]) -> Result<HashMap<GateId, Answers>, Problem> {
+    let mut answers = HashMap::new();
     if wanted.is_empty() {
         return Ok(answers);
     }
@@ -64,21 +89,28 @@ pub(super) fn read_answers(
     let mut messages = recording.messages();
     let mut bytes = 0;
     while let Some(message) = messages.read()? {
-        let topic = &messages.channels()[message.channel].topic;
-        let gate = (topic.component.clone(), topic.gate.clone());
-        let Some(answers) = answers.get_mut(&gate) else { continue };
-        match topic.part {
+        let channel = &messages.channels()[message.channel];
+        let gate = (channel.topic.component.clone(), channel.topic.gate.clone());
+        if !wanted.contains(&gate) {
+            continue;
+        }
+        match channel.topic.part {
             Part::Message => continue,
-            Part::Request => open.entry((gate, message.sequence)).or_default().push_back(message.payload.clone()),
+            Part::Request => {
+                let answers = answers.entry(gate.clone()).or_insert_with(|| Answers::new(channel.message_type()));
+                let request = answers.requests.canonical(&message.payload);
+                bytes += request.len();
+                open.entry((gate, message.sequence)).or_default().push_back(request);
+            }
             Part::Reply => {
                 // Its request may have been lost.
-                let asked = open.get_mut(&(gate, message.sequence)).and_then(VecDeque::pop_front);
-                if let Some(request) = asked {
-                    answers.add(request, message.payload.clone());
+                let asked = open.get_mut(&(gate.clone(), message.sequence)).and_then(VecDeque::pop_front);
+                if let (Some(request), Some(answers)) = (asked, answers.get_mut(&gate)) {
+                    bytes += message.payload.len();
+                    answers.add(request, message.payload);
                 }
             }
         }
-        bytes += message.payload.len();
         if bytes > LIMIT {
             let message = format!("the recorded requests and replies need more than {} MiB of memory", LIMIT >> 20);
             return Err(Problem::new(message).help("do not play the replier: name the components with `--as`"));
@@ -93,18 +125,41 @@ mod tests {
     use crate::testing::Recorder;
 
     fn answers(pairs: &[(&str, &str)]) -> Answers {
-        let mut answers = Answers::default();
-        pairs.iter().for_each(|&(request, reply)| answers.add(request.to_owned().into(), reply.to_owned().into()));
+        let mut answers = Answers::new(MessageType::new(None, "json", None).unwrap());
+        for &(request, reply) in pairs {
+            answers.add(answers.requests.canonical(request.as_bytes()), reply.to_owned().into());
+        }
         answers
+    }
+
+    fn recorded(reply: &str) -> Answer {
+        Answer::Recorded(reply.to_owned().into())
     }
 
     #[test]
     fn equal_requests_are_answered_in_order_and_unknown_ones_with_what_is_left() {
         let mut answers = answers(&[("a", "1"), ("b", "2"), ("a", "3"), ("c", "4")]);
         let given = ["b", "a", "a", "a", "x", "c", "y"].map(|request| answers.answer(request.as_bytes()));
-        let given = given.map(|reply| reply.map(|reply| String::from_utf8(reply.to_vec()).unwrap()));
-        let expected = ["2", "1", "3", "3", "4", "4"].map(|reply| Some(reply.to_owned()));
-        assert_eq!((&given[..6], &given[6]), (&expected[..], &None));
+        let known = ["2", "1", "3", "3"].map(recorded);
+        assert_eq!(given[..4], known);
+        assert_eq!(given[4..], [Answer::NextInOrder("4".into()), recorded("4"), Answer::Missing]);
+    }
+
+    /// Programs of other languages, or the same one in its next run, write the same map in another order.
+    #[test]
+    fn requests_are_equal_whatever_the_order_of_their_maps() {
+        let request = |index: usize, order: [usize; 3]| {
+            let entries = order.map(|key| format!("\"{key}\":{}", index * key));
+            format!("{{\"layers\":{{{}}},\"tile\":{index}}}", entries.join(","))
+        };
+        let pairs: Vec<_> = (0..60).map(|index| (request(index, [1, 2, 3]), index.to_string())).collect();
+        let pairs: Vec<_> = pairs.iter().map(|(request, reply)| (request.as_str(), reply.as_str())).collect();
+        let mut answers = answers(&pairs);
+        for index in (0..60).rev() {
+            let reordered = request(index, [3, 1, 2]);
+            assert_eq!(answers.answer(reordered.as_bytes()), recorded(&index.to_string()), "{reordered}");
+        }
+        assert_eq!(answers.answer(b"{\"tile\":60}"), Answer::Missing);
     }
 
     #[test]
@@ -120,7 +175,7 @@ mod tests {
         let gate = ("map".to_owned(), "tiles".to_owned());
         let recording = Recording::open(&[path]).unwrap();
         let mut answers = read_answers(&recording, std::slice::from_ref(&gate)).unwrap().remove(&gate).unwrap();
-        assert_eq!(["b", "a"].map(|request| answers.answer(request.as_bytes()).unwrap()), ["B", "A"]);
+        assert_eq!(["b", "a"].map(|request| answers.answer(request.as_bytes())), ["B", "A"].map(recorded));
         assert_eq!(answers.replies.len(), 2);
     }
 }

@@ -1,18 +1,18 @@
 //! The played components: their gates send what was recorded, answer requests and take what others send them.
 
 use super::ReplayOptions;
-use super::answers::Answers;
+use super::answers::{Answer, Answers, GateId};
 use super::participants::{Participants, problem_of};
 use super::report::{AnswerReport, NotTaken};
 use bytes::Bytes;
 use scl::untyped::{Component, Gate};
 use scl::{CallError, OpenOptions, PeerStats, Pub, Push, Rep, Req, SendError};
 use scl_plan::{GateKind, GatePlan, Plan, WhenFull};
-use scl_terminal::Problem;
+use scl_terminal::{Problem, print_err, shorten};
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tokio::sync::{mpsc, oneshot};
 use tokio::task::JoinHandle;
 
@@ -22,11 +22,10 @@ const WAITING_REQUESTS: usize = 1024;
 const LINGER: Duration = Duration::from_secs(2);
 /// The same after a stop request.
 const SHORT_LINGER: Duration = Duration::from_millis(300);
+/// How much of a request a note shows.
+const SHOWN: usize = 60;
 /// A lossless replay waits for slow peers, however long they need.
 const NO_LIMIT: Duration = Duration::from_secs(30 * 86_400);
-
-/// A component and one of its gates.
-pub(super) type GateId = (String, String);
 
 /// The played components and their gates.
 pub(super) struct Players {
@@ -56,6 +55,8 @@ struct Call {
 #[derive(Default)]
 struct AnswerCounts {
     answered: AtomicU64,
+    /// Those of them that are replies to other requests.
+    in_order: AtomicU64,
     unanswered: AtomicU64,
 }
 
@@ -105,8 +106,9 @@ impl Players {
     /// # Errors
     /// The peers that are missing after `timeout`.
     pub(super) async fn ready(&self, timeout: Duration) -> Result<(), Problem> {
+        let deadline = Instant::now() + timeout;
         for component in &self.components {
-            component.ready(timeout).await.map_err(|error| {
+            component.ready(deadline.saturating_duration_since(Instant::now())).await.map_err(|error| {
                 problem_of(&error)
                     .help("start the peers first, play them as well (`--as`), or do not wait: `--ready 0s`")
             })?;
@@ -188,6 +190,7 @@ impl Players {
         let answers = self.answering.into_iter().map(|(gate, counts)| AnswerReport {
             gate,
             answered: counts.answered.load(Ordering::Relaxed),
+            in_order: counts.in_order.load(Ordering::Relaxed),
             unanswered: counts.unanswered.load(Ordering::Relaxed),
         });
         (not_taken, answers.collect())
@@ -209,9 +212,10 @@ impl Players {
             }
             Gate::Rep(gate) => {
                 let counts = Arc::default();
-                let answers = answers.remove(&id).unwrap_or_default();
-                self.receiving.push(tokio::spawn(answer(gate, answers, Arc::clone(&counts))));
-                self.answering.push((format!("{}.{}", id.0, id.1), counts));
+                let name = format!("{}.{}", id.0, id.1);
+                let answers = answers.remove(&id);
+                self.receiving.push(tokio::spawn(answer(gate, name.clone(), answers, Arc::clone(&counts))));
+                self.answering.push((name, counts));
             }
             // What a played component receives was recorded too, where it was sent.
             Gate::Sub(mut gate) => {
@@ -280,17 +284,31 @@ async fn call(mut gate: Req<Bytes, Bytes>, mut calls: mpsc::Receiver<Call>, repl
     }
 }
 
-/// Answers requests with what was recorded.
-async fn answer(mut gate: Rep<Bytes, Bytes>, mut answers: Answers, counts: Arc<AnswerCounts>) {
+/// Answers requests with what was recorded; without a recorded request there are no answers.
+async fn answer(mut gate: Rep<Bytes, Bytes>, name: String, mut answers: Option<Answers>, counts: Arc<AnswerCounts>) {
     while let Ok(request) = gate.recv().await {
-        let count = match answers.answer(request.message()) {
-            Some(reply) => match request.reply(&reply) {
-                Ok(()) => &counts.answered,
-                // The requester has gone.
-                Err(_) => continue,
-            },
-            None => &counts.unanswered,
+        let answer = answers.as_mut().map_or(Answer::Missing, |answers| answers.answer(request.message()));
+        let reply = match answer {
+            Answer::Recorded(reply) => reply,
+            Answer::NextInOrder(reply) => {
+                if counts.in_order.fetch_add(1, Ordering::Relaxed) == 0
+                    && let Some(answers) = &answers
+                {
+                    print_err(&format!(
+                        "note: `{name}` is asked what was not recorded, and gives the oldest replies left: {}\n",
+                        shorten(&answers.shown(request.message()), SHOWN)
+                    ));
+                }
+                reply
+            }
+            Answer::Missing => {
+                counts.unanswered.fetch_add(1, Ordering::Relaxed);
+                continue;
+            }
         };
-        count.fetch_add(1, Ordering::Relaxed);
+        // Otherwise the requester has gone.
+        if request.reply(&reply).is_ok() {
+            counts.answered.fetch_add(1, Ordering::Relaxed);
+        }
     }
 }

@@ -55,6 +55,8 @@ pub struct NotTaken {
 pub struct AnswerReport {
     pub gate: String,
     pub answered: u64,
+    /// Those of them that were never recorded, and got the oldest replies left.
+    pub in_order: u64,
     /// Requests for which the recording has no reply.
     pub unanswered: u64,
 }
@@ -98,6 +100,9 @@ impl ReplayReport {
         }
         for gate in &self.answers {
             let _ = write!(text, "  {} answered {}", gate.gate, count(gate.answered, "request"));
+            if gate.in_order > 0 {
+                let _ = write!(text, "; {} of them were never recorded and got the oldest replies left", gate.in_order);
+            }
             if gate.unanswered > 0 {
                 let _ = write!(text, "; the recording has no reply to {} more", gate.unanswered);
             }
@@ -122,10 +127,14 @@ impl ReplayReport {
                 "reason": reason,
             })
         });
-        let answers = self
-            .answers
-            .iter()
-            .map(|gate| json!({"gate": gate.gate, "answered": gate.answered, "unanswered": gate.unanswered}));
+        let answers = self.answers.iter().map(|gate| {
+            json!({
+                "gate": gate.gate,
+                "answered": gate.answered,
+                "in_order": gate.in_order,
+                "unanswered": gate.unanswered,
+            })
+        });
         let not_taken = self.not_taken.iter().map(
             |left| json!({"gate": left.gate, "peer": left.peer, "messages": left.messages, "reason": left.reason}),
         );
