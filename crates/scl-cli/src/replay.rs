@@ -53,6 +53,9 @@ pub(crate) struct ReplayArguments {
     /// End at this time of the recording.
     #[arg(long, value_name = "TIME", value_parser = parse_duration)]
     end: Option<Duration>,
+    /// Shorten pauses between messages to this time of the recording, for example where its clock was set forward.
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    max_gap: Option<Duration>,
     /// Begin again at the end, until Ctrl-C.
     #[arg(long = "loop")]
     repeat: bool,
@@ -93,6 +96,7 @@ pub(crate) fn replay(arguments: &ReplayArguments) -> ExitCode {
         end: arguments.end,
         repeat: arguments.repeat,
         system: arguments.system.clone(),
+        max_gap: arguments.max_gap,
         ready_within: arguments.ready,
         plan,
     };
@@ -120,9 +124,12 @@ fn run(files: &[PathBuf], options: &ReplayOptions) -> Result<ReplayReport, Probl
     // Without messages, the error tells what there is instead.
     let notes = recording.notes().into_iter().chain(survey.first_ns.map(|_| survey.notes()).into_iter().flatten());
     notes.for_each(|note| print_err(&format!("note: {note}\n")));
+    if !survey.gaps.is_empty() && options.max_gap.is_none() && options.rate != Rate::Max {
+        print_err("help: `--max-gap 1s` shortens pauses between messages\n");
+    }
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")))?;
-    let progress = Progress::new("replaying", recording.duration());
+    let progress = Progress::new("replaying", survey.length);
     runtime.block_on(play(&recording, &survey, options, &|position| progress.set(position)))
 }
 

@@ -7,11 +7,13 @@ use scl_record::format::{GateTotals, Totals};
 use scl_record::testing::{Recorder, Sample};
 use std::collections::BTreeMap;
 
-const SAMPLES: [Sample<'_>; 4] = [
+const SAMPLES: [Sample<'_>; 5] = [
     ("/sensor/measurements", 0, r#"{"speed":1}"#),
     ("/sensor/measurements", 250, r#"{"speed":2}"#),
     ("/controller/commands/request", 400, "{}"),
     ("/controller/commands/reply", 1500, "null"),
+    // The clock was set forward.
+    ("/sensor/measurements", 7_200_500, r#"{"speed":3}"#),
 ];
 
 fn system() -> System {
@@ -31,18 +33,24 @@ fn system() -> System {
 #[test]
 fn a_recording_is_described() {
     let output = system().scl(&["info", "flight.mcap"]).output().unwrap();
-    assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).lines().count()), (Some(0), 1));
+    assert_eq!(output.status.code(), Some(0));
+    expect![[r#"
+        note: the recorder lost 3 messages of `sensor.measurements`
+        note: `/tf` was not recorded by SCL: it is not `/<component>/<gate>`; messages left out: 1
+        note: nothing was recorded for 7199.0 s from 1.5 s on, or the clock was set forward
+    "#]]
+    .assert_eq(&String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).unwrap();
     let (file, text) = text.split_once('\n').unwrap();
     assert!(file.starts_with("  file         flight.mcap, ") && file.ends_with('B'), "{file}");
     expect![[r#"
-          recorded     2023-11-14T22:13:20.000Z, for 1.5 s
+          recorded     2023-11-14T22:13:20.000Z, for 7200.5 s
           system       rover
           attachments  plan.json
         GATE                         KIND  TYPE               CODEC  MESSAGES  BYTES  LOST
         controller.commands request  rep   rover.Measurement  json          1    2 B     ?
         controller.commands reply    rep   rover.Measurement  json          1    4 B     ?
-        sensor.measurements          pub   rover.Measurement  json          2   22 B     3
+        sensor.measurements          pub   rover.Measurement  json          3   33 B     3
         NOT RECORDED BY SCL  ENCODING  SCHEMA      MESSAGES
         /tf                  cdr       other/Type         1
     "#]]
@@ -63,19 +71,23 @@ fn a_recording_is_described_in_json() {
     let expected = serde_json::json!({
         "files": [{"path": "./flight.mcap", "bytes": null}],
         "recorded": "2023-11-14T22:13:20.000Z",
-        "seconds": 1.5,
+        "seconds": 7200.5,
         "system": "rover",
         "attachments": ["plan.json"],
         "gates": [
             gate("controller.commands request", "rep", 1, 2, None),
             gate("controller.commands reply", "rep", 1, 4, None),
-            gate("sensor.measurements", "pub", 2, 22, Some(3)),
+            gate("sensor.measurements", "pub", 3, 33, Some(3)),
         ],
         "others": [{
             "topic": "/tf", "encoding": "cdr", "schema": "other/Type", "messages": 1,
             "reason": "it is not `/<component>/<gate>`",
         }],
-        "notes": ["the recorder lost 3 messages of `sensor.measurements`"],
+        "notes": [
+            "the recorder lost 3 messages of `sensor.measurements`",
+            "`/tf` was not recorded by SCL: it is not `/<component>/<gate>`; messages left out: 1",
+            "nothing was recorded for 7199.0 s from 1.5 s on, or the clock was set forward",
+        ],
     });
     assert_eq!(info, expected);
 }

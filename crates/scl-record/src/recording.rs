@@ -6,6 +6,7 @@
 
 mod channel;
 mod chunk;
+mod clock;
 mod files;
 mod messages;
 mod overview;
@@ -14,6 +15,7 @@ mod survey;
 
 pub(crate) use channel::type_and_codec;
 pub use channel::{OtherTopic, RecordedChannel};
+pub(crate) use clock::Clock;
 pub use files::find_files;
 pub use messages::{Messages, RecordedMessage};
 pub use overview::Attachment;

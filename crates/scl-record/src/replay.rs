@@ -46,6 +46,8 @@ pub struct ReplayOptions {
     pub repeat: bool,
     /// The name of the system in which to replay; `None`: as for any component.
     pub system: Option<String>,
+    /// The longest pause between two messages that are sent; `None`: as it was recorded.
+    pub max_gap: Option<Duration>,
     /// How long the peers of the played components may take to connect; zero: do not wait.
     pub ready_within: Duration,
     /// The plan of another topology than the recorded one.
@@ -97,7 +99,7 @@ pub async fn replay(
     let first = Batch { channels: Vec::new(), ..first };
 
     let players = Players::open(&cast, options, read_answers(recording, &answering_gates(&cast))?).await?;
-    let pace = Pace::new(options.rate)?;
+    let pace = Pace::new(options.rate, options.max_gap)?;
     let mut run = Run { recording, span, stage, players, pace, origin, progress };
     let started = Instant::now();
     let played = until_stopped(run.play_all(batches, first)).await;
@@ -266,7 +268,7 @@ fn span(recording: &Recording, survey: &Survey, options: &ReplayOptions) -> Resu
         let problem = Problem::new(format!("the recording `{}` has no messages", recording.name()));
         return Err(survey.notes().into_iter().fold(problem, Problem::note));
     };
-    let (length, start, end) = (recording.duration(), options.start, options.end);
+    let (length, start, end) = (survey.length, options.start, options.end);
     if start > length {
         let message = format!("`--start {start:?}` is behind the end of the recording, which is {length:.1?} long");
         return Err(Problem::new(message));

@@ -23,7 +23,7 @@ pub(super) fn print_recording(name: &str, format: FormatArgument) -> Result<(), 
     match format.is_json() {
         true => print_json(&to_json(&recording, &survey)),
         false => {
-            recording.notes().iter().for_each(|note| print_err(&format!("note: {note}\n")));
+            notes(&recording, &survey).for_each(|note| print_err(&format!("note: {note}\n")));
             print_out(&to_text(&recording, &survey));
         }
     }
@@ -36,7 +36,7 @@ fn to_text(recording: &Recording, survey: &Survey) -> String {
         facts.row(["file", &format!("{}, {}", path.display(), bytes_text(size(path) as f64))]);
     }
     if let Some(first) = first_time(survey) {
-        facts.row(["recorded", &format!("{first}, for {:.1} s", recording.duration().as_secs_f64())]);
+        facts.row(["recorded", &format!("{first}, for {:.1} s", survey.length.as_secs_f64())]);
     }
     if let Ok(Some(plan)) = recording.plan() {
         facts.row(["system", &plan.system]);
@@ -102,13 +102,17 @@ fn to_json(recording: &Recording, survey: &Survey) -> Value {
     json!({
         "files": files.collect::<Vec<_>>(),
         "recorded": first_time(survey),
-        "seconds": recording.duration().as_secs_f64(),
+        "seconds": survey.length.as_secs_f64(),
         "system": recording.plan().ok().flatten().map(|plan| plan.system),
         "attachments": recording.attachments().map(|attachment| &attachment.name).collect::<Vec<_>>(),
         "gates": gates.collect::<Vec<_>>(),
         "others": others.collect::<Vec<_>>(),
-        "notes": recording.notes(),
+        "notes": notes(recording, survey).collect::<Vec<_>>(),
     })
+}
+
+fn notes(recording: &Recording, survey: &Survey) -> impl Iterator<Item = String> {
+    recording.notes().into_iter().chain(survey.notes())
 }
 
 /// What was lost is of the whole gate, requests and replies together.

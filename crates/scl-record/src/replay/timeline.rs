@@ -1,6 +1,6 @@
 //! The messages of a recording in the order in which they were sent, read ahead by a thread.
 
-use crate::recording::{RecordedChannel, RecordedMessage, Recording};
+use crate::recording::{Clock, RecordedChannel, RecordedMessage, Recording};
 use scl_terminal::Problem;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -31,7 +31,8 @@ pub(super) struct Batch {
 /// A message and its time.
 #[derive(Debug)]
 pub(super) struct Timed {
-    /// Nanoseconds since 1970. Never less than that of the message before, of the same channel.
+    /// Nanoseconds since 1970, as if the clock had not been set back. Never less than that of the message before, of
+    /// the same channel.
     pub(super) time: u64,
     pub(super) message: RecordedMessage,
 }
@@ -57,6 +58,7 @@ pub(super) fn read(recording: &Recording, span: Range<u64>) -> Batches {
 
 struct Timeline {
     messages: crate::recording::Messages,
+    clock: Clock,
     span: Range<u64>,
     held: BinaryHeap<Reverse<Held>>,
     held_bytes: usize,
@@ -84,6 +86,7 @@ impl Timeline {
     fn new(recording: &Recording, span: Range<u64>) -> Self {
         Self {
             messages: recording.messages(),
+            clock: Clock::default(),
             span,
             held: BinaryHeap::new(),
             held_bytes: 0,
@@ -134,11 +137,12 @@ impl Timeline {
         if self.latest.len() <= message.channel {
             self.latest.resize(message.channel + 1, 0);
         }
-        // A clock that was set back must not change the order of a gate's messages.
+        let times = self.clock.times(&message);
+        // A gate's messages stay in order whatever its own host's clock does.
         let latest = &mut self.latest[message.channel];
-        let time = message.sent_ns.max(*latest);
+        let time = times.sent.max(*latest);
         *latest = time;
-        self.received = self.received.max(message.received_ns);
+        self.received = self.received.max(times.received);
         self.held_bytes += message.payload.len();
         self.read += 1;
         self.held.push(Reverse(Held { time, number: self.read, message: Unordered(message) }));
@@ -197,5 +201,32 @@ mod tests {
         }
         assert_eq!(times.len(), 302);
         assert!(times.is_sorted(), "{times:?}");
+    }
+
+    /// A clock that was set back by an hour moves no message: before, all of the hour after it were due at once.
+    #[tokio::test]
+    async fn messages_after_a_step_back_keep_their_distances() {
+        let folder = tempfile::tempdir().unwrap();
+        const HOUR: u64 = 3_600_000;
+        let before = (0..50).map(|step| (SENSOR, HOUR + step * 100, "1"));
+        let after = (50..100).map(|step| (SENSOR, step * 100, "1"));
+        let mut recorder = Recorder::new();
+        for sample in before.chain(after) {
+            recorder = recorder.messages(&[sample]);
+        }
+        let file = recorder.write_to(folder.path(), "stepped.mcap");
+        let recording = Recording::open(&[file]).unwrap();
+        let mut batches = read(&recording, 0..u64::MAX);
+        let mut times = Vec::new();
+        while let Some(batch) = batches.recv().await {
+            times.extend(batch.unwrap().messages.iter().map(|timed| timed.time / 1_000_000 - BEGINNING - HOUR));
+        }
+        // The step itself takes no time.
+        let expected: Vec<u64> = (0..50).chain(49..99).map(|step| step * 100).collect();
+        assert_eq!(times, expected);
+        let survey = recording.survey().unwrap();
+        assert_eq!((survey.length.as_millis(), survey.steps.len()), (9800, 1));
+        let note = "the clock was set back by 3599.9 s at 4.9 s of the recording";
+        assert_eq!(survey.notes(), [note]);
     }
 }
