@@ -5,6 +5,7 @@ use crate::system::kill;
 use serde_json::Value;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
+use std::process::Command;
 
 /// Findings as `severity check: message`.
 fn findings(rover: &Rover, arguments: &[&str], code: i32, variables: &[(&str, &str)]) -> Vec<String> {
@@ -113,6 +114,22 @@ fn programs_of_different_topologies_are_found() {
         "{text}"
     );
     assert!(text.contains("`rover.Measurement`") && text.contains("`rover.Setpoint`"), "{text}");
+}
+
+#[test]
+fn a_component_that_needs_more_descriptors_than_it_may_open_is_found() {
+    let mut rover = Rover::start();
+    // One that does not run would have the limit of this shell.
+    rover.kill("controller");
+    for (limit, is_enough) in [(31, false), (32, true)] {
+        let script = format!("ulimit -n {limit}; exec \"$0\" doctor");
+        let mut limited = Command::new("sh");
+        limited.args(["-c", &script]).arg(rover.scl(&[]).get_program());
+        let output = limited.env("SCL_RUNTIME_DIR", rover.runtime_dir()).output().unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        let needs = "`controller` of system `rover` needs 32 when all its peers are connected, of at most 31\n";
+        assert_eq!(text.contains(needs), !is_enough, "{text}");
+    }
 }
 
 #[test]

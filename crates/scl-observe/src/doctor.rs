@@ -2,6 +2,7 @@
 
 mod clock;
 mod components;
+mod descriptors;
 mod environment;
 mod folder;
 mod limits;
@@ -70,12 +71,13 @@ pub fn examine(
     let systems = systems.into_iter().map(|system| (system.components(), system));
     let systems = systems.map(|(components, system)| (system, components)).collect();
     let examined = Examined { variables, systems };
-    let checks: [fn(&Examined<'_>) -> Vec<Finding>; 9] = [
+    let checks: [fn(&Examined<'_>) -> Vec<Finding>; 10] = [
         environment::check,
         folder::check,
         components::check,
         peers::check,
         undecodable::check,
+        descriptors::check,
         limits::check,
         real_time::check,
         processors::check,

@@ -34,7 +34,7 @@ pub(super) const HANDSHAKE_LIMIT: Duration = Duration::from_secs(5);
 /// Maximum number of connections without a completed handshake. The oldest are closed first.
 const MOST_HANDSHAKES: usize = 64;
 /// Maximum number of connections of one endpoint.
-const MOST_CONNECTIONS: usize = 1024;
+pub(super) const MOST_CONNECTIONS: usize = 1024;
 /// How many connections are accepted before other work gets its turn.
 const ACCEPTS: usize = 64;
 /// Delay before accepting again after an error that is likely to last.
@@ -65,6 +65,8 @@ pub(super) struct Acceptor {
     handshakes: VecDeque<Handshake>,
     limit: Timer,
     refusals: Refusals,
+    /// Connections beyond the limit.
+    crowd: Refusals,
 }
 
 struct Handshake {
@@ -105,6 +107,7 @@ impl Acceptor {
             handshakes: VecDeque::new(),
             limit: Timer::new(),
             refusals: Refusals::default(),
+            crowd: Refusals::default(),
         })
     }
 
@@ -207,7 +210,10 @@ impl Acceptor {
         for accepted in arrived {
             match accepted.check_user(&mut checks) {
                 Ok(stream) if open + self.handshakes.len() < MOST_CONNECTIONS => self.start(stream),
-                Ok(_one_too_many) => {}
+                Ok(_one_too_many) => {
+                    let reason = format!("{MOST_CONNECTIONS} peers are connected, which is the most for one gate");
+                    self.crowd.log(&self.endpoint.name, &io::Error::other(reason));
+                }
                 Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {
                     refused += 1;
                     self.refusals.log(&self.endpoint.name, &error);

@@ -2,6 +2,7 @@
 
 mod burst;
 mod credit;
+mod crowd;
 mod deferred;
 mod dialling;
 mod ends;
