@@ -1,13 +1,14 @@
-//! The stop request of SIGTERM.
+//! The stop request of SIGTERM and SIGINT.
 //!
-//! The package watches for the signal with Python's own `signal`, because SIGINT belongs to Python and a program may have
-//! handlers of its own. The rules are those of the crate `scl`: calls end at once, unless the program handles the request
-//! itself; then they work until its grace period is over.
+//! The package watches for the signals with Python's own `signal`, because a program may have handlers of its own. The
+//! rules are those of the crate `scl`: calls end at once, unless the program handles the request itself; then they work until its
+//! grace period is over.
 
 use crate::failure::Failure;
 use pyo3::prelude::*;
 use rustix::process::{Signal, getpid, kill_process};
-use scl::host::{self, StopSignal};
+use scl::host::{self, ONE_REQUEST, StopSignal};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -18,29 +19,46 @@ const LAST_FLUSH: Duration = Duration::from_millis(500);
 /// How long the last log line may take to be written.
 const LOG_WRITE: Duration = Duration::from_millis(100);
 
-/// Requests the stop, and ends a program that still runs after the grace period. SIGTERM must have its default handler
-/// again.
+/// Requests the stop, and ends a program that still runs after the grace period or has another signal after [`ONE_REQUEST`].
+/// `watched` are the signals whose handlers in Python call this. Further calls do nothing.
 #[pyfunction]
-pub(crate) fn stop_request() -> PyResult<()> {
+pub(crate) fn stop_request(number: i32, watched: Vec<i32>) -> PyResult<()> {
+    if host::is_stop_requested() {
+        return Ok(());
+    }
+    let (signal, stop_signal) = if number == Signal::INT.as_raw() {
+        (Signal::INT, StopSignal::Interrupt)
+    } else {
+        (Signal::TERM, StopSignal::Terminate)
+    };
+    host::request_stop(stop_signal);
     let grace_period = host::grace_period().map_err(Failure::from)?;
-    host::request_stop(StopSignal::Terminate);
+    let another_ends = Arc::new(AtomicBool::new(false));
+    for number in watched {
+        // Python runs its handlers between two of its steps only, which may not come.
+        signal_hook::flag::register_conditional_default(number, Arc::clone(&another_ends))?;
+    }
     // No thread of Python: a handler of signals may run while Python starts one, under the same lock.
     let watching = std::thread::Builder::new().name("scl-stop".to_owned()).spawn(move || {
-        std::thread::sleep(grace_period);
-        end_overdue_program(grace_period);
+        let one_request = ONE_REQUEST.min(grace_period);
+        std::thread::sleep(one_request);
+        another_ends.store(true, Ordering::Release);
+        std::thread::sleep(grace_period.saturating_sub(one_request));
+        end_overdue_program(signal, grace_period);
     });
     Ok(watching.map(drop)?)
 }
 
-fn end_overdue_program(grace_period: Duration) {
-    tracing::error!("the program is still running {grace_period:?} after SIGTERM; ending it");
+fn end_overdue_program(signal: Signal, grace_period: Duration) {
+    let name = if signal == Signal::INT { "SIGINT" } else { "SIGTERM" };
+    tracing::error!("the program is still running {grace_period:?} after {name}; ending it");
     std::thread::sleep(LOG_WRITE);
     host::end_grace_period();
     if HANDLED.load(Ordering::Acquire) {
         std::thread::sleep(LAST_FLUSH);
     }
     // Not `exit`, which runs destructors beside a running interpreter.
-    let _ended = kill_process(getpid(), Signal::TERM);
+    let _ended = kill_process(getpid(), signal);
 }
 
 /// Says that the program handles stop requests itself.

@@ -10,21 +10,22 @@ import pytest
 import scl
 from conftest import SIX, Program, System
 
+# Each opens a component with `OPTIONS`.
 WAITS = {
-    "recv": 'scl.open(SIX, "sink").readings.recv()',
-    "iteration": 'next(iter(scl.open(SIX, "sink").readings))',
-    "request": 'scl.open(SIX, "sink").answer.recv()',
-    "call": 'c = scl.open(SIX, "source"); c.question.call(c.question.type(), timeout=1000)',
+    "recv": 'scl.open(SIX, "sink", **OPTIONS).readings.recv()',
+    "iteration": 'next(iter(scl.open(SIX, "sink", **OPTIONS).readings))',
+    "request": 'scl.open(SIX, "sink", **OPTIONS).answer.recv()',
+    "call": 'c = scl.open(SIX, "source", **OPTIONS); c.question.call(c.question.type(), timeout=1000)',
     "send": """
-        c = scl.open(SIX, "source")
+        c = scl.open(SIX, "source", **OPTIONS)
         while True:
             c.lossless.send(c.lossless.type())
     """,
-    "ready": 'scl.open(SIX, "sink").ready()',
-    "wait": 'scl.open(SIX, "sink").wait()',
+    "ready": 'scl.open(SIX, "sink", **OPTIONS).ready()',
+    "wait": 'scl.open(SIX, "sink", **OPTIONS).wait()',
     "join": """
         import threading
-        c = scl.open(SIX, "sink")
+        c = scl.open(SIX, "sink", **OPTIONS)
         with c:
             waiting = threading.Thread(target=lambda: list(c.readings))
             waiting.start()
@@ -32,38 +33,39 @@ WAITS = {
     """,
     "two threads": """
         import threading
-        c = scl.open(SIX, "sink")
+        c = scl.open(SIX, "sink", **OPTIONS)
         with c:
             threading.Thread(target=lambda: list(c.jobs)).start()
             c.readings.recv()
     """,
     "asyncio": """
         import asyncio
-        c = scl.open(SIX, "sink")
+        c = scl.open(SIX, "sink", **OPTIONS)
         asyncio.run(c.readings.recv_async())
     """,
 }
 
 
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 @pytest.mark.parametrize("script", WAITS.values(), ids=WAITS.keys())
-def test_ctrl_c_raises_keyboard_interrupt(system: System, script: str) -> None:
-    program = system.python(f"print('open', flush=True)\n{_dedent(script)}")
+def test_a_stop_signal_ends_the_program_in_order(system: System, script: str, number: signal.Signals) -> None:
+    program = system.python(f"OPTIONS = {{}}\nprint('open', flush=True)\n{_dedent(script)}")
+    program.expect("open")
+    _wait_until_open(system, program)
+    program.send_signal(number)
+    code, errors = program.end()
+    assert (code, errors) in [(0, ""), (1, _stop_iteration(errors))], errors
+
+
+@pytest.mark.parametrize("script", WAITS.values(), ids=WAITS.keys())
+def test_without_signals_ctrl_c_raises_keyboard_interrupt(system: System, script: str) -> None:
+    program = system.python(f"OPTIONS = dict(signals=False)\nprint('open', flush=True)\n{_dedent(script)}")
     program.expect("open")
     _wait_until_open(system, program)
     program.send_signal(signal.SIGINT)
     code, errors = program.end()
     assert code == -signal.SIGINT, errors
     assert "KeyboardInterrupt" in errors.splitlines()
-
-
-@pytest.mark.parametrize("script", WAITS.values(), ids=WAITS.keys())
-def test_sigterm_ends_the_program_in_order(system: System, script: str) -> None:
-    program = system.python(f"print('open', flush=True)\n{_dedent(script)}")
-    program.expect("open")
-    _wait_until_open(system, program)
-    program.send_signal(signal.SIGTERM)
-    code, errors = program.end()
-    assert (code, errors) in [(0, ""), (1, _stop_iteration(errors))], errors
 
 
 def test_sigterm_ends_a_loop_and_what_follows_runs(system: System) -> None:
@@ -102,7 +104,8 @@ def test_a_program_that_sends_and_sleeps_ends_at_its_next_send(system: System) -
     assert program.end()[0] == 0
 
 
-def test_a_program_that_does_not_end_is_ended_after_the_grace_period(system: System) -> None:
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_program_that_does_not_end_is_ended_after_the_grace_period(system: System, number: signal.Signals) -> None:
     for handles in ["", "scl.stop_requested()"]:
         program = system.python(
             f"""
@@ -116,22 +119,23 @@ def test_a_program_that_does_not_end_is_ended_after_the_grace_period(system: Sys
             SCL_STOP_WITHIN="200ms",
         )
         program.expect("open")
-        program.send_signal(signal.SIGTERM)
+        program.send_signal(number)
         code, errors = program.end()
-        assert code == -signal.SIGTERM
-        assert errors == "the program is still running 200ms after SIGTERM; ending it"
+        assert code == -number
+        assert errors == f"the program is still running 200ms after {number.name}; ending it"
 
 
-def test_a_handler_of_the_program_s_own_is_kept(system: System) -> None:
-    program = system.python("""
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_handler_of_the_program_s_own_is_kept(system: System, number: signal.Signals) -> None:
+    program = system.python(f"""
         import signal, sys
-        signal.signal(signal.SIGTERM, lambda *_: sys.exit(7))
+        signal.signal({number}, lambda *_: sys.exit(7))
         sink = scl.open(SIX, "sink")
         print("open", flush=True)
         sink.readings.recv()
     """)
     program.expect("open")
-    program.send_signal(signal.SIGTERM)
+    program.send_signal(number)
     assert program.end() == (7, "")
 
 

@@ -72,7 +72,7 @@ def main() -> int:
     except parameter_file.FileMistakes as mistakes:
         print("\n".join(f"error: {line}" for line in str(mistakes).splitlines()), file=sys.stderr)
         return 2
-    with suppress(KeyboardInterrupt), Configuration() as component:
+    with Configuration() as component:
         run(component, store)
     return 0
 

@@ -4,7 +4,6 @@ import argparse
 import select
 import sys
 import time
-from contextlib import suppress
 from pathlib import Path
 
 from arcade_scl import GpsSensor
@@ -78,11 +77,10 @@ def main() -> int:
     given = arguments.parse_args()
     if given.baud not in (4800, 9600, 19200, 38400, 57600, 115200):
         arguments.error(f"--baud {given.baud} is not 4800, 9600, 19200, 38400, 57600 or 115200")
-    with suppress(KeyboardInterrupt), GpsSensor() as component:
+    with GpsSensor() as component:
         reader = Reader(component, given.device, given.baud)
         while True:
             reader.step()
-    return 0
 
 
 if __name__ == "__main__":

@@ -95,5 +95,4 @@ async def main() -> int:
 
 
 if __name__ == "__main__":
-    with suppress(KeyboardInterrupt):
-        sys.exit(asyncio.run(main()))
+    sys.exit(asyncio.run(main()))

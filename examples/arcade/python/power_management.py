@@ -2,7 +2,6 @@
 
 import sys
 import time
-from contextlib import suppress
 
 import parameters
 from arcade_scl import PowerManagement
@@ -28,7 +27,7 @@ def run(component: PowerManagement) -> None:
 
 
 def main() -> int:
-    with suppress(KeyboardInterrupt), PowerManagement() as component:
+    with PowerManagement() as component:
         run(component)
     return 0
 

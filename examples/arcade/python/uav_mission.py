@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-from contextlib import suppress
 from pathlib import Path
 
 import scl
@@ -81,9 +80,8 @@ def main() -> int:
     except OSError as error:
         print(f"error: cannot read the mission `{script}`: {error.strerror}", file=sys.stderr)
         return 2
-    with suppress(KeyboardInterrupt), UavMission() as component:
+    with UavMission() as component:
         return run(component, mission)
-    return 0
 
 
 if __name__ == "__main__":

@@ -28,5 +28,4 @@ async def main() -> None:
         await scl.until_stopped(steer(), obey())
 
 
-with suppress(KeyboardInterrupt):
-    asyncio.run(main())
+asyncio.run(main())

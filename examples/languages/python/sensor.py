@@ -1,13 +1,12 @@
 """Publishes a made-up speed ten times a second."""
 
-from contextlib import suppress
 from itertools import count
 from math import sin
 from time import sleep
 
 from rover_scl import Measurement, Sensor
 
-with suppress(KeyboardInterrupt), Sensor() as sensor:
+with Sensor() as sensor:
     for step in count():
         sleep(0.1)
         speed = 1.0 + sin(step)

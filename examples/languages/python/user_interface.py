@@ -1,13 +1,12 @@
 """Asks for another speed every second and shows what happens."""
 
-from contextlib import suppress
 from itertools import cycle
 from time import sleep
 
 import scl
 from rover_scl import Command, UserInterface
 
-with suppress(KeyboardInterrupt), UserInterface() as ui:
+with UserInterface() as ui:
     for target_speed in cycle([0.5, 1.5]):
         sleep(1.0)
         try:

@@ -162,12 +162,11 @@ def main() -> int:
     )
     arguments = parser.parse_args()
     required = Requirement(arguments.rate, arguments.longest_gap)
-    with suppress(KeyboardInterrupt):
-        try:
-            asyncio.run(run(required))
-        except RequirementsRefused as error:
-            print(f"error: the link optimizer refuses the requirements: {error}", file=sys.stderr)
-            return 1
+    try:
+        asyncio.run(run(required))
+    except RequirementsRefused as error:
+        print(f"error: the link optimizer refuses the requirements: {error}", file=sys.stderr)
+        return 1
     return 0
 
 

@@ -59,7 +59,7 @@ def main() -> None:
         help="that noise in a channel of a block is taken for a signal (default: %(default)s)",
     )
     arguments = parser.parse_args()
-    with suppress(KeyboardInterrupt), SignalDetector() as detector:
+    with SignalDetector() as detector:
         run(detector, arguments.false_alarm)
 
 

@@ -54,7 +54,7 @@ class Component:
         """Opens the component `name` of a plan, the JSON text of `scl plan`.
 
         What is not given comes from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
-        `signals`, SIGTERM asks the program to stop, unless the program has a handler of its own.
+        `signals`, SIGTERM and SIGINT ask the program to stop, unless the program has handlers of its own.
         """
         plan = _native.Plan(plan) if isinstance(plan, str) else plan
         # Before anything is opened: no peer sees a component that cannot run.

@@ -99,7 +99,7 @@ class Forked(Error, RuntimeError):
 
 
 class Stopped(BaseException):
-    """SIGTERM asked the program to stop. Where nothing catches it, the program ends with exit code 0.
+    """SIGTERM or SIGINT asked the program to stop. Where nothing catches it, the program ends with exit code 0.
 
     It is neither an `Error` nor an `Exception`, so that a loop that logs errors and continues does not swallow it.
     """

@@ -33,7 +33,7 @@ class GeneratedComponent(Component):
         """Opens the component.
 
         What is not given comes from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
-        `signals`, SIGTERM asks the program to stop, unless the program has a handler of its own.
+        `signals`, SIGTERM and SIGINT ask the program to stop, unless the program has handlers of its own.
         """
         super().__init__(
             self._plan_text,

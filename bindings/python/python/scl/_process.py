@@ -1,4 +1,4 @@
-"""What the package does in a process besides calls: SIGTERM, log records, forks, the end of the interpreter."""
+"""What the package does in a process besides calls: stop requests, log records, forks, the end of the interpreter."""
 
 from __future__ import annotations
 
@@ -63,3 +63,4 @@ def _at_exit() -> None:
 
 os.register_at_fork(before=_native.log_hold, after_in_parent=_native.log_release, after_in_child=_native.forked)
 os.register_at_fork(after_in_child=_logging.restart)
+os.register_at_fork(after_in_child=_signals.forget)

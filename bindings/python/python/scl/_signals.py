@@ -1,34 +1,102 @@
-"""SIGTERM: a request to stop, with the rules of `#[scl::main]` in Rust. SIGINT stays Python's."""
+"""SIGTERM and SIGINT: a request to stop, with the rules of `#[scl::main]` in Rust."""
 
 from __future__ import annotations
 
+import contextlib
 import signal
+import sys
 import threading
 from types import FrameType
+from typing import TYPE_CHECKING, Any
 
 from scl import _native, _stopping
 
+# Imported by programs that use it.
+if TYPE_CHECKING:
+    import asyncio
+
+_DEFAULTS: dict[signal.Signals, Any] = {signal.SIGTERM: signal.SIG_DFL, signal.SIGINT: signal.default_int_handler}
+"""The signals that request a stop, with the handlers that Python starts with."""
+
+_waiting: set[asyncio.Future[None]] = set()
+"""What tasks wait for that a stop request wakes."""
+
 
 def stop_requested() -> bool:
-    """Returns true if SIGTERM has asked the program to stop.
+    """Returns true if SIGTERM or SIGINT (Ctrl-C) has asked the program to stop.
 
     The program handles stop requests itself from the first call on: its gates go on working after the request, for
-    `SCL_STOP_WITHIN` (default `3s`). After that the program is ended, as by a second SIGTERM at any time. A program that
-    never calls this ends at its next call to any gate, which raises `Stopped`.
+    `SCL_STOP_WITHIN` (default `3s`). After that the program is ended, as by a second signal, half a second after the first or
+    later. A program that never calls this, nor `until_stopped`, ends at its next call to any gate, which raises `Stopped`.
     """
     _native.stop_handle()
     return _native.stop_requested()
 
 
+async def wait_for_request() -> None:
+    """Waits for a stop request, which the program handles itself, as after `stop_requested`."""
+    import asyncio
+
+    request = asyncio.get_running_loop().create_future()
+    # Before the question, so that a request in between finds it.
+    _waiting.add(request)
+    try:
+        if not stop_requested():
+            await request
+    finally:
+        _waiting.discard(request)
+
+
 def watch() -> None:
-    """Handles SIGTERM from now on, unless the program does, or this is not the main thread."""
+    """Handles SIGTERM and SIGINT from now on, unless the program does, or this is not the main thread."""
     # Fails if it is not understood, before anything is opened.
     _native.stop_within()
-    if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
-        _stopping.handle_uncaught()
-        signal.signal(signal.SIGTERM, _stop)
+    if threading.current_thread() is not threading.main_thread():
+        return
+    for number in _DEFAULTS:
+        if _is_free(number):
+            _stopping.handle_uncaught()
+            signal.signal(number, _stop)
+
+
+def forget() -> None:
+    """Leaves the signals to Python in a forked child, which has no component yet."""
+    for number in _watched():
+        signal.signal(number, _DEFAULTS[number])
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    _native.stop_request()
+    _native.stop_request(number, _watched())
+    for request in tuple(_waiting):
+        # Of a loop that was closed.
+        with contextlib.suppress(RuntimeError):
+            request.get_loop().call_soon_threadsafe(_wake, request)
+
+
+def _wake(request: asyncio.Future[None]) -> None:
+    if not request.done():
+        request.set_result(None)
+
+
+def _watched() -> list[signal.Signals]:
+    return [number for number in _DEFAULTS if signal.getsignal(number) is _stop]
+
+
+def _is_free(number: signal.Signals) -> bool:
+    """Whether the program has no handler of its own."""
+    handler = signal.getsignal(number)
+    if number == signal.SIGTERM:
+        return handler is _DEFAULTS[number]
+    # At a prompt, Ctrl-C ends a statement and not the program.
+    is_at_prompt = hasattr(sys, "ps1") or bool(sys.flags.interactive)
+    return not is_at_prompt and (handler is _DEFAULTS[number] or _is_of_asyncio(handler))
+
+
+def _is_of_asyncio(handler: Any) -> bool:
+    """Whether it is the handler that `asyncio.run` puts in the place of Python's."""
+    if "asyncio" not in sys.modules:
+        return False
+    import asyncio
+
+    method = getattr(handler, "func", None)
+    return isinstance(getattr(method, "__self__", None), asyncio.Runner)

@@ -4,21 +4,21 @@ import asyncio
 from collections.abc import Coroutine
 from typing import Any
 
+from scl import _signals
 from scl._errors import Stopped
 
 
 async def until_stopped(*loops: Coroutine[Any, Any, object]) -> None:
-    """Runs loops at the same time until one of them ends, fails or is stopped, then cancels the others.
+    """Runs loops at the same time until one of them ends, fails or a stop is requested, then cancels the others.
 
-    A stop request (SIGTERM) ends it without an exception: loops over gates end, and calls raise `Stopped`, which is an
-    orderly end here. From `asyncio.gather` and `TaskGroup`, `Stopped` leaves `asyncio.run` and ends the program.
+    Without loops, it waits for a stop request. The program handles stop requests (SIGTERM and SIGINT) itself, as after
+    `stop_requested`: what follows can use gates, for `SCL_STOP_WITHIN`. From `asyncio.gather` and `TaskGroup`, `Stopped` leaves
+    `asyncio.run` and ends the program.
 
     Returns when all loops have ended. If loops fail, the exception of the first in the list is raised. Cancelling it
     cancels the loops.
     """
-    tasks = [asyncio.ensure_future(_stop_in_order(loop)) for loop in loops]
-    if not tasks:
-        return
+    tasks = [asyncio.ensure_future(_stop_in_order(loop)) for loop in (*loops, _signals.wait_for_request())]
     try:
         await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
     finally:
