@@ -183,6 +183,21 @@ fn a_reader_that_takes_nothing_does_not_keep_the_run_from_stopping() {
     assert_eq!(run.wait_unread().code(), Some(0));
 }
 
+/// It would take no signal but SIGKILL.
+#[test]
+fn a_stopped_component_is_continued_when_it_has_to_end() {
+    let system = System::of(&[("sensor", "trap 'exit 0' TERM; echo $$; kill -STOP $$; exit 3")]);
+    let mut run = system.start(&NO_END_OF_GRACE);
+    let line = run.next_line().unwrap();
+    let process = line.strip_prefix("sensor | ").unwrap();
+    while !std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap().contains(") T ") {}
+    run.signal("-TERM");
+    let (status, _, err) = run.finish();
+    let expected = format!("sensor  process {process} was stopped, as by SIGSTOP; continued, so that it can end\n");
+    assert!(err.contains(&expected), "{err}");
+    assert_eq!(status.code(), Some(0), "{err}");
+}
+
 /// Starts a component that holds the pipe `alive` open, with a child that holds it too.
 fn start_family(system: &System) -> Started {
     let mut run = system.start(&NO_END_OF_GRACE);

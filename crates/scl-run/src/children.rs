@@ -131,12 +131,18 @@ impl Running {
         let _ = killpg(self.group, signal);
     }
 
-    /// Asks every process of the program to end.
-    pub(crate) fn ask_to_end(&self, signal: Signal) {
+    /// Asks every process of the program to end. Returns those that were stopped, which would not: they are continued.
+    pub(crate) fn ask_to_end(&self, signal: Signal) -> Vec<Pid> {
         let group = self.group;
         let reached = process_group::programs(group);
+        let stopped = process_group::stopped(group);
         self.signal(signal);
+        if !stopped.is_empty() {
+            // After the signal, which a process takes before anything else when it goes on.
+            self.signal(Signal::SIGCONT);
+        }
         thread::spawn(move || process_group::repeat_where_missed(group, signal, reached));
+        stopped
     }
 }
 

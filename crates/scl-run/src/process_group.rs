@@ -1,5 +1,6 @@
 //! The processes of a program's group: its first process and those that it has started, as `/proc` shows them.
 
+use super::process_stat::{ProcessStat, all_processes};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use rustix::event::{PollFd, PollFlags, poll};
@@ -93,10 +94,13 @@ pub(crate) fn programs(group: Pid) -> HashSet<Program> {
 fn program(process: Pid) -> Option<Program> {
     // Empty if it is another user's.
     let executable = fs::read_link(format!("/proc/{process}/exe")).unwrap_or_default();
-    let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // `startstack`, the 28th field; the state is the third.
-    let stack = stat.rsplit_once(')')?.1.split_ascii_whitespace().nth(25)?.to_owned();
-    Some(Program { process, executable, stack })
+    Some(Program { process, executable, stack: ProcessStat::of(process)?.stack })
+}
+
+/// The processes of the group that a signal has stopped.
+pub(crate) fn stopped(group: Pid) -> Vec<Pid> {
+    let is_stopped = |process: &Pid| ProcessStat::of(*process).is_some_and(|stat| stat.is_stopped);
+    members(group).into_iter().filter(is_stopped).collect()
 }
 
 /// The running processes of the group. Empty only if there are none.
@@ -107,25 +111,11 @@ fn members(group: Pid) -> Vec<Pid> {
 }
 
 fn look_for_members(group: Pid) -> Vec<Pid> {
-    let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
-    let processes = entries.filter_map(|entry| entry.file_name().to_str()?.parse().ok().map(Pid::from_raw));
-    processes.filter(|process| is_member(*process, group)).collect()
+    all_processes().filter(|process| is_member(*process, group)).collect()
 }
 
 fn is_member(process: Pid, group: Pid) -> bool {
-    let stat = fs::read_to_string(format!("/proc/{process}/stat"));
-    stat.is_ok_and(|stat| living_group(&stat) == Some(group.as_raw()))
-}
-
-/// The group of a process from its `/proc/<pid>/stat`, as in `proc_pid_stat(5)`; `None` if it has ended.
-fn living_group(stat: &str) -> Option<i32> {
-    // The name of the program, in parentheses, may contain anything.
-    let mut fields = stat.rsplit_once(')')?.1.split_ascii_whitespace();
-    let (state, group) = (fields.next()?, fields.nth(1)?);
-    let threads: usize = fields.nth(14)?.parse().ok()?;
-    // A process whose main thread has ended before the others is shown like one that has ended.
-    let has_ended = matches!(state, "Z" | "X" | "x") && threads <= 1;
-    if has_ended { None } else { group.parse().ok() }
+    ProcessStat::of(process).is_some_and(|stat| stat.group == group)
 }
 
 fn wait_for_end(process: Pid, group: Pid) {
@@ -170,16 +160,6 @@ mod tests {
     use std::io::{Read, Write};
     use std::os::unix::process::CommandExt;
     use std::process::{Command, Stdio};
-
-    #[test]
-    fn the_state_and_the_threads_decide_whether_a_process_lives() {
-        let stat = |state, threads| format!("7 (a) b) c) {state} 1 42 3 0 -1 4 5 6 7 8 9 10 11 12 20 0 {threads} 0 99");
-        let cases = [("S", 1, Some(42)), ("T", 1, Some(42)), ("Z", 1, None), ("X", 1, None), ("Z", 3, Some(42))];
-        for (state, threads, expected) in cases {
-            assert_eq!(living_group(&stat(state, threads)), expected, "{state}, {threads}");
-        }
-        assert_eq!(living_group(""), None);
-    }
 
     #[test]
     fn a_group_lives_as_long_as_one_of_its_processes() {

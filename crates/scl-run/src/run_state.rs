@@ -6,6 +6,7 @@ use super::policy::Policy;
 use super::restarts::Time;
 use nix::sys::signal::Signal;
 use scl::host::ONE_REQUEST;
+use std::time::Duration;
 
 /// What happens to a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,6 +34,8 @@ pub(crate) struct RunState {
     asked: bool,
     /// When somebody asked for the stop first.
     requested: Option<Time>,
+    /// What the times of events have left out since.
+    paused: Duration,
     killing: bool,
 }
 
@@ -40,7 +43,16 @@ impl RunState {
     /// Components to be started at once, which are stopped at a time, if any; `last` is stopped after all others.
     pub(crate) fn new(policies: impl IntoIterator<Item = Policy>, last: Option<usize>, until: Option<Time>) -> Self {
         let components = policies.into_iter().map(Lifecycle::new).collect();
-        Self { components, last, until, stopping: None, asked: false, requested: None, killing: false }
+        Self {
+            components,
+            last,
+            until,
+            stopping: None,
+            asked: false,
+            requested: None,
+            paused: Duration::ZERO,
+            killing: false,
+        }
     }
 
     pub(crate) fn components(&self) -> &[Lifecycle] {
@@ -100,6 +112,11 @@ impl RunState {
         actions
     }
 
+    /// Takes in that the times of events leave this pause out. Somebody who asks again has waited for as long.
+    pub(crate) fn take_pause(&mut self, lost: Duration) {
+        self.paused += if self.is_requested() { lost } else { Duration::ZERO };
+    }
+
     fn take_request(&mut self, now: Time, signal: Signal) -> Vec<(usize, Action)> {
         match self.requested {
             None => {
@@ -107,7 +124,7 @@ impl RunState {
                 self.asked = self.stopping.is_none();
                 self.stop(now, signal)
             }
-            Some(requested) if now < requested.saturating_add(ONE_REQUEST) => Vec::new(),
+            Some(requested) if now + self.paused < requested + ONE_REQUEST => Vec::new(),
             Some(_) => self.kill(now),
         }
     }

@@ -15,6 +15,7 @@ use super::program::Build;
 use super::reports::Reports;
 use super::requests::Requests;
 use super::restarts::Time;
+use super::run_clock::{LONGEST_WAIT, RunClock};
 use super::run_state::{RunEvent, RunState};
 use super::summary;
 use nix::sys::signal::Signal;
@@ -59,6 +60,7 @@ struct Run<'r> {
     /// What makes their programs, for restarts.
     builds: &'r [Build],
     state: RunState,
+    clock: RunClock,
     began: Instant,
     requests: Requests,
     said_ready: bool,
@@ -74,12 +76,13 @@ impl<'a> Supervisor<'a> {
     pub(crate) fn run(&mut self, members: &[Member<'_>], builds: &[Build], run_for: Option<Duration>) -> Outcome {
         let last = members.iter().position(|member| member.role == Role::Gateway);
         let state = RunState::new(members.iter().map(|member| member.policy.clone()), last, run_for);
-        let mut run =
-            Run { members, builds, state, began: Instant::now(), requests: Requests::default(), said_ready: false };
+        let began = Instant::now();
+        let clock = RunClock::start(began);
+        let mut run = Run { members, builds, state, clock, began, requests: Requests::default(), said_ready: false };
         self.processes = members.iter().map(|_| None).collect();
         self.apply(&mut run, RunEvent::Time);
         while !(run.state.is_over() && self.processes.iter().flatten().all(Process::is_silent)) {
-            match self.next_event(&run) {
+            match self.next_event(&mut run) {
                 Some(event) => self.take(&mut run, event),
                 None => self.apply(&mut run, RunEvent::Time),
             }
@@ -103,14 +106,18 @@ impl<'a> Supervisor<'a> {
         }
     }
 
-    /// The next event, or `None` if something is due before.
-    fn next_event(&self, run: &Run<'_>) -> Option<Event> {
+    /// The next event, or `None` if something may be due before.
+    fn next_event(&self, run: &mut Run<'_>) -> Option<Event> {
+        let events = &self.surroundings.events;
+        let now = Instant::now();
+        run.look(now, Duration::ZERO);
         let drained = self.processes.iter().flatten().filter(|process| !process.is_silent());
-        let drained = drained.filter_map(Process::drained_at);
-        // A time too far in the future to be represented means never.
-        let due = run.state.due().and_then(|due| run.began.checked_add(due));
-        let Some(due) = drained.chain(due).min() else { return self.surroundings.events.recv().ok() };
-        self.surroundings.events.recv_timeout(due.saturating_duration_since(Instant::now())).ok()
+        let drained = drained.filter_map(Process::drained_at).map(|at| at.saturating_duration_since(now));
+        let due = run.state.due().map(|due| due.saturating_sub(run.clock.at(now)).min(LONGEST_WAIT));
+        let wait = drained.chain(due).min();
+        let event = wait.map_or_else(|| events.recv().ok(), |wait| events.recv_timeout(wait).ok());
+        run.look(Instant::now(), wait.unwrap_or(Duration::MAX));
+        event
     }
 
     fn take(&mut self, run: &mut Run<'_>, event: Event) {
@@ -200,10 +207,17 @@ impl<'a> Supervisor<'a> {
                 // Stopped before it could be started.
                 Action::Start => {}
                 Action::Signal(signal) => {
-                    let running = self.processes[index].as_ref().map(|process| &process.running);
-                    match signal {
-                        Signal::SIGKILL => running.into_iter().for_each(|running| running.signal(signal)),
-                        _ => running.into_iter().for_each(|running| running.ask_to_end(signal)),
+                    let Some(running) = self.processes[index].as_ref().map(|process| &process.running) else {
+                        continue;
+                    };
+                    if signal == Signal::SIGKILL {
+                        running.signal(signal);
+                        continue;
+                    }
+                    for process in running.ask_to_end(signal) {
+                        let text =
+                            format!("process {process} was stopped, as by SIGSTOP; continued, so that it can end");
+                        self.report(index, &run.members[index], text);
                     }
                 }
                 Action::Report(text) => self.report(index, &run.members[index], text),
@@ -283,7 +297,13 @@ impl<'a> Supervisor<'a> {
 
 impl Run<'_> {
     fn now(&self) -> Time {
-        self.began.elapsed()
+        self.clock.at(Instant::now())
+    }
+
+    /// Notes that this process runs, after a wait that was to take this long.
+    fn look(&mut self, now: Instant, waited: Duration) {
+        let lost = self.clock.look(now, waited);
+        self.state.take_pause(lost);
     }
 }
 

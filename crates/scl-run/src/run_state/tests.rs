@@ -219,6 +219,19 @@ fn requests_kill_only_when_they_are_repeated_later() {
     assert!(is_killed_after(Policy::default(), failed(), 500));
 }
 
+/// Somebody who stops `scl run` itself in between waits as long.
+#[test]
+fn a_pause_counts_between_two_requests() {
+    let mut world = World::new(vec![Policy::default()], None);
+    world.state.take_pause(Duration::from_secs(4));
+    world.step(RunEvent::Stop(Signal::SIGTERM));
+    world.step(RunEvent::Stop(Signal::SIGTERM));
+    assert_eq!(world.killed, [false]);
+    world.state.take_pause(Duration::from_secs(4));
+    world.step(RunEvent::Stop(Signal::SIGTERM));
+    assert_eq!(world.killed, [true]);
+}
+
 #[test]
 fn the_last_one_ends_with_the_others_but_runs_alone() {
     let exited = |index| RunEvent::One(index, Input::Exited(Ending::Exited(0)));
