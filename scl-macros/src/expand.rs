@@ -32,6 +32,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 #[cfg(all(test, feature = "protobuf"))]
 pub(crate) use schemas::generate_messages;
+use scl_loader::no_panic;
 
 /// Expands one invocation of the macro.
 pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -> TokenStream {
@@ -46,13 +47,18 @@ pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -
 
     known_components::remember(known::known_topology(&context));
     let problems = problems::expand_problems(&context);
-    let components = match &loaded.topology {
-        Some(topology) => component::expand_components(&context, topology),
-        None => skeleton::expand_skeleton(&context),
-    };
-    let types = found_types::expand_lookups(&context);
-    let messages = schemas::expand_messages(&context);
-    let unknown = schemas::expand_unknown(&context);
     let tracking = tracking::expand_tracking(&loaded.files_read, surroundings);
-    quote! { #problems #components #types #messages #unknown #tracking }
+    let code = no_panic(|| expand_code(&context)).unwrap_or_else(|text| problems::expand_bug(&context, &text));
+    quote! { #problems #code #tracking }
+}
+
+fn expand_code(context: &Context<'_>) -> TokenStream {
+    let components = match &context.loaded.topology {
+        Some(topology) => component::expand_components(context, topology),
+        None => skeleton::expand_skeleton(context),
+    };
+    let types = found_types::expand_lookups(context);
+    let messages = schemas::expand_messages(context);
+    let unknown = schemas::expand_unknown(context);
+    quote! { #components #types #messages #unknown }
 }

@@ -9,6 +9,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 #![deny(missing_docs)]
 
+mod no_panic;
 mod plan;
 mod read;
 mod request;
@@ -19,6 +20,7 @@ mod testing;
 mod tests;
 mod unreadable;
 
+pub use no_panic::{BUG, no_panic};
 pub use request::{LookedIn, Request};
 #[cfg(feature = "protobuf")]
 pub use schemas::{Descriptors, files_for};

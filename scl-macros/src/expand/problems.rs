@@ -5,6 +5,7 @@ use super::file_spans::FileSpans;
 use super::names::identifier;
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
+use scl_loader::BUG;
 use scl_topology::check::UNKNOWN_COMPONENT;
 use scl_topology::diagnostic::{Diagnostic, Severity, limit, render_headless};
 use scl_topology::source::Sources;
@@ -32,6 +33,11 @@ pub(super) fn expand_bad_arguments(problem: &Diagnostic, span: Span) -> TokenStr
     compile_error(&text, span)
 }
 
+/// The error in place of the code that could not be generated.
+pub(super) fn expand_bug(context: &Context<'_>, text: &str) -> TokenStream {
+    compile_error(&format!("the macro panicked at `{}`: {text}\n = note: {BUG}", context.path), context.span)
+}
+
 /// The name of the unknown type: the type of everything that cannot be read from a broken file.
 pub(super) fn unknown_type_name(context: &Context<'_>) -> Ident {
     let name = format!("__scl_unknown_{}", context.path_as_identifier());
@@ -49,7 +55,7 @@ pub(super) fn expand_unknown_type(context: &Context<'_>) -> TokenStream {
 
 /// Reports the first error from inside the unknown type, as the length of an array. The type is then erroneous in a way
 /// that rustc has already reported, so using a gate of that type causes no further errors.
-fn expand_unknown_as(context: &Context<'_>, first: TokenStream) -> TokenStream {
+pub(super) fn expand_unknown_as(context: &Context<'_>, first: TokenStream) -> TokenStream {
     if context.for_editor {
         return first;
     }

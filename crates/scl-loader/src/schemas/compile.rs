@@ -8,6 +8,7 @@ use super::outline::outline;
 use super::place::{Places, Texts};
 use super::rust::{find_clashes, find_hidden_crates};
 use super::{Compiled, Schemas};
+use crate::no_panic::{BUG, no_panic};
 use crate::read::{Unreadable, read_text};
 use crate::request::Request;
 use crate::unreadable::similar_file;
@@ -41,7 +42,15 @@ pub(crate) fn compile(request: &Request, model: &Model, sources: &mut Sources, p
             .or_else(|| misplaced(schema, &folders));
         let wrong = match (refused, folders.name_of_entry(&schema.value)) {
             (None, Some(name)) => {
-                let Err(error) = compiler.open_file(&name) else { continue };
+                let error = match no_panic(|| compiler.open_file(&name).err()) {
+                    Ok(None) => continue,
+                    Ok(Some(error)) => error,
+                    Err(text) => {
+                        problems.push(panicked(schema, &text));
+                        all_well = false;
+                        continue;
+                    }
+                };
                 let mut seen = seen.get();
                 let mistakes = std::mem::take(&mut seen.mistakes);
                 let mut shown = Shown(Texts { request, folders: &folders, files: &seen.files, sources });
@@ -137,6 +146,11 @@ fn messages_by_entry(compiler: &Compiler, entries: &Entries<'_>) -> Vec<SchemaMe
         }
     }
     by_entry
+}
+
+fn panicked(schema: &Spanned<String>, text: &str) -> Diagnostic {
+    let message = format!("the schema file `{}` makes the compiler of schemas panic: {text}", schema.value);
+    SCHEMA.at(message, schema.span, "").note(BUG)
 }
 
 /// The entries of `schemas:`, by the names under which the compiler knows their files.

@@ -4,14 +4,15 @@
 //! text, which cannot contain `$crate`. Therefore the text names an import, and every module starts with that import.
 
 use super::super::context::Context;
+use super::super::problems::expand_unknown_as;
 use super::json::expand_json;
 use super::unknown::expand_stand_ins;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use prost_build::{Config, Module};
 use prost_types::FileDescriptorProto;
 use quote::{format_ident, quote, quote_spanned};
+use scl_loader::{BUG, no_panic};
 use std::collections::BTreeMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 // The generator strips leading underscores, so these names have none.
 const PROST: &str = "scl_private_prost";
@@ -27,7 +28,7 @@ struct Tree {
 /// One public module for each package of the compiled schemas, with the messages and their JSON.
 pub(in crate::expand) fn expand_messages(context: &Context<'_>) -> TokenStream {
     let Some(schemas) = &context.loaded.schemas else { return TokenStream::new() };
-    match no_panic(|| generate(&schemas.file_descriptor_set().file)) {
+    match no_panic(|| generate(&schemas.file_descriptor_set().file)).flatten() {
         Ok(root) => {
             let (modules, json) = (expand_root(context, root), expand_json(context));
             quote! { #modules #json }
@@ -55,19 +56,10 @@ fn generate(files: &[FileDescriptorProto]) -> Result<Tree, String> {
     Ok(root)
 }
 
-/// Runs the generator, which panics on what it does not support. The checks know of no such schema, but a panic would hide
-/// every other problem of the file.
-fn no_panic<T>(generate: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(generate)).unwrap_or_else(|panic| {
-        let text = panic.downcast_ref::<String>().map(String::as_str);
-        Err(text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("the generator panicked").to_owned())
-    })
-}
-
 /// What the generator writes for these files, or what it says.
 #[cfg(test)]
 pub(crate) fn generate_messages(files: &[FileDescriptorProto]) -> Result<TokenStream, String> {
-    let root = no_panic(|| generate(files))?;
+    let root = no_panic(|| generate(files)).flatten()?;
     let inner = root.inner.iter().map(|(name, tree)| tree.all(name));
     let code = &root.code;
     Ok(quote! { #code #(#inner)* })
@@ -158,24 +150,9 @@ fn with_imports_inside(context: &Context<'_>, body: TokenTree) -> TokenTree {
 
 fn refused(context: &Context<'_>, error: &str) -> TokenStream {
     let schemas = context.loaded.model.schemas.iter().map(|schema| format!("`{}`", schema.value)).collect::<Vec<_>>();
-    let problem = format!(
-        "[SCL0406] cannot generate Rust from the schemas of `{}`: {error}\n\
-         = note: this is a bug of SCL; please report it with {}",
-        context.path,
-        schemas.join(", ")
-    );
-    quote_spanned! { context.span => ::core::compile_error! { #problem } }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::no_panic;
-
-    #[test]
-    fn a_panic_of_the_generator_is_an_error() {
-        assert_eq!(no_panic(|| Ok(1)), Ok(1));
-        let words = "variant names overlap";
-        assert_eq!(no_panic::<()>(|| panic!("{words}: `Auto`")), Err("variant names overlap: `Auto`".to_owned()));
-        assert_eq!(no_panic::<()>(|| panic!("plain")), Err("plain".to_owned()));
-    }
+    let (path, schemas) = (&context.path, schemas.join(", "));
+    let problem = format!("[SCL0406] cannot generate Rust from {schemas} of `{path}`: {error}\n = note: {BUG}");
+    let error = quote_spanned! { context.span => ::core::compile_error! { #problem } };
+    // A file with errors has declared the unknown type with the first of them.
+    if context.loaded.topology.is_some() { expand_unknown_as(context, error) } else { error }
 }
