@@ -93,6 +93,11 @@ impl SourceFile {
         if line == 0 || line as usize > self.line_starts.len() { "" } else { &self.text[self.range_of_line(line)] }
     }
 
+    /// The first byte of a line, counted from 0; the end of the text if there is no such line.
+    pub fn line_start(&self, line: usize) -> usize {
+        self.line_starts.get(line).map_or(self.text.len(), |&start| start as usize)
+    }
+
     /// The line of a byte, from 1.
     pub(crate) fn line(&self, byte: u32) -> u32 {
         self.line_starts.partition_point(|&start| start <= byte).max(1) as u32

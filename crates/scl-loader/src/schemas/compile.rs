@@ -71,7 +71,7 @@ pub(crate) fn compile(request: &Request, model: &Model, sources: &mut Sources, p
     let schemas = Schemas { descriptors: compiler.file_descriptor_set(), folders: folders.shown() };
     let compiled = &schemas.descriptors.file;
     let texts = Texts { request, folders: &folders, files: &seen.files, sources };
-    let mut places = Places { texts, compiled };
+    let mut places = Places::new(texts, compiled);
     problems.extend(find_hidden_crates(compiled, request, |file| entries.span(file), &mut places));
     let clashes = find_clashes(compiled, model, &mut places);
     if !clashes.is_empty() {

@@ -4,7 +4,8 @@ use super::disk::SchemaFile;
 use super::folders::Folders;
 use crate::request::Request;
 use prost_types::FileDescriptorProto;
-use scl_topology::source::{Sources, Span};
+use scl_topology::source::{FileId, Sources, Span};
+use std::collections::HashMap;
 use std::ops::Range;
 use std::path::Path;
 
@@ -16,39 +17,58 @@ pub(super) struct Texts<'s> {
     pub(super) sources: &'s mut Sources,
 }
 
-/// Finds the declarations of compiled schemas in their texts.
-pub(super) struct Places<'s> {
-    pub(super) texts: Texts<'s>,
-    pub(super) compiled: &'s [FileDescriptorProto],
-}
-
 impl Texts<'_> {
     /// A place in a schema, whose text is added to the sources.
     pub(super) fn span(&mut self, file: &SchemaFile, at: Range<usize>) -> Span {
         let end = at.end.min(file.text.len());
+        Span { file: self.add(file), start: at.start.min(end) as u32, end: end as u32 }
+    }
+
+    fn add(&mut self, file: &SchemaFile) -> FileId {
         let shown = Path::new(&self.request.shown_as).with_file_name(self.folders.relative(&file.path));
-        let id = self.sources.add_once(&shown.display().to_string(), &file.text);
-        Span { file: id, start: at.start.min(end) as u32, end: end as u32 }
+        self.sources.add_once(&shown.display().to_string(), &file.text)
     }
 }
 
-impl Places<'_> {
+/// Finds the declarations of compiled schemas in their texts.
+pub(super) struct Places<'s> {
+    texts: Texts<'s>,
+    compiled: &'s [FileDescriptorProto],
+    /// Made for the first problem.
+    spans: Option<Spans<'s>>,
+}
+
+/// Lines and columns from 0, in bytes, by file and by path as in `google.protobuf.SourceCodeInfo`.
+type Spans<'s> = HashMap<(&'s str, &'s [i32]), &'s [i32]>;
+
+impl<'s> Places<'s> {
+    pub(super) fn new(texts: Texts<'s>, compiled: &'s [FileDescriptorProto]) -> Self {
+        Self { texts, compiled, spans: None }
+    }
+
     /// The place of a declaration, by its path in `google.protobuf.SourceCodeInfo`.
     pub(super) fn of(&mut self, file: &str, path: &[i32]) -> Option<Span> {
-        let compiled = self.compiled.iter().find(|compiled| compiled.name() == file)?;
-        let locations = &compiled.source_code_info.as_ref()?.location;
-        let location = locations.iter().find(|location| location.path == path)?;
-        let numbers: Vec<usize> = location.span.iter().map(|&number| number.try_into().unwrap_or_default()).collect();
-        let (start, end) = match *numbers.as_slice() {
+        let spans = self.spans.get_or_insert_with(|| spans(self.compiled));
+        let (start, end) = match **spans.get(&(file, path))? {
             [line, start, end] => ((line, start), (line, end)),
             [line, start, last, end] => ((line, start), (last, end)),
             _ => return None,
         };
         let read = self.texts.files.iter().find(|read| read.name == file)?;
-        let [start, end] = [start, end].map(|(line, column)| {
-            let before: usize = read.text.split_inclusive('\n').take(line).map(str::len).sum();
-            before + column
-        });
-        Some(self.texts.span(read, start..end))
+        let id = self.texts.add(read);
+        let text = self.texts.sources.file(id);
+        let byte = |(line, column): (i32, i32)| {
+            let at = text.line_start(line.try_into().ok()?) + usize::try_from(column).ok()?;
+            Some(at.min(text.text().len()) as u32)
+        };
+        Some(Span { file: id, start: byte(start)?, end: byte(end)? })
     }
+}
+
+fn spans(compiled: &[FileDescriptorProto]) -> Spans<'_> {
+    let spans = compiled.iter().flat_map(|file| {
+        let locations = file.source_code_info.iter().flat_map(|info| &info.location);
+        locations.map(|location| ((file.name(), location.path.as_slice()), location.span.as_slice()))
+    });
+    spans.collect()
 }
