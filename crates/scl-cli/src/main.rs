@@ -153,6 +153,9 @@ enum Command {
     #[cfg(feature = "run")]
     #[command(name = run::GUARD_WORD, hide = true)]
     Guard,
+    #[cfg(feature = "run")]
+    #[command(name = run::KEYS_WORD, hide = true)]
+    Keys,
     /// A program `scl-x` of the user's, as `scl x`.
     #[command(external_subcommand)]
     External(Vec<OsString>),
@@ -233,6 +236,8 @@ fn run_command(command: Command) -> ExitCode {
         Command::Start(arguments) => run::start_component(&arguments),
         #[cfg(feature = "run")]
         Command::Guard => run::keep_watch(),
+        #[cfg(feature = "run")]
+        Command::Keys => run::tell_keys(),
         Command::External(words) => external::run_external(&words, &CommandLine::command()),
     }
 }

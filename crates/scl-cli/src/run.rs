@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
-pub(crate) use scl_run::{GUARD_WORD, START_WORD, keep_watch};
+pub(crate) use scl_run::{GUARD_WORD, KEYS_WORD, START_WORD, keep_watch, tell_keys};
 
 /// Exit code: nothing could be started.
 const COULD_NOT_RUN: u8 = 2;

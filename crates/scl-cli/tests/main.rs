@@ -87,6 +87,8 @@ mod run_restart;
 #[cfg(feature = "run")]
 mod run_stop;
 #[cfg(feature = "run")]
+mod run_terminal;
+#[cfg(feature = "run")]
 mod run_transports;
 #[cfg(feature = "run")]
 mod run_twice;

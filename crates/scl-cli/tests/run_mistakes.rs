@@ -30,7 +30,7 @@ fn unknown_keys_get_a_suggestion_and_the_list() {
 
             error: unknown key `colour` in component `b`
              --> launch.yaml:5:20
-              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `environment`, `essential`, `opens`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `environment`, `essential`, `input`, `opens`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
         "#]],
     );

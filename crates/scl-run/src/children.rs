@@ -8,9 +8,10 @@ use super::output::{Output, Stream};
 use super::plan::COMPONENT;
 use super::process_group;
 use super::program::Program;
+use super::terminal::{Loan, Terminal};
 use nix::errno::Errno;
 use nix::sys::signal::{Signal, killpg};
-use nix::sys::wait::{Id, WaitPidFlag, waitid};
+use nix::sys::wait::{Id, WaitPidFlag, WaitStatus, waitid};
 use nix::unistd::Pid;
 use std::io::{self, Read};
 use std::os::unix::process::CommandExt;
@@ -67,6 +68,8 @@ pub(crate) struct Start<'a> {
     pub(crate) notify: Option<Notified<'a>>,
     /// Where its standard output goes, if not to the user.
     pub(crate) messages: Option<&'a Messages>,
+    /// The terminal that it may read from.
+    pub(crate) terminal: Option<Terminal>,
 }
 
 /// A running program. It is reaped when this value is dropped, so that its process group id is not reused
@@ -75,6 +78,9 @@ pub(crate) struct Start<'a> {
 pub(crate) struct Running {
     process: Child,
     group: Pid,
+    terminal: Option<Terminal>,
+    /// Whether its processes have got SIGINT from the terminal.
+    is_interrupted: bool,
 }
 
 impl Running {
@@ -100,14 +106,18 @@ impl Running {
             .envs(start.notify.iter().flat_map(Notified::variables))
             .envs(program.environment.iter().map(|(key, value)| (key, value)))
             .process_group(0)
-            .stdin(Stdio::null())
+            .stdin(start.terminal.as_ref().map_or_else(Stdio::null, |_| Stdio::inherit()))
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()?;
         let group = Pid::from_raw(process.id().cast_signed());
         let (out, err) = (process.stdout.take(), process.stderr.take());
-        let running = Self { process, group };
+        let running = Self { process, group, terminal: start.terminal.clone(), is_interrupted: false };
         guard.watch(group)?;
+        let (number, pressed) = (start.process, events.clone());
+        let pressed = move |key| _ = pressed.send(Event::Key { process: number, key });
+        let loan = start.terminal.clone().map(|terminal| terminal.lend(group, pressed));
+        let loan = loan.transpose().inspect_err(|_| guard.forget(group))?;
         // Standard output has only what the components print.
         let out_stream = if start.role == Role::Build { Stream::Err } else { Stream::Out };
         match (start.messages, out) {
@@ -116,7 +126,7 @@ impl Running {
         }
         watch_stream(start, Stream::Err, err, output, events);
         let datagrams = start.notify.map(|notify| notify.socket.datagrams().clone());
-        watch_end(start.process, start.role, group, datagrams, events.clone());
+        watch_end(start.process, start.role, running.group, loan, datagrams, events.clone());
         Ok(running)
     }
 
@@ -131,12 +141,30 @@ impl Running {
         let _ = killpg(self.group, signal);
     }
 
+    /// Takes note that the terminal has sent SIGINT to the program's process group.
+    pub(crate) fn take_interrupt(&mut self) {
+        self.is_interrupted = true;
+    }
+
+    /// Stops with the program and continues with it, after Ctrl-Z on its terminal.
+    pub(crate) fn suspend(&self) {
+        self.terminal.iter().for_each(|terminal| terminal.suspend(self.group));
+    }
+
+    /// Whether the terminal is lent to it.
+    pub(crate) fn has_terminal(&self) -> bool {
+        self.terminal.is_some()
+    }
+
     /// Asks every process of the program to end. Returns those that were stopped, which would not: they are continued.
     pub(crate) fn ask_to_end(&self, signal: Signal) -> Vec<Pid> {
         let group = self.group;
         let reached = process_group::programs(group);
         let stopped = process_group::stopped(group);
-        self.signal(signal);
+        // A second SIGINT would end a program of SCL at once.
+        if !(self.is_interrupted && signal == Signal::SIGINT) {
+            self.signal(signal);
+        }
         if !stopped.is_empty() {
             // After the signal, which a process takes before anything else when it goes on.
             self.signal(Signal::SIGCONT);
@@ -177,14 +205,24 @@ fn watch_messages(process: usize, from: impl Read + Send + 'static, messages: Me
     });
 }
 
-fn watch_end(process: usize, role: Role, group: Pid, datagrams: Option<Datagrams>, events: Sender<Event>) {
+fn watch_end(
+    process: usize,
+    role: Role,
+    group: Pid,
+    loan: Option<Loan>,
+    datagrams: Option<Datagrams>,
+    events: Sender<Event>,
+) {
     thread::spawn(move || {
         let report = |event| {
             // What a program says before it ends, such as that it is the wrong one, comes before its end.
             let _ = datagrams.as_ref().map(Datagrams::take);
             let _ = events.send(event);
         };
-        let ending = wait_for_end(group);
+        let ending = wait_for_end(group, |signal| report(Event::StoppedByTerminal { process, signal }));
+        if let Some(loan) = loan {
+            loan.end();
+        }
         // What a build leaves behind, such as a compiler's server, is not waited for.
         if role != Role::Build && !process_group::is_empty(group) {
             report(Event::LeaderEnded { process, ending });
@@ -194,10 +232,18 @@ fn watch_end(process: usize, role: Role, group: Pid, datagrams: Option<Datagrams
     });
 }
 
-/// Waits without reaping.
-fn wait_for_end(process: Pid) -> Ending {
+/// Waits without reaping; `stopped_by_terminal` is called whenever the process is stopped for using a terminal.
+fn wait_for_end(process: Pid, stopped_by_terminal: impl Fn(Signal)) -> Ending {
+    let changes = WaitPidFlag::WEXITED | WaitPidFlag::WSTOPPED | WaitPidFlag::WNOWAIT;
     loop {
-        match waitid(Id::Pid(process), WaitPidFlag::WEXITED | WaitPidFlag::WNOWAIT) {
+        match waitid(Id::Pid(process), changes) {
+            Ok(WaitStatus::Stopped(_, signal)) => {
+                // Else it would be reported again and again.
+                let _ = waitid(Id::Pid(process), WaitPidFlag::WSTOPPED | WaitPidFlag::WNOHANG);
+                if matches!(signal, Signal::SIGTTIN | Signal::SIGTTOU) {
+                    stopped_by_terminal(signal);
+                }
+            }
             Ok(status) => {
                 if let Some(ending) = Ending::from_wait(status) {
                     return ending;

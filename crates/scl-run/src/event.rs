@@ -3,6 +3,7 @@
 use super::control::Asked;
 use super::ending::Ending;
 use super::lifecycle::Notice;
+use super::terminal::Key;
 use nix::sys::signal::Signal;
 use nix::unistd::Pid;
 
@@ -17,6 +18,10 @@ pub(crate) enum Event {
     StreamClosed { process: usize },
     /// A process of this group said something about itself.
     Notified { group: Pid, notice: Notice },
+    /// A key of the terminal has sent a signal to the program to which it is lent.
+    Key { process: usize, key: Key },
+    /// The first process of a program was stopped because the terminal is not lent to it.
+    StoppedByTerminal { process: usize, signal: Signal },
     /// The reader of our output has gone.
     OutputLost,
     /// A signal asks us to stop.

@@ -1,7 +1,8 @@
 //! Builds and starts the program of every component of a system, shows what they print, and stops them together.
 //!
-//! This is the work behind `scl run`. The program that calls [`run`] must offer two hidden commands to itself:
-//! [`START_WORD`], which calls [`start_component`], and [`GUARD_WORD`], which calls [`keep_watch`].
+//! This is the work behind `scl run`. The program that calls [`run`] must offer three hidden commands to itself:
+//! [`START_WORD`], which calls [`start_component`], [`GUARD_WORD`], which calls [`keep_watch`], and [`KEYS_WORD`], which calls
+//! [`tell_keys`].
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod already_running;
@@ -39,6 +40,7 @@ mod sockets;
 mod summary;
 mod supervisor;
 mod system_names;
+mod terminal;
 mod units;
 
 pub use deployment::{Deployment, Host};
@@ -49,6 +51,7 @@ pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use placement::Placement;
 pub use plan::{ComponentNames, DeployedSystem, read_deployment};
 pub use system_names::{SystemNames, running_systems};
+pub use terminal::{KEYS_WORD, tell_keys};
 pub use units::{Unit, UnitOptions, systemd_units};
 
 use children::{Messages, Role};

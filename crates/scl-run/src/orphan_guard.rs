@@ -38,7 +38,7 @@ pub(crate) fn bound_command(command: &[OsString], placement: &Placement) -> io::
 
 /// The running `scl`, even if a build has replaced its file.
 #[cfg(target_os = "linux")]
-fn this_program() -> io::Result<Command> {
+pub(crate) fn this_program() -> io::Result<Command> {
     let mut command = Command::new("/proc/self/exe");
     command.arg0("scl");
     Ok(command)
@@ -46,7 +46,7 @@ fn this_program() -> io::Result<Command> {
 
 /// The file of the running `scl`.
 #[cfg(not(target_os = "linux"))]
-fn this_program() -> io::Result<Command> {
+pub(crate) fn this_program() -> io::Result<Command> {
     std::env::current_exe().map(Command::new)
 }
 

@@ -14,6 +14,7 @@ use super::placement::Placement;
 use super::program::{Build, Program};
 use super::selection::Selection;
 use super::system_names::SystemNames;
+use super::terminal::StandardInput;
 use scl_terminal::{Problem, print_err, quoted_list};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -240,6 +241,7 @@ fn build_program(launch: &LaunchFile, command: &[String], folder: PathBuf) -> Pr
         environment: scl.iter().chain(&launch.environment).cloned().collect(),
         folder,
         placement: Placement::default(),
+        input: StandardInput::Empty,
     }
 }
 
@@ -275,6 +277,7 @@ fn plan_component(
         environment: expected.into_iter().chain(environment_of_programs(launch)).chain(own).collect(),
         folder: folder_of(folder, &settings),
         placement: Placement { cpu: settings.cpu.clone().unwrap_or_default(), fifo: settings.priority },
+        input: component.input,
     };
     Component {
         name: component.name.clone(),

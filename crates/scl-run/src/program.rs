@@ -2,6 +2,7 @@
 
 use super::command_line::shell_text;
 use super::placement::Placement;
+use super::terminal::StandardInput;
 use scl_terminal::{Problem, quoted_list};
 use std::ffi::{OsStr, OsString};
 use std::os::unix::fs::PermissionsExt;
@@ -18,6 +19,8 @@ pub(crate) struct Program {
     pub(crate) folder: PathBuf,
     /// Its processors and priority.
     pub(crate) placement: Placement,
+    /// Where its standard input comes from.
+    pub(crate) input: StandardInput,
 }
 
 /// A build command, and the components whose programs it makes; all of them if none is named.

@@ -18,6 +18,7 @@ use super::restarts::Time;
 use super::run_clock::{LONGEST_WAIT, RunClock};
 use super::run_state::{RunEvent, RunState};
 use super::summary;
+use super::terminal::{Key, StandardInput, Terminal};
 use nix::sys::signal::Signal;
 use process::Process;
 use std::collections::VecDeque;
@@ -152,6 +153,24 @@ impl<'a> Supervisor<'a> {
                 };
                 self.apply(run, RunEvent::One(index, input));
             }
+            Event::Key { process, key } => {
+                let Some((_, process)) = self.find(|it| it.number == process) else { return };
+                match key {
+                    Key::Interrupt => {
+                        process.running.take_interrupt();
+                        self.take(run, Event::Signalled(Signal::SIGINT));
+                    }
+                    Key::Suspend => process.running.suspend(),
+                }
+            }
+            Event::StoppedByTerminal { process, signal } => {
+                let Some((index, process)) = self.find(|it| it.number == process) else { return };
+                // With the terminal, it was stopped before it had it.
+                if !process.running.has_terminal() {
+                    let text = stopped_by_terminal(&run.members[index], signal);
+                    self.report(index, &run.members[index], text);
+                }
+            }
             Event::Signalled(signal) => {
                 if !run.state.is_requested() {
                     let name = signal.as_str();
@@ -237,12 +256,19 @@ impl<'a> Supervisor<'a> {
         }
         let notify = self.notify.filter(|_| member.role != Role::Build);
         let notify = notify.map(|socket| Notified { socket, alive_within: member.policy.alive_within });
+        let terminal = match member.program.input {
+            StandardInput::Empty => None,
+            StandardInput::Terminal => Terminal::open()
+                .inspect_err(|why| self.report(index, member, format!("its standard input is empty: {why}")))
+                .ok(),
+        };
         let start = Start {
             process: self.next_process,
             label: member.label,
             role: member.role,
             notify,
             messages: member.messages.as_ref(),
+            terminal,
         };
         let Surroundings { output, sender, .. } = &self.surroundings;
         let running = Running::start(member.program, &start, &mut self.guard, output, sender)?;
@@ -324,6 +350,20 @@ fn wrong_program(member: &Member<'_>, opened: &str) -> String {
         member.program.command.first().map_or_else(String::new, |program| format!("`{}` ", program.display()));
     let place = member.entry.map_or_else(String::new, |place| format!("; its entry is at {place}"));
     format!("wrong program: {program}opens component {shown}, but was started as `{}`{place}", member.name)
+}
+
+/// What the user is told of a program that uses a terminal that it does not have.
+fn stopped_by_terminal(member: &Member<'_>, signal: Signal) -> String {
+    let signal = signal.as_str();
+    match member.program.input {
+        StandardInput::Empty => {
+            format!(
+                "stopped by {signal}: it uses the terminal; write `input: terminal` in the entry of `{}`",
+                member.name
+            )
+        }
+        StandardInput::Terminal => format!("stopped by {signal}: it uses the terminal, which it was not given"),
+    }
 }
 
 fn end_text(role: Role, ending: Ending, after: Duration) -> String {

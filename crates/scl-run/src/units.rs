@@ -1,7 +1,7 @@
 //! The unit files of systemd that run the programs of a launch file as services, in place of `scl run`.
 //!
-//! What has no counterpart there is left out: `essential`, because services do not stop each other, and the growth of
-//! `restart_delay`.
+//! What has no counterpart there is left out: `essential`, because services do not stop each other, the growth of
+//! `restart_delay`, and `input: terminal`.
 
 mod text;
 

@@ -6,7 +6,7 @@ mod guard;
 pub(crate) use guard::{ChildGuard, SpawnGuarded};
 use scl_tests::lock_file;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{ChildStderr, ChildStdout, Command, ExitStatus, Output, Stdio};
 
@@ -177,6 +177,11 @@ impl Started {
             }
             seen.push(line);
         }
+    }
+
+    /// Writes to its standard input, which is a pipe.
+    pub(crate) fn write_input(&mut self, text: &str) {
+        self.process.stdin.as_mut().unwrap().write_all(text.as_bytes()).unwrap();
     }
 
     pub(crate) fn process_id(&self) -> u32 {

@@ -1,6 +1,7 @@
 //! What a launch file says about one component, in `components` or in a profile.
 
 use super::super::command_line;
+use super::super::terminal::StandardInput;
 use super::keys;
 use super::reader::{KeyPath, Reader, joined, likely_key, scalar_text, shown};
 use super::settings::Settings;
@@ -20,6 +21,8 @@ pub(crate) struct LaunchComponent {
     pub(crate) environment: Vec<(String, String)>,
     /// Which components its program may open.
     pub(crate) opens: Opens,
+    /// Where its standard input comes from.
+    pub(crate) input: StandardInput,
     /// How it is run.
     pub(crate) settings: Settings,
     /// Where its program is written.
@@ -93,6 +96,7 @@ pub(super) struct Entry {
     pub(super) source: Option<Source>,
     pub(super) environment: Vec<(String, String)>,
     pub(super) opens: Option<Opens>,
+    pub(super) input: Option<StandardInput>,
     pub(super) settings: Settings,
     pub(super) place: String,
 }
@@ -100,9 +104,9 @@ pub(super) struct Entry {
 impl Entry {
     /// The component, if the entry says what runs it.
     pub(super) fn into_component(self) -> Option<LaunchComponent> {
-        let Self { name, build, source, environment, opens, settings, place } = self;
-        let opens = opens.unwrap_or_default();
-        Some(LaunchComponent { name, build, source: source?, environment, opens, settings, place })
+        let Self { name, build, source, environment, opens, input, settings, place } = self;
+        let (opens, input) = (opens.unwrap_or_default(), input.unwrap_or_default());
+        Some(LaunchComponent { name, build, source: source?, environment, opens, input, settings, place })
     }
 }
 
@@ -152,6 +156,7 @@ impl Reader<'_> {
             source,
             environment: self.read_environment(keys.get("environment"), &joined(&at, "environment")),
             opens: self.read_opens(keys.get("opens"), &joined(&at, "opens")),
+            input: self.read_setting(keys, &at, "input", standard_input),
             settings: self.read_settings(keys, &at),
             place: self.text.place(&at),
         })
@@ -225,6 +230,11 @@ impl Reader<'_> {
         let names = quoted_list(known.iter().map(String::as_str));
         self.problems.push(problem.note(format!("{source} has the components {names}")));
     }
+}
+
+fn standard_input(value: &Value) -> Option<StandardInput> {
+    let word = value.as_str()?;
+    StandardInput::WORDS.into_iter().find(|(name, _)| *name == word).map(|(_, input)| input)
 }
 
 /// The program and arguments of a command: a list as it is, the words of a text. `None` if the value is not a command.

@@ -1,6 +1,7 @@
 //! The keys of a launch file, told once: for the reader, its messages and the tables of `docs/launch.md`.
 
 use super::super::policy::Restart;
+use super::super::terminal::StandardInput;
 
 /// A key of a mapping.
 pub(super) struct Key {
@@ -78,6 +79,11 @@ const TRANSPORTS: &[&str] = &["ipc", "tcp", "shm"];
 const RESTARTS: &[&str] = &{
     let [(never, _), (on_abnormal, _), (on_failure, _), (always, _)] = Restart::WORDS;
     [never, on_abnormal, on_failure, always]
+};
+
+const INPUTS: &[&str] = &{
+    let [(empty, _), (terminal, _)] = StandardInput::WORDS;
+    [empty, terminal]
 };
 
 const KEY: Key = Key { name: "", also: &[], form: Form::Command, default: "", meaning: "", in_defaults: false };
@@ -209,6 +215,14 @@ pub(super) const COMPONENT: &[Key] = &[
         default: "`true`",
         meaning: "Whether its failure stops the other components.",
         in_defaults: true,
+    },
+    Key {
+        name: "input",
+        also: &["stdin", "tty", "terminal", "interactive", "stdin_open"],
+        form: Form::Word(INPUTS),
+        default: "`empty`",
+        meaning: "The program's standard input. One component may have the terminal. See [The terminal](#the-terminal).",
+        ..KEY
     },
     Key {
         name: "opens",

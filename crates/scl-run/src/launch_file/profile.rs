@@ -1,5 +1,6 @@
 //! `profiles`: other programs for the same components.
 
+use super::super::terminal::StandardInput;
 use super::LaunchFile;
 use super::entry::{Entry, LaunchComponent, Opens};
 use super::reader::{Reader, joined, shown};
@@ -28,6 +29,7 @@ impl LaunchFile {
                 None => problems.push(self.unknown_profile(name)),
             }
         }
+        problems.extend(several_with_terminal(&components));
         if problems.is_empty() { Ok(components) } else { Err(problems) }
     }
 
@@ -45,6 +47,16 @@ impl LaunchFile {
     }
 }
 
+/// Only one process group is in the foreground of a terminal.
+fn several_with_terminal(components: &[LaunchComponent]) -> Option<Problem> {
+    let mut with_terminal = components.iter().filter(|component| component.input == StandardInput::Terminal);
+    let (first, second) = (with_terminal.next()?, with_terminal.next()?);
+    let message = format!("the components `{}` and `{}` both have `input: terminal`", first.name, second.name);
+    Some(
+        Problem::new(message).at(&second.place).help("one component can read from the terminal: remove one of the two"),
+    )
+}
+
 /// Applies an entry. With a command or a recording it is another program, to which the other's build and folder do not
 /// belong. All other keys replace those that they name.
 fn apply(entry: &Entry, components: &mut Vec<LaunchComponent>) {
@@ -58,10 +70,14 @@ fn apply(entry: &Entry, components: &mut Vec<LaunchComponent>) {
         component.build = None;
         component.settings.working_directory = None;
         component.opens = Opens::Own;
+        component.input = StandardInput::Empty;
         component.place.clone_from(&entry.place);
     }
     if let Some(opens) = &entry.opens {
         component.opens.clone_from(opens);
+    }
+    if let Some(input) = entry.input {
+        component.input = input;
     }
     if entry.build.is_some() {
         component.build.clone_from(&entry.build);

@@ -2,6 +2,7 @@
 
 use super::super::policy::{Restart, RestartDelay, RestartLimit};
 use super::super::system_names::SystemNames;
+use super::super::terminal::StandardInput;
 use super::keys::{self, Key};
 use super::{EXAMPLE, LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
 use scl_terminal::Problem;
@@ -360,4 +361,28 @@ fn a_number_that_no_key_can_have_has_its_place() {
         told.iter().any(|it| it.contains("not `18446744073709551616`") && it.contains("launch.yaml:2:20")),
         "{told:?}"
     );
+}
+
+#[test]
+fn one_component_may_have_the_terminal() {
+    let text = "components:
+  a: {command: ./a, input: terminal}
+  b: {command: ./b, input: empty}
+profiles:
+  both: {b: {input: terminal}}
+  other: {a: {command: ./c}, b: {input: terminal}}
+";
+    let file = parse_launch_file(text, None).unwrap();
+    let inputs = |profiles: &[&str]| {
+        let found = file.components_with(&words(profiles));
+        found.map(|found| found.iter().map(|component| component.input).collect::<Vec<_>>())
+    };
+    assert_eq!(inputs(&[]), Ok(vec![StandardInput::Terminal, StandardInput::Empty]));
+    assert_eq!(inputs(&["other"]), Ok(vec![StandardInput::Empty, StandardInput::Terminal]));
+    let problems = inputs(&["both"]).unwrap_err();
+    let expected = "error: the components `a` and `b` both have `input: terminal`\n --> launch.yaml:3:3\n  = help: one \
+                    component can read from the terminal: remove one of the two\n";
+    assert_eq!(problems.iter().map(ToString::to_string).collect::<String>(), expected);
+    let problems = parse_launch_file(&text.replace("empty", "termnal"), None).unwrap_err();
+    assert!(problems[0].to_string().contains("did you mean `input: terminal`?"), "{}", problems[0]);
 }

@@ -8,6 +8,7 @@ use super::super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile};
 use super::super::placement::Placement;
 use super::super::policy::{Policy, Restart, RestartLimit};
 use super::super::program::Program;
+use super::super::terminal::StandardInput;
 use super::{ComponentNames, LAUNCH_FILE, environment_of_programs, find_folder, find_topology, read_names, read_text};
 use scl_terminal::{Problem, print_err};
 use std::ffi::OsString;
@@ -102,6 +103,7 @@ pub(super) fn plan_gateway(
             environment: environment_of_programs(launch).collect(),
             folder: folder.to_owned(),
             placement: Placement::default(),
+            input: StandardInput::Empty,
         },
         policy: Policy {
             restart: Restart::Always,

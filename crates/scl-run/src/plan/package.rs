@@ -7,6 +7,7 @@ use super::super::placement::Placement;
 use super::super::policy::Policy;
 use super::super::program::{Build, Program};
 use super::super::selection::Selection;
+use super::super::terminal::StandardInput;
 use super::{COMPONENT, RunPlan, SystemNames, TOPOLOGY_FILE, system_of_environment};
 use scl_terminal::Problem;
 use std::ffi::OsString;
@@ -30,6 +31,7 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
         environment: Vec::new(),
         folder: folder.to_owned(),
         placement: Placement::default(),
+        input: StandardInput::Empty,
     };
     let release = options.release.then(|| OsString::from("--release"));
     let build = [cargo(), "build".into(), "--bins".into()].into_iter().chain(release).collect();

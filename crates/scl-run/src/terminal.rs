@@ -1,0 +1,159 @@
+//! The terminal of `scl run`, lent to the one component whose entry has `input: terminal`.
+//!
+//! A program reads from a terminal, and changes its modes, only in the terminal's foreground; elsewhere the kernel stops it. So
+//! the component's process group becomes the foreground one. The signals of keys such as Ctrl-C go there too and not to
+//! `scl run`, so a process of ours in that group, [`keys`], tells about them.
+
+mod keys;
+
+pub use keys::{KEYS_WORD, tell_keys};
+
+use super::orphan_guard::this_program;
+pub(crate) use keys::Key;
+use nix::sys::signal::{SigSet, SigmaskHow, Signal, killpg, raise};
+use nix::unistd::Pid;
+use rustix::process::getpgrp;
+use rustix::termios::{OptionalActions, Termios, tcgetattr, tcgetpgrp, tcsetattr, tcsetpgrp};
+use std::io::{self, BufRead, BufReader};
+use std::os::unix::process::CommandExt;
+use std::process::{Child, Stdio};
+use std::thread::{self, JoinHandle};
+
+/// Where a program's standard input comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum StandardInput {
+    /// It is empty.
+    #[default]
+    Empty,
+    /// The terminal of `scl run`.
+    Terminal,
+}
+
+impl StandardInput {
+    /// The words of the launch file.
+    pub(crate) const WORDS: [(&'static str, Self); 2] = [("empty", Self::Empty), ("terminal", Self::Terminal)];
+}
+
+/// The terminal that is our standard input, while we are in its foreground.
+#[derive(Debug, Clone)]
+pub(crate) struct Terminal {
+    /// Those that are restored.
+    modes: Termios,
+}
+
+impl Terminal {
+    /// Takes the terminal.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none, in a few words.
+    pub(crate) fn open() -> Result<Self, &'static str> {
+        let none = "the standard input of `scl run` is not its terminal";
+        let foreground = tcgetpgrp(io::stdin()).map_err(|_| none)?;
+        if foreground != getpgrp() {
+            return Err("`scl run` is in the background");
+        }
+        Ok(Self { modes: tcgetattr(io::stdin()).map_err(|_| none)? })
+    }
+
+    /// Lends it to a process group; `pressed` is called for each of its keys that sends a signal.
+    ///
+    /// # Errors
+    ///
+    /// If no process can be started in that group, or the terminal refuses the group.
+    pub(crate) fn lend(self, group: Pid, pressed: impl Fn(Key) + Send + 'static) -> io::Result<Loan> {
+        let mut keys = with_signals_blocked(SigSet::all(), || {
+            let mut command = this_program()?;
+            command.arg(KEYS_WORD).process_group(group.as_raw());
+            command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn()
+        })?;
+        let told = keys.stdout.take();
+        let reader = thread::spawn(move || {
+            let lines = told.map(BufReader::new).into_iter().flat_map(BufRead::lines).map_while(Result::ok);
+            lines.filter_map(|line| Key::of(&line)).for_each(pressed);
+        });
+        let loan = Loan { terminal: self, group, keys, reader };
+        match hand_over(group) {
+            Ok(()) => Ok(loan),
+            Err(error) => {
+                loan.end();
+                Err(error)
+            }
+        }
+    }
+
+    /// Stops `scl run` as a shell expects it of a program after Ctrl-Z, and goes on with the group in the foreground, if we
+    /// are there by then.
+    pub(crate) fn suspend(&self, group: Pid) {
+        let of_group = tcgetattr(io::stdin());
+        self.take_back(group);
+        let _ = raise(Signal::SIGTSTP);
+        if tcgetpgrp(io::stdin()).is_ok_and(|foreground| foreground == getpgrp()) {
+            if let Ok(modes) = of_group {
+                set_modes(&modes);
+            }
+            let _ = hand_over(group);
+        }
+        let _ = killpg(group, Signal::SIGCONT);
+    }
+
+    /// Makes us the foreground again, with our modes, unless somebody else is by now.
+    fn take_back(&self, group: Pid) {
+        let has_it = tcgetpgrp(io::stdin()).is_ok_and(|foreground| foreground.as_raw_pid() == group.as_raw());
+        if has_it {
+            let _ = set_foreground(getpgrp());
+            set_modes(&self.modes);
+        }
+    }
+}
+
+/// A terminal that is lent.
+#[derive(Debug)]
+pub(crate) struct Loan {
+    terminal: Terminal,
+    group: Pid,
+    keys: Child,
+    reader: JoinHandle<()>,
+}
+
+impl Loan {
+    /// Takes the terminal back, after the events of all keys so far.
+    pub(crate) fn end(mut self) {
+        // It ends at the end of its input.
+        drop(self.keys.stdin.take());
+        let _ = self.keys.wait();
+        let _ = self.reader.join();
+        self.terminal.take_back(self.group);
+    }
+}
+
+/// Makes a group the foreground, and continues it if it was stopped because it was not.
+fn hand_over(group: Pid) -> io::Result<()> {
+    let id = rustix::process::Pid::from_raw(group.as_raw()).ok_or(io::ErrorKind::InvalidInput)?;
+    set_foreground(id)?;
+    // It may have ended.
+    let _ = killpg(group, Signal::SIGCONT);
+    Ok(())
+}
+
+fn set_foreground(group: rustix::process::Pid) -> io::Result<()> {
+    Ok(from_background(|| tcsetpgrp(io::stdin(), group))?)
+}
+
+fn set_modes(modes: &Termios) {
+    // A terminal that has gone needs none.
+    let _ = from_background(|| tcsetattr(io::stdin(), OptionalActions::Drain, modes));
+}
+
+/// Changes a terminal whose foreground we may not be, for which the kernel would stop us.
+fn from_background<T>(change: impl FnOnce() -> T) -> T {
+    with_signals_blocked(SigSet::from(Signal::SIGTTOU), change)
+}
+
+/// Works with signals blocked, which processes that are started inherit.
+fn with_signals_blocked<T>(signals: SigSet, work: impl FnOnce() -> T) -> T {
+    let before = signals.thread_swap_mask(SigmaskHow::SIG_BLOCK);
+    let done = work();
+    let _ = before.map(|before| before.thread_set_mask());
+    done
+}
