@@ -8,6 +8,7 @@ mod encoding;
 mod exchange;
 mod fanout;
 mod foreign;
+mod foreign_texts;
 mod inbox;
 mod incoming;
 mod io_waker;

@@ -65,6 +65,17 @@ impl GateSpec {
         }
     }
 
+    /// The type of the messages that the gate sends, `None` if it sends none.
+    #[cfg(feature = "protobuf")]
+    pub(crate) fn sent(&self) -> Option<&'static str> {
+        match (self.kind, self.exchanged()) {
+            (GateKind::Pub | GateKind::Push, _) => Some(self.payload),
+            (GateKind::Req, Some((request, _))) => Some(request),
+            (GateKind::Rep, Some((_, reply))) => Some(reply),
+            _ => None,
+        }
+    }
+
     /// The types of requests and replies.
     pub(crate) fn exchanged(&self) -> Option<(&'static str, &'static str)> {
         self.payload.split_once(" -> ").filter(|_| self.kind.exchanges())

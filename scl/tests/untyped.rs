@@ -8,6 +8,7 @@ mod counterpart;
 mod ending_calls;
 mod ending_race;
 mod errors;
+mod foreign_texts;
 mod in_flight;
 mod readiness;
 mod specs;

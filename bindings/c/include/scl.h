@@ -131,6 +131,11 @@ typedef int32_t scl_status;
 #define SCL_REFUSED -12
 
 /**
+ * The bytes to send are not a message: a text in them is not UTF-8. They were not sent.
+ */
+#define SCL_ENCODE -13
+
+/**
  * A wrong argument: a NULL pointer, a text that is not UTF-8, a length that no object can have, a wrong option.
  */
 #define SCL_ARGUMENT -20
@@ -319,8 +324,8 @@ scl_status scl_buffer(scl_gate *gate,
  * Only a gate with `backpressure: true` waits, for a peer with `when_full: wait` whose queue is full. A timeout of 0
  * does not wait, a negative one waits without limit.
  *
- * Errors: SCL_FULL (timeout 0), SCL_TIMEOUT, SCL_TOO_LONG, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY, SCL_HANDLE.
- * After any of them the message was sent to no peer.
+ * Errors: SCL_FULL (timeout 0), SCL_TIMEOUT, SCL_TOO_LONG, SCL_ENCODE, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY,
+ * SCL_HANDLE. After any of them the message was sent to no peer.
  */
 scl_status scl_send(scl_gate *gate,
                     const void *data,
@@ -389,8 +394,8 @@ void scl_message_free(scl_message *message);
  * Calls of one gate follow each other, also with `in_flight`: SCL_BUSY says that another thread is calling. For several calls
  * at once, declare several gates.
  *
- * Errors: SCL_TIMEOUT, SCL_PEER_LOST, SCL_REFUSED, SCL_TOO_LONG, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY, SCL_HANDLE. A reply
- * that comes too late is discarded; the next call never receives it.
+ * Errors: SCL_TIMEOUT, SCL_PEER_LOST, SCL_REFUSED, SCL_TOO_LONG, SCL_ENCODE, SCL_KIND, SCL_STOPPED, SCL_CLOSED,
+ * SCL_BUSY, SCL_HANDLE. A reply that comes too late is discarded; the next call never receives it.
  */
 scl_status scl_call(scl_gate *gate,
                     const void *data,
@@ -424,7 +429,7 @@ const void *scl_request_data(const scl_request *request,
  * Answers a request with `len` bytes, which are copied. It never waits. The request is freed, whatever the result,
  * except for SCL_ARGUMENT and SCL_HANDLE.
  *
- * Errors: SCL_REQUESTER_GONE (it disconnected, which a replier may well ignore), SCL_TOO_LONG.
+ * Errors: SCL_REQUESTER_GONE (it disconnected, which a replier may well ignore), SCL_TOO_LONG, SCL_ENCODE.
  */
 scl_status scl_reply(scl_request *request,
                      const void *data,

@@ -16,8 +16,8 @@ use std::ffi::c_void;
 /// Calls of one gate follow each other, also with `in_flight`: SCL_BUSY says that another thread is calling. For several calls
 /// at once, declare several gates.
 ///
-/// Errors: SCL_TIMEOUT, SCL_PEER_LOST, SCL_REFUSED, SCL_TOO_LONG, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY, SCL_HANDLE. A reply
-/// that comes too late is discarded; the next call never receives it.
+/// Errors: SCL_TIMEOUT, SCL_PEER_LOST, SCL_REFUSED, SCL_TOO_LONG, SCL_ENCODE, SCL_KIND, SCL_STOPPED, SCL_CLOSED,
+/// SCL_BUSY, SCL_HANDLE. A reply that comes too late is discarded; the next call never receives it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_call(
     gate: *mut scl_gate,

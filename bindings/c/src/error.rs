@@ -102,6 +102,7 @@ impl From<OpenError> for Failure {
 impl From<SendError> for Failure {
     fn from(error: SendError) -> Self {
         let status = match &error {
+            SendError::Encode { .. } => SCL_ENCODE,
             SendError::TooLong { .. } => SCL_TOO_LONG,
             SendError::Blocking { source, .. } => blocking(source),
             _ => SCL_FAILED,
@@ -164,6 +165,7 @@ impl From<WaitError> for Failure {
 impl From<CallError> for Failure {
     fn from(error: CallError) -> Self {
         let status = match &error {
+            CallError::Encode { .. } => SCL_ENCODE,
             CallError::TooLong { .. } => SCL_TOO_LONG,
             CallError::Timeout { .. } => SCL_TIMEOUT,
             CallError::PeerLost { .. } => SCL_PEER_LOST,
@@ -179,6 +181,7 @@ impl From<CallError> for Failure {
 impl From<ReplyError> for Failure {
     fn from(error: ReplyError) -> Self {
         let status = match &error {
+            ReplyError::Encode { .. } => SCL_ENCODE,
             ReplyError::TooLong { .. } => SCL_TOO_LONG,
             ReplyError::RequesterGone { .. } => SCL_REQUESTER_GONE,
             ReplyError::Blocking { source, .. } => blocking(source),

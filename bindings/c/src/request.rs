@@ -68,7 +68,7 @@ pub unsafe extern "C" fn scl_request_data(request: *const scl_request, len: *mut
 /// Answers a request with `len` bytes, which are copied. It never waits. The request is freed, whatever the result,
 /// except for SCL_ARGUMENT and SCL_HANDLE.
 ///
-/// Errors: SCL_REQUESTER_GONE (it disconnected, which a replier may well ignore), SCL_TOO_LONG.
+/// Errors: SCL_REQUESTER_GONE (it disconnected, which a replier may well ignore), SCL_TOO_LONG, SCL_ENCODE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_reply(request: *mut scl_request, data: *const c_void, len: usize) -> scl_status {
     border::status(|| {

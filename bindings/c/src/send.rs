@@ -13,8 +13,8 @@ use std::ffi::c_void;
 /// Only a gate with `backpressure: true` waits, for a peer with `when_full: wait` whose queue is full. A timeout of 0
 /// does not wait, a negative one waits without limit.
 ///
-/// Errors: SCL_FULL (timeout 0), SCL_TIMEOUT, SCL_TOO_LONG, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY, SCL_HANDLE.
-/// After any of them the message was sent to no peer.
+/// Errors: SCL_FULL (timeout 0), SCL_TIMEOUT, SCL_TOO_LONG, SCL_ENCODE, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY,
+/// SCL_HANDLE. After any of them the message was sent to no peer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_send(gate: *mut scl_gate, data: *const c_void, len: usize, timeout_ns: i64) -> scl_status {
     border::status(|| {

@@ -33,6 +33,8 @@ pub const SCL_DECODE: scl_status = -10;
 pub const SCL_NOT_FLUSHED: scl_status = -11;
 /// The replier could not decode the request, so it did not act on it.
 pub const SCL_REFUSED: scl_status = -12;
+/// The bytes to send are not a message: a text in them is not UTF-8. They were not sent.
+pub const SCL_ENCODE: scl_status = -13;
 /// A wrong argument: a NULL pointer, a text that is not UTF-8, a length that no object can have, a wrong option.
 pub const SCL_ARGUMENT: scl_status = -20;
 /// The handle was closed or freed, or never was one.
@@ -75,6 +77,7 @@ const NAMES: &[(scl_status, &CStr)] = &[
     (SCL_DECODE, c"SCL_DECODE"),
     (SCL_NOT_FLUSHED, c"SCL_NOT_FLUSHED"),
     (SCL_REFUSED, c"SCL_REFUSED"),
+    (SCL_ENCODE, c"SCL_ENCODE"),
     (SCL_ARGUMENT, c"SCL_ARGUMENT"),
     (SCL_HANDLE, c"SCL_HANDLE"),
     (SCL_NAME, c"SCL_NAME"),

@@ -286,6 +286,28 @@ def test_messages_of_schemas(name: str) -> None:
     assert one.owner.rejected == 2
 
 
+def test_a_text_that_is_not_utf_8_is_named() -> None:
+    file = descriptor_pb2.FileDescriptorProto(name="log.proto", package="log", syntax="proto3")
+    event = file.message_type.add(name="Event")
+    event.field.add(name="raw", number=1, type="TYPE_BYTES", label="LABEL_OPTIONAL")
+    event.field.add(name="text", number=2, type="TYPE_STRING", label="LABEL_REPEATED")
+    event.field.add(name="inner", number=3, type="TYPE_MESSAGE", type_name=".log.Event", label="LABEL_OPTIONAL")
+    messages = messages_of_descriptors([descriptor_pb2.FileDescriptorSet(file=[file]).SerializeToString()])
+    one = codec("protobuf", "log.Event", messages)
+    assert one.decode(b"\x0a\x01\xff\x12\x02\xc3\xa4").text == ["ä"]
+    for frame, field in [
+        (b"\x12\x01\xff", "text"),
+        (b"\x0a\x01\xff\x12\x01a\x12\x01\xc3", "text"),
+        (b"\x1a\x05\x1a\x03\x12\x01\xff", "inner.inner.text"),
+        (b"\x20\x85\x02\x29\0\0\0\0\0\0\0\0\x1a\x03\x12\x01\xff", "inner.text"),
+    ]:
+        with pytest.raises(scl.DecodeError, match=f"do not decode as `log.Event`: its field `{field}` is not UTF-8"):
+            one.decode(frame)
+    for frame in [b"\x12\x05\xff", b"\x12", b"\xff" * 20, b"\x1a\x7f\x12\x01\xff"]:
+        with pytest.raises(scl.DecodeError, match="do not decode as `log.Event`$"):
+            one.decode(frame)
+
+
 @pytest.mark.parametrize(
     "text",
     [

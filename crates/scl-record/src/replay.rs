@@ -198,8 +198,10 @@ impl Run<'_> {
             };
             self.pace.wait_for(time).await?;
             (self.progress)(Duration::from_nanos(time.saturating_sub(self.origin)));
-            self.players.send(&sender, &message.payload).await?;
-            self.stage.count(reported);
+            match self.players.send(&sender, &message.payload).await? {
+                None => self.stage.count(reported),
+                Some(reason) => self.stage.refuse(reported, reason),
+            }
         }
         Ok(())
     }
@@ -245,6 +247,13 @@ impl Stage<'_> {
         if let Some(gate) = reported.and_then(|index| self.report.gates.get_mut(index)) {
             gate.sent += 1;
         }
+    }
+
+    fn refuse(&mut self, reported: Option<usize>, reason: String) {
+        if let Some(gate) = reported.and_then(|index| self.report.gates.get_mut(index)) {
+            gate.reason = reason;
+        }
+        self.skip(reported);
     }
 
     fn skip(&mut self, reported: Option<usize>) {

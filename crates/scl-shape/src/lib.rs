@@ -5,12 +5,16 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod compare;
+mod declared;
 mod memory;
+mod texts;
+mod wire;
 
 pub use compare::{Difference, Encoding, What, compare, differences};
 pub use memory::{Format, Language, MemoryEstimate, NotJson};
 pub use prost::DecodeError;
 pub use prost_types::FileDescriptorSet;
+pub use texts::TextCheck;
 
 use prost::Message;
 

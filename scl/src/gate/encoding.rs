@@ -1,6 +1,9 @@
 //! Encoding with memory that is used again.
 
+use super::foreign_texts::ForeignTexts;
 use crate::codec::{Codec, EncodeError};
+use crate::spec::GateSpec;
+use crate::state::ComponentState;
 use bytes::{Bytes, BytesMut};
 use std::any::TypeId;
 
@@ -12,11 +15,14 @@ pub(crate) struct Encoding<T> {
     to_frame: fn(&T, &mut BytesMut) -> Result<Bytes, EncodeError>,
     memory: BytesMut,
     codec: TypeId,
+    texts: Option<Box<ForeignTexts>>,
 }
 
 impl<T> Encoding<T> {
-    pub(crate) fn with<C: Codec<T>>() -> Self {
-        Self { to_frame: C::to_frame, memory: BytesMut::new(), codec: TypeId::of::<C>() }
+    /// For what a gate of this component sends.
+    pub(crate) fn new<C: Codec<T>>(component: &ComponentState, gate: &'static GateSpec) -> Self {
+        let texts = ForeignTexts::new(component, gate, C::NAME).map(Box::new);
+        Self { to_frame: C::to_frame, memory: BytesMut::new(), codec: TypeId::of::<C>(), texts }
     }
 
     /// Returns true if the gate's codec is `C`.
@@ -31,6 +37,9 @@ impl<T> Encoding<T> {
         let frame = (self.to_frame)(message, &mut self.memory);
         // What a codec wrote before it failed is no part of the next message.
         self.memory.clear();
-        frame
+        match &self.texts {
+            Some(texts) => frame.and_then(|frame| texts.check(&frame).map(|()| frame)),
+            None => frame,
+        }
     }
 }

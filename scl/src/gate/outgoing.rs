@@ -24,7 +24,8 @@ impl<T> Outgoing<T> {
         connections: Vec<Arc<Mutex<Connection>>>,
         tap: GateTap,
     ) -> Self {
-        Self { fanout: Fanout::new(state, spec, connections, tap), encoding: Encoding::with::<C>() }
+        let encoding = Encoding::new::<C>(&state, spec);
+        Self { fanout: Fanout::new(state, spec, connections, tap), encoding }
     }
 
     pub(crate) async fn send(&mut self, message: &T) -> Result<(), SendError> {

@@ -68,7 +68,7 @@ impl<A, B> Rep<A, B> {
         let gate = GateName::new(state.spec().name, spec.name);
         let decoder = Decoder::new::<C>(&state, spec);
         let end = ReplyEnd::open(link, &state);
-        let encoding = Mutex::new(Encoding::with::<C>());
+        let encoding = Mutex::new(Encoding::new::<C>(&state, spec));
         let strictest = spec.connections.iter().min_by_key(|connection| connection.max_size);
         let replies = Arc::new(Replies { gate, encoding, tap, strictest, state });
         Self { spec, end: ProcessOwned::new(end), decoder, replies: ProcessOwned::new(replies) }

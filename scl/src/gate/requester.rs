@@ -81,7 +81,7 @@ impl<A, B> Req<A, B> {
     ) -> Self {
         let name = GateName::new(state.spec().name, spec.name);
         let exchange = link.map(|link| Exchange::new(link, watchdogs, &state));
-        let encoding = Mutex::new(Encoding::with::<C>());
+        let encoding = Mutex::new(Encoding::new::<C>(&state, spec));
         let decoder = Decoder::new::<C>(&state, spec);
         Self { shared: Arc::new(Shared { spec, name, exchange, encoding, decoder, state }) }
     }

@@ -31,6 +31,8 @@ enum class Errc : int {
     too_long = SCL_TOO_LONG,
     /// The bytes received are not a message of the expected type. The next call returns the next message.
     decode = SCL_DECODE,
+    /// The codec cannot express the message, or a text in it is not UTF-8; nothing was sent.
+    encode = SCL_ENCODE,
     /// Not all peers have taken all messages. The component was closed nevertheless.
     not_flushed = SCL_NOT_FLUSHED,
     /// A wrong argument, for example a gate that was moved to another object.
@@ -59,9 +61,6 @@ enum class Errc : int {
     panic = SCL_PANIC,
     /// Any other failure.
     failed = SCL_FAILED,
-    /// The codec cannot express the message. (Codecs are part of this library alone, so the C library has no such
-    /// status.)
-    encode = -1000,
 };
 
 /// The category of SCL's error codes.
@@ -165,7 +164,7 @@ class DecodeError : public detail::ErrorOf<Errc::decode> {
     using ErrorOf::ErrorOf;
 };
 
-/// The codec cannot express the message; nothing was sent.
+/// The codec cannot express the message, or a text in it is not UTF-8; nothing was sent.
 class EncodeError : public detail::ErrorOf<Errc::encode> {
     using ErrorOf::ErrorOf;
 };

@@ -35,7 +35,8 @@ template <class A, class B, class Format = Native> class Request {
     /// Sends the reply. It never waits. A request is answered once: the next call throws `Error` (`Errc::handle`).
     ///
     /// Throws `RequesterGone` if nobody waits for the reply any more, which a replier may well ignore; `TooLong` if the
-    /// requester does not accept a reply of this length; and `EncodeError`, after which another reply may be sent.
+    /// requester does not accept a reply of this length; and `EncodeError`, after which another reply may be
+    /// sent, unless it says that a text is not UTF-8.
     void reply(const detail::sent_t<B>& reply) {
         require_unanswered();
         detail::check(transmit(reply));

@@ -116,14 +116,15 @@ impl Players {
         Ok(())
     }
 
-    /// Sends a message, or a request, for which a lossless replay waits until it is answered.
+    /// Sends a message, or a request, for which a lossless replay waits until it is answered. Returns why a message
+    /// cannot be sent at all: it was recorded from a program of another library, and receivers would refuse it.
     ///
     /// # Errors
     /// The message is too long for a peer.
     ///
     /// # Cancel safety
     /// The message is sent or not.
-    pub(super) async fn send(&mut self, gate: &GateId, message: &Bytes) -> Result<(), Problem> {
+    pub(super) async fn send(&mut self, gate: &GateId, message: &Bytes) -> Result<Option<String>, Problem> {
         let sent = match self.senders.get_mut(gate) {
             Some(SendingGate::Pub(gate)) => gate.send(message).await,
             Some(SendingGate::Push(gate)) => gate.send(message).await,
@@ -139,7 +140,11 @@ impl Players {
             }
             None => Ok(()),
         };
-        sent.map_err(|error: SendError| problem_of(&error))
+        match sent {
+            Ok(()) => Ok(None),
+            Err(SendError::Encode { source, .. }) => Ok(Some(source.reason().to_owned())),
+            Err(error) => Err(problem_of(&error)),
+        }
     }
 
     /// Whether a played replier has recorded replies.

@@ -1,6 +1,7 @@
 //! What a decoded message and its fields take.
 
 use super::Language;
+use crate::declared::{self, is_message, type_name};
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorSet};
 use std::collections::{HashMap, HashSet};
@@ -67,22 +68,7 @@ impl MessageLayout {
 
 /// The layouts of a type and of those that it contains, itself first.
 pub(super) fn of(files: &FileDescriptorSet, name: &str, language: Language) -> Option<Vec<MessageLayout>> {
-    let mut declared = HashMap::new();
-    for file in &files.file {
-        declare(file.package(), &file.message_type, &mut declared);
-    }
-    let mut names = vec![name];
-    let mut at = 0;
-    while let Some(name) = names.get(at) {
-        for field in declared.get(*name)?.field.iter().filter(|field| is_message(field)) {
-            let inner = type_name(field);
-            if !names.contains(&inner) {
-                names.push(inner);
-            }
-        }
-        at += 1;
-    }
-    let types: Vec<&DescriptorProto> = names.iter().map(|name| declared[*name]).collect();
+    let (names, types): (Vec<_>, Vec<_>) = declared::reachable(files, name)?.into_iter().unzip();
     let mut sizes = Sizes::new(&names, &types, language);
     let layouts = (0..names.len()).map(|index| {
         let mut declared: Vec<&FieldDescriptorProto> = types[index].field.iter().collect();
@@ -97,22 +83,6 @@ pub(super) fn of(files: &FileDescriptorSet, name: &str, language: Language) -> O
         }
     });
     Some(layouts.collect())
-}
-
-fn declare<'d>(scope: &str, messages: &'d [DescriptorProto], declared: &mut HashMap<String, &'d DescriptorProto>) {
-    for message in messages {
-        let name = if scope.is_empty() { message.name().to_owned() } else { format!("{scope}.{}", message.name()) };
-        declare(&name, &message.nested_type, declared);
-        declared.insert(name, message);
-    }
-}
-
-fn is_message(field: &FieldDescriptorProto) -> bool {
-    matches!(field.r#type(), Type::Message | Type::Group)
-}
-
-fn type_name(field: &FieldDescriptorProto) -> &str {
-    field.type_name().trim_start_matches('.')
 }
 
 struct Sizes<'d> {

@@ -1,6 +1,7 @@
 //! Walks through a frame of protobuf.
 
 use super::{Cost, Kind, Language, MessageLayout};
+use crate::wire::varint;
 
 /// Levels of nesting after which every decoder gives up.
 const LEVELS: usize = 128;
@@ -95,17 +96,4 @@ fn numbers(content: &[u8], packed: usize) -> u64 {
         width => content.len() / width,
     };
     numbers as u64
-}
-
-fn varint(bytes: &[u8], at: &mut usize) -> Option<u64> {
-    let mut number = 0;
-    for shift in (0..64).step_by(7) {
-        let byte = *bytes.get(*at)?;
-        *at += 1;
-        number |= u64::from(byte & 0x7f) << shift;
-        if byte < 0x80 {
-            return Some(number);
-        }
-    }
-    None
 }

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, cast
 from scl._errors import EncodeError
 from scl.codec._codec import Codec, Owner, kind_of
 from scl.codec._json_check import check
+from scl.codec._text_check import wrong_text
 
 if TYPE_CHECKING:
     from google.protobuf.descriptor import Descriptor
@@ -34,7 +35,9 @@ def protobuf(owner: Owner, message_class: type[Message]) -> Codec:
         try:
             return parse(frame)
         except message.DecodeError as error:
-            raise owner.undecodable(f"these {len(frame)} bytes do not decode as `{name}`") from error
+            field = wrong_text(cast("Descriptor", message_class.DESCRIPTOR), frame)
+            reason = "" if field is None else f": its field `{field}` is not UTF-8"
+            raise owner.undecodable(f"these {len(frame)} bytes do not decode as `{name}`{reason}") from error
 
     return Codec("protobuf", message_class, encode, decode, owner)
 
