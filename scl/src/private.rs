@@ -1,6 +1,8 @@
 //! What generated code names. It carries no promise of stability.
 
 pub mod codecs;
+#[cfg(feature = "protobuf")]
+pub mod floats;
 mod message_json;
 
 pub use crate::__component_main_functions as component_main_functions;

@@ -27,6 +27,8 @@ mod memory_queues;
 #[cfg(all(feature = "memory", feature = "zeromq"))]
 mod model;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod negative_zero;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod registry;
 mod runtime_dir_files;
 mod runtime_dir_folder;

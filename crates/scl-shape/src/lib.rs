@@ -7,11 +7,15 @@
 mod compare;
 mod declared;
 mod memory;
+#[cfg(feature = "reflect")]
+mod negative_zero;
 mod texts;
 mod wire;
 
 pub use compare::{Difference, Encoding, What, compare, differences};
 pub use memory::{Format, Language, MemoryEstimate, NotJson};
+#[cfg(feature = "reflect")]
+pub use negative_zero::{encode, loses_sign};
 pub use prost::DecodeError;
 pub use prost_types::FileDescriptorSet;
 pub use texts::TextCheck;

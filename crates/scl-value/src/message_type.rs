@@ -11,8 +11,7 @@ use crate::self_describing::{read_cbor, read_json, read_msgpack, write_cbor, wri
 use crate::text;
 use crate::value::{Opaque, Value, canonical, key_text};
 use bytes::Bytes;
-use prost::Message;
-use prost_reflect::{DescriptorPool, MessageDescriptor};
+use prost_reflect::{DescriptorPool, MessageDescriptor, SerializeOptions};
 
 /// A type of messages in a codec.
 #[derive(Debug, Clone)]
@@ -142,11 +141,16 @@ impl MessageType {
     pub fn encode(&self, value: &Value) -> Result<Bytes, EncodeError> {
         match &self.form {
             Form::Protobuf(message) => {
-                Ok(protobuf::from_value(message, value, &mut Unknown::Refuse)?.encode_to_vec().into())
+                Ok(scl_shape::encode(&protobuf::from_value(message, value, &mut Unknown::Refuse)?).into())
             }
             Form::ProtobufJson(message) => {
                 let message = protobuf::from_value(message, value, &mut Unknown::Refuse)?;
-                let json = serde_json::to_vec(&message).map_err(|error| EncodeError::new(error.to_string()))?;
+                // Defaults are left out, and -0.0 counts as one; written out, they mean the same.
+                let options = SerializeOptions::new().skip_default_fields(!scl_shape::loses_sign(&message));
+                let mut json = Vec::new();
+                message
+                    .serialize_with_options(&mut serde_json::Serializer::new(&mut json), &options)
+                    .map_err(|error| EncodeError::new(error.to_string()))?;
                 Ok(json.into())
             }
             Form::Json => exact(value).map(|()| write_json(value)),

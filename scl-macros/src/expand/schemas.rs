@@ -2,6 +2,8 @@
 
 mod embedded;
 #[cfg(feature = "protobuf")]
+mod floats;
+#[cfg(feature = "protobuf")]
 mod json;
 #[cfg(feature = "protobuf")]
 mod modules;

@@ -49,7 +49,10 @@ impl MessageType {
     pub fn serialize<S: Serializer>(&self, message: &impl Message, serializer: S) -> Result<S::Ok, S::Error> {
         let bytes = message.encode_to_vec();
         let described = DynamicMessage::decode(self.descriptor().map_err(S::Error::custom)?, bytes.as_slice());
-        described.map_err(S::Error::custom)?.serialize_with_options(serializer, &SerializeOptions::new())
+        let described = described.map_err(S::Error::custom)?;
+        // Defaults are left out, and -0.0 counts as one; written out, they mean the same.
+        let options = SerializeOptions::new().skip_default_fields(!scl_shape::loses_sign(&described));
+        described.serialize_with_options(serializer, &options)
     }
 
     /// Deserializes a message of this type. Unknown fields are skipped, as in every other codec: a newer program may
@@ -59,7 +62,7 @@ impl MessageType {
         let descriptor = self.descriptor().map_err(D::Error::custom)?;
         let deserializer = enum_names::checked(&descriptor, deserializer);
         let described = DynamicMessage::deserialize_with_options(descriptor, deserializer, &options)?;
-        M::decode(described.encode_to_vec().as_slice()).map_err(D::Error::custom)
+        M::decode(scl_shape::encode(&described).as_slice()).map_err(D::Error::custom)
     }
 
     fn descriptor(&self) -> Result<MessageDescriptor, String> {

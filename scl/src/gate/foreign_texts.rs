@@ -1,7 +1,7 @@
 //! Texts in frames that a program in another language has encoded.
 //!
-//! Libraries of C and C++ put any bytes into a `string`, and most receivers refuse the whole message then. So the sender
-//! is told, which can do something about it.
+//! Libraries of C and C++ put any bytes into a `string`, and most receivers refuse the whole message then. So the
+//! sender is told, which can do something about it.
 
 use crate::codec::EncodeError;
 use crate::spec::GateSpec;

@@ -98,12 +98,17 @@ impl Rules {
     }
 
     fn are_equal(&self, one: &Value, other: &Value) -> bool {
-        if one == other {
-            return true;
-        }
-        let (Some(one), Some(other)) = (one.as_number(), other.as_number()) else { return false };
+        let are_same = one == other;
+        let (Some(one), Some(other)) = (one.as_number(), other.as_number()) else { return are_same };
         let larger = one.abs().max(other.abs());
         let tolerance = self.within.max(self.relative * larger);
+        // -0.0 equals 0.0, and the programs that divide by it differ.
+        if larger == 0.0 && one.is_sign_negative() != other.is_sign_negative() {
+            return self.within > 0.0 || self.relative > 0.0;
+        }
+        if are_same {
+            return true;
+        }
         // Decimal numbers that differ by just the tolerance may differ by somewhat more in binary.
         let rounding = 4.0 * f64::EPSILON * larger;
         let is_near = tolerance > 0.0 && (one - other).abs() <= tolerance + rounding;
@@ -184,6 +189,10 @@ mod tests {
             (&relative, pose(1000.0), pose(1009.0), None),
             (&relative, pose(1000.0), pose(1011.0), Some("pose[0]: 1000.0 1011.0")),
             (&exact, Value::Int(2), Value::Float(2.0), None),
+            (&exact, pose(0.0), pose(-0.0), Some("pose[0]: 0.0 -0.0")),
+            (&exact, pose(-0.0), pose(-0.0), None),
+            (&near, pose(0.0), pose(-0.0), None),
+            (&relative, pose(0.0), pose(-0.0), None),
             (
                 &exact,
                 Value::Uint(u64::MAX),

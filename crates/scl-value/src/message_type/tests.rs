@@ -1,6 +1,7 @@
 //! Reading and writing messages in every codec.
 
 mod json;
+mod negative_zero;
 mod written;
 
 use super::*;
@@ -8,6 +9,7 @@ use crate::testing::{descriptor, descriptors, message_type};
 use crate::{read_yaml, to_json, to_yaml};
 use expect_test::{Expect, expect};
 use proptest::prelude::*;
+use prost::Message;
 use prost_reflect::DynamicMessage;
 
 const SAMPLE: &str = "\

@@ -5,6 +5,7 @@
 
 use super::super::context::Context;
 use super::super::problems::expand_unknown_as;
+use super::floats::{WITH_ZEROS, WITHOUT_ZEROS, keep_signs};
 use super::json::expand_json;
 use super::unknown::expand_stand_ins;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
@@ -51,7 +52,8 @@ fn generate(files: &[FileDescriptorProto]) -> Result<Tree, String> {
     // The generator needs the well-known files to resolve their types, but prost-types already has these types.
     let well_known = Module::from_protobuf_package_name("google.protobuf");
     for (module, text) in modules.into_iter().filter(|(module, _)| *module != well_known) {
-        root.descend(module.parts()).code = text.parse().map_err(|error| format!("{module}: {error}"))?;
+        let code = text.parse().map_err(|error| format!("{module}: {error}"))?;
+        root.descend(module.parts()).code = keep_signs(code);
     }
     Ok(root)
 }
@@ -115,10 +117,13 @@ fn expand_package(context: &Context<'_>, name: &str, tree: Tree) -> TokenStream 
 
 fn expand_imports(context: &Context<'_>) -> TokenStream {
     let private = &context.private;
-    let (prost, prost_types) = (format_ident!("{PROST}"), format_ident!("{PROST_TYPES}"));
+    let [prost, prost_types, without_zeros, with_zeros] =
+        [PROST, PROST_TYPES, WITHOUT_ZEROS, WITH_ZEROS].map(|name| format_ident!("{name}"));
     quote! {
         use #private::prost as #prost;
         use #private::prost_types as #prost_types;
+        use #private::floats::without_zeros as #without_zeros;
+        use #private::floats::with_zeros as #with_zeros;
     }
 }
 

@@ -1,0 +1,92 @@
+//! What the messages of `schemas:` name in place of `prost`, so that the sign of -0.0 is sent.
+//!
+//! prost leaves out a field that equals its default, and -0.0 equals 0.0. Protobuf leaves out only what has the bits of
+//! 0.0 (<https://protobuf.dev/programming-guides/proto3/#default>), as the libraries of other languages do. The macro
+//! makes such fields `required`, which prost always passes to `encode`, and that of these modules decides.
+
+/// Where 0.0 is left out. Fields that have a value or none cannot be in the same message, because they have the same
+/// functions.
+pub mod without_zeros {
+    pub use prost::*;
+
+    pub mod encoding {
+        pub use super::super::hash_map;
+        pub use prost::encoding::*;
+
+        pub mod double {
+            pub use prost::encoding::double::*;
+
+            pub fn encode(tag: u32, value: &f64, buffer: &mut impl prost::bytes::BufMut) {
+                if value.to_bits() != 0 {
+                    prost::encoding::double::encode(tag, value, buffer);
+                }
+            }
+
+            pub fn encoded_len(tag: u32, value: &f64) -> usize {
+                if value.to_bits() != 0 { prost::encoding::double::encoded_len(tag, value) } else { 0 }
+            }
+        }
+
+        pub mod float {
+            pub use prost::encoding::float::*;
+
+            pub fn encode(tag: u32, value: &f32, buffer: &mut impl prost::bytes::BufMut) {
+                if value.to_bits() != 0 {
+                    prost::encoding::float::encode(tag, value, buffer);
+                }
+            }
+
+            pub fn encoded_len(tag: u32, value: &f32) -> usize {
+                if value.to_bits() != 0 { prost::encoding::float::encoded_len(tag, value) } else { 0 }
+            }
+        }
+    }
+}
+
+/// Where 0.0 is sent, too, which means the same to a receiver.
+pub mod with_zeros {
+    pub use prost::*;
+
+    pub mod encoding {
+        pub use super::super::hash_map;
+        pub use prost::encoding::*;
+    }
+}
+
+/// Maps, of which both key and value are always sent, as in C++ and Python.
+pub mod hash_map {
+    use prost::bytes::BufMut;
+    pub use prost::encoding::hash_map::*;
+    use prost::encoding::{WireType, encode_key, encode_varint, encoded_len_varint, key_len};
+    use std::collections::HashMap;
+
+    pub fn encode<K, V, B: BufMut>(
+        encode_entry_key: impl Fn(u32, &K, &mut B),
+        key_length: impl Fn(u32, &K) -> usize,
+        encode_entry_value: impl Fn(u32, &V, &mut B),
+        value_length: impl Fn(u32, &V) -> usize,
+        tag: u32,
+        map: &HashMap<K, V>,
+        buffer: &mut B,
+    ) {
+        for (key, value) in map {
+            encode_key(tag, WireType::LengthDelimited, buffer);
+            encode_varint((key_length(1, key) + value_length(2, value)) as u64, buffer);
+            encode_entry_key(1, key, buffer);
+            encode_entry_value(2, value, buffer);
+        }
+    }
+
+    pub fn encoded_len<K, V>(
+        key_length: impl Fn(u32, &K) -> usize,
+        value_length: impl Fn(u32, &V) -> usize,
+        tag: u32,
+        map: &HashMap<K, V>,
+    ) -> usize {
+        let entries = map.iter().map(|(key, value)| {
+            let length = key_length(1, key) + value_length(2, value);
+            key_len(tag) + encoded_len_varint(length as u64) + length
+        });
+        entries.sum()
+    }
+}
