@@ -143,3 +143,22 @@ fn a_line_of_100_megabytes_arrives_and_holds_nobody_up() {
     assert!(count(b'\n') > 2);
     assert_eq!(output.status.code(), Some(0));
 }
+
+/// A paused `less`, Ctrl-S, a pipe that nobody reads.
+#[test]
+fn a_reader_that_takes_nothing_holds_no_component_up() {
+    let print = "for i in $(seq 40); do head -c 1000000 /dev/zero | tr '\\0' x; echo; done";
+    let system = System::of(&[("sensor", &format!("echo ready; {print}; echo done > go; exec tail -f /dev/null"))]);
+    let pipe = system.make_pipe("go");
+    let mut run = system.start(&["--grace", "1h"]);
+    run.wait_for_line("sensor | ready");
+    // From here on nobody reads.
+    assert_eq!(std::fs::read_to_string(pipe).unwrap(), "done\n");
+    run.signal("-TERM");
+    let (status, out, err) = run.finish();
+    let shown = out.lines().count();
+    assert!(out.lines().all(|line| line.len() == "sensor | ".len() + 1_000_000), "only whole lines");
+    let dropped = format!("scl: {} lines of `sensor` were dropped, because nobody read the output\n", 40 - shown);
+    assert!(shown >= 16 && err.contains(&dropped), "{shown} lines shown: {err}");
+    assert_eq!(status.code(), Some(0), "{err}");
+}

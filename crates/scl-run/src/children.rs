@@ -191,9 +191,11 @@ fn watch_stream(
     let (output, events) = (Arc::clone(output), events.clone());
     let (process, label) = (start.process, start.label);
     thread::spawn(move || {
-        let copied = from.map_or(Ok(()), |from| output.copy_lines(label, stream, from));
+        if let Some(from) = from {
+            output.copy_lines(label, stream, from);
+        }
         // After the supervisor has finished, nothing receives or needs the event.
-        let _ = events.send(if copied.is_ok() { Event::StreamClosed { process } } else { Event::OutputLost });
+        let _ = events.send(Event::StreamClosed { process });
     });
 }
 

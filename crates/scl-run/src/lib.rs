@@ -30,7 +30,6 @@ mod policy;
 mod process_group;
 mod process_stat;
 mod program;
-mod reports;
 mod requests;
 mod restarts;
 mod run_clock;
@@ -66,7 +65,6 @@ use output::Output;
 use plan::{Built, RunPlan};
 use policy::Policy;
 use program::{Build, Program};
-use reports::Reports;
 use scl_terminal::{Problem, print_err};
 use sockets::Sockets;
 use std::ffi::OsString;
@@ -114,14 +112,15 @@ pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<boo
     plan.gateway.as_ref().map_or(Ok(()), gateway_program::check)?;
     let builds = plan.builds.iter().map(Build::label);
     let names = builds.chain(plan.programs().map(|component| component.name.as_str()));
-    let output = Arc::new(Output::new(names.map(str::to_owned).collect(), open_logs(&plan)));
+    let names = names.map(str::to_owned).collect();
     handle_stop_signals().map_err(|error| vec![Problem::new(format!("cannot handle signals: {error}"))])?;
     // Before the first thread, which inherits it: a thread that does not block them would end the process.
     let blocked = stop_signals().thread_block();
     blocked.map_err(|error| vec![Problem::new(format!("cannot block signals: {error}"))])?;
-    let reports = Reports::new(Arc::clone(&output));
-    let ended = run_plan(&mut plan, options, &output, &reports);
-    reports.finish(options.grace);
+    let (sender, events) = channel();
+    let output = Output::start(names, open_logs(&plan), sender.clone());
+    let ended = run_plan(&mut plan, options, Surroundings { output: &output, events, sender });
+    output.finish(options.grace);
     ended
 }
 
@@ -145,24 +144,18 @@ fn handle_stop_signals() -> io::Result<()> {
     Ok(())
 }
 
-fn run_plan(
-    plan: &mut RunPlan,
-    options: &Options,
-    output: &Arc<Output>,
-    reports: &Reports,
-) -> Result<bool, Vec<Problem>> {
+fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_>) -> Result<bool, Vec<Problem>> {
     let failed = |message: &str, error: io::Error| vec![Problem::new(format!("cannot {message}: {error}"))];
-    let (sender, events) = channel();
+    let (output, sender) = (surroundings.output, surroundings.sender.clone());
     listen_for_signals(sender.clone()).map_err(|error| failed("listen for signals", error))?;
     let sockets = Sockets::open(plan, &sender)?;
     let guard = OrphanGuard::start().map_err(|error| failed("start the guard", error))?;
-    let surroundings = Surroundings { reports, output, events, sender: sender.clone() };
     let mut supervisor = Supervisor::new(surroundings, guard, sockets.notify());
     if options.no_build {
         plan.find_programs_built_before()?;
     } else if !plan.builds.is_empty() {
         let built =
-            run_builds(&plan.builds, options.grace, &mut supervisor, reports).map_err(|problem| vec![problem])?;
+            run_builds(&plan.builds, options.grace, &mut supervisor, output).map_err(|problem| vec![problem])?;
         plan.take_built(&built)?;
         // Somebody else may have built and started them meanwhile.
         already_running::check(plan).map_err(|problem| vec![problem])?;
@@ -187,12 +180,12 @@ fn run_builds(
     builds: &[Build],
     grace: Duration,
     supervisor: &mut Supervisor<'_>,
-    reports: &Reports,
+    output: &Output,
 ) -> Result<Built, Problem> {
     let mut built = Built::new();
     for (label, build) in builds.iter().enumerate() {
         build.check()?;
-        reports.announce(&format!("building {}: {}", build.owner(), build.shown_command()));
+        output.announce(&format!("building {}: {}", build.owner(), build.shown_command()));
         let mut program = Program { command: build.command(), ..build.program.clone() };
         let messages = build.cargo_choices.as_ref().map(|_| Messages::default());
         if messages.is_some() {

@@ -1,12 +1,25 @@
-//! The output of all components on one screen: whole lines, each with the name of its component before it.
+//! The output of all components on one screen: whole lines, each with the name of its component before it, and the reports of
+//! `scl run` itself.
+//!
+//! Threads of their own write, because neither a component nor the supervisor may wait for a reader: a paused `less`, Ctrl-S, a
+//! pipe that nobody reads. Lines that such a reader would have to take later than others of some MiB are dropped and counted.
 
+mod backlog;
+
+use super::event::Event;
 use super::log_file::{LogFile, LogStream};
 use anstream::ColorChoice;
+use backlog::Backlog;
 use owo_colors::{AnsiColors, OwoColorize};
-use scl_terminal::{output_is_closed, print_out_bytes};
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read};
+use std::os::fd::AsFd;
+use std::os::unix::fs::MetadataExt;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::mpsc::Sender;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
 
 /// Maximum length of a line in bytes. Longer ones are split, so that output without line breaks cannot exhaust memory.
 const LONGEST_LINE: u64 = 64 * 1024 * 1024;
@@ -40,8 +53,10 @@ pub(crate) struct Output {
     width: usize,
     colour_out: bool,
     colour_err: bool,
-    /// One lock for both streams: on a terminal they share the screen.
-    writing: Mutex<()>,
+    /// Of standard output and of standard error; the same if they go to the same file, where their order shows.
+    backlogs: [Arc<Backlog>; 2],
+    /// Where the loss of the reader is told, once.
+    events: Mutex<Option<Sender<Event>>>,
     /// In the order of the names; `None` for those without a log.
     logs: Vec<Option<Log>>,
 }
@@ -55,8 +70,8 @@ struct Log {
 
 impl Output {
     /// Output for programs of these names, in colour if the stream is a terminal that supports it. `logs` are the logs of
-    /// the last of them; the others have none.
-    pub(crate) fn new(names: Vec<String>, logs: Vec<Option<LogFile>>) -> Self {
+    /// the last of them; the others have none. Starts the threads that write.
+    pub(crate) fn start(names: Vec<String>, logs: Vec<Option<LogFile>>, events: Sender<Event>) -> Arc<Self> {
         let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
         let wants_colour = |choice| !matches!(choice, ColorChoice::Never);
         let colour_out = wants_colour(anstream::AutoStream::choice(&io::stdout()));
@@ -64,17 +79,25 @@ impl Output {
         let unlogged = names.len().saturating_sub(logs.len());
         let log = |file: Option<LogFile>| file.map(|file| Log { file, runs: Default::default() });
         let logs = (0..unlogged).map(|_| None).chain(logs.into_iter().map(log)).collect();
-        Self { names, width, colour_out, colour_err, writing: Mutex::new(()), logs }
+        let out = Arc::<Backlog>::default();
+        let err = if is_one_file() { Arc::clone(&out) } else { Arc::default() };
+        let (backlogs, events) = ([out, err], Mutex::new(Some(events)));
+        let output = Arc::new(Self { names, width, colour_out, colour_err, backlogs, events, logs });
+        let [out, err] = &output.backlogs;
+        let distinct = if Arc::ptr_eq(out, err) { &output.backlogs[..1] } else { &output.backlogs };
+        for backlog in distinct {
+            let (output, backlog) = (Arc::clone(&output), Arc::clone(backlog));
+            thread::spawn(move || output.write(&backlog));
+        }
+        output
     }
 
     /// Copies every line of a program's stream, with its name before it, until the stream ends.
     ///
     /// Bytes are copied as they are, whether or not they are UTF-8; a missing line break at the end is added.
     ///
-    /// # Errors
-    ///
-    /// If our own stream can no longer be written. A program's stream that cannot be read counts as ended.
-    pub(crate) fn copy_lines(&self, program: usize, stream: Stream, from: impl Read) -> io::Result<()> {
+    /// A stream that cannot be read counts as ended.
+    pub(crate) fn copy_lines(&self, program: usize, stream: Stream, from: impl Read) {
         let mut reader = BufReader::with_capacity(64 * 1024, from);
         let prefix = format!("{} | ", self.painted_name(program, stream)).into_bytes();
         let mut line = prefix.clone();
@@ -83,26 +106,58 @@ impl Output {
             if !line.ends_with(b"\n") {
                 line.push(b'\n');
             }
-            // First, because a terminal may block.
             if let Some((log, run)) = log {
                 self.log(&log.file, stream, run, &line[prefix.len()..line.len() - 1]);
             }
-            self.write(stream, &line)?;
+            self.backlog(stream).add_line(program, stream, &line);
             line.truncate(prefix.len());
             line.shrink_to(64 * 1024);
         }
-        Ok(())
     }
 
-    /// The name of a program as it stands before a report on it.
-    pub(crate) fn report_name(&self, program: usize) -> String {
-        self.painted_name(program, Stream::Err)
+    /// Reports on a program.
+    pub(crate) fn report(&self, program: usize, text: &str) {
+        self.write_report(&format!("{}  {text}\n", self.painted_name(program, Stream::Err)));
     }
 
-    /// Writes one of our own reports to standard error.
-    pub(crate) fn write_report(&self, line: &str) {
-        // If standard error is closed, there is no place to report that.
-        let _ = self.write(Stream::Err, line.as_bytes());
+    /// Reports on the whole run.
+    pub(crate) fn announce(&self, text: &str) {
+        self.write_report(&format!("scl: {text}\n"));
+    }
+
+    /// Waits until everything is written, or until no reader has taken anything for as long as this.
+    pub(crate) fn finish(&self, patience: Duration) {
+        // Standard error last: the other may have something to report.
+        self.backlogs.iter().for_each(|backlog| backlog.finish(patience));
+    }
+
+    fn write_report(&self, line: &str) {
+        self.backlog(Stream::Err).add_report(line.as_bytes());
+    }
+
+    fn backlog(&self, stream: Stream) -> &Backlog {
+        &self.backlogs[stream as usize]
+    }
+
+    /// Writes as long as the process runs.
+    fn write(&self, backlog: &Backlog) {
+        loop {
+            let written = backlog.write();
+            for (program, lines) in written.dropped {
+                let name = &self.names[program];
+                let noun = if lines == 1 { "line" } else { "lines" };
+                let logged =
+                    if self.logs[program].is_some() { format!("; `scl log {name}` has them") } else { String::new() };
+                self.announce(&format!(
+                    "{lines} {noun} of `{name}` were dropped, because nobody read the output{logged}"
+                ));
+            }
+            if written.is_lost {
+                let events = self.events.lock().unwrap_or_else(PoisonError::into_inner).take();
+                // After the supervisor has finished, nothing receives or needs the event.
+                let _ = events.map(|events| events.send(Event::OutputLost));
+            }
+        }
     }
 
     /// The first failure of each log is reported; the programs go on.
@@ -112,7 +167,7 @@ impl Output {
             Stream::Err => LogStream::Stderr,
         };
         if let Err(report) = file.write(stream, run, text) {
-            self.write_report(&format!("scl: {report}\n"));
+            self.announce(&report);
         }
     }
 
@@ -126,20 +181,15 @@ impl Output {
         let first = self.names.iter().position(|name| *name == self.names[program]).unwrap_or(program);
         if coloured { name.color(COLOURS[first % COLOURS.len()]).to_string() } else { name }
     }
+}
 
-    fn write(&self, stream: Stream, line: &[u8]) -> io::Result<()> {
-        let _writing = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
-        match stream {
-            Stream::Out => {
-                print_out_bytes(line);
-                if output_is_closed() { Err(io::ErrorKind::WriteZero.into()) } else { Ok(()) }
-            }
-            Stream::Err => {
-                let mut err = io::stderr().lock();
-                err.write_all(line).and_then(|()| err.flush())
-            }
-        }
-    }
+/// Whether standard output and standard error are the same terminal, pipe or file.
+fn is_one_file() -> bool {
+    let identity = |stream: &dyn AsFd| {
+        let metadata = File::from(stream.as_fd().try_clone_to_owned()?).metadata()?;
+        Ok::<_, io::Error>((metadata.dev(), metadata.ino()))
+    };
+    matches!((identity(&io::stdout()), identity(&io::stderr())), (Ok(out), Ok(err)) if out == err)
 }
 
 impl Log {

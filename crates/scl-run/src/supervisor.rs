@@ -12,7 +12,6 @@ use super::notify::{Notified, NotifySocket};
 use super::orphan_guard::OrphanGuard;
 use super::output::Output;
 use super::program::Build;
-use super::reports::Reports;
 use super::requests::Requests;
 use super::restarts::Time;
 use super::run_clock::{LONGEST_WAIT, RunClock};
@@ -37,9 +36,8 @@ pub(crate) enum Outcome {
     Stopped(Signal),
 }
 
-/// Where reports and output go, and where events come from.
+/// Where output and reports go, and where events come from.
 pub(crate) struct Surroundings<'a> {
-    pub(crate) reports: &'a Reports,
     pub(crate) output: &'a Arc<Output>,
     pub(crate) events: Receiver<Event>,
     pub(crate) sender: Sender<Event>,
@@ -94,7 +92,7 @@ impl<'a> Supervisor<'a> {
             self.discard(index);
         }
         if members.iter().any(|member| member.role != Role::Build) {
-            summary::lines(members, &run.state).iter().for_each(|line| self.surroundings.reports.announce(line));
+            summary::lines(members, &run.state).iter().for_each(|line| self.surroundings.output.announce(line));
         }
         match (run.state.failed(), run.state.stopping()) {
             // Build tools have codes of their own for being interrupted.
@@ -178,7 +176,7 @@ impl<'a> Supervisor<'a> {
                         None => format!("stopping on {name}; once more kills at once"),
                         Some(_) => format!("already stopping; {name} once more kills at once"),
                     };
-                    self.surroundings.reports.announce(&text);
+                    self.surroundings.output.announce(&text);
                 }
                 self.apply(run, RunEvent::Stop(signal));
             }
@@ -198,12 +196,12 @@ impl<'a> Supervisor<'a> {
                 let builds = builds.map(|build| BuildCommand::of(&build)).collect();
                 return asked.answer(&Response { builds, ..Response::of(Vec::new()) });
             }
-            Command::Stop => self.surroundings.reports.announce(&format!("requested: `scl stop{chosen}`")),
+            Command::Stop => self.surroundings.output.announce(&format!("requested: `scl stop{chosen}`")),
             Command::Restart => {
                 if let Some(problem) = unusable(run, &asked.request.components) {
                     return asked.answer(&Response::error(problem));
                 }
-                self.surroundings.reports.announce(&format!("requested: `scl restart{chosen}`"));
+                self.surroundings.output.announce(&format!("requested: `scl restart{chosen}`"));
             }
         }
         for event in run.requests.take(asked, &names, &run.state) {
@@ -251,7 +249,7 @@ impl<'a> Supervisor<'a> {
     fn start(&mut self, index: usize, member: &Member<'_>) -> std::io::Result<()> {
         if let Some(process) = &mut self.processes[index] {
             let late = std::mem::take(&mut process.reports);
-            late.iter().for_each(|text| self.surroundings.reports.report(member.label, text));
+            late.iter().for_each(|text| self.surroundings.output.report(member.label, text));
             self.discard(index);
         }
         let notify = self.notify.filter(|_| member.role != Role::Build);
@@ -289,7 +287,7 @@ impl<'a> Supervisor<'a> {
     fn report(&mut self, index: usize, member: &Member<'_>, text: String) {
         match &mut self.processes[index] {
             Some(process) if process.ended.is_some() && !process.is_drained() => process.reports.push(text),
-            _ => self.surroundings.reports.report(member.label, &text),
+            _ => self.surroundings.output.report(member.label, &text),
         }
     }
 
@@ -297,7 +295,7 @@ impl<'a> Supervisor<'a> {
         for (process, member) in self.processes.iter_mut().zip(run.members) {
             let Some(process) = process.as_mut().filter(|process| process.is_drained()) else { continue };
             let late = std::mem::take(&mut process.reports);
-            late.iter().for_each(|text| self.surroundings.reports.report(member.label, text));
+            late.iter().for_each(|text| self.surroundings.output.report(member.label, text));
         }
     }
 
@@ -306,7 +304,7 @@ impl<'a> Supervisor<'a> {
         if !run.said_ready && run.state.is_ready() {
             run.said_ready = true;
             let after = run.began.elapsed().as_secs_f64();
-            self.surroundings.reports.announce(&format!("all components are ready after {after:.1} s"));
+            self.surroundings.output.announce(&format!("all components are ready after {after:.1} s"));
         }
         let pid = |index: usize| {
             let living = self.processes[index].as_ref().filter(|process| process.ended.is_none());
