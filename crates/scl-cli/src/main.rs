@@ -152,7 +152,9 @@ enum Command {
     Start(run::StartArguments),
     #[cfg(feature = "run")]
     #[command(name = run::GUARD_WORD, hide = true)]
-    Guard,
+    Guard {
+        run_mark: String,
+    },
     #[cfg(feature = "run")]
     #[command(name = run::KEYS_WORD, hide = true)]
     Keys,
@@ -235,7 +237,7 @@ fn run_command(command: Command) -> ExitCode {
         #[cfg(feature = "run")]
         Command::Start(arguments) => run::start_component(&arguments),
         #[cfg(feature = "run")]
-        Command::Guard => run::keep_watch(),
+        Command::Guard { run_mark } => run::keep_watch(&run_mark),
         #[cfg(feature = "run")]
         Command::Keys => run::tell_keys(),
         Command::External(words) => external::run_external(&words, &CommandLine::command()),

@@ -73,6 +73,8 @@ mod run_hang;
 #[cfg(feature = "run")]
 mod run_mistakes;
 #[cfg(feature = "run")]
+mod run_orphans;
+#[cfg(feature = "run")]
 mod run_output;
 #[cfg(feature = "run")]
 mod run_package;

@@ -240,6 +240,6 @@ fn a_program_is_not_started_for_a_parent_that_has_gone() {
 fn guard_of(runner: u32) -> u32 {
     let children = std::fs::read_to_string(format!("/proc/{runner}/task/{runner}/children")).unwrap();
     let is_guard =
-        |process: &u32| std::fs::read_to_string(format!("/proc/{process}/cmdline")).unwrap().ends_with("\0__guard\0");
+        |process: &u32| std::fs::read_to_string(format!("/proc/{process}/cmdline")).unwrap().contains("\0__guard\0");
     children.split_whitespace().map(|word| word.parse().unwrap()).find(is_guard).unwrap()
 }

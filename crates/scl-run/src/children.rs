@@ -2,8 +2,10 @@
 
 use super::ending::Ending;
 use super::event::Event;
+use super::family::{Family, MARK};
 use super::notify::{Datagrams, Notified};
 use super::orphan_guard::{OrphanGuard, bound_command};
+use super::orphans;
 use super::output::{Output, Stream};
 use super::plan::COMPONENT;
 use super::process_group;
@@ -78,6 +80,8 @@ pub(crate) struct Start<'a> {
 pub(crate) struct Running {
     process: Child,
     group: Pid,
+    /// `None` for builds: what they leave behind, such as a compiler's server, is nobody's to end.
+    family: Option<Arc<Family>>,
     terminal: Option<Terminal>,
     /// Whether its processes have got SIGINT from the terminal.
     is_interrupted: bool,
@@ -101,18 +105,22 @@ impl Running {
         for name in ["NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID", COMPONENT] {
             command.env_remove(name);
         }
-        let mut process = command
+        let mark = (start.role != Role::Build).then(|| guard.run_mark().of_program(start.process));
+        let command = command
             .current_dir(&program.folder)
             .envs(start.notify.iter().flat_map(Notified::variables))
             .envs(program.environment.iter().map(|(key, value)| (key, value)))
+            .envs(mark.iter().map(|mark| (MARK, mark)))
             .process_group(0)
             .stdin(start.terminal.as_ref().map_or_else(Stdio::null, |_| Stdio::inherit()))
             .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()?;
+            .stderr(Stdio::piped());
+        let mut process = orphans::spawn(command)?;
         let group = Pid::from_raw(process.id().cast_signed());
         let (out, err) = (process.stdout.take(), process.stderr.take());
-        let running = Self { process, group, terminal: start.terminal.clone(), is_interrupted: false };
+        let family = mark.map(|mark| Arc::new(Family::new(group, mark)));
+        let terminal = start.terminal.clone();
+        let running = Self { process, group, family: family.clone(), terminal, is_interrupted: false };
         guard.watch(group)?;
         let (number, pressed) = (start.process, events.clone());
         let pressed = move |key| _ = pressed.send(Event::Key { process: number, key });
@@ -126,7 +134,7 @@ impl Running {
         }
         watch_stream(start, Stream::Err, err, output, events);
         let datagrams = start.notify.map(|notify| notify.socket.datagrams().clone());
-        watch_end(start.process, start.role, running.group, loan, datagrams, events.clone());
+        watch_end(start.process, group, family, loan, datagrams, events.clone());
         Ok(running)
     }
 
@@ -156,9 +164,12 @@ impl Running {
         self.terminal.is_some()
     }
 
-    /// Asks every process of the program to end. Returns those that were stopped, which would not: they are continued.
+    /// Asks every process of the group to end, and when it has, what has left it. Returns those that were stopped, which would not
+    /// end: they are continued.
     pub(crate) fn ask_to_end(&self, signal: Signal) -> Vec<Pid> {
-        let group = self.group;
+        let (group, family) = (self.group, self.family.clone());
+        // Finds those that will have lost their parents.
+        let _remembered = family.as_ref().map(|family| family.look());
         let reached = process_group::programs(group);
         let stopped = process_group::stopped(group);
         // A second SIGINT would end a program of SCL at once.
@@ -169,15 +180,28 @@ impl Running {
             // After the signal, which a process takes before anything else when it goes on.
             self.signal(Signal::SIGCONT);
         }
-        thread::spawn(move || process_group::repeat_where_missed(group, signal, reached));
+        thread::spawn(move || {
+            process_group::repeat_where_missed(group, signal, reached);
+            if let Some(family) = family {
+                family.end_rest();
+            }
+        });
         stopped
+    }
+
+    /// Kills every process of the program.
+    pub(crate) fn kill(&self) {
+        match &self.family {
+            Some(family) => family.kill(),
+            None => self.signal(Signal::SIGKILL),
+        }
     }
 }
 
 impl Drop for Running {
     fn drop(&mut self) {
-        self.signal(Signal::SIGKILL);
-        let _ = self.process.wait();
+        self.kill();
+        orphans::wait(&mut self.process);
     }
 }
 
@@ -209,8 +233,8 @@ fn watch_messages(process: usize, from: impl Read + Send + 'static, messages: Me
 
 fn watch_end(
     process: usize,
-    role: Role,
     group: Pid,
+    family: Option<Arc<Family>>,
     loan: Option<Loan>,
     datagrams: Option<Datagrams>,
     events: Sender<Event>,
@@ -225,10 +249,9 @@ fn watch_end(
         if let Some(loan) = loan {
             loan.end();
         }
-        // What a build leaves behind, such as a compiler's server, is not waited for.
-        if role != Role::Build && !process_group::is_empty(group) {
+        if let Some(family) = family.filter(|family| !family.is_empty()) {
             report(Event::LeaderEnded { process, ending });
-            process_group::wait_until_empty(group);
+            family.wait_until_empty();
         }
         report(Event::Ended { process, ending });
     });

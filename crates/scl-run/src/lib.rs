@@ -14,6 +14,7 @@ pub mod control;
 mod deployment;
 mod ending;
 mod event;
+mod family;
 mod gateway_program;
 mod launch_file;
 mod launch_text;
@@ -22,6 +23,7 @@ mod log_file;
 mod member;
 mod notify;
 mod orphan_guard;
+mod orphans;
 mod output;
 mod own_file;
 mod placement;
@@ -148,6 +150,7 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
     let failed = |message: &str, error: io::Error| vec![Problem::new(format!("cannot {message}: {error}"))];
     let (output, sender) = (surroundings.output, surroundings.sender.clone());
     listen_for_signals(sender.clone()).map_err(|error| failed("listen for signals", error))?;
+    orphans::adopt().map_err(|error| failed("take care of orphaned processes", error))?;
     let sockets = Sockets::open(plan, &sender)?;
     let guard = OrphanGuard::start().map_err(|error| failed("start the guard", error))?;
     let mut supervisor = Supervisor::new(surroundings, guard, sockets.notify());
@@ -172,7 +175,11 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
     let _control = sockets.open_control(&sender);
     // With `--no-build`, a restart builds nothing either.
     let builds = if options.no_build { &[][..] } else { plan.builds.as_slice() };
-    Ok(!matches!(supervisor.run(&members, builds, options.run_for), Outcome::Failed(_)))
+    // What a build leaves behind, such as a compiler's server, is nobody's to end.
+    let left_by_builds = orphans::adopted();
+    let outcome = supervisor.run(&members, builds, options.run_for);
+    orphans::kill_adopted(&left_by_builds);
+    Ok(!matches!(outcome, Outcome::Failed(_)))
 }
 
 /// Runs the builds one after the other, and returns the programs that they say they have made.

@@ -5,10 +5,12 @@
 //! - Every component is started through `scl __start`, which asks the kernel to be killed when `scl run` ends, and
 //!   then becomes the program. This holds from the first moment, but only for the program itself.
 //! - One `scl __guard` holds the read end of a pipe whose write end only `scl run` holds. When the pipe ends, it kills
-//!   the whole process group of each component, including the processes that the programs have started.
+//!   the whole process group of each component, and all processes that come from the programs of this run.
 
+use super::family::{RunMark, kill_run};
+use super::orphans;
 use super::placement::Placement;
-use nix::sys::signal::{SigSet, Signal, killpg};
+use nix::sys::signal::{SigSet, Signal};
 use nix::unistd::Pid;
 use scl_terminal::print_err;
 use std::collections::BTreeSet;
@@ -19,7 +21,7 @@ use std::process::{Child, ChildStdin, Command, ExitCode, Stdio};
 
 /// The hidden command that starts one component: `scl __start PARENT [--cpu N]... [--fifo N] -- COMMAND...`.
 pub const START_WORD: &str = "__start";
-/// The hidden command that keeps watch: `scl __guard`.
+/// The hidden command that keeps watch: `scl __guard MARK`.
 pub const GUARD_WORD: &str = "__guard";
 
 /// The exit code of shells for a program that exists but cannot be executed.
@@ -90,6 +92,7 @@ pub(crate) fn stop_signals() -> SigSet {
 pub(crate) struct OrphanGuard {
     process: Child,
     pipe: Option<ChildStdin>,
+    run_mark: RunMark,
 }
 
 impl OrphanGuard {
@@ -99,15 +102,18 @@ impl OrphanGuard {
     ///
     /// If no process can be started.
     pub(crate) fn start() -> io::Result<Self> {
-        let mut process = this_program()?
-            .arg(GUARD_WORD)
-            .process_group(0)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()?;
+        let run_mark = RunMark::of_this_process()?;
+        let mut command = this_program()?;
+        let command = command.args([GUARD_WORD, run_mark.as_str()]).process_group(0);
+        let command = command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
+        let mut process = orphans::spawn(command)?;
         let pipe = process.stdin.take();
-        Ok(Self { process, pipe })
+        Ok(Self { process, pipe, run_mark })
+    }
+
+    /// The mark of the processes that it kills besides the groups.
+    pub(crate) fn run_mark(&self) -> &RunMark {
+        &self.run_mark
     }
 
     /// Adds the process group of a component that has just been started.
@@ -135,13 +141,15 @@ impl Drop for OrphanGuard {
     fn drop(&mut self) {
         // The end of the pipe is what the guard waits for, so it must come before the wait for the guard.
         drop(self.pipe.take());
-        let _ = self.process.wait();
+        orphans::wait(&mut self.process);
     }
 }
 
-/// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told. The negative of a
-/// group's number takes that group away.
-pub fn keep_watch() -> ExitCode {
+/// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told, and every process with the
+/// mark of the run. The negative of a group's number takes that group away.
+pub fn keep_watch(run_mark: &str) -> ExitCode {
+    // Another `scl run`, of which this one is a part, asks all processes to end. This one has to be the last.
+    let _ = stop_signals().thread_block();
     let mut groups = BTreeSet::new();
     for number in io::stdin().lock().lines().map_while(Result::ok).filter_map(|line| line.parse::<i32>().ok()) {
         if number > 0 {
@@ -150,9 +158,6 @@ pub fn keep_watch() -> ExitCode {
             groups.remove(&number.saturating_neg())
         };
     }
-    for group in groups {
-        // The group has usually ended already.
-        let _ = killpg(Pid::from_raw(group), Signal::SIGKILL);
-    }
+    kill_run(&groups, &RunMark::read(run_mark));
     ExitCode::SUCCESS
 }

@@ -3,30 +3,15 @@
 use super::process_stat::{ProcessStat, all_processes};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
-use rustix::event::{PollFd, PollFlags, poll};
-use rustix::process::{PidfdFlags, pidfd_open};
 use std::collections::HashSet;
 use std::fs;
 use std::path::PathBuf;
 use std::thread;
 use std::time::Duration;
 
-/// The pause before another look where the end of a process cannot be waited for: out of file descriptors, which passes.
-/// Also the first of those between two looks at processes that may have missed a signal, which grow to `MAX_PAUSE`.
+/// The first pause between two looks at processes that may have missed a signal. They grow to `MAX_PAUSE`.
 const PAUSE: Duration = Duration::from_millis(20);
 const MAX_PAUSE: Duration = Duration::from_secs(1);
-
-/// Whether every process of the group has ended. Ended ones that nobody has reaped do not count.
-pub(crate) fn is_empty(group: Pid) -> bool {
-    members(group).is_empty()
-}
-
-/// Waits until every process of the group has ended.
-pub(crate) fn wait_until_empty(group: Pid) {
-    while !is_empty(group) {
-        members(group).into_iter().for_each(|process| wait_for_end(process, group));
-    }
-}
 
 /// Sees that each process of the group gets a signal that was sent to it and that asks it to end; returns when all have ended.
 ///
@@ -118,18 +103,6 @@ fn is_member(process: Pid, group: Pid) -> bool {
     ProcessStat::of(process).is_some_and(|stat| stat.group == group)
 }
 
-fn wait_for_end(process: Pid, group: Pid) {
-    let Some(id) = rustix::process::Pid::from_raw(process.as_raw()) else { return };
-    match pidfd_open(id, PidfdFlags::empty()) {
-        // Another process may have got the number meanwhile.
-        Ok(process_fd) if is_member(process, group) => {
-            let _ = poll(&mut [PollFd::new(&process_fd, PollFlags::IN)], None);
-        }
-        Ok(_) | Err(rustix::io::Errno::SRCH) => {}
-        Err(_) => thread::sleep(PAUSE),
-    }
-}
-
 /// What a process does with a signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Disposition {
@@ -160,26 +133,6 @@ mod tests {
     use std::io::{Read, Write};
     use std::os::unix::process::CommandExt;
     use std::process::{Command, Stdio};
-
-    #[test]
-    fn a_group_lives_as_long_as_one_of_its_processes() {
-        let script = "exec 3<&0; trap '' INT; (echo ready; read line <&3) & exit 0";
-        let mut leader = Command::new("/bin/sh");
-        let leader = leader.args(["-c", script]).process_group(0).stdin(Stdio::piped()).stdout(Stdio::piped());
-        let mut leader = leader.spawn().unwrap();
-        let group = Pid::from_raw(leader.id().cast_signed());
-        let (mut ready, go) = ([0; 6], leader.stdin.take());
-        leader.stdout.as_mut().unwrap().read_exact(&mut ready).unwrap();
-        // Not reaped, so the number stays that of the group.
-        assert!(!is_empty(group));
-        let rest = members(group).into_iter().find(|process| *process != group).unwrap();
-        assert_eq!(disposition(rest, Signal::SIGINT), Disposition::Ignores);
-        assert_eq!(disposition(rest, Signal::SIGTERM), Disposition::Ends);
-        drop(go);
-        wait_until_empty(group);
-        assert!(is_empty(group));
-        leader.wait().unwrap();
-    }
 
     /// A shell that is told to end while it starts a program.
     #[test]

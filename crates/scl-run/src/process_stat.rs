@@ -1,12 +1,18 @@
 //! What `/proc/<pid>/stat` tells about a process, as in `proc_pid_stat(5)`.
 
 use nix::unistd::Pid;
+use std::collections::BTreeMap;
 use std::fs;
 
-/// A process that has not ended.
+/// A process.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct ProcessStat {
+    pub(crate) parent: Pid,
     pub(crate) group: Pid,
+    /// When it was started, in clock ticks since the machine was: with its number, this names it for good.
+    pub(crate) started: u64,
+    /// Whether it waits to be reaped.
+    has_ended: bool,
     /// Whether a signal has stopped it.
     pub(crate) is_stopped: bool,
     /// Where its stack begins: another value after `exec`.
@@ -16,21 +22,35 @@ pub(crate) struct ProcessStat {
 impl ProcessStat {
     /// `None` if the process has ended, also while nobody has reaped it.
     pub(crate) fn of(process: Pid) -> Option<Self> {
+        Self::read(process).filter(|stat| !stat.has_ended)
+    }
+
+    fn read(process: Pid) -> Option<Self> {
         Self::parse(&fs::read_to_string(format!("/proc/{process}/stat")).ok()?)
     }
 
     fn parse(stat: &str) -> Option<Self> {
         // The name of the program, in parentheses, may contain anything.
         let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_ascii_whitespace().collect();
-        let [state, _parent, group, ..] = fields[..] else { return None };
+        let [state, parent, group, ..] = fields[..] else { return None };
         let threads: usize = fields.get(17)?.parse().ok()?;
         // A process whose main thread has ended before the others is shown like one that has ended.
-        if matches!(state, "Z" | "X" | "x") && threads <= 1 {
-            return None;
-        }
-        let group = Pid::from_raw(group.parse().ok()?);
-        Some(Self { group, is_stopped: state == "T", stack: (*fields.get(25)?).to_owned() })
+        let has_ended = matches!(state, "Z" | "X" | "x") && threads <= 1;
+        let (parent, group) = (Pid::from_raw(parent.parse().ok()?), Pid::from_raw(group.parse().ok()?));
+        let (started, stack) = (fields.get(19)?.parse().ok()?, (*fields.get(25)?).to_owned());
+        Some(Self { parent, group, started, has_ended, is_stopped: state == "T", stack })
     }
+}
+
+/// All processes that have not ended.
+pub(crate) fn running_processes() -> BTreeMap<Pid, ProcessStat> {
+    all_processes().filter_map(|process| Some((process, ProcessStat::of(process)?))).collect()
+}
+
+/// The children of a process, also those that wait to be reaped.
+pub(crate) fn children(parent: Pid) -> Vec<Pid> {
+    let is_child = |process: &Pid| ProcessStat::read(*process).is_some_and(|stat| stat.parent == parent);
+    all_processes().filter(is_child).collect()
 }
 
 /// The numbers of all processes.
@@ -40,27 +60,37 @@ pub(crate) fn all_processes() -> impl Iterator<Item = Pid> {
 }
 
 #[cfg(test)]
+impl ProcessStat {
+    /// A running process of which only the parent matters.
+    pub(crate) fn with_parent(parent: Pid) -> Self {
+        let group = Pid::from_raw(1);
+        Self { parent, group, started: 0, has_ended: false, is_stopped: false, stack: String::new() }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn the_state_and_the_threads_decide_whether_a_process_lives() {
         let stat = |state, threads| {
-            format!("7 (a) b) c) {state} 1 42 3 0 -1 4 5 6 7 8 9 10 11 12 20 0 {threads} 0 99 5 6 7 8 9 1234 0")
+            format!("7 (a) b) c) {state} 7 42 3 0 -1 4 5 6 7 8 9 10 11 12 20 0 {threads} 0 99 5 6 7 8 9 1234 0")
         };
-        let living = |is_stopped| Some((42, is_stopped, "1234".to_owned()));
+        let (parent, group) = (Pid::from_raw(7), Pid::from_raw(42));
+        // Ended, stopped by a signal.
         let cases = [
-            ("S", 1, living(false)),
-            ("T", 1, living(true)),
-            ("t", 1, living(false)),
-            ("Z", 1, None),
-            ("X", 1, None),
-            ("Z", 3, living(false)),
+            ("S", 1, false, false),
+            ("T", 1, false, true),
+            ("t", 1, false, false),
+            ("Z", 1, true, false),
+            ("X", 1, true, false),
+            ("Z", 3, false, false),
         ];
-        for (state, threads, expected) in cases {
-            let found = ProcessStat::parse(&stat(state, threads));
-            let found = found.map(|stat| (stat.group.as_raw(), stat.is_stopped, stat.stack));
-            assert_eq!(found, expected, "{state}, {threads}");
+        for (state, threads, has_ended, is_stopped) in cases {
+            let stack = "1234".to_owned();
+            let expected = ProcessStat { parent, group, started: 99, has_ended, is_stopped, stack };
+            assert_eq!(ProcessStat::parse(&stat(state, threads)), Some(expected), "{state}, {threads}");
         }
         assert_eq!(ProcessStat::parse(""), None);
     }

@@ -228,7 +228,7 @@ impl<'a> Supervisor<'a> {
                         continue;
                     };
                     if signal == Signal::SIGKILL {
-                        running.signal(signal);
+                        running.kill();
                         continue;
                     }
                     for process in running.ask_to_end(signal) {

@@ -9,6 +9,7 @@ mod keys;
 pub use keys::{KEYS_WORD, tell_keys};
 
 use super::orphan_guard::this_program;
+use super::orphans;
 pub(crate) use keys::Key;
 use nix::sys::signal::{SigSet, SigmaskHow, Signal, killpg, raise};
 use nix::unistd::Pid;
@@ -65,7 +66,7 @@ impl Terminal {
         let mut keys = with_signals_blocked(SigSet::all(), || {
             let mut command = this_program()?;
             command.arg(KEYS_WORD).process_group(group.as_raw());
-            command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn()
+            orphans::spawn(command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()))
         })?;
         let told = keys.stdout.take();
         let reader = thread::spawn(move || {
@@ -121,7 +122,7 @@ impl Loan {
     pub(crate) fn end(mut self) {
         // It ends at the end of its input.
         drop(self.keys.stdin.take());
-        let _ = self.keys.wait();
+        orphans::wait(&mut self.keys);
         let _ = self.reader.join();
         self.terminal.take_back(self.group);
     }

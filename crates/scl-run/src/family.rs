@@ -1,0 +1,248 @@
+//! All processes that come from a program, also those that have left its process group, as with `setsid`.
+//!
+//! Three traces lead to them: the group, the parent of each process, and a mark in the environment, which remains when the
+//! parent ends. What has cleared its environment and lost its parent before anybody has looked is found by none of them.
+
+use super::process_stat::{ProcessStat, running_processes};
+use nix::sys::signal::{Signal, kill, killpg};
+use nix::unistd::Pid;
+use rustix::event::{PollFd, PollFlags, poll};
+use rustix::process::{PidfdFlags, pidfd_open};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::fs;
+use std::io;
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+/// The variable with the mark: that of the run, and the number of the program in it.
+pub(crate) const MARK: &str = "SCL_STARTED_BY";
+
+/// The pauses between two looks at processes that were asked to end: the first one, and the longest. The first is also the one
+/// where the end of a process cannot be waited for: out of file descriptors, which passes.
+const PAUSE: Duration = Duration::from_millis(20);
+const MAX_PAUSE: Duration = Duration::from_secs(1);
+
+/// The mark of all processes of one `scl run`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct RunMark(String);
+
+impl RunMark {
+    /// That of this process.
+    ///
+    /// # Errors
+    ///
+    /// If `/proc` cannot be read.
+    pub(crate) fn of_this_process() -> io::Result<Self> {
+        let process = Pid::this();
+        let stat = ProcessStat::of(process).ok_or_else(|| io::Error::other("`/proc` does not show this process"))?;
+        Ok(Self(format!("{process}.{}.", stat.started)))
+    }
+
+    /// One that was written with [`as_str`](Self::as_str).
+    pub(crate) fn read(text: &str) -> Self {
+        Self(text.to_owned())
+    }
+
+    pub(crate) fn as_str(&self) -> &str {
+        &self.0
+    }
+
+    /// That of one program, by its number.
+    pub(crate) fn of_program(&self, number: usize) -> String {
+        format!("{}{number}", self.0)
+    }
+}
+
+/// A program's processes.
+#[derive(Debug)]
+pub(crate) struct Family {
+    group: Pid,
+    mark: String,
+    /// No process of the family is older than this.
+    since: u64,
+    /// Those that were found by the last look, with their start: their parents may end, and take a trace away.
+    known: Mutex<HashMap<Pid, u64>>,
+}
+
+impl Family {
+    /// That of a program whose first process was just started, in a group of its own.
+    pub(crate) fn new(group: Pid, mark: String) -> Self {
+        let since = ProcessStat::of(group).map_or(0, |stat| stat.started);
+        Self { group, mark, since, known: Mutex::default() }
+    }
+
+    /// Looks for its running processes, and remembers them.
+    pub(crate) fn look(&self) -> BTreeMap<Pid, ProcessStat> {
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = relatives(running_processes(), |process, stat| {
+            let is_known = known.get(&process) == Some(&stat.started);
+            is_known || stat.group == self.group || (stat.started >= self.since && has_mark(process, &self.mark))
+        });
+        *known = found.iter().map(|(process, stat)| (*process, stat.started)).collect();
+        found
+    }
+
+    /// Whether every process has ended.
+    pub(crate) fn is_empty(&self) -> bool {
+        // A process may start another one behind the first look and end before that look comes to it.
+        self.look().is_empty() && self.look().is_empty()
+    }
+
+    /// Waits until every process has ended.
+    pub(crate) fn wait_until_empty(&self) {
+        while !self.is_empty() {
+            self.look().into_iter().for_each(|(process, stat)| wait_for_end(process, stat.started));
+        }
+    }
+
+    /// Asks those outside of the group to end, once each, when the group has ended; returns when all have ended.
+    pub(crate) fn end_rest(&self) {
+        let (mut asked, mut pause) = (BTreeSet::new(), PAUSE);
+        while !self.is_empty() {
+            for (process, stat) in self.look() {
+                if asked.insert((process, stat.started)) {
+                    // It may end at this moment.
+                    let _ = kill(process, Signal::SIGTERM);
+                    // A stopped one would not.
+                    let _ = kill(process, Signal::SIGCONT);
+                }
+            }
+            thread::sleep(pause);
+            pause = MAX_PAUSE.min(2 * pause);
+        }
+    }
+
+    /// Kills all.
+    pub(crate) fn kill(&self) {
+        // The group may hold nothing but the ended program, which is not an error.
+        let _ = killpg(self.group, Signal::SIGKILL);
+        kill_all(|| self.look());
+    }
+}
+
+fn wait_for_end(process: Pid, started: u64) {
+    let Some(id) = rustix::process::Pid::from_raw(process.as_raw()) else { return };
+    match pidfd_open(id, PidfdFlags::empty()) {
+        // Another process may have got the number meanwhile.
+        Ok(process_fd) if ProcessStat::of(process).is_some_and(|stat| stat.started == started) => {
+            let _ = poll(&mut [PollFd::new(&process_fd, PollFlags::IN)], None);
+        }
+        Ok(_) | Err(rustix::io::Errno::SRCH) => {}
+        Err(_) => thread::sleep(PAUSE),
+    }
+}
+
+/// Kills the processes of these groups, those with a mark of this run, and what they have started.
+pub(crate) fn kill_run(groups: &BTreeSet<i32>, run: &RunMark) {
+    for group in groups {
+        // It has usually ended already.
+        let _ = killpg(Pid::from_raw(*group), Signal::SIGKILL);
+    }
+    kill_all(|| {
+        relatives(running_processes(), |process, stat| {
+            groups.contains(&stat.group.as_raw()) || has_mark(process, run.as_str())
+        })
+    });
+}
+
+/// Kills what a look finds until none finds another one: they may start others meanwhile.
+pub(crate) fn kill_all(look: impl Fn() -> BTreeMap<Pid, ProcessStat>) {
+    let mut killed = BTreeSet::new();
+    loop {
+        let before = killed.len();
+        for (process, stat) in look() {
+            if killed.insert((process, stat.started)) {
+                let _ = kill(process, Signal::SIGKILL);
+            }
+        }
+        if killed.len() == before {
+            return;
+        }
+    }
+}
+
+/// The processes for which `is_root` returns true, and their descendants.
+pub(crate) fn relatives(
+    mut processes: BTreeMap<Pid, ProcessStat>,
+    is_root: impl Fn(Pid, &ProcessStat) -> bool,
+) -> BTreeMap<Pid, ProcessStat> {
+    let mut found = BTreeMap::new();
+    loop {
+        let is_found = |process: &Pid, stat: &mut ProcessStat| match found.is_empty() {
+            true => is_root(*process, stat),
+            false => found.contains_key(&stat.parent),
+        };
+        let more: BTreeMap<_, _> = processes.extract_if(.., is_found).collect();
+        if more.is_empty() {
+            return found;
+        }
+        found.extend(more);
+    }
+}
+
+/// Whether the environment of a process has a mark that begins like this. That of another user's process cannot be read.
+fn has_mark(process: Pid, mark: &str) -> bool {
+    let environment = fs::read(format!("/proc/{process}/environ")).unwrap_or_default();
+    let expected = format!("{MARK}={mark}");
+    environment.split(|byte| *byte == 0).any(|variable| {
+        let rest = variable.strip_prefix(expected.as_bytes());
+        // A number does not end within another one.
+        rest.is_some_and(|rest| mark.ends_with('.') || rest.is_empty())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::{Read as _, Write as _};
+    use std::os::unix::process::CommandExt;
+    use std::process::{Command, Stdio};
+
+    #[test]
+    fn a_family_lives_as_long_as_one_of_its_processes() {
+        // One in the group, and one in a session of its own without an environment, whose parent has ended.
+        for rest in ["(echo ready; read line <&3)", "env -i setsid sh -c 'echo ready; read line <&3'"] {
+            let mut leader = Command::new("/bin/sh");
+            let script = format!("exec 3<&0; {rest} & read line; exit 0");
+            let leader = leader.args(["-c", &script]).process_group(0).stdin(Stdio::piped()).stdout(Stdio::piped());
+            let mut leader = leader.spawn().unwrap();
+            let group = Pid::from_raw(leader.id().cast_signed());
+            let family = Family::new(group, "none".to_owned());
+            leader.stdout.as_mut().unwrap().read_exact(&mut [0; 6]).unwrap();
+            assert!(family.look().len() > 1, "{rest}");
+            let mut go = leader.stdin.take().unwrap();
+            // A line for whichever reads first. Not reaped, so the number stays that of the group.
+            go.write_all(b"\n").unwrap();
+            assert!(!family.is_empty());
+            drop(go);
+            family.wait_until_empty();
+            leader.wait().unwrap();
+        }
+    }
+
+    #[test]
+    fn a_mark_is_found_as_a_whole() {
+        let mut marked = Command::new("/bin/sh");
+        let marked = marked.args(["-c", "echo ready; read line"]).env(MARK, "7.99.12");
+        let mut marked = marked.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+        let process = Pid::from_raw(marked.id().cast_signed());
+        marked.stdout.as_mut().unwrap().read_exact(&mut [0; 6]).unwrap();
+        for (mark, expected) in [("7.99.12", true), ("7.99.1", false), ("7.99.", true), ("7.9", false), ("7.", true)] {
+            assert_eq!(has_mark(process, mark), expected, "{mark}");
+        }
+        drop(marked.stdin.take());
+        marked.wait().unwrap();
+    }
+
+    #[test]
+    fn descendants_are_found_whatever_their_numbers() {
+        let processes = [(2, 1), (3, 9), (4, 3), (5, 1), (6, 5), (9, 2), (10, 6), (11, 2)];
+        let processes = processes
+            .into_iter()
+            .map(|(process, parent)| (Pid::from_raw(process), ProcessStat::with_parent(Pid::from_raw(parent))));
+        let found = relatives(processes.collect(), |process, _| process == Pid::from_raw(2));
+        let found: Vec<i32> = found.keys().map(|process| process.as_raw()).collect();
+        assert_eq!(found, [2, 3, 4, 9, 11]);
+    }
+}
