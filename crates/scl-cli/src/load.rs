@@ -8,7 +8,7 @@ use scl_topology::diagnostic::{Diagnostic, Severity, render, render_styled};
 use scl_topology::external::UNREADABLE_FILE;
 use scl_topology::size;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The topology file that is used if there is one in the working folder.
 pub(crate) const TOPOLOGY: &str = "topology.yaml";
@@ -74,6 +74,14 @@ pub(crate) fn system_of_folder() -> Option<String> {
     let loaded = path.is_file().then(|| load_file(path, MaxSize::default()))?;
     let checked = loaded.topology.as_ref().map(|topology| topology.system().to_owned());
     checked.or_else(|| Some(loaded.model.system?.value))
+}
+
+/// The topology file in the working folder, if its system is called like the file for want of another name.
+#[cfg(feature = "run")]
+pub(crate) fn named_after_here() -> Option<PathBuf> {
+    let path = Path::new(TOPOLOGY);
+    let loaded = path.is_file().then(|| load_file(path, MaxSize::default()))?;
+    if loaded.model.system.is_some() { None } else { path.canonicalize().ok() }
 }
 
 /// Shows diagnostics on standard error, each followed by an empty line.

@@ -1,7 +1,7 @@
 //! What `scl stop` and `scl restart` share: asking the `scl run` of the components, and showing what happened.
 
 use crate::format::{FormatArgument, print_json};
-use crate::load::system_of_folder;
+use crate::load::{named_after_here, system_of_folder};
 use clap::Args;
 use scl_run::control::{Command, ComponentReport, Wish, ask};
 use scl_terminal::{Problem, escape, print_err, print_out};
@@ -24,7 +24,8 @@ pub(crate) struct RequestArguments {
 /// Asks, waits, prints what happened, and returns the exit code.
 pub(crate) fn request(command: Command, components: &[String], build: bool, arguments: &RequestArguments) -> ExitCode {
     let system = arguments.system.as_deref();
-    let done = match ask(&Wish { command, components, system, here: &system_of_folder, build }) {
+    let (here, named_after_here) = (&system_of_folder, &named_after_here);
+    let done = match ask(&Wish { command, components, system, here, named_after_here, build }) {
         Ok(done) => done,
         Err(problems) => {
             show(&problems);

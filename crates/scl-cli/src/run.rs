@@ -127,5 +127,6 @@ pub(crate) fn component_names(topology: &Path) -> Option<SystemNames> {
     let components = topology.components().map(|(_, component)| component.name().to_owned()).collect();
     let gates = topology.components().flat_map(|(_, component)| component.gates());
     let gates = gates.map(|gate| topology.gate_path(*gate)).collect();
-    Some(SystemNames { system: topology.system().to_owned(), components, gates })
+    let is_named = loaded.model.system.is_some();
+    Some(SystemNames { system: topology.system().to_owned(), is_named, components, gates })
 }

@@ -139,3 +139,33 @@ error: component `sensor` of system `rover` is already running as process {pid}
     assert!(err.contains(&expected), "{err}");
     assert_eq!((output.status.code(), run.finish().0.code()), (Some(1), Some(0)), "{err}");
 }
+
+/// Of two systems without a `system`, each called `topology` after its file.
+#[test]
+fn a_system_of_another_file_is_left_alone() {
+    let topology = TOPOLOGY.strip_prefix("system: rover\n").unwrap();
+    let launch = format!("components: {{sensor: {{command: {:?}}}}}", format!("echo ready; {FOREVER}"));
+    let files = [("launch.yaml", launch.as_str()), ("topology.yaml", topology)];
+    let (first, second) = (System::of_files(&files), System::of_files(&files));
+    let runtime = first.path("runtime");
+    let other = |arguments: &[&str]| {
+        let output = second.scl(arguments).env("SCL_RUNTIME_DIR", &runtime).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let mut run = first.start(&[]);
+    run.wait_for_line("sensor | ready");
+    let [running, meant] = [&first, &second].map(|system| system.path("topology.yaml").canonicalize().unwrap());
+    let expected = format!(
+        "error: `scl run`, process {}, runs the system of `{}`, not that of `{}`\n",
+        run.process_id(),
+        running.display(),
+        meant.display()
+    );
+    for arguments in [&["run"][..], &["stop"], &["stop", "sensor"], &["restart", "sensor"]] {
+        let (code, err) = other(arguments);
+        assert!(err.contains(&expected), "{arguments:?}: {err}");
+        assert_eq!(code, Some(2), "{arguments:?}: {err}");
+    }
+    assert_eq!(other(&["stop", "--system", "topology"]), (Some(0), String::new()));
+    assert_eq!(run.finish().0.code(), Some(0));
+}

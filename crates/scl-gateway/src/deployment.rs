@@ -59,6 +59,7 @@ fn names_of(plan: &SystemPlan) -> SystemNames {
         plan.components.iter().flat_map(|it| it.gates.iter().map(|gate| format!("{}.{}", it.component, gate.name)));
     SystemNames {
         system: plan.system.clone(),
+        is_named: true,
         components: plan.components.iter().map(|it| it.component.clone()).collect(),
         gates: gates.collect(),
     }

@@ -17,11 +17,15 @@ pub(crate) fn check(plan: &RunPlan) -> Result<(), Problem> {
     let names: Vec<&str> = plan.programs().map(|component| component.name.as_str()).collect();
     for run in find_runs(dir.path(), Some(system)).iter().filter(|run| run.process != std::process::id()) {
         let request = Request { version: VERSION, command: Command::List, components: Vec::new() };
-        let components = match run.ask(&request) {
-            Ok(response) => response.components,
+        let response = match run.ask(&request) {
+            Ok(response) => response,
             Err(NoAnswer::Ended) => continue,
             Err(error) => return Err(run.problem(&error)),
         };
+        if let Some(problem) = run.other_system(response.named_after.as_deref(), plan.named_after.as_deref()) {
+            return Err(problem.help("or set `SCL_SYSTEM` to another name for this one"));
+        }
+        let components = response.components;
         let running = components.iter().filter(|it| it.pid.is_some() && names.contains(&it.component.as_str()));
         let running: Vec<&str> = running.map(|it| it.component.as_str()).collect();
         if !running.is_empty() {

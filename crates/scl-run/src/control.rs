@@ -19,7 +19,7 @@ use super::own_file::OwnFile;
 use silent_clients::SilentClients;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::os::unix::net::{UnixListener, UnixStream};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -38,16 +38,23 @@ pub(crate) struct ControlSocket {
 pub(crate) struct Asked {
     pub(crate) request: Request,
     client: UnixStream,
+    named_after: Option<PathBuf>,
 }
 
 impl ControlSocket {
-    /// Listens in the folder of a system, and passes each request to `receive`, on a thread of its client.
+    /// Listens in the folder of a system, and passes each request to `receive`, on a thread of its client. Each response has
+    /// `named_after`.
     ///
     /// # Errors
     ///
     /// If the socket cannot be bound.
-    pub(crate) fn open(folder: &Path, receive: impl Fn(Asked) + Clone + Send + 'static) -> io::Result<Self> {
+    pub(crate) fn open(
+        folder: &Path,
+        named_after: Option<PathBuf>,
+        receive: impl Fn(Asked) + Clone + Send + 'static,
+    ) -> io::Result<Self> {
         let (file, listener) = OwnFile::bind(folder, "control", |path| UnixListener::bind(path))?;
+        let receive = move |request, client| receive(Asked { request, client, named_after: named_after.clone() });
         thread::Builder::new().spawn(move || accept_clients(&listener, &receive))?;
         Ok(Self { _file: file })
     }
@@ -56,11 +63,11 @@ impl ControlSocket {
 impl Asked {
     /// Sends the response without waiting: it fits into the socket's buffer. A client that has gone gets none.
     pub(crate) fn answer(self, response: &Response) {
-        send(&self.client, response);
+        send(&self.client, &Response { named_after: self.named_after, ..response.clone() });
     }
 }
 
-fn accept_clients(listener: &UnixListener, receive: &(impl Fn(Asked) + Clone + Send + 'static)) {
+fn accept_clients(listener: &UnixListener, receive: &(impl Fn(Request, UnixStream) + Clone + Send + 'static)) {
     let silent = Arc::new(SilentClients::default());
     loop {
         let Ok((client, _)) = listener.accept() else {
@@ -84,9 +91,9 @@ fn accept_clients(listener: &UnixListener, receive: &(impl Fn(Asked) + Clone + S
     }
 }
 
-fn serve(client: UnixStream, line: &str, receive: impl Fn(Asked)) {
+fn serve(client: UnixStream, line: &str, receive: impl Fn(Request, UnixStream)) {
     match Request::parse(line) {
-        Ok(request) => receive(Asked { request, client }),
+        Ok(request) => receive(request, client),
         Err(error) => send(&client, &Response::error(error)),
     }
 }

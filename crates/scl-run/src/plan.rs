@@ -37,6 +37,8 @@ pub type ComponentNames<'a> = &'a dyn Fn(&Path) -> Option<SystemNames>;
 pub(crate) struct RunPlan {
     /// The system that the programs belong to, where a topology file or `SCL_SYSTEM` names it.
     pub(crate) system: Option<String>,
+    /// The topology file that the system has its name of, where nobody has given it another one.
+    pub(crate) named_after: Option<PathBuf>,
     pub(crate) builds: Vec<Build>,
     pub(crate) components: Vec<Component>,
     /// The program that connects this host to the others, with `--host`.
@@ -176,10 +178,13 @@ fn plan_from_launch_file(
     let chosen: Vec<LaunchComponent> = components.into_iter().filter(|it| selection.includes(&it.name)).collect();
     let mut builds = plan_builds(folder, &launch, &chosen);
     let topology_name = known.as_ref().map(|names| names.system.as_str());
+    let named_after = topology.filter(|_| own_name.is_none());
+    let named_after = named_after.zip(known.as_ref()).and_then(|(file, names)| named_after_file(&file, names));
     let plan = |component| plan_component(folder, &launch, component, topology_name, options.grace, &mut builds);
     let components = chosen.iter().map(plan).collect();
     Ok(RunPlan {
         system: own_name.or_else(system_of_environment).or_else(|| known.map(|names| names.system)),
+        named_after,
         builds,
         components,
         gateway,
@@ -309,6 +314,12 @@ fn settings_of(launch: &LaunchFile, component: &LaunchComponent) -> Settings {
 
 fn folder_of(folder: &Path, settings: &Settings) -> PathBuf {
     settings.working_directory.as_ref().map_or_else(|| folder.to_owned(), |own| folder.join(own))
+}
+
+/// The topology file as a name of its own, if the system has its name of it.
+fn named_after_file(topology: &Path, names: &SystemNames) -> Option<PathBuf> {
+    let is_named = names.is_named || system_of_environment().is_some();
+    if is_named { None } else { topology.canonicalize().ok() }
 }
 
 fn system_of_environment() -> Option<String> {

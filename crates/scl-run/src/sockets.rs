@@ -18,6 +18,7 @@ use std::sync::mpsc::Sender;
 pub(crate) struct Sockets {
     notify: Option<NotifySocket>,
     system_folder: Option<PathBuf>,
+    named_after: Option<PathBuf>,
 }
 
 impl Sockets {
@@ -38,7 +39,7 @@ impl Sockets {
             }
             Err(error) => {
                 print_err(&format!("note: `scl stop` and `scl restart` cannot reach this run: {error}\n"));
-                Ok(Self { notify: None, system_folder: None })
+                Ok(Self { notify: None, system_folder: None, named_after: None })
             }
         }
     }
@@ -52,7 +53,7 @@ impl Sockets {
         remove_stale(folder);
         let notify = NotifySocket::open(folder, events.clone());
         let notify = notify.map_err(|error| format!("cannot bind a socket in `{}`: {error}", folder.display()))?;
-        Ok(Self { notify: Some(notify), system_folder })
+        Ok(Self { notify: Some(notify), system_folder, named_after: plan.named_after.clone() })
     }
 
     pub(crate) fn notify(&self) -> Option<&NotifySocket> {
@@ -66,7 +67,7 @@ impl Sockets {
             // After the supervisor has finished, the client sees the end of the connection.
             let _ = events.send(Event::Asked(asked));
         };
-        match ControlSocket::open(self.system_folder.as_ref()?, receive) {
+        match ControlSocket::open(self.system_folder.as_ref()?, self.named_after.clone(), receive) {
             Ok(socket) => Some(socket),
             Err(error) => {
                 print_err(&format!("note: `scl stop` and `scl restart` cannot reach this run: {error}\n"));

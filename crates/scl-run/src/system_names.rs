@@ -7,6 +7,8 @@ use scl::runtime_dir::RuntimeDir;
 pub struct SystemNames {
     /// The name of the system.
     pub system: String,
+    /// Whether the file says so with `system:`. Otherwise it is the name of the file, which others may have, too.
+    pub is_named: bool,
     /// The names of its components, in file order.
     pub components: Vec<String>,
     /// Its gates as `component.gate`, in file order.

@@ -6,6 +6,7 @@ use scl::runtime_dir::{Announcement, ComponentProcess, ComponentState, RuntimeDi
 use scl_terminal::{Problem, choose_system, closest_name, named_system, quoted_list};
 use std::collections::BTreeSet;
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::thread;
 
 /// What to do, and in which system.
@@ -18,6 +19,8 @@ pub struct Wish<'a> {
     pub system: Option<&'a str>,
     /// The system of the working folder, asked for only if several run.
     pub here: &'a dyn Fn() -> Option<String>,
+    /// The topology file of the working folder, if its system is called like the file for want of another name.
+    pub named_after_here: &'a dyn Fn() -> Option<PathBuf>,
     /// Whether a restart builds first.
     pub build: bool,
 }
@@ -34,6 +37,7 @@ pub struct Done {
 /// A `scl run` and its components.
 struct Answering {
     run: ControlledRun,
+    named_after: Option<PathBuf>,
     components: Vec<ComponentReport>,
 }
 
@@ -55,6 +59,17 @@ pub fn ask(wish: &Wish<'_>) -> Result<Done, Vec<Problem>> {
     let folder = system.and_then(|name| dir.existing_system(&name).ok().flatten());
     let mut done = Done::default();
     let answering = list(runs, &mut done.problems);
+    if named.is_none() {
+        let here = (wish.named_after_here)();
+        let other = |it: &Answering| {
+            let problem = it.run.other_system(it.named_after.as_deref(), here.as_deref())?;
+            Some(problem.help(format!("if you mean the one that runs: `--system {}`", it.run.system)))
+        };
+        let others: Vec<Problem> = answering.iter().filter_map(other).collect();
+        if !others.is_empty() {
+            return Err(others);
+        }
+    }
     let requests = match assign(wish, answering, folder.as_ref()) {
         Ok(requests) => requests,
         // The runs that do not answer may have what was not found.
@@ -111,7 +126,9 @@ fn list(runs: Vec<ControlledRun>, problems: &mut Vec<Problem>) -> Vec<Answering>
     let mut answering = Vec::new();
     for run in runs {
         match run.ask(&request(Command::List, &[])) {
-            Ok(response) => answering.push(Answering { run, components: response.components }),
+            Ok(response) => {
+                answering.push(Answering { run, named_after: response.named_after, components: response.components })
+            }
             Err(NoAnswer::Ended) => {}
             Err(error) => problems.push(run.problem(&error)),
         }

@@ -94,6 +94,16 @@ impl ControlledRun {
         }
     }
 
+    /// The problem if it runs the system of one topology file, where that of another is meant, and one can be taken for the
+    /// other, because neither was given a name.
+    pub(crate) fn other_system(&self, running: Option<&Path>, meant: Option<&Path>) -> Option<Problem> {
+        let (running, meant) = running.zip(meant).filter(|(running, meant)| running != meant)?;
+        let (running, meant, process) = (running.display(), meant.display(), self.process);
+        let text = format!("`scl run`, process {process}, runs the system of `{running}`, not that of `{meant}`");
+        let problem = Problem::new(text).note("neither file has a `system`, so each system is called like its file");
+        Some(problem.help(format!("give it a name of its own: `system: ...` in `{meant}`")))
+    }
+
     fn try_ask(&self, command: Command, line: &str) -> Result<Response, NoAnswer> {
         let began = Instant::now();
         let mut connection = loop {

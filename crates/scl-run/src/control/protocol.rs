@@ -48,6 +48,10 @@ pub struct Response {
     /// The components that were asked for.
     #[serde(default)]
     pub components: Vec<ComponentReport>,
+    /// The topology file that the system has its name of, where nobody has given it another one. So another system may have the
+    /// same name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub named_after: Option<PathBuf>,
     /// What builds the programs of the components, in this order, for [`Command::Builds`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub builds: Vec<BuildCommand>,
@@ -121,12 +125,12 @@ impl Request {
 impl Response {
     /// A response about components.
     pub fn of(components: Vec<ComponentReport>) -> Self {
-        Self { version: VERSION, error: None, components, builds: Vec::new() }
+        Self { version: VERSION, error: None, components, named_after: None, builds: Vec::new() }
     }
 
     /// A response to a request that was not fulfilled.
     pub fn error(text: impl Into<String>) -> Self {
-        Self { version: VERSION, error: Some(text.into()), components: Vec::new(), builds: Vec::new() }
+        Self { error: Some(text.into()), ..Self::of(Vec::new()) }
     }
 
     /// The line, without its end.

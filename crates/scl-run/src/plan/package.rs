@@ -8,7 +8,7 @@ use super::super::policy::Policy;
 use super::super::program::{Build, Program};
 use super::super::selection::Selection;
 use super::super::terminal::StandardInput;
-use super::{COMPONENT, RunPlan, SystemNames, TOPOLOGY_FILE, system_of_environment};
+use super::{COMPONENT, RunPlan, SystemNames, TOPOLOGY_FILE, named_after_file, system_of_environment};
 use scl_terminal::Problem;
 use std::ffi::OsString;
 use std::path::Path;
@@ -46,6 +46,7 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
     };
     Ok(RunPlan {
         system: system_of_environment().or(Some(names.system.clone())),
+        named_after: named_after_file(&folder.join(TOPOLOGY_FILE), &names),
         builds: vec![Build { components: Vec::new(), program: program(build), cargo_choices: Some(Vec::new()) }],
         components: names.components.iter().filter(|name| selection.includes(name)).map(plan).collect(),
         gateway: None,

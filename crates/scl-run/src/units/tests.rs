@@ -30,6 +30,7 @@ fn units(launch: &str, user: Option<&str>) -> String {
     std::fs::write(path.join("topology.yaml"), "").unwrap();
     let names = SystemNames {
         system: "rover".to_owned(),
+        is_named: true,
         components: vec!["sensor".to_owned(), "logger".to_owned()],
         gates: Vec::new(),
     };
