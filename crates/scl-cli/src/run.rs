@@ -84,6 +84,9 @@ pub(crate) struct StartArguments {
     /// Its real-time priority.
     #[arg(long)]
     fifo: Option<u8>,
+    /// How many file descriptors it may open.
+    #[arg(long)]
+    descriptors: Option<u64>,
     /// The program and its arguments.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, required = true)]
     command: Vec<OsString>,
@@ -114,7 +117,8 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
 
 /// The body of `scl __start`.
 pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
-    let placement = scl_run::Placement { cpu: arguments.cpu.clone(), fifo: arguments.fifo };
+    let StartArguments { cpu, fifo, descriptors, .. } = arguments;
+    let placement = scl_run::Placement { cpu: cpu.clone(), fifo: *fifo, descriptors: *descriptors };
     scl_run::start_component(arguments.parent, &placement, &arguments.command)
 }
 

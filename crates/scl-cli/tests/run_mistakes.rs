@@ -30,7 +30,7 @@ fn unknown_keys_get_a_suggestion_and_the_list() {
 
             error: unknown key `colour` in component `b`
              --> launch.yaml:5:20
-              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `environment`, `essential`, `input`, `opens`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `descriptors`, `environment`, `essential`, `input`, `opens`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
         "#]],
     );
@@ -359,11 +359,11 @@ components:
 
             error: unknown key `command` in `defaults`
              --> launch.yaml:1:12
-              = note: the keys are `alive_within`, `cpu`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+              = note: the keys are `alive_within`, `cpu`, `descriptors`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
             error: unknown key `environment` in `defaults`
              --> launch.yaml:1:45
-              = note: the keys are `alive_within`, `cpu`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+              = note: the keys are `alive_within`, `cpu`, `descriptors`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
             error: `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `sometimes`
              --> launch.yaml:1:25

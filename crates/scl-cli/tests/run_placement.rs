@@ -1,4 +1,4 @@
-//! `cpu` and `priority`: set before the program starts, or a warning.
+//! `cpu`, `priority` and `descriptors`: set before the program starts, or a warning.
 
 use crate::system::System;
 
@@ -33,4 +33,27 @@ fn a_program_has_its_priority_or_a_warning() {
         false => "a | 7 1\na | fifo:7\n",
     };
     assert_eq!((out.as_str(), code), (expected, Some(0)), "{err}");
+}
+
+#[test]
+fn a_program_may_open_as_many_descriptors_as_its_entry_says() {
+    let limit = |settings: &str| {
+        let (out, err, code) = run(settings, "grep 'open files' /proc/self/limits");
+        assert_eq!(code, Some(0), "{err}");
+        let limit = out.split_whitespace().nth(5).unwrap().to_owned();
+        (limit, err)
+    };
+    assert_eq!(limit("descriptors: 137").0, "137");
+    let own = std::fs::read_to_string("/proc/self/limits").unwrap();
+    let own: Vec<&str> =
+        own.lines().find_map(|line| line.strip_prefix("Max open files")).unwrap().split_whitespace().collect();
+    assert_eq!(limit("cpu: 0").0, own[0]);
+    if own[1] != "unlimited" {
+        let (limit, err) = limit("descriptors: 18446744073709551615");
+        assert_eq!(limit, own[1]);
+        assert!(
+            err.contains("a | scl: `descriptors: 18446744073709551615` has no full effect: the hard limit is"),
+            "{err}"
+        );
+    }
 }

@@ -19,7 +19,7 @@ use std::io::{self, BufRead, Write};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, Command, ExitCode, Stdio};
 
-/// The hidden command that starts one component: `scl __start PARENT [--cpu N]... [--fifo N] -- COMMAND...`.
+/// The hidden command that starts one component: `scl __start PARENT [--cpu N]... [--fifo N] [--descriptors N] -- COMMAND...`.
 pub const START_WORD: &str = "__start";
 /// The hidden command that keeps watch: `scl __guard MARK`.
 pub const GUARD_WORD: &str = "__guard";

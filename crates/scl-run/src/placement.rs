@@ -1,8 +1,9 @@
-//! The processors and the priority of a program, set by `scl __start` before it becomes the program, so that they apply
+//! The processors, the priority and the limit of descriptors of a program, set by `scl __start` before it becomes the program, so that they apply
 //! from its first moment, to all of its threads, and to programs in any language.
 //!
 //! What the operating system refuses is a warning, so that one launch file works on the vehicle and on a desktop.
 
+use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use rustix::thread::CpuSet;
 use scl_terminal::print_err;
 use thread_priority::{
@@ -17,6 +18,8 @@ pub struct Placement {
     pub cpu: Vec<usize>,
     /// Its priority in `SCHED_FIFO`, 1 to 99; an ordinary program if `None`.
     pub fifo: Option<u8>,
+    /// How many file descriptors it may open; as many as `scl run` if `None`.
+    pub descriptors: Option<u64>,
 }
 
 impl Placement {
@@ -24,7 +27,8 @@ impl Placement {
     pub(crate) fn arguments(&self) -> Vec<String> {
         let cpu = self.cpu.iter().flat_map(|cpu| ["--cpu".to_owned(), cpu.to_string()]);
         let fifo = self.fifo.iter().flat_map(|fifo| ["--fifo".to_owned(), fifo.to_string()]);
-        cpu.chain(fifo).collect()
+        let descriptors = self.descriptors.iter().flat_map(|most| ["--descriptors".to_owned(), most.to_string()]);
+        cpu.chain(fifo).chain(descriptors).collect()
     }
 
     /// Applies it to the calling thread, which becomes the program. Returns the variables that the program gets: with
@@ -33,6 +37,7 @@ impl Placement {
         if !self.cpu.is_empty() {
             self.pin();
         }
+        self.descriptors.iter().for_each(|most| limit_descriptors(*most));
         let fifo = self.fifo?;
         match schedule(fifo) {
             Ok(()) => Some(("SCL_SCHED", format!("fifo:{fifo}"))),
@@ -56,6 +61,19 @@ impl Placement {
             ));
         }
     }
+}
+
+/// Not raised for all programs: one that calls `select` with a descriptor above 1023 overwrites its own memory.
+fn limit_descriptors(most: u64) {
+    let hard = getrlimit(Resource::Nofile).maximum;
+    let current = hard.map_or(most, |hard| most.min(hard));
+    let error = setrlimit(Resource::Nofile, Rlimit { current: Some(current), maximum: hard }).err();
+    let why = match error {
+        Some(error) => error.to_string(),
+        None if current < most => format!("the hard limit is {current}; `LimitNOFILE=` in a unit raises it"),
+        None => return,
+    };
+    print_err(&format!("scl: `descriptors: {most}` has no full effect: {why}\n"));
 }
 
 fn schedule(priority: u8) -> Result<(), String> {

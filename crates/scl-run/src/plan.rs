@@ -281,7 +281,11 @@ fn plan_component(
         command,
         environment: expected.into_iter().chain(environment_of_programs(launch)).chain(own).collect(),
         folder: folder_of(folder, &settings),
-        placement: Placement { cpu: settings.cpu.clone().unwrap_or_default(), fifo: settings.priority },
+        placement: Placement {
+            cpu: settings.cpu.clone().unwrap_or_default(),
+            fifo: settings.priority,
+            descriptors: settings.descriptors,
+        },
         input: component.input,
     };
     Component {

@@ -151,11 +151,12 @@ fn restarts(policy: &Policy) -> String {
 
 fn placement(program: &Program) -> String {
     let cpu: Vec<String> = program.placement.cpu.iter().map(usize::to_string).collect();
-    let cpu = if cpu.is_empty() { String::new() } else { format!("CPUAffinity={}\n", cpu.join(" ")) };
-    let Some(priority) = program.placement.fifo else { return cpu };
+    let mut text = if cpu.is_empty() { String::new() } else { format!("CPUAffinity={}\n", cpu.join(" ")) };
+    text.extend(program.placement.descriptors.map(|most| format!("LimitNOFILE={most}\n")));
+    let Some(priority) = program.placement.fifo else { return text };
     // With `SCL_SCHED` a program with SCL also locks its memory, as under `scl run`.
     format!(
-        "{cpu}CPUSchedulingPolicy=fifo\nCPUSchedulingPriority={priority}\nLimitRTPRIO={priority}\nLimitMEMLOCK=infinity\n\
+        "{text}CPUSchedulingPolicy=fifo\nCPUSchedulingPriority={priority}\nLimitRTPRIO={priority}\nLimitMEMLOCK=infinity\n\
          Environment=SCL_SCHED=fifo:{priority}\n"
     )
 }

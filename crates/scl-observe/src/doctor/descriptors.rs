@@ -78,7 +78,7 @@ fn judge_use(component: &str, open: Option<u64>, needed: Option<u64>, limit: u64
         let text = format!("{component} needs {needed} when all its peers are connected, of at most {limit}");
         return Some(
             Finding::warning(CHECK, text)
-                .help("raise the limit before it starts: `ulimit -n`, or `LimitNOFILE=` in a unit of systemd"),
+                .help("raise the limit before it starts: `descriptors` in the launch file, `ulimit -n`, or `LimitNOFILE=` in a unit of systemd"),
         );
     }
     let open = open.filter(|open| open.saturating_mul(10) > limit.saturating_mul(8))?;

@@ -1,4 +1,4 @@
-//! The keys of a component that may also stand in `defaults`: restarts, limits of time, processors, priority.
+//! The keys of a component that may also stand in `defaults`: restarts, limits of time, processors, priority, descriptors.
 
 use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::keys::{Form, form_of};
@@ -21,6 +21,8 @@ pub(crate) struct Settings {
     pub(crate) cpu: Option<Vec<usize>>,
     /// 1 to 99.
     pub(crate) priority: Option<u8>,
+    /// At least one.
+    pub(crate) descriptors: Option<u64>,
     /// As written.
     pub(crate) working_directory: Option<String>,
 }
@@ -39,6 +41,7 @@ impl Settings {
             alive_within: self.alive_within.or(base.alive_within),
             cpu: self.cpu.or(base.cpu),
             priority: self.priority.or(base.priority),
+            descriptors: self.descriptors.or(base.descriptors),
             working_directory: self.working_directory.or(base.working_directory),
         }
     }
@@ -71,6 +74,7 @@ impl Reader<'_> {
             alive_within: self.read_setting(keys, at, "alive_within", limit),
             cpu: self.read_setting(keys, at, "cpu", processors),
             priority: self.read_setting(keys, at, "priority", priority),
+            descriptors: self.read_setting(keys, at, "descriptors", descriptors),
             working_directory: self.read_path(keys.get("working_directory"), &joined(at, "working_directory")),
         }
     }
@@ -180,6 +184,10 @@ fn processors(value: &Value) -> Option<Vec<usize>> {
         Value::Number(_) => Some(vec![number(value)?]),
         _ => None,
     }
+}
+
+fn descriptors(value: &Value) -> Option<u64> {
+    value.as_u64().filter(|most| *most > 0)
 }
 
 fn priority(value: &Value) -> Option<u8> {

@@ -202,7 +202,7 @@ fn row(Key { name, form, default, meaning, in_defaults, .. }: &Key) -> String {
 }
 
 const SETTINGS: &str = "\
-defaults: {restart: always, essential: false, stop_within: 3s, cpu: 1, working_directory: below}
+defaults: {restart: always, essential: false, stop_within: 3s, cpu: 1, descriptors: 2048, working_directory: below}
 components:
   sensor:
     command: [./sensor]
@@ -215,6 +215,7 @@ components:
     alive_within: 500ms
     cpu: [2, 3]
     priority: fifo:80
+    descriptors: 4096
     working_directory: .
   gps: {replay: flight.mcap, restart_delay: 1s}
 profiles:
@@ -238,12 +239,14 @@ fn settings_are_read_and_fall_back_to_the_defaults() {
         alive_within: Some(Duration::from_millis(500)),
         cpu: Some(vec![2, 3]),
         priority: Some(80),
+        descriptors: Some(4096),
         working_directory: Some(".".to_owned()),
     };
     assert_eq!(file.components[0].settings, expected);
     assert_eq!(file.components[0].settings.clone().over(&file.defaults), expected);
     let gps = file.components[1].settings.clone().over(&file.defaults);
     assert_eq!((gps.restart, gps.essential, gps.cpu.as_deref()), (Some(Restart::Always), Some(false), Some(&[1][..])));
+    assert_eq!(gps.descriptors, Some(2048));
     assert_eq!(gps.restart_delay, Some(RestartDelay { first: seconds(1), longest: seconds(1) }));
     assert_eq!(gps.policy(seconds(7)).stop_within, seconds(3));
     assert_eq!(Settings::default().policy(seconds(7)).stop_within, seconds(7));

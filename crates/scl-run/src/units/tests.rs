@@ -16,6 +16,7 @@ components:
     alive_within: 500ms
     cpu: [2, 3]
     priority: fifo:80
+    descriptors: 4096
   logger: {command: cat > log, working_directory: logs, environment: {NAME: a \"b\" 5%}}
 environment: {RUST_LOG: info}
 defaults: {stop_within: 3s}
@@ -59,6 +60,7 @@ fn services_do_what_the_launch_file_says() {
         Restart=on-failure
         RestartSec=200ms
         CPUAffinity=2 3
+        LimitNOFILE=4096
         CPUSchedulingPolicy=fifo
         CPUSchedulingPriority=80
         LimitRTPRIO=80
