@@ -283,3 +283,41 @@ fn a_component_that_runs_without_a_run_is_named_with_its_process() {
     let start = "error: no `scl run` is running\n  = note: components that run without it: `controller` as process ";
     assert!(error.starts_with(start) && error.contains(&format!(", `sensor` as process {pid}, ")), "{error}");
 }
+
+/// As `/run/user/UID` is at a logout.
+#[test]
+fn a_system_keeps_its_runtime_folder_when_it_is_removed() {
+    let system = system("echo $SCL_RUNTIME_DIR; exec tail -f /dev/null >/dev/null", FOREVER);
+    system.write("session/file", "");
+    let session = system.path("session");
+    let mut run = system.start_with(&[], |command| {
+        command.env_remove("SCL_RUNTIME_DIR").env("XDG_RUNTIME_DIR", &session);
+    });
+    let folder = session.join("scl");
+    run.wait_for_line(&format!("sensor     | {}", folder.display()));
+    std::fs::remove_dir_all(&session).unwrap();
+    // As the next login makes it.
+    let sockets = || std::fs::read_dir(folder.join("rover")).map_or(0, Iterator::count);
+    while sockets() < 2 {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let ask = |arguments: &[&str]| {
+        let mut command = system.scl(arguments);
+        let output = command.env_remove("SCL_RUNTIME_DIR").env("XDG_RUNTIME_DIR", &session).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    assert_eq!(ask(&["restart", "sensor"]), (Some(0), String::new()));
+    run.wait_for_line(&format!("sensor     | {}", folder.display()));
+    assert_eq!(ask(&["stop"]), (Some(0), String::new()));
+    assert_eq!(run.finish().0.code(), Some(0));
+}
+
+#[test]
+fn a_session_folder_that_is_missing_is_named() {
+    let system = system(FOREVER, FOREVER);
+    let session = system.path("session");
+    let mut command = system.scl(&["stop"]);
+    command.env_remove("SCL_RUNTIME_DIR").env("XDG_RUNTIME_DIR", &session).env("TMPDIR", system.path(""));
+    let err = String::from_utf8(command.output().unwrap().stderr).unwrap();
+    assert!(err.contains(&format!("`XDG_RUNTIME_DIR` is `{}`, which does not exist", session.display())), "{err}");
+}

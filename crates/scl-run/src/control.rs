@@ -28,9 +28,9 @@ const LONGEST_LINE: u64 = 64 * 1024;
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// The control socket of this process. Dropping this value removes it.
-#[derive(Debug)]
 pub(crate) struct ControlSocket {
-    _file: OwnFile,
+    file: OwnFile,
+    accept: Box<dyn Fn(UnixListener) -> io::Result<()> + Send + Sync>,
 }
 
 /// A request, and where its response goes.
@@ -51,12 +51,30 @@ impl ControlSocket {
     pub(crate) fn open(
         folder: &Path,
         named_after: Option<PathBuf>,
-        receive: impl Fn(Asked) + Clone + Send + 'static,
+        receive: impl Fn(Asked) + Clone + Send + Sync + 'static,
     ) -> io::Result<Self> {
         let (file, listener) = OwnFile::bind(folder, "control", |path| UnixListener::bind(path))?;
         let receive = move |request, client| receive(Asked { request, client, named_after: named_after.clone() });
-        thread::Builder::new().spawn(move || accept_clients(&listener, &receive))?;
-        Ok(Self { _file: file })
+        let accept = move |listener| {
+            let receive = receive.clone();
+            thread::Builder::new().spawn(move || accept_clients(&listener, &receive)).map(drop)
+        };
+        accept(listener)?;
+        Ok(Self { file, accept: Box::new(accept) })
+    }
+
+    /// Whether its file was removed, so that nobody finds it.
+    pub(crate) fn is_gone(&self) -> bool {
+        self.file.is_gone()
+    }
+
+    /// Listens again in the folder, which exists again.
+    ///
+    /// # Errors
+    ///
+    /// If the socket cannot be bound.
+    pub(crate) fn restore(&self) -> io::Result<()> {
+        (self.accept)(self.file.bind_again(|path| UnixListener::bind(path))?)
     }
 }
 

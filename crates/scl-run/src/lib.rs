@@ -172,7 +172,8 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
     let members = programs.enumerate();
     let members = members.map(|(index, (program, role))| member(program, role, plan.builds.len() + index));
     let members: Vec<Member<'_>> = members.collect();
-    let _control = sockets.open_control(&sender);
+    let control = sockets.open_control(&sender);
+    sockets.keep(control.as_ref(), output);
     // With `--no-build`, a restart builds nothing either.
     let builds = if options.no_build { &[][..] } else { plan.builds.as_slice() };
     // What a build leaves behind, such as a compiler's server, is nobody's to end.

@@ -15,11 +15,14 @@ use scl_terminal::escape;
 use std::io::{self, IoSliceMut};
 use std::mem::MaybeUninit;
 use std::os::unix::net::UnixDatagram;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::Sender;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
+
+/// The variable by which programs find the runtime folder.
+pub(crate) const RUNTIME_DIR: &str = "SCL_RUNTIME_DIR";
 
 /// Far more than the messages of any program.
 const LONGEST_DATAGRAM: usize = 4096;
@@ -34,13 +37,15 @@ const MOST_KEPT: usize = 4096;
 #[derive(Debug)]
 pub(crate) struct NotifySocket {
     file: OwnFile,
+    runtime_folder: PathBuf,
     datagrams: Datagrams,
 }
 
 /// What arrives at the socket, on its way to the supervisor.
 #[derive(Debug, Clone)]
 pub(crate) struct Datagrams {
-    socket: Arc<UnixDatagram>,
+    /// The last one has the file. Programs may be connected to earlier ones, whose file was removed.
+    sockets: Arc<Mutex<Vec<Arc<UnixDatagram>>>>,
     events: Sender<Event>,
     reading: Arc<Mutex<()>>,
 }
@@ -53,18 +58,30 @@ pub(crate) struct Notified<'a> {
 }
 
 impl NotifySocket {
-    /// Listens in a folder that only this user can write to, and sends what arrives as events.
+    /// Listens in a folder that only this user can write to, and sends what arrives as events. Programs are told the runtime folder.
     ///
     /// # Errors
     ///
     /// If the socket cannot be bound.
-    pub(crate) fn open(folder: &Path, events: Sender<Event>) -> io::Result<Self> {
+    pub(crate) fn open(folder: &Path, runtime_folder: &Path, events: Sender<Event>) -> io::Result<Self> {
         let (file, socket) = OwnFile::bind(folder, "notify", |path| UnixDatagram::bind(path))?;
-        sockopt::set_socket_passcred(&socket, true)?;
-        let datagrams = Datagrams { socket: Arc::new(socket), events, reading: Arc::default() };
-        let arriving = datagrams.clone();
-        thread::Builder::new().spawn(move || while arriving.wait().and_then(|()| arriving.take()).is_ok() {})?;
-        Ok(Self { file, datagrams })
+        let datagrams = Datagrams { sockets: Arc::default(), events, reading: Arc::default() };
+        datagrams.read_from(socket)?;
+        Ok(Self { file, runtime_folder: runtime_folder.to_owned(), datagrams })
+    }
+
+    /// Whether its file was removed, so that programs cannot reach it.
+    pub(crate) fn is_gone(&self) -> bool {
+        self.file.is_gone()
+    }
+
+    /// Listens again in the folder, which exists again.
+    ///
+    /// # Errors
+    ///
+    /// If the socket cannot be bound.
+    pub(crate) fn restore(&self) -> io::Result<()> {
+        self.datagrams.read_from(self.file.bind_again(|path| UnixDatagram::bind(path))?)
     }
 
     pub(crate) fn datagrams(&self) -> &Datagrams {
@@ -73,21 +90,29 @@ impl NotifySocket {
 }
 
 impl Notified<'_> {
-    /// The variables by which programs find the socket. `WATCHDOG_PID` is left out, so that also a program behind a shell
-    /// is meant.
+    /// The variables by which programs find the socket, and the folder of their system: it stays the same when the one that they
+    /// would choose by themselves is removed, as at a logout. `WATCHDOG_PID` is left out, so that also a program behind a shell is
+    /// meant.
     pub(crate) fn variables(&self) -> Vec<(&'static str, String)> {
         let path = self.socket.file.path().display().to_string();
         let watchdog = self.alive_within.map(|limit| ("WATCHDOG_USEC", limit.as_micros().to_string()));
-        [("NOTIFY_SOCKET", path)].into_iter().chain(watchdog).collect()
+        let folder = self.socket.runtime_folder.to_str().map(|folder| (RUNTIME_DIR, folder.to_owned()));
+        [("NOTIFY_SOCKET", path)].into_iter().chain(watchdog).chain(folder).collect()
     }
 }
 
 impl Datagrams {
-    fn wait(&self) -> io::Result<()> {
-        match poll(&mut [PollFd::new(&self.socket, PollFlags::IN)], None) {
-            Ok(_) | Err(Errno::INTR) => Ok(()),
-            Err(error) => Err(error.into()),
-        }
+    fn read_from(&self, socket: UnixDatagram) -> io::Result<()> {
+        sockopt::set_socket_passcred(&socket, true)?;
+        let socket = Arc::new(socket);
+        self.lock().push(Arc::clone(&socket));
+        let datagrams = self.clone();
+        thread::Builder::new().spawn(move || while wait(&socket).and_then(|()| datagrams.take()).is_ok() {})?;
+        Ok(())
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Vec<Arc<UnixDatagram>>> {
+        self.sockets.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Makes events of what has arrived: when this returns, all that programs said before has been sent.
@@ -98,13 +123,18 @@ impl Datagrams {
     pub(crate) fn take(&self) -> io::Result<()> {
         // Nobody returns before the events of a datagram that somebody else has read.
         let _reading = self.reading.lock().unwrap_or_else(PoisonError::into_inner);
+        let sockets = self.lock().clone();
+        sockets.iter().try_for_each(|socket| self.take_from(socket))
+    }
+
+    fn take_from(&self, socket: &UnixDatagram) -> io::Result<()> {
         let mut datagram = [0; LONGEST_DATAGRAM];
         for _ in 0..MOST_KEPT {
             // Without room for file descriptors, which the kernel closes then. `systemd-notify` waits for that.
             let mut space = [MaybeUninit::uninit(); cmsg_space!(ScmCredentials(1))];
             let mut control = RecvAncillaryBuffer::new(&mut space);
             let flags = RecvFlags::CMSG_CLOEXEC | RecvFlags::DONTWAIT;
-            let received = match recvmsg(&*self.socket, &mut [IoSliceMut::new(&mut datagram)], &mut control, flags) {
+            let received = match recvmsg(socket, &mut [IoSliceMut::new(&mut datagram)], &mut control, flags) {
                 Ok(received) => received,
                 Err(Errno::INTR) => continue,
                 Err(Errno::AGAIN) => return Ok(()),
@@ -121,6 +151,13 @@ impl Datagrams {
             }
         }
         Ok(())
+    }
+}
+
+fn wait(socket: &UnixDatagram) -> io::Result<()> {
+    match poll(&mut [PollFd::new(socket, PollFlags::IN)], None) {
+        Ok(_) | Err(Errno::INTR) => Ok(()),
+        Err(error) => Err(error.into()),
     }
 }
 
@@ -154,7 +191,7 @@ mod tests {
     fn what_was_said_before_is_an_event_when_all_is_taken() {
         let folder = tempfile::tempdir().unwrap();
         let (events, received) = std::sync::mpsc::channel();
-        let socket = NotifySocket::open(folder.path(), events).unwrap();
+        let socket = NotifySocket::open(folder.path(), folder.path(), events).unwrap();
         let program = UnixDatagram::unbound().unwrap();
         for number in 0..20_000 {
             let text = number.to_string();

@@ -28,17 +28,33 @@ impl OwnFile {
         ending: &str,
         bind: impl FnOnce(&Path) -> io::Result<S>,
     ) -> io::Result<(Self, S)> {
-        let name = format!("{PREFIX}{}.{ending}", std::process::id());
-        let new = folder.join(format!(".{name}"));
+        let file = Self { path: folder.join(format!("{PREFIX}{}.{ending}", std::process::id())) };
+        let socket = file.bind_again(bind)?;
+        Ok((file, socket))
+    }
+
+    /// Binds another socket in the place of the one that was removed.
+    ///
+    /// # Errors
+    ///
+    /// As for [`bind`](Self::bind).
+    pub(crate) fn bind_again<S>(&self, bind: impl FnOnce(&Path) -> io::Result<S>) -> io::Result<S> {
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
+        let new = self.path.with_file_name(format!(".{name}"));
         // Of an earlier process with the same id.
         let _ = fs::remove_file(&new);
         let socket = bind(&new)?;
-        let path = folder.join(name);
-        let ready = fs::set_permissions(&new, fs::Permissions::from_mode(0o600)).and_then(|()| fs::rename(&new, &path));
+        let ready = fs::set_permissions(&new, fs::Permissions::from_mode(0o600));
+        let ready = ready.and_then(|()| fs::rename(&new, &self.path));
         if ready.is_err() {
             let _ = fs::remove_file(&new);
         }
-        ready.map(|()| (Self { path }, socket))
+        ready.map(|()| socket)
+    }
+
+    /// Whether it was removed.
+    pub(crate) fn is_gone(&self) -> bool {
+        self.path.symlink_metadata().is_err()
     }
 
     pub(crate) fn path(&self) -> &Path {

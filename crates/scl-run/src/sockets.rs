@@ -5,20 +5,35 @@
 use super::component::Component;
 use super::control::ControlSocket;
 use super::event::Event;
-use super::notify::NotifySocket;
+use super::notify::{NotifySocket, RUNTIME_DIR};
+use super::output::Output;
 use super::own_file::remove_stale;
 use super::plan::RunPlan;
-use scl::runtime_dir::RuntimeDir;
+use scl::runtime_dir::{RuntimeDir, RuntimeDirError};
 use scl_terminal::{Problem, print_err};
-use std::path::PathBuf;
+use std::error::Error;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::Sender;
+use std::sync::{Arc, Weak};
+use std::thread;
+use std::time::Duration;
+
+/// How often is looked whether the sockets are there.
+const LOOK: Duration = Duration::from_secs(1);
 
 /// The socket for notices, and where the one for requests belongs.
 #[derive(Debug)]
 pub(crate) struct Sockets {
-    notify: Option<NotifySocket>,
-    system_folder: Option<PathBuf>,
+    notify: Option<Arc<NotifySocket>>,
+    folders: Option<Folders>,
     named_after: Option<PathBuf>,
+}
+
+/// The runtime folder, and the system whose folder in it has the sockets.
+#[derive(Debug, Clone)]
+struct Folders {
+    runtime: PathBuf,
+    system: Option<String>,
 }
 
 impl Sockets {
@@ -39,40 +54,95 @@ impl Sockets {
             }
             Err(error) => {
                 print_err(&format!("note: `scl stop` and `scl restart` cannot reach this run: {error}\n"));
-                Ok(Self { notify: None, system_folder: None, named_after: None })
+                Ok(Self { notify: None, folders: None, named_after: None })
             }
         }
     }
 
     fn try_open(plan: &RunPlan, events: &Sender<Event>) -> Result<Self, String> {
         let runtime_dir = RuntimeDir::locate(&|name| std::env::var_os(name)).map_err(|error| error.to_string())?;
-        let system = plan.system.as_ref().map(|name| runtime_dir.system(name));
-        let system = system.transpose().map_err(|error| error.to_string())?;
-        let system_folder = system.map(|system| system.folder().to_owned());
-        let folder = system_folder.as_deref().unwrap_or(runtime_dir.path());
-        remove_stale(folder);
-        let notify = NotifySocket::open(folder, events.clone());
+        let folders = Folders { runtime: runtime_dir.path().to_owned(), system: plan.system.clone() };
+        let folder = folders.create().map_err(|error| error.to_string())?;
+        remove_stale(&folder);
+        let notify = NotifySocket::open(&folder, &folders.runtime, events.clone());
         let notify = notify.map_err(|error| format!("cannot bind a socket in `{}`: {error}", folder.display()))?;
-        Ok(Self { notify: Some(notify), system_folder, named_after: plan.named_after.clone() })
+        Ok(Self { notify: Some(Arc::new(notify)), folders: Some(folders), named_after: plan.named_after.clone() })
     }
 
     pub(crate) fn notify(&self) -> Option<&NotifySocket> {
-        self.notify.as_ref()
+        self.notify.as_deref()
     }
 
     /// Opens the socket for requests. Without a system, nobody could find it.
-    pub(crate) fn open_control(&self, events: &Sender<Event>) -> Option<ControlSocket> {
+    pub(crate) fn open_control(&self, events: &Sender<Event>) -> Option<Arc<ControlSocket>> {
         let events = events.clone();
         let receive = move |asked| {
             // After the supervisor has finished, the client sees the end of the connection.
             let _ = events.send(Event::Asked(asked));
         };
-        match ControlSocket::open(self.system_folder.as_ref()?, self.named_after.clone(), receive) {
-            Ok(socket) => Some(socket),
+        let folders = self.folders.as_ref()?;
+        let folder = folders.runtime.join(folders.system.as_ref()?);
+        match ControlSocket::open(&folder, self.named_after.clone(), receive) {
+            Ok(socket) => Some(Arc::new(socket)),
             Err(error) => {
                 print_err(&format!("note: `scl stop` and `scl restart` cannot reach this run: {error}\n"));
                 None
             }
         }
     }
+
+    /// From now on binds the sockets again when they were removed with their folder, as `/run/user/UID` is at a logout: programs that are
+    /// started later, and other commands, find them in the folder with which the system was started.
+    pub(crate) fn keep(&self, control: Option<&Arc<ControlSocket>>, output: &Arc<Output>) {
+        let (Some(folders), Some(notify)) = (self.folders.clone(), &self.notify) else { return };
+        let (notify, control) = (Arc::downgrade(notify), control.map(Arc::downgrade));
+        let output = Arc::clone(output);
+        thread::spawn(move || {
+            let mut is_known = false;
+            loop {
+                thread::sleep(LOOK);
+                let Some(notify) = notify.upgrade() else { return };
+                let control = control.as_ref().and_then(Weak::upgrade).filter(|control| control.is_gone());
+                if !notify.is_gone() && control.is_none() {
+                    is_known = false;
+                    continue;
+                }
+                let restored = folders.restore(&notify, control.as_deref());
+                if let Err(error) = restored.map_err(|error| error.to_string())
+                    && !std::mem::replace(&mut is_known, true)
+                {
+                    output.announce(&removed(&folders.runtime, &error));
+                }
+            }
+        });
+    }
+}
+
+impl Folders {
+    /// Creates those that do not exist, and returns the one for the sockets.
+    fn create(&self) -> Result<PathBuf, RuntimeDirError> {
+        let runtime_dir = RuntimeDir::locate(&|name| (name == RUNTIME_DIR).then(|| self.runtime.clone().into()))?;
+        match &self.system {
+            Some(system) => Ok(runtime_dir.system(system)?.folder().to_owned()),
+            None => Ok(self.runtime.clone()),
+        }
+    }
+
+    fn restore(&self, notify: &NotifySocket, control: Option<&ControlSocket>) -> Result<(), Box<dyn Error>> {
+        self.create()?;
+        if notify.is_gone() {
+            notify.restore()?;
+        }
+        Ok(control.map_or(Ok(()), ControlSocket::restore)?)
+    }
+}
+
+/// What the user is told of a runtime folder that was removed and cannot be created.
+fn removed(folder: &Path, error: &str) -> String {
+    let reason = error.lines().next().unwrap_or_default();
+    format!(
+        "the runtime folder `{}` was removed, as at a logout, so no component can be started and no command reaches this run: \
+         {reason}; to keep it, run `loginctl enable-linger`, or start the system with another `SCL_RUNTIME_DIR`",
+        folder.display()
+    )
 }

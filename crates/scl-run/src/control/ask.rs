@@ -211,6 +211,13 @@ fn not_run(wish: &Wish<'_>, name: &str, runs: &[Answering], folder: Option<&Syst
     problem.note(format!("it has the components {}", quoted_list(names)))
 }
 
+/// The folder of the user's session, if it is the one to look in and was removed, as at a logout.
+fn missing_session() -> Option<PathBuf> {
+    let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty());
+    let session = variable("XDG_RUNTIME_DIR").filter(|_| variable("SCL_RUNTIME_DIR").is_none());
+    session.map(PathBuf::from).filter(|session| !session.exists())
+}
+
 fn no_run(wish: &Wish<'_>, folder: Option<&SystemDir>) -> Problem {
     let message = match wish.system {
         Some(system) => format!("no `scl run` is running in system `{system}`"),
@@ -225,6 +232,13 @@ fn no_run(wish: &Wish<'_>, folder: Option<&SystemDir>) -> Problem {
         names.iter().filter_map(holder).collect()
     });
     let problem = Problem::new(message);
+    let problem = match missing_session() {
+        Some(folder) => problem.note(format!(
+            "`XDG_RUNTIME_DIR` is `{}`, which does not exist, so systems that were started there are not found",
+            folder.display()
+        )),
+        None => problem,
+    };
     if running.is_empty() {
         return problem.help("start the system with `scl run`");
     }
