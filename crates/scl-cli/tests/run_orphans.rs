@@ -125,6 +125,18 @@ fn what_a_build_leaves_behind_goes_on() {
     reader.join().unwrap();
 }
 
+/// The guard of the inner one is killed, too.
+#[test]
+fn those_of_a_run_in_a_run_end_when_the_outer_one_is_killed() {
+    let scl = env!("CARGO_BIN_EXE_scl");
+    let (system, reader) = system(&format!("command: [env, SCL_SYSTEM=inner, {scl:?}, run, inner.yaml]"));
+    system.write("inner.yaml", &format!("components: {{sensor: {{command: {:?}}}}}", STARTS[0]));
+    let mut run = system.start(&NO_END_OF_GRACE);
+    run.wait_for_line("sensor | sensor | ready");
+    run.signal("-KILL");
+    reader.join().unwrap();
+}
+
 /// `scl run` may be the first process of a container.
 #[test]
 fn orphans_are_reaped() {

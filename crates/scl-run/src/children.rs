@@ -2,7 +2,7 @@
 
 use super::ending::Ending;
 use super::event::Event;
-use super::family::{Family, MARK};
+use super::family::{Family, MARK, with_inherited};
 use super::notify::{Datagrams, Notified};
 use super::orphan_guard::{OrphanGuard, bound_command};
 use super::orphans;
@@ -110,7 +110,7 @@ impl Running {
             .current_dir(&program.folder)
             .envs(start.notify.iter().flat_map(Notified::variables))
             .envs(program.environment.iter().map(|(key, value)| (key, value)))
-            .envs(mark.iter().map(|mark| (MARK, mark)))
+            .envs(mark.iter().map(|mark| (MARK, with_inherited(mark))))
             .process_group(0)
             .stdin(start.terminal.as_ref().map_or_else(Stdio::null, |_| Stdio::inherit()))
             .stdout(Stdio::piped())

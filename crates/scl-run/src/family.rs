@@ -15,7 +15,8 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// The variable with the mark: that of the run, and the number of the program in it.
+/// The variable with the mark: that of the run, and the number of the program in it. Where one `scl run` is a program of another one,
+/// it has the marks of both.
 pub(crate) const MARK: &str = "SCL_STARTED_BY";
 
 /// The pauses between two looks at processes that were asked to end: the first one, and the longest. The first is also the one
@@ -51,6 +52,14 @@ impl RunMark {
     /// That of one program, by its number.
     pub(crate) fn of_program(&self, number: usize) -> String {
         format!("{}{number}", self.0)
+    }
+}
+
+/// The value of [`MARK`] for a program with this mark.
+pub(crate) fn with_inherited(mark: &str) -> String {
+    match std::env::var(MARK) {
+        Ok(inherited) if !inherited.is_empty() => format!("{inherited},{mark}"),
+        _ => mark.to_owned(),
     }
 }
 
@@ -184,12 +193,13 @@ pub(crate) fn relatives(
 /// Whether the environment of a process has a mark that begins like this. That of another user's process cannot be read.
 fn has_mark(process: Pid, mark: &str) -> bool {
     let environment = fs::read(format!("/proc/{process}/environ")).unwrap_or_default();
-    let expected = format!("{MARK}={mark}");
-    environment.split(|byte| *byte == 0).any(|variable| {
-        let rest = variable.strip_prefix(expected.as_bytes());
-        // A number does not end within another one.
-        rest.is_some_and(|rest| mark.ends_with('.') || rest.is_empty())
-    })
+    let marks = environment
+        .split(|byte| *byte == 0)
+        .find_map(|variable| variable.strip_prefix(MARK.as_bytes())?.strip_prefix(b"="));
+    // A number does not end within another one.
+    let is_meant =
+        |found: &[u8]| if mark.ends_with('.') { found.starts_with(mark.as_bytes()) } else { found == mark.as_bytes() };
+    marks.is_some_and(|marks| marks.split(|byte| *byte == b',').any(is_meant))
 }
 
 #[cfg(test)]
@@ -224,11 +234,13 @@ mod tests {
     #[test]
     fn a_mark_is_found_as_a_whole() {
         let mut marked = Command::new("/bin/sh");
-        let marked = marked.args(["-c", "echo ready; read line"]).env(MARK, "7.99.12");
+        let marked = marked.args(["-c", "echo ready; read line"]).env(MARK, "3.50.1,7.99.12");
         let mut marked = marked.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
         let process = Pid::from_raw(marked.id().cast_signed());
         marked.stdout.as_mut().unwrap().read_exact(&mut [0; 6]).unwrap();
-        for (mark, expected) in [("7.99.12", true), ("7.99.1", false), ("7.99.", true), ("7.9", false), ("7.", true)] {
+        for (mark, expected) in
+            [("7.99.12", true), ("7.99.1", false), ("7.99.", true), ("7.9", false), ("3.50.1", true), ("9.12", false)]
+        {
             assert_eq!(has_mark(process, mark), expected, "{mark}");
         }
         drop(marked.stdin.take());
