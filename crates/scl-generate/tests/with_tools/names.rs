@@ -96,7 +96,7 @@ fn accepted_names_compile_in_cpp() {
         include: "#include <scl.hpp>\n",
         generated: |system| format!("#include \"{}.scl.hpp\"\n", system.snake_name()),
     };
-    compile(&accepted(Target::Cpp, 24), &language);
+    compile(&accepted(Target::Cpp, 16), &language);
 }
 
 #[test]
