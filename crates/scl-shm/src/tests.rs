@@ -215,3 +215,20 @@ fn files(prefix: &str) -> Vec<String> {
     let names = std::fs::read_dir("/dev/shm").unwrap().map(|entry| entry.unwrap().file_name());
     names.filter_map(|name| name.into_string().ok()).filter(|name| name.starts_with(prefix)).collect()
 }
+
+/// A program that is killed while it creates or removes its node leaves one whose state the engine cannot tell.
+#[test]
+fn a_node_without_a_state_is_removed() {
+    let folder = TempDir::with_prefix("scl-shm").unwrap();
+    let prefix = prefix_of(folder.path());
+    let memory = SharedMemory::open(folder.path()).unwrap();
+    let nodes = folder.path().join("shm/nodes");
+    let names = std::fs::read_dir(&nodes).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let node = names.filter_map(|name| name.strip_prefix(&prefix)?.strip_suffix(".node_monitor")?.parse::<u128>().ok());
+    let other = node.max().unwrap() - 1;
+    for suffix in ["node_monitor", "node_monitor_context"] {
+        std::fs::write(nodes.join(format!("{prefix}{other}.{suffix}")), "").unwrap();
+    }
+    drop(memory);
+    assert_eq!(files(&prefix), [""; 0]);
+}
