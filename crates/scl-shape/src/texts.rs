@@ -4,13 +4,10 @@
 //! message.
 
 use crate::declared;
-use crate::wire::varint;
+use crate::wire::{GROUP_END, GROUP_START, LENGTH_DELIMITED, LEVELS, content_length, key};
 use prost_types::FileDescriptorSet;
 use prost_types::field_descriptor_proto::Type;
 use std::collections::HashMap;
-
-/// Levels of nesting after which every decoder gives up.
-const LEVELS: usize = 128;
 
 /// Checks the texts of messages of one type.
 #[derive(Debug, Clone)]
@@ -72,26 +69,16 @@ impl TextCheck {
                 open.pop();
                 continue;
             }
-            let Some(key) = varint(&frame[..end], &mut at) else { return Ok(()) };
-            let key = key as u32;
-            let field = fields.and_then(|fields| fields.get(&(key >> 3)));
-            let length = match key & 7 {
-                0 => varint(&frame[..end], &mut at).map(|_number| 0),
-                1 => Some(8),
-                2 => varint(&frame[..end], &mut at),
-                3 => Some(0),
-                4 => {
-                    open.pop();
-                    continue;
-                }
-                5 => Some(4),
-                _ => None,
-            };
-            let length = length.and_then(|length| usize::try_from(length).ok());
-            let Some(length) = length.filter(|length| *length <= end - at) else { return Ok(()) };
+            let Some((number, wire_type)) = key(&frame[..end], &mut at) else { return Ok(()) };
+            if wire_type == GROUP_END {
+                open.pop();
+                continue;
+            }
+            let Some(length) = content_length(wire_type, &frame[..end], &mut at) else { return Ok(()) };
+            let field = fields.and_then(|fields| fields.get(&number));
             let inner = field.and_then(|field| Some((&self.messages[field.message?], field.name.as_str())));
-            let is_group = key & 7 == 3;
-            if is_group || key & 7 == 2 && inner.is_some() {
+            let is_group = wire_type == GROUP_START;
+            if is_group || wire_type == LENGTH_DELIMITED && inner.is_some() {
                 if open.len() == LEVELS {
                     return Ok(());
                 }
@@ -100,7 +87,7 @@ impl TextCheck {
                 open.push(Open { fields, name: name.unwrap_or_default(), end });
                 continue;
             }
-            if let Some(field) = field.filter(|field| field.message.is_none() && key & 7 == 2)
+            if let Some(field) = field.filter(|field| field.message.is_none() && wire_type == LENGTH_DELIMITED)
                 && std::str::from_utf8(&frame[at..at + length]).is_err()
             {
                 let names = open.iter().skip(1).map(|open| open.name).chain([field.name.as_str()]);

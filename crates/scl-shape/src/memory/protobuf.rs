@@ -1,10 +1,8 @@
 //! Walks through a frame of protobuf.
 
 use super::{Cost, Kind, Language, MessageLayout};
-use crate::wire::varint;
+use crate::wire::{GROUP_END, GROUP_START, LENGTH_DELIMITED, LEVELS, content_length, key};
 
-/// Levels of nesting after which every decoder gives up.
-const LEVELS: usize = 128;
 /// What a kept unknown field takes besides its content.
 const UNKNOWN: u64 = 104;
 /// What the block of a text's content takes besides the content.
@@ -40,34 +38,24 @@ pub(super) fn estimate(messages: &[MessageLayout], language: Language, frame: &[
             open.pop();
             continue;
         }
-        let Some(key) = varint(&frame[..end], &mut at) else { return total };
-        // Longer keys are refused, except by protobuf-c, which ignores what is too much.
-        let key = key as u32;
-        let (number, wire_type) = (key >> 3, key & 7);
+        let Some((number, wire_type)) = key(&frame[..end], &mut at) else { return total };
+        if wire_type == GROUP_END {
+            open.pop();
+            continue;
+        }
+        let Some(length) = content_length(wire_type, &frame[..end], &mut at) else { return total };
         let field = message.and_then(|message| message.field(number));
         let is_next = std::mem::replace(&mut current.last, number) == number;
         let of = |cost: Cost| if is_next { cost.next } else { cost.first };
-        let length = match wire_type {
-            0 => varint(&frame[..end], &mut at).map(|_number| 0),
-            1 => Some(8),
-            2 => varint(&frame[..end], &mut at),
-            3 => Some(0),
-            4 => {
-                open.pop();
-                continue;
-            }
-            5 => Some(4),
-            _ => None,
-        };
-        let length = length.and_then(|length| usize::try_from(length).ok());
-        let Some(length) = length.filter(|length| *length <= end - at) else { return total };
         let content = if length == 0 { 0 } else { length as u64 + BLOCK };
         let (cost, inner) = match field.map(|field| (field.kind, field.cost)) {
-            Some((Kind::Message(inner) | Kind::Map(inner), cost)) if matches!(wire_type, 2 | 3) => {
+            Some((Kind::Message(inner) | Kind::Map(inner), cost))
+                if matches!(wire_type, LENGTH_DELIMITED | GROUP_START) =>
+            {
                 (of(cost), Some(&messages[inner]))
             }
             Some((Kind::Text, cost)) => (of(cost).saturating_add(content), None),
-            Some((Kind::Number { width, packed }, cost)) if wire_type == 2 => {
+            Some((Kind::Number { width, packed }, cost)) if wire_type == LENGTH_DELIMITED => {
                 let numbers = numbers(&frame[at..at + length], packed);
                 (of(cost).saturating_add(2 * width * numbers), None)
             }
@@ -76,11 +64,11 @@ pub(super) fn estimate(messages: &[MessageLayout], language: Language, frame: &[
             _ => (UNKNOWN + content, None),
         };
         total = total.saturating_add(cost);
-        if let Some(inner) = inner.map(Some).or((wire_type == 3).then_some(None)) {
+        if let Some(inner) = inner.map(Some).or((wire_type == GROUP_START).then_some(None)) {
             if open.len() == LEVELS {
                 return total;
             }
-            let end = if wire_type == 3 { end } else { at + length };
+            let end = if wire_type == GROUP_START { end } else { at + length };
             open.push(Open { message: inner, end, last: 0 });
         } else {
             at += length;
