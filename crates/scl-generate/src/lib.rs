@@ -42,8 +42,22 @@ pub enum Target {
 /// Makes the files for one language.
 ///
 /// # Errors
-/// Names of the topology that would be one name in that language, or none, each with its places in the topology file.
+/// What [`find_clashes`] finds.
 pub fn generate(system: &System, target: Target) -> Result<Vec<File>, Vec<Diagnostic>> {
+    let clashes = find_clashes(system, target);
+    if !clashes.is_empty() {
+        return Err(clashes);
+    }
+    Ok(match target {
+        Target::Zmq(format) => zmq::files(system, format),
+        Target::C => c::files(system),
+        Target::Cpp => cpp::files(system),
+        Target::Python => python::files(system),
+    })
+}
+
+/// Names of the topology that would be one name in that language, or none, each with its places in the topology file.
+pub fn find_clashes(system: &System, target: Target) -> Vec<Diagnostic> {
     let declarations = match target {
         Target::Zmq(_) => Vec::new(),
         Target::C => c::declarations(system),
@@ -54,13 +68,5 @@ pub fn generate(system: &System, target: Target) -> Result<Vec<File>, Vec<Diagno
     if target == Target::Cpp {
         clashes.extend(cpp::unwritable(system));
     }
-    if !clashes.is_empty() {
-        return Err(clashes);
-    }
-    Ok(match target {
-        Target::Zmq(format) => zmq::files(system, format),
-        Target::C => c::files(system),
-        Target::Cpp => cpp::files(system),
-        Target::Python => python::files(system),
-    })
+    clashes
 }

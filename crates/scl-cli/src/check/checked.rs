@@ -35,7 +35,7 @@ pub(super) fn check_file(path: &Path, arguments: &CheckArguments) -> Checked {
 fn refusals(loaded: &Loaded, arguments: &CheckArguments) -> Vec<Diagnostic> {
     let Some(system) = scl_generate::System::of(loaded) else { return Vec::new() };
     let targets = arguments.languages.iter().map(|language| language.target());
-    targets.filter_map(|target| scl_generate::generate(&system, target).err()).flatten().collect()
+    targets.flat_map(|target| scl_generate::find_clashes(&system, target)).collect()
 }
 
 #[cfg(not(feature = "generate"))]
