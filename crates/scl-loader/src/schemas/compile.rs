@@ -41,21 +41,16 @@ pub(crate) fn compile(request: &Request, model: &Model, sources: &mut Sources, p
             .or_else(|| refuse(schema, &folder, request.max_size))
             .or_else(|| misplaced(schema, &folders));
         let wrong = match (refused, folders.name_of_entry(&schema.value)) {
-            (None, Some(name)) => {
-                let error = match no_panic(|| compiler.open_file(&name).err()) {
-                    Ok(None) => continue,
-                    Ok(Some(error)) => error,
-                    Err(text) => {
-                        problems.push(panicked(schema, &text));
-                        all_well = false;
-                        continue;
-                    }
-                };
-                let mut seen = seen.get();
-                let mistakes = std::mem::take(&mut seen.mistakes);
-                let mut shown = Shown(Texts { request, folders: &folders, files: &seen.files, sources });
-                shown.all(&error, mistakes, &mut told, schema)
-            }
+            (None, Some(name)) => match no_panic(|| compiler.open_file(&name)) {
+                Ok(Ok(_)) => continue,
+                Ok(Err(error)) => {
+                    let mut seen = seen.get();
+                    let mistakes = std::mem::take(&mut seen.mistakes);
+                    let mut shown = Shown(Texts { request, folders: &folders, files: &seen.files, sources });
+                    shown.all(&error, mistakes, &mut told, schema)
+                }
+                Err(text) => vec![panicked(schema, &text)],
+            },
             (refused, _) => refused.into_iter().collect(),
         };
         problems.extend(wrong);

@@ -163,7 +163,8 @@ fn write_import(name: String) -> String {
     format!("write `import \"{name}\";`")
 }
 
-/// Whether protobuf allows the path in an import: the same name is the same file, whoever imports it.
+/// Whether protobuf allows the path in an import. A name means the same file in every importer, so it cannot be
+/// relative to one of them.
 fn is_portable(name: &str) -> bool {
     !name.contains('\\') && name.split('/').all(|part| !matches!(part, "" | "." | ".."))
 }

@@ -102,7 +102,7 @@ struct Written {
 #[derive(Debug, Clone, Copy)]
 enum At {
     Top,
-    /// A mapping from names to others, with so many levels of names.
+    /// Mappings from names to mappings, this many levels deep.
     Names(usize),
     /// A mapping with keys of the format.
     Keys,
