@@ -1,8 +1,8 @@
 //! The stop request of SIGTERM and SIGINT.
 //!
 //! The package watches for the signals with Python's own `signal`, because a program may have handlers of its own. The
-//! rules are those of the crate `scl`: calls end at once, unless the program handles the request itself; then they work until its
-//! grace period is over.
+//! rules are those of the crate `scl`: calls end at once, unless the program handles the request itself; then they work
+//! until its grace period is over.
 
 use crate::failure::Failure;
 use pyo3::prelude::*;
@@ -19,8 +19,8 @@ const LAST_FLUSH: Duration = Duration::from_millis(500);
 /// How long the last log line may take to be written.
 const LOG_WRITE: Duration = Duration::from_millis(100);
 
-/// Requests the stop, and ends a program that still runs after the grace period or has another signal after [`ONE_REQUEST`].
-/// `watched` are the signals whose handlers in Python call this. Further calls do nothing.
+/// Requests the stop, and ends a program that still runs after the grace period or has another signal after
+/// [`ONE_REQUEST`]. `watched` are the signals whose handlers in Python call this. Further calls do nothing.
 #[pyfunction]
 pub(crate) fn stop_request(number: i32, watched: Vec<i32>) -> PyResult<()> {
     if host::is_stop_requested() {

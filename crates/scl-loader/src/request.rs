@@ -14,8 +14,8 @@ pub struct Request {
     pub max_size: u64,
     /// Every place in which the file was looked for, to be listed if it is nowhere.
     pub looked_in: Vec<LookedIn>,
-    /// The crates that a Rust program with this topology can name: a package of the schemas may hide one. Those that every
-    /// program has by default.
+    /// The crates that a Rust program with this topology can name: a package of the schemas may hide one. Those that
+    /// every program has by default.
     pub crates: BTreeSet<String>,
 }
 

@@ -13,7 +13,8 @@ const MOST_LZ4: usize = 255;
 /// Greatest ratio of zstd: a block of four bytes stands for 128 KiB.
 const MOST_ZSTD: usize = 32 << 10;
 
-/// Bytes of a chunk's content up to the name of its compression, with the name's length and the longest name known here.
+/// Bytes of a chunk's content up to the name of its compression, with the name's length and the longest name known
+/// here.
 pub(crate) const CHUNK_HEAD: usize = 36;
 
 /// What can be decompressed, for messages.

@@ -164,8 +164,8 @@ impl Running {
         self.terminal.is_some()
     }
 
-    /// Asks every process of the group to end, and when it has, what has left it. Returns those that were stopped, which would not
-    /// end: they are continued.
+    /// Asks every process of the group to end, and when it has, what has left it. Returns those that were stopped,
+    /// which would not end: they are continued.
     pub(crate) fn ask_to_end(&self, signal: Signal) -> Vec<Pid> {
         let (group, family) = (self.group, self.family.clone());
         // Finds those that will have lost their parents.

@@ -42,8 +42,8 @@ pub(crate) struct Asked {
 }
 
 impl ControlSocket {
-    /// Listens in the folder of a system, and passes each request to `receive`, on a thread of its client. Each response has
-    /// `named_after`.
+    /// Listens in the folder of a system, and passes each request to `receive`, on a thread of its client. Each
+    /// response has `named_after`.
     ///
     /// # Errors
     ///

@@ -1,7 +1,8 @@
 //! All processes that come from a program, also those that have left its process group, as with `setsid`.
 //!
-//! Three traces lead to them: the group, the parent of each process, and a mark in the environment, which remains when the
-//! parent ends. What has cleared its environment and lost its parent before anybody has looked is found by none of them.
+//! Three traces lead to them: the group, the parent of each process, and a mark in the environment, which remains when
+//! the parent ends. What has cleared its environment and lost its parent before anybody has looked is found by none of
+//! them.
 
 use super::process_stat::{ProcessStat, running_processes};
 use nix::sys::signal::{Signal, kill, killpg};
@@ -15,12 +16,12 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// The variable with the mark: that of the run, and the number of the program in it. Where one `scl run` is a program of another one,
-/// it has the marks of both.
+/// The variable with the mark: that of the run, and the number of the program in it. Where one `scl run` is a program
+/// of another one, it has the marks of both.
 pub(crate) const MARK: &str = "SCL_STARTED_BY";
 
-/// The pauses between two looks at processes that were asked to end: the first one, and the longest. The first is also the one
-/// where the end of a process cannot be waited for: out of file descriptors, which passes.
+/// The pauses between two looks at processes that were asked to end: the first one, and the longest. The first is also
+/// the one where the end of a process cannot be waited for: out of file descriptors, which passes.
 const PAUSE: Duration = Duration::from_millis(20);
 const MAX_PAUSE: Duration = Duration::from_secs(1);
 
@@ -190,7 +191,8 @@ pub(crate) fn relatives(
     }
 }
 
-/// Whether the environment of a process has a mark that begins like this. That of another user's process cannot be read.
+/// Whether the environment of a process has a mark that begins like this. That of another user's process cannot be
+/// read.
 fn has_mark(process: Pid, mark: &str) -> bool {
     let environment = fs::read(format!("/proc/{process}/environ")).unwrap_or_default();
     let marks = environment

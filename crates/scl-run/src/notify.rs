@@ -58,7 +58,8 @@ pub(crate) struct Notified<'a> {
 }
 
 impl NotifySocket {
-    /// Listens in a folder that only this user can write to, and sends what arrives as events. Programs are told the runtime folder.
+    /// Listens in a folder that only this user can write to, and sends what arrives as events. Programs are told the
+    /// runtime folder.
     ///
     /// # Errors
     ///
@@ -90,9 +91,9 @@ impl NotifySocket {
 }
 
 impl Notified<'_> {
-    /// The variables by which programs find the socket, and the folder of their system: it stays the same when the one that they
-    /// would choose by themselves is removed, as at a logout. `WATCHDOG_PID` is left out, so that also a program behind a shell is
-    /// meant.
+    /// The variables by which programs find the socket, and the folder of their system: it stays the same when the one
+    /// that they would choose by themselves is removed, as at a logout. `WATCHDOG_PID` is left out, so that also a
+    /// program behind a shell is meant.
     pub(crate) fn variables(&self) -> Vec<(&'static str, String)> {
         let path = self.socket.file.path().display().to_string();
         let watchdog = self.alive_within.map(|limit| ("WATCHDOG_USEC", limit.as_micros().to_string()));

@@ -19,7 +19,8 @@ use std::io::{self, BufRead, Write};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, Command, ExitCode, Stdio};
 
-/// The hidden command that starts one component: `scl __start PARENT [--cpu N]... [--fifo N] [--descriptors N] -- COMMAND...`.
+/// The hidden command that starts one component: `scl __start PARENT [--cpu N]... [--fifo N] [--descriptors N] --
+/// COMMAND...`.
 pub const START_WORD: &str = "__start";
 /// The hidden command that keeps watch: `scl __guard MARK`.
 pub const GUARD_WORD: &str = "__guard";
@@ -145,8 +146,8 @@ impl Drop for OrphanGuard {
     }
 }
 
-/// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told, and every process with the
-/// mark of the run. The negative of a group's number takes that group away.
+/// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told, and every process
+/// with the mark of the run. The negative of a group's number takes that group away.
 pub fn keep_watch(run_mark: &str) -> ExitCode {
     // Another `scl run`, of which this one is a part, asks all processes to end. This one has to be the last.
     let _ = stop_signals().thread_block();

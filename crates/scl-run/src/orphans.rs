@@ -1,5 +1,6 @@
-//! Processes that have lost their parents: this process inherits those of its programs, as the first process of a container inherits
-//! those of all. It reaps them, and at its end kills those that have left every trace of their program.
+//! Processes that have lost their parents: this process inherits those of its programs, as the first process of a
+//! container inherits those of all. It reaps them, and at its end kills those that have left every trace of their
+//! program.
 
 use super::family::{kill_all, relatives};
 use super::process_stat::{children, running_processes};

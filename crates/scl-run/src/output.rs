@@ -1,8 +1,9 @@
-//! The output of all components on one screen: whole lines, each with the name of its component before it, and the reports of
-//! `scl run` itself.
+//! The output of all components on one screen: whole lines, each with the name of its component before it, and the
+//! reports of `scl run` itself.
 //!
-//! Threads of their own write, because neither a component nor the supervisor may wait for a reader: a paused `less`, Ctrl-S, a
-//! pipe that nobody reads. Lines that such a reader would have to take later than others of some MiB are dropped and counted.
+//! Threads of their own write, because neither a component nor the supervisor may wait for a reader: a paused `less`,
+//! Ctrl-S, a pipe that nobody reads. Lines that such a reader would have to take later than others of some MiB are
+//! dropped and counted.
 
 mod backlog;
 

@@ -1,5 +1,5 @@
-//! The processors, the priority and the limit of descriptors of a program, set by `scl __start` before it becomes the program, so that they apply
-//! from its first moment, to all of its threads, and to programs in any language.
+//! The processors, the priority and the limit of descriptors of a program, set by `scl __start` before it becomes the
+//! program, so that they apply from its first moment, to all of its threads, and to programs in any language.
 //!
 //! What the operating system refuses is a warning, so that one launch file works on the vehicle and on a desktop.
 

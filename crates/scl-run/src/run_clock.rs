@@ -1,7 +1,7 @@
 //! The time of a run, which stands still while `scl run` itself does not run.
 //!
-//! A frozen container, a paused virtual machine and SIGSTOP to a whole system take the time of the components, too. A limit
-//! that went on meanwhile would end those that are sound.
+//! A frozen container, a paused virtual machine and SIGSTOP to a whole system take the time of the components, too. A
+//! limit that went on meanwhile would end those that are sound.
 
 use super::restarts::Time;
 use std::time::{Duration, Instant};
@@ -30,8 +30,8 @@ impl RunClock {
         instant.saturating_duration_since(self.began).saturating_sub(self.lost)
     }
 
-    /// Notes that this process runs. `waited` is how long it meant to wait since the last look; what passed beyond that is lost.
-    /// Returns how long that was.
+    /// Notes that this process runs. `waited` is how long it meant to wait since the last look; what passed beyond that
+    /// is lost. Returns how long that was.
     pub(crate) fn look(&mut self, now: Instant, waited: Duration) -> Duration {
         let late = now.saturating_duration_since(self.last_look).saturating_sub(waited);
         let lost = if late > LATE { late } else { Duration::ZERO };

@@ -91,8 +91,8 @@ impl Sockets {
         }
     }
 
-    /// From now on binds the sockets again when they were removed with their folder, as `/run/user/UID` is at a logout: programs that are
-    /// started later, and other commands, find them in the folder with which the system was started.
+    /// From now on binds the sockets again when they were removed with their folder, as `/run/user/UID` is at a logout:
+    /// programs that are started later, and other commands, find them in the folder with which the system was started.
     pub(crate) fn keep(&self, control: Option<&Arc<ControlSocket>>, output: &Arc<Output>) {
         let (Some(folders), Some(notify)) = (self.folders.clone(), &self.notify) else { return };
         let (notify, control) = (Arc::downgrade(notify), control.map(Arc::downgrade));

@@ -1,8 +1,8 @@
 //! The terminal of `scl run`, lent to the one component whose entry has `input: terminal`.
 //!
-//! A program reads from a terminal, and changes its modes, only in the terminal's foreground; elsewhere the kernel stops it. So
-//! the component's process group becomes the foreground one. The signals of keys such as Ctrl-C go there too and not to
-//! `scl run`, so a process of ours in that group, [`keys`], tells about them.
+//! A program reads from a terminal, and changes its modes, only in the terminal's foreground; elsewhere the kernel
+//! stops it. So the component's process group becomes the foreground one. The signals of keys such as Ctrl-C go there
+//! too and not to `scl run`, so a process of ours in that group, [`keys`], tells about them.
 
 mod keys;
 
@@ -83,8 +83,8 @@ impl Terminal {
         }
     }
 
-    /// Stops `scl run` as a shell expects it of a program after Ctrl-Z, and goes on with the group in the foreground, if we
-    /// are there by then.
+    /// Stops `scl run` as a shell expects it of a program after Ctrl-Z, and goes on with the group in the foreground,
+    /// if we are there by then.
     pub(crate) fn suspend(&self, group: Pid) {
         let of_group = tcgetattr(io::stdin());
         self.take_back(group);

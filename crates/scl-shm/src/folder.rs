@@ -112,8 +112,8 @@ impl Folder {
         let Ok(config) = self.config() else { return };
         let mut used = false;
         let listed = Node::<Engine>::list(&config, |state| {
-            // Under the lock, no program is creating or removing a node. So one whose state the engine cannot tell is of a
-            // program that was killed meanwhile.
+            // Under the lock, no program is creating or removing a node. So one whose state the engine cannot tell is
+            // of a program that was killed meanwhile.
             used |= matches!(state, NodeState::Alive(_));
             CallbackProgression::Continue
         });

@@ -147,8 +147,8 @@ fn protoc_identifier(name: &str) -> String {
     if is_escaped { format!("{name}_") } else { name.to_owned() }
 }
 
-/// SCL1103: messages of gates whose C++ name depends on the version of protoc, or is none because protoc does not escape
-/// packages.
+/// SCL1103: messages of gates whose C++ name depends on the version of protoc, or is none because protoc does not
+/// escape packages.
 pub(super) fn unwritable(system: &System) -> Vec<Diagnostic> {
     let mut told = HashSet::new();
     let gates = system.components.iter().flat_map(|component| &component.gates);

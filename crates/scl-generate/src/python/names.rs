@@ -190,8 +190,8 @@ impl Names {
         if self.is_hidden(head) { format!("{}{}", alias(head), &found.path[head.len()..]) } else { found.path.clone() }
     }
 
-    /// Whether an annotation in a class would mean something else: an attribute of the class, or what Python has itself, which
-    /// mypy takes for a name that the module declares further down.
+    /// Whether an annotation in a class would mean something else: an attribute of the class, or what Python has
+    /// itself, which mypy takes for a name that the module declares further down.
     fn is_hidden(&self, name: &str) -> bool {
         self.attributes.contains(name) || PYTHON_BUILTINS.contains(&name)
     }

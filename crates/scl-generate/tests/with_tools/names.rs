@@ -1,6 +1,7 @@
 //! Random schemas with awkward names: where the schemas' own headers compile, so does what SCL generates for them.
 //!
-//! `SCL_TEST_SCHEMAS=250 cargo test -p scl-generate --test with_tools names -- --nocapture` tries more, and tells how many.
+//! `SCL_TEST_SCHEMAS=250 cargo test -p scl-generate --test with_tools names -- --nocapture` tries more, and tells how
+//! many.
 
 use crate::fixture::{repository, run};
 use scl_generate::{System, Target, generate, write};

@@ -13,8 +13,8 @@ use std::path::Path;
 pub(super) struct Shown<'s>(pub(super) Texts<'s>);
 
 impl Shown<'_> {
-    /// What is wrong with an entry: the mistakes in its files, or else the compiler's error. `told` are the mistakes that
-    /// were reported with an earlier entry.
+    /// What is wrong with an entry: the mistakes in its files, or else the compiler's error. `told` are the mistakes
+    /// that were reported with an earlier entry.
     pub(super) fn all(
         &mut self,
         error: &protox::Error,

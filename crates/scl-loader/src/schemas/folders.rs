@@ -5,8 +5,8 @@ use scl_topology::model::Model;
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
 
-/// Where imports are looked for: in the folders of `schema_roots`, or else beside the topology file and beside the schemas
-/// that it names.
+/// Where imports are looked for: in the folders of `schema_roots`, or else beside the topology file and beside the
+/// schemas that it names.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Folders {
     topology: PathBuf,

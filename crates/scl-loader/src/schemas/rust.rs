@@ -1,4 +1,5 @@
-//! The Rust names of everything that schemas declare, as prost generates them: one table that the checks and the macro share.
+//! The Rust names of everything that schemas declare, as prost generates them: one table that the checks and the macro
+//! share.
 
 #[cfg(feature = "protobuf")]
 mod clash;

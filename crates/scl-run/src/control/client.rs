@@ -94,8 +94,8 @@ impl ControlledRun {
         }
     }
 
-    /// The problem if it runs the system of one topology file, where that of another is meant, and one can be taken for the
-    /// other, because neither was given a name.
+    /// The problem if it runs the system of one topology file, where that of another is meant, and one can be taken for
+    /// the other, because neither was given a name.
     pub(crate) fn other_system(&self, running: Option<&Path>, meant: Option<&Path>) -> Option<Problem> {
         let (running, meant) = running.zip(meant).filter(|(running, meant)| running != meant)?;
         let (running, meant, process) = (running.display(), meant.display(), self.process);

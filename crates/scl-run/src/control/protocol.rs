@@ -48,8 +48,8 @@ pub struct Response {
     /// The components that were asked for.
     #[serde(default)]
     pub components: Vec<ComponentReport>,
-    /// The topology file that the system has its name of, where nobody has given it another one. So another system may have the
-    /// same name.
+    /// The topology file that the system has its name of, where nobody has given it another one. So another system may
+    /// have the same name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub named_after: Option<PathBuf>,
     /// What builds the programs of the components, in this order, for [`Command::Builds`].

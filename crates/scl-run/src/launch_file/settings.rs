@@ -1,4 +1,5 @@
-//! The keys of a component that may also stand in `defaults`: restarts, limits of time, processors, priority, descriptors.
+//! The keys of a component that may also stand in `defaults`: restarts, limits of time, processors, priority,
+//! descriptors.
 
 use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::keys::{Form, form_of};
