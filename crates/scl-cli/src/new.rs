@@ -1,7 +1,7 @@
 //! `scl new`: creates a project.
 
 use clap::{Args, ValueEnum};
-use scl_new::{Project, create};
+use scl_new::{Project, Source, create};
 use scl_terminal::{print_err, print_out};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -17,6 +17,8 @@ const COULD_NOT_RUN: u8 = 2;
 Examples:
   scl new rover                      a sensor, a controller and a display
   scl new rover --template minimal   two programs, one connection
+  scl new rover --git https://host/scl.git
+                                     with the SCL in this repository, for others to build
   scl new rover --path ../scl        with the SCL in this folder
 
 Exit code: 0 created, 2 nothing was created.")]
@@ -27,7 +29,14 @@ pub(crate) struct NewArguments {
     /// Which files to begin with.
     #[arg(long, value_enum, default_value_t = Template::Control)]
     template: Template,
-    /// The folder of SCL's repository [default: where this `scl` was built, else the package registry].
+    /// A git repository with SCL [default: that of the checkout that this `scl` was built from, if others can reach it].
+    #[arg(long, value_name = "URL", conflicts_with = "path")]
+    git: Option<String>,
+    /// The commit or tag of `--git` [default: the commit that this `scl` was built from].
+    #[arg(long, value_name = "REVISION", requires = "git")]
+    rev: Option<String>,
+    /// The folder of SCL's repository on this machine [default, if there is no repository: where this `scl` was built,
+    /// else the package registry].
     #[arg(long, value_name = "FOLDER")]
     path: Option<PathBuf>,
 }
@@ -52,7 +61,12 @@ impl From<Template> for scl_new::Template {
 /// The body of `scl new`.
 pub(crate) fn new(arguments: &NewArguments) -> ExitCode {
     let name = &arguments.name;
-    let project = Project { name: name.clone(), template: arguments.template.into(), scl: arguments.path.clone() };
+    let scl = match (&arguments.git, &arguments.path) {
+        (Some(url), _) => Source::Git { url: url.clone(), revision: arguments.rev.clone() },
+        (None, Some(path)) => Source::Folder(path.clone()),
+        (None, None) => Source::OfThisProgram,
+    };
+    let project = Project { name: name.clone(), template: arguments.template.into(), scl };
     match create(Path::new("."), &project) {
         Ok(created) => {
             print_err(&format!(
@@ -60,8 +74,8 @@ pub(crate) fn new(arguments: &NewArguments) -> ExitCode {
                 created.files.len(),
                 created.scl
             ));
-            if created.from_registry {
-                print_err("note: if the registry does not have it, use `--path` with a clone of SCL's repository\n");
+            if let Some(note) = created.note {
+                print_err(&format!("note: {note}\n"));
             }
             print_out(&format!("cd {name} && scl run\n"));
             ExitCode::SUCCESS

@@ -136,6 +136,44 @@ fn a_folder_without_permission_to_write_is_named() {
 }
 
 #[test]
+fn a_repository_is_named_by_its_url() {
+    let system = System::of_files(&[]);
+    let output = new(&system, &["rover", "--git", "git@host:team/scl.git", "--rev", "4f1d2ab"]);
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert!(err.ends_with("files; it uses SCL from ssh://git@host/team/scl.git at 4f1d2ab\n"), "{err}");
+    let file = |name: &str| std::fs::read_to_string(system.path("rover").join(name)).unwrap();
+    let (manifest, ci) = (file("Cargo.toml"), file(".github/workflows/ci.yml"));
+    let line = "scl = { package = \"scl-gates\", git = \"ssh://git@host/team/scl.git\", rev = \"4f1d2ab\" }\n";
+    assert!(manifest.contains(line), "{manifest}");
+    assert!(ci.contains("cargo install --git 'ssh://git@host/team/scl.git' --rev '4f1d2ab' scl-cli --no"), "{ci}");
+
+    for (arguments, expected) in [
+        (
+            &["--git", "/srv/scl"][..],
+            "error: `/srv/scl` is not the URL of a repository\n  = help: for example `https://",
+        ),
+        (&["--git", "\u{1b}[31m"], "error: `\\u{1b}[31m` is not the URL"),
+        (&["--git", "https://host/scl", "--path", "."], "error: the argument '--git <URL>' cannot be used with"),
+        (&["--rev", "4f1d2ab"], "error: the following required arguments were not provided"),
+    ] {
+        let output = new(&system, &[&["other"], arguments].concat());
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert!(err.starts_with(expected), "{arguments:?}: {err}");
+        assert_eq!(output.status.code(), Some(2));
+    }
+    assert_eq!(names(&system), ["rover"]);
+}
+
+#[test]
+fn a_project_for_this_machine_only_says_so() {
+    let system = System::of_files(&[("repository/scl/Cargo.toml", "[package]\nname = \"scl-gates\"\n")]);
+    let output = new(&system, &["rover", "--path", "repository"]);
+    let err = String::from_utf8(output.stderr).unwrap();
+    let note = "note: it builds on this machine only, because SCL is at `../repository/scl`; `--git URL` names";
+    assert!(err.contains(note), "{err}");
+}
+
+#[test]
 fn a_path_must_lead_to_scl() {
     let system = System::of_files(&[
         ("repository/scl/Cargo.toml", "[package]\nname = \"scl-gates\"\n"),

@@ -1,5 +1,6 @@
-//! Where a project finds SCL: a folder, or the package registry.
+//! Where a project finds SCL: a folder, a git repository, or the package registry.
 
+use crate::checkout::{Revision, head, published};
 use scl_terminal::Problem;
 use std::fmt;
 use std::path::{Component, Path, PathBuf};
@@ -19,22 +20,30 @@ pub(crate) enum Dependency {
         /// As this process finds it.
         found: PathBuf,
     },
+    Git(Revision),
     /// This version from the package registry.
     Registry,
 }
 
 impl Dependency {
-    /// The folder that this program was built from, as `cargo install --path` does. Once that folder is gone, or if the
-    /// program comes from the registry, the registry.
+    /// The revision that this program was built from, if its checkout has a remote that has it, too; otherwise the folder
+    /// of the checkout. Once that is gone, or if the program comes from the registry, the registry.
     pub(crate) fn of_this_program() -> Self {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).map(|repository| repository.join("scl"));
-        match sources.filter(|folder| is_scl(folder)) {
-            Some(found) => match found.to_str() {
-                Some(path) => Self::Folder { path: path.to_owned(), found },
-                None => Self::Registry,
-            },
-            None => Self::Registry,
+        let Some(found) = own_sources() else { return Self::Registry };
+        match (found.parent().and_then(published), found.to_str()) {
+            (Some(revision), _) => Self::Git(revision),
+            (None, Some(path)) => Self::Folder { path: path.to_owned(), found },
+            (None, None) => Self::Registry,
         }
+    }
+
+    /// A repository that a user names. The default revision is the one that this program was built from.
+    pub(crate) fn in_repository(url: &str, revision: Option<&str>) -> Result<Self, Problem> {
+        let commit = match revision {
+            Some(revision) => Some(revision.to_owned()),
+            None => own_sources().and_then(|sources| head(sources.parent()?)),
+        };
+        Ok(Self::Git(Revision::new(url, commit)?))
     }
 
     /// SCL in the folder that a user names, seen from `parent`, the folder that will contain the project.
@@ -60,10 +69,30 @@ impl Dependency {
         matches!(self, Self::Folder { .. })
     }
 
+    /// What a user should know before handing the project on.
+    pub(crate) fn note(&self) -> Option<String> {
+        match self {
+            Self::Folder { path, .. } => Some(format!(
+                "it builds on this machine only, because SCL is at `{path}`; `--git URL` names a repository that others can reach"
+            )),
+            Self::Git(Revision { commit: None, .. }) => {
+                Some("it uses the newest commit of that repository; `--rev COMMIT` keeps to one".to_owned())
+            }
+            Self::Git(_) => None,
+            Self::Registry => {
+                Some("if the registry does not have it, use `--git` or `--path` with SCL's repository".to_owned())
+            }
+        }
+    }
+
     /// The line of the project's `Cargo.toml`.
     pub(crate) fn manifest_line(&self) -> String {
         match self {
             Self::Folder { path, .. } => format!("scl = {{ package = \"{PACKAGE}\", path = {} }}", toml_text(path)),
+            Self::Git(Revision { url, commit }) => {
+                let rev = commit.as_ref().map(|commit| format!(", rev = {}", toml_text(commit))).unwrap_or_default();
+                format!("scl = {{ package = \"{PACKAGE}\", git = {}{rev} }}", toml_text(url))
+            }
             Self::Registry => format!("scl = {{ package = \"{PACKAGE}\", version = \"{VERSION}\" }}"),
         }
     }
@@ -72,7 +101,11 @@ impl Dependency {
     pub(crate) fn install_command(&self) -> String {
         match self {
             Self::Folder { path, .. } => {
-                format!("cargo install --path '{}'", beside(path, "crates/scl-cli").replace('\'', r"'\''"))
+                format!("cargo install --path {}", shell_text(&beside(path, "crates/scl-cli")))
+            }
+            Self::Git(Revision { url, commit }) => {
+                let rev = commit.as_ref().map(|commit| format!(" --rev {}", shell_text(commit))).unwrap_or_default();
+                format!("cargo install --git {}{rev} scl-cli", shell_text(url))
             }
             Self::Registry => format!("cargo install scl-cli --version {VERSION}"),
         }
@@ -82,6 +115,7 @@ impl Dependency {
     pub(crate) fn lock_file(&self) -> Option<String> {
         match self {
             Self::Folder { found, .. } => std::fs::read_to_string(found.join("../Cargo.lock")).ok(),
+            Self::Git(_) => own_sources().and_then(|scl| std::fs::read_to_string(scl.join("../Cargo.lock")).ok()),
             Self::Registry => None,
         }
     }
@@ -91,9 +125,17 @@ impl fmt::Display for Dependency {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Folder { path, .. } => f.write_str(path),
+            Self::Git(Revision { url, commit: None }) => f.write_str(url),
+            Self::Git(Revision { url, commit: Some(commit) }) => write!(f, "{url} at {commit}"),
             Self::Registry => write!(f, "{PACKAGE} {VERSION} of the package registry"),
         }
     }
+}
+
+/// The folder of the crate `scl` in the checkout that this program was built from, if it is still there.
+fn own_sources() -> Option<PathBuf> {
+    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2)?.join("scl");
+    is_scl(&sources).then_some(sources)
 }
 
 /// Whether this is the folder of the crate `scl`.
@@ -108,6 +150,11 @@ fn is_scl(folder: &Path) -> bool {
 /// A path in the same repository as the crate `scl`.
 fn beside(path: &str, name: &str) -> String {
     Path::new(path).with_file_name(name).display().to_string()
+}
+
+/// A text as one word of a shell.
+fn shell_text(text: &str) -> String {
+    format!("'{}'", text.replace('\'', r"'\''"))
 }
 
 /// A text as TOML writes it.
@@ -129,6 +176,17 @@ mod tests {
         assert_eq!(Dependency::Registry.manifest_line(), "scl = { package = \"scl-gates\", version = \"0.1.0\" }");
         assert_eq!(Dependency::Registry.install_command(), "cargo install scl-cli --version 0.1.0");
         assert_eq!(Dependency::Registry.lock_file(), None);
+    }
+
+    #[test]
+    fn repositories_are_named_by_url_and_commit() {
+        let at = |commit| Dependency::in_repository("https://host/it's.git", commit).unwrap();
+        let dependency = at(Some("4f1d2ab"));
+        let line = r#"scl = { package = "scl-gates", git = "https://host/it's.git", rev = "4f1d2ab" }"#;
+        assert_eq!(dependency.manifest_line(), line);
+        let command = r"cargo install --git 'https://host/it'\''s.git' --rev '4f1d2ab' scl-cli";
+        assert_eq!(dependency.install_command(), command);
+        assert_eq!(dependency.note(), None);
     }
 
     #[test]

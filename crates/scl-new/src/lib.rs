@@ -6,6 +6,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 #![deny(missing_docs)]
 
+mod checkout;
 mod dependency;
 mod name;
 mod template;
@@ -24,9 +25,25 @@ pub struct Project {
     pub name: String,
     /// Which files.
     pub template: Template,
-    /// Where SCL is, from the folder in which the project is created: its repository, or the crate `scl` in it. By
-    /// default the folder that this program was built from, if it is still there, else the package registry.
-    pub scl: Option<PathBuf>,
+    /// Where the project finds SCL.
+    pub scl: Source,
+}
+
+/// Where a project finds SCL.
+#[derive(Debug, Clone)]
+pub enum Source {
+    /// The revision that this program was built from, if its checkout has a remote that others can reach and that has this
+    /// revision; else the folder of the checkout; if it is gone, the package registry.
+    OfThisProgram,
+    /// SCL's repository on this machine, or the crate `scl` in it, from the folder in which the project is created.
+    Folder(PathBuf),
+    /// A git repository that others can reach.
+    Git {
+        /// With a scheme, or as ssh writes it.
+        url: String,
+        /// A commit or a tag; by default the commit that this program was built from.
+        revision: Option<String>,
+    },
 }
 
 /// A created project.
@@ -34,30 +51,31 @@ pub struct Project {
 pub struct Created {
     /// The paths of its files, from its folder.
     pub files: Vec<String>,
-    /// What its `Cargo.toml` says about SCL: a path, or a version in the package registry.
+    /// What its `Cargo.toml` says about SCL: a path, a revision, or a version in the package registry.
     pub scl: String,
-    /// Whether cargo will look for SCL in the package registry.
-    pub from_registry: bool,
+    /// What to know before handing the project on.
+    pub note: Option<String>,
 }
 
 /// Creates the project as a folder in `parent`.
 ///
 /// # Errors
 ///
-/// If the name cannot be used, something with that name exists, SCL is not where it should be, or the files cannot be
-/// written. Nothing is left behind then.
+/// If the name cannot be used, something with that name exists, SCL is not where it should be, the URL is none, or the
+/// files cannot be written. Nothing is left behind then.
 pub fn create(parent: &Path, project: &Project) -> Result<Created, Problem> {
     name::check(&project.name, &project.template.programs())?;
     write::check_absent(parent, &project.name)?;
     let dependency = match &project.scl {
-        Some(path) => Dependency::at(parent, path)?,
-        None => Dependency::of_this_program(),
+        Source::Folder(path) => Dependency::at(parent, path)?,
+        Source::Git { url, revision } => Dependency::in_repository(url, revision.as_deref())?,
+        Source::OfThisProgram => Dependency::of_this_program(),
     };
     let mut files = project.template.files(&project.name, &dependency, is_in_workspace(parent));
     files.extend(dependency.lock_file().map(|text| ("Cargo.lock".to_owned(), text)));
     write::write_all(parent, &project.name, &files)?;
     let files = files.into_iter().map(|(path, _)| path).collect();
-    Ok(Created { files, scl: dependency.to_string(), from_registry: !dependency.is_path() })
+    Ok(Created { files, scl: dependency.to_string(), note: dependency.note() })
 }
 
 /// Whether cargo would take a package in this folder for a member of the workspace around it.

@@ -2,12 +2,12 @@
 
 use crate::read;
 use scl_loader::{Request, load};
-use scl_new::{Project, Template, create};
+use scl_new::{Project, Source, Template, create};
 use std::path::Path;
 
 fn project(name: &str, template: Template) -> (tempfile::TempDir, String) {
     let parent = tempfile::tempdir().unwrap();
-    create(parent.path(), &Project { name: name.to_owned(), template, scl: None }).unwrap();
+    create(parent.path(), &Project { name: name.to_owned(), template, scl: Source::OfThisProgram }).unwrap();
     let folder = parent.path().join(name).to_str().unwrap().to_owned();
     (parent, folder)
 }
@@ -50,7 +50,11 @@ fn scl_is_found_where_it_was_built() {
 fn a_project_inside_a_workspace_is_not_its_member() {
     let parent = tempfile::tempdir().unwrap();
     std::fs::write(parent.path().join("Cargo.toml"), "[workspace]\nmembers = []\n").unwrap();
-    create(parent.path(), &Project { name: "rover".to_owned(), template: Template::Minimal, scl: None }).unwrap();
+    create(
+        parent.path(),
+        &Project { name: "rover".to_owned(), template: Template::Minimal, scl: Source::OfThisProgram },
+    )
+    .unwrap();
     let manifest = std::fs::read_to_string(parent.path().join("rover/Cargo.toml")).unwrap();
     assert!(manifest.ends_with("\n[workspace]\n"), "{manifest}");
 }

@@ -34,7 +34,9 @@ impl Project {
     fn new(name: &'static str, template: &str) -> Self {
         let build_folder = BuildFolder::lock();
         let system = System::of_files(&[]);
-        let output = new(&system, &[name, "--template", template]);
+        // Not by the URL of a repository, which would take a network.
+        let repository = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+        let output = new(&system, &[name, "--template", template, "--path", repository]);
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
         Self { system, name, build_folder }
     }
