@@ -211,44 +211,44 @@ pub enum PeerKind {
 
 /// A live connection from a [`Sender`] to one peer. Dropping it disconnects.
 pub trait Link: Send {
-    /// Handles what the peer has sent, and continues writing.
+    /// Handles what the peer has sent, and continues writing. The result is for [`send_all`](Self::send_all), which belongs to
+    /// the same turn even if the queue is empty.
     ///
-    /// Wakes the task when there is more to do, and when a message that was refused may be sent now. The gate then
-    /// calls this again, and after it [`send_all`](Self::send_all) with its queue in the same turn, even if the queue
-    /// is empty.
+    /// Wakes the task when there is more to do, and when a message that was refused may be sent now.
     ///
     /// # Errors
     /// The peer is gone, or violated the protocol.
-    fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Disconnected>;
+    fn drive(&mut self, cx: &mut Context<'_>) -> Result<Driven, Disconnected>;
 
-    /// Sends `message`, or returns it if the peer cannot take it now. A loan of another link is sent as a copy.
-    ///
-    /// # Errors
-    /// The message itself, or bytes of the same content. If the peer is gone, the task is woken and the next [`drive`](Self::drive) fails.
-    fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Result<(), Frame>;
+    /// Sends `message`, or returns it. A loan of another link is sent as a copy.
+    fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Sent;
 
     /// Sends messages from the front of a queue, as many as the peer can take now; calls `sent` with the length of
-    /// each.
+    /// each. `driven` is what [`drive`](Self::drive) returned in this turn, or `None` in a turn without it.
     ///
     /// Implementations that can write several messages at once do that here. When it returns with an empty queue,
     /// nothing newer is waiting for this peer: a link may rely on that to answer a receiver that wants to know whether
     /// it has [caught up](Receiver::poll_caught_up).
-    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
+    fn send_all(
+        &mut self,
+        cx: &mut Context<'_>,
+        driven: Option<Driven>,
+        queue: &mut VecDeque<Frame>,
+        sent: &mut dyn FnMut(usize),
+    ) {
+        let _gathers_nothing = driven;
         while let Some(message) = queue.pop_front() {
             let length = message.len();
-            match self.send(cx, message) {
-                Ok(()) => sent(length),
-                Err(message) => return queue.push_front(message),
+            match self.send(cx, message).returned() {
+                None => sent(length),
+                Some(message) => return queue.push_front(message),
             }
         }
     }
 
-    /// Sends a message that is `age` old, because the peer has joined since, and tells the peer so if it understands that. The
-    /// default sends the message alone.
-    ///
-    /// # Errors
-    /// Those of [`send`](Self::send).
-    fn send_latched(&mut self, cx: &mut Context<'_>, message: Frame, age: Duration) -> Result<(), Frame> {
+    /// Sends a message that is `age` old, because the peer has joined since, and tells the peer so if it understands that.
+    /// The default sends the message alone.
+    fn send_latched(&mut self, cx: &mut Context<'_>, message: Frame, age: Duration) -> Sent {
         let _the_peer_does_not_learn_it = age;
         self.send(cx, message)
     }
@@ -309,6 +309,36 @@ pub struct Resumed {
     pub end: u64,
     /// Number of messages that this end has taken over its earlier connections.
     pub taken: u64,
+}
+
+/// [`Link::drive`] was called in this turn, so what waits is to be offered with [`Link::send_all`]: a link that gathers short
+/// messages writes those that it has returned as [`Sent::Deferred`] then.
+#[derive(Debug, Default)]
+#[must_use = "give it to `send_all` in the same turn, even if the queue is empty"]
+pub struct Driven(());
+
+/// What a [`Link`] did with a message. A message that comes back is the same, or bytes of the same content.
+#[derive(Debug)]
+#[must_use = "a message that comes back was not sent"]
+pub enum Sent {
+    /// It is on its way.
+    Sent,
+    /// The peer cannot take it now. The task is woken when it can.
+    Full(Frame),
+    /// It is to be written together with those that follow: offer it with [`Link::send_all`] when the task is woken.
+    Deferred(Frame),
+    /// The peer is gone. The task is woken, and the next [`Link::drive`] fails.
+    Gone(Frame),
+}
+
+impl Sent {
+    /// The message, if it was not sent.
+    pub fn returned(self) -> Option<Frame> {
+        match self {
+            Self::Sent => None,
+            Self::Full(message) | Self::Deferred(message) | Self::Gone(message) => Some(message),
+        }
+    }
 }
 
 /// The peer of a [`Link`] is gone.

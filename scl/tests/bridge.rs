@@ -129,8 +129,8 @@ async fn only_what_a_component_was_built_with_can_be_opened() {
 
 async fn drive(link: &mut dyn Link, queue: &mut VecDeque<scl::transport::Frame>) {
     poll_fn(|cx| {
-        link.drive(cx).unwrap();
-        link.send_all(cx, queue, &mut |_| {});
+        let driven = link.drive(cx).unwrap();
+        link.send_all(cx, Some(driven), queue, &mut |_| {});
         Poll::Pending
     })
     .await

@@ -9,9 +9,10 @@ use crate::registry::EndCheck;
 use crate::runtime_dir::{ConnectionFigures, GateFigures};
 use crate::spec::{ConnectionSpec, GateKind, GateSpec, WhenFull};
 use crate::state::{Changes, SendingEnd};
-use crate::transport::{Frame, Link, Loan, Peer, PeerKind, Sender};
+use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Peer, PeerKind, Sender, Sent};
 use std::collections::VecDeque;
 use std::task::{Context, Poll, Waker};
+use std::time::Duration;
 
 /// One connection at its sending end.
 pub(crate) struct Connection {
@@ -103,8 +104,8 @@ impl Connection {
         if !self.task.will_wake(cx.waker()) {
             self.task = cx.waker().clone();
         }
-        self.accept_and_read(cx);
-        self.hand_over();
+        let driven = self.accept_and_read(cx);
+        self.hand_over(driven);
         // Also what a sending call has noticed since the last time.
         let connected = (self.peer.is_some(), self.foreign.len());
         if std::mem::replace(&mut self.reported, connected) != connected {
@@ -122,23 +123,17 @@ impl Connection {
             let shared = message.to_bytes();
             self.foreign.iter_mut().for_each(|peer| peer.send(&mut cx, shared.clone()));
         }
-        if self.queue.is_full() {
-            // Before a message is dropped, everything is tried to hand some over.
-            let cx = &mut Context::from_waker(&self.task);
-            if self.peer.as_mut().is_some_and(|link| link.drive(cx).is_err()) {
-                self.disconnect();
-                self.task.wake_by_ref();
-            }
-        }
+        // Before a message is dropped, everything is tried to hand some over.
+        let driven = if self.queue.is_full() { self.drive_peer() } else { None };
         if !self.queue.is_empty() {
-            self.hand_over();
+            self.hand_over(driven);
         }
         match &mut self.peer {
             Some(link) if self.queue.is_empty() => {
                 let length = message.len();
                 match link.send(&mut Context::from_waker(&self.task), message) {
-                    Ok(()) => self.account.hand(length),
-                    Err(message) => self.keep(message),
+                    Sent::Sent => self.account.hand(length),
+                    Sent::Full(message) | Sent::Deferred(message) | Sent::Gone(message) => self.keep(message),
                 }
             }
             _ => self.keep(message),
@@ -159,7 +154,7 @@ impl Connection {
     /// Ready when a message would find room, or would not have to wait for it.
     pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         if self.would_wait() {
-            self.hand_over();
+            self.hand_over(None);
         }
         if !self.would_wait() {
             return Poll::Ready(());
@@ -262,17 +257,16 @@ impl Connection {
         }
     }
 
-    fn accept_and_read(&mut self, cx: &mut Context<'_>) {
-        loop {
+    fn accept_and_read(&mut self, cx: &mut Context<'_>) -> Option<Driven> {
+        let driven = loop {
             while let Poll::Ready(peer) = self.sender.poll_peer(cx) {
                 self.adopt(peer);
             }
-            let driven = self.peer.as_mut().map_or(Ok(()), |link| link.drive(cx));
-            if driven.is_ok() {
-                break;
+            match self.peer.as_mut().map(|link| link.drive(cx)).transpose() {
+                Ok(driven) => break driven,
+                Err(Disconnected) => self.disconnect(),
             }
-            self.disconnect();
-        }
+        };
         let left = &mut self.foreign_left;
         self.foreign.retain_mut(|peer| {
             let stays = peer.drive(cx).is_ok();
@@ -281,6 +275,17 @@ impl Connection {
             }
             stays
         });
+        driven
+    }
+
+    /// Drives the link in a call that sends. The task accepts another peer if this one is gone.
+    fn drive_peer(&mut self) -> Option<Driven> {
+        let driven = self.peer.as_mut()?.drive(&mut Context::from_waker(&self.task)).ok();
+        if driven.is_none() {
+            self.disconnect();
+            self.task.wake_by_ref();
+        }
+        driven
     }
 
     fn adopt(&mut self, Peer { kind, mut link }: Peer) {
@@ -317,14 +322,20 @@ impl Connection {
     }
 
     /// Gives the link what waits, in order, as much as it takes.
-    fn hand_over(&mut self) {
+    fn hand_over(&mut self, driven: Option<Driven>) {
         let mut cx = Context::from_waker(&self.task);
         let account = &mut self.account;
         match (&mut self.peer, &mut self.latch) {
             (Some(link), None) => {
-                link.send_all(&mut cx, self.queue.items_mut(), &mut |length| account.hand(length));
+                link.send_all(&mut cx, driven, self.queue.items_mut(), &mut |length| account.hand(length));
             }
-            (Some(link), Some(latch)) => hand_over_latched(&mut **link, latch, &mut self.queue, account, &mut cx),
+            (Some(link), Some(latch)) => {
+                let joined = latch.take_joined(&mut self.queue);
+                link.send_all(&mut cx, driven, self.queue.items_mut(), &mut |length| account.hand(length));
+                if let Some(joined) = joined {
+                    send_joined(&mut **link, latch, &mut self.queue, account, joined, &mut cx);
+                }
+            }
             (None, _) => {}
         }
         self.dropping &= !self.queue.is_empty();
@@ -393,25 +404,23 @@ impl Connection {
     }
 }
 
-/// Gives the link what waits, with the age of a last message that is older than the link.
-fn hand_over_latched(
+/// Sends a last message that is older than the link, with its age, once those before it are sent.
+fn send_joined(
     link: &mut dyn Link,
     latch: &mut Latch,
     queue: &mut Queue<Frame>,
     account: &mut Account,
+    (message, age): (Frame, Duration),
     cx: &mut Context<'_>,
 ) {
-    let joined = latch.take_joined(queue);
-    link.send_all(cx, queue.items_mut(), &mut |length| account.hand(length));
-    let Some((message, age)) = joined else { return };
     let length = message.len();
-    let sent = if queue.is_empty() { link.send_latched(cx, message, age) } else { Err(message) };
-    match sent {
-        Ok(()) => {
+    let returned = if queue.is_empty() { link.send_latched(cx, message, age).returned() } else { Some(message) };
+    match returned {
+        None => {
             account.hand(length);
             latch.note_sent();
         }
-        Err(message) => queue.items_mut().push_back(message),
+        Some(message) => queue.items_mut().push_back(message),
     }
 }
 

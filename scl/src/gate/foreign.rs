@@ -2,7 +2,7 @@
 
 use super::queue::{Queue, QueuePolicy};
 use super::stats::Activity;
-use crate::transport::{Disconnected, Frame, Link};
+use crate::transport::{Disconnected, Driven, Frame, Link};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::task::Context;
@@ -57,29 +57,28 @@ impl ForeignPeer {
         }
         self.unwanted = None;
         if self.queue.is_full() {
-            self.hand_over(cx);
+            self.hand_over(cx, None);
         }
-        let mut message = Frame::from(message);
-        if self.queue.is_empty() {
-            let length = message.len();
-            message = match self.link.send(cx, message) {
-                Ok(()) => {
-                    self.sent += 1;
-                    self.activity.add(length);
-                    return;
-                }
-                Err(message) => message,
-            };
+        let length = message.len();
+        let message = Frame::from(message);
+        let returned = if self.queue.is_empty() { self.link.send(cx, message).returned() } else { Some(message) };
+        match returned {
+            None => {
+                self.sent += 1;
+                self.activity.add(length);
+            }
+            Some(message) => {
+                self.queue.push(message);
+            }
         }
-        self.queue.push(message);
     }
 
     pub(super) fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Disconnected> {
-        self.link.drive(cx)?;
+        let driven = self.link.drive(cx)?;
         if let Some(last) = self.unwanted.take_if(|last| self.link.wants(last)) {
             self.queue.push(last.into());
         }
-        self.hand_over(cx);
+        self.hand_over(cx, Some(driven));
         Ok(())
     }
 
@@ -101,9 +100,9 @@ impl ForeignPeer {
         self.link.detach();
     }
 
-    fn hand_over(&mut self, cx: &mut Context<'_>) {
+    fn hand_over(&mut self, cx: &mut Context<'_>, driven: Option<Driven>) {
         let Self { link, queue, sent, activity, .. } = self;
-        link.send_all(cx, queue.items_mut(), &mut |length| {
+        link.send_all(cx, driven, queue.items_mut(), &mut |length| {
             *sent += 1;
             activity.add(length);
         });

@@ -9,11 +9,13 @@
 //! | request | DEALER, connects | REP, ROUTER | `request.rs` |
 //! | reply | ROUTER, accepts | REQ, DEALER | `reply.rs` |
 //!
-//! `zmtp` is the protocol without I/O, `connection.rs` a stream that speaks it; `acceptor.rs` and `dialler.rs` make
+//! `zmtp` is the protocol without I/O, `session.rs` a stream that speaks it; `acceptor.rs` and `dialler.rs` make
 //! connections. SCL's ends recognize each other by a property of READY and grant each other credit; plain ZeroMQ programs
 //! see none of that. `docs/zeromq.md` describes it exactly.
 
 mod acceptor;
+mod burst;
+mod catch_up;
 mod credit;
 mod dialler;
 mod inbound;
@@ -39,6 +41,7 @@ mod tests;
 mod timer;
 mod topics;
 mod unread_limit;
+mod waiting_report;
 mod zmtp;
 
 use super::{Endpoint, Guarantees, Receiver, Replier, Requester, Sender, Tap, Transport, TransportError};

@@ -124,9 +124,10 @@ impl End {
 
 /// Returns false if the peer is gone.
 fn send(link: &mut dyn Link, cx: &mut Context<'_>) -> bool {
-    let is_connected = link.drive(cx).is_ok();
+    let driven = link.drive(cx).ok();
+    let is_connected = driven.is_some();
     if is_connected {
-        link.send_all(cx, &mut VecDeque::from([MESSAGE.into()]), &mut |_| {});
+        link.send_all(cx, driven, &mut VecDeque::from([MESSAGE.into()]), &mut |_| {});
         link.request_acknowledgement(cx);
     }
     is_connected

@@ -7,7 +7,7 @@ use crate::slot::{Held, View};
 use crate::wire::{Announced, ReceiverEvent, WireReceiver};
 use scl::bridge::Mirror;
 use scl::transport::zeromq::ZeroMq;
-use scl::transport::{Endpoint, Frame, Link, PeerKind, Sender, Transport};
+use scl::transport::{Disconnected, Driven, Endpoint, Frame, Link, PeerKind, Sender, Transport};
 use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::sync::Arc;
@@ -108,8 +108,8 @@ impl Receiving {
         }
         self.close_if_done(cx);
         self.open(cx);
-        self.connect(cx);
-        self.carry(cx);
+        let driven = self.connect(cx);
+        self.carry(cx, driven);
         self.ask(cx);
         self.confirm();
         // The last acknowledgement may have been all that it was waited for.
@@ -179,7 +179,7 @@ impl Receiving {
     }
 
     /// Accepts the component, and notices that it is gone.
-    fn connect(&mut self, cx: &mut Context<'_>) {
+    fn connect(&mut self, cx: &mut Context<'_>) -> Option<Driven> {
         loop {
             while let Some(Poll::Ready(peer)) = self.state.local.as_mut().map(|local| local.sender.poll_peer(cx)) {
                 let is_connected = self.state.local.as_ref().is_some_and(|local| local.link.is_some());
@@ -194,9 +194,9 @@ impl Receiving {
                 }
             }
             let link = self.state.local.as_mut().and_then(|local| local.link.as_mut());
-            match link.map(|link| link.drive(cx)) {
-                Some(Err(_)) => self.lose_link(),
-                _ => return,
+            match link.map(|link| link.drive(cx)).transpose() {
+                Ok(driven) => return driven,
+                Err(Disconnected) => self.lose_link(),
             }
         }
     }
@@ -235,7 +235,7 @@ impl Receiving {
         self.wire.set_open(false);
     }
 
-    fn carry(&mut self, cx: &mut Context<'_>) {
+    fn carry(&mut self, cx: &mut Context<'_>, mut driven: Option<Driven>) {
         let state = &mut self.state;
         let Some(Local { link: Some(link), unasked, .. }) = &mut state.local else { return };
         let (queue, handed) = (&mut state.queue, &mut state.handed);
@@ -245,18 +245,18 @@ impl Receiving {
         };
         while let Some(&(number, sent)) = state.latched.front() {
             let mut rest = queue.split_off(queue.len().min((number - *handed - 1) as usize));
-            link.send_all(cx, queue, &mut |length| count(handed, length));
+            link.send_all(cx, driven.take(), queue, &mut |length| count(handed, length));
             let is_next = queue.is_empty();
             queue.append(&mut rest);
             let Some(message) = queue.pop_front_if(|_| is_next) else { return };
             let length = message.len();
-            if let Err(message) = link.send_latched(cx, message, sent.elapsed()) {
+            if let Some(message) = link.send_latched(cx, message, sent.elapsed()).returned() {
                 return queue.push_front(message);
             }
             count(handed, length);
             state.latched.pop_front();
         }
-        link.send_all(cx, queue, &mut |length| count(handed, length));
+        link.send_all(cx, driven, queue, &mut |length| count(handed, length));
     }
 
     /// Asks the component to acknowledge when half of the window is on its way, at a flush, and before the end is closed.

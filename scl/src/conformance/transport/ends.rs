@@ -1,7 +1,7 @@
 //! The ends of messages, as the tests use them.
 
 use super::watched::Watched;
-use crate::transport::{Frame, Link, Loan, PeerKind, Receiver, Sender};
+use crate::transport::{Driven, Frame, Link, Loan, PeerKind, Receiver, Sender, Sent};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::future::poll_fn;
@@ -125,31 +125,35 @@ pub(super) struct TestLink {
     watched: Watched<Box<dyn Link>>,
     /// A message was returned since the link was last woken.
     refused: bool,
+    /// The last message was returned because the peer was gone.
+    is_gone: bool,
     turns: usize,
 }
 
 impl TestLink {
     fn new(end: Box<dyn Link>) -> Self {
-        Self { watched: Watched::new(end), refused: false, turns: 0 }
+        Self { watched: Watched::new(end), refused: false, is_gone: false, turns: 0 }
     }
 
     /// Drives the link if it was woken, and sends from the queue; a message that was returned only after a wake-up.
     /// Returns false if the peer is gone.
     pub(super) fn poll(&mut self, test: &Context<'_>, queue: &mut VecDeque<Frame>) -> bool {
-        let woken = self.watched.take_turn(test);
-        if woken {
-            if self.watched.end.drive(&mut Context::from_waker(&self.watched.waker)).is_err() {
+        let mut driven = None;
+        if self.watched.take_turn(test) {
+            driven = self.watched.end.drive(&mut Context::from_waker(&self.watched.waker)).ok();
+            if driven.is_none() {
                 return false;
             }
+            assert!(!self.is_gone, "`send` returned a message because the peer was gone, then `drive` succeeded");
             self.refused = false;
         }
-        if woken || (!self.refused && !queue.is_empty()) {
+        if driven.is_some() || (!self.refused && !queue.is_empty()) {
             // Gates send single messages and several at once, in any order.
             self.turns += 1;
             if self.turns.is_multiple_of(2) {
                 while self.send_one(queue) {}
             }
-            self.send_all(queue);
+            self.send_all(driven, queue);
         }
         true
     }
@@ -158,8 +162,9 @@ impl TestLink {
     fn send_one(&mut self, queue: &mut VecDeque<Frame>) -> bool {
         let Some(message) = queue.pop_front() else { return false };
         let sent = message.to_bytes();
-        let refused = self.watched.end.send(&mut Context::from_waker(&self.watched.waker), message);
-        if let Err(returned) = refused {
+        let result = self.watched.end.send(&mut Context::from_waker(&self.watched.waker), message);
+        self.is_gone |= matches!(result, Sent::Gone(_));
+        if let Some(returned) = result.returned() {
             assert!(returned.as_slice() == sent, "`send` returned another message than the one it refused");
             queue.push_front(returned);
             return false;
@@ -167,11 +172,11 @@ impl TestLink {
         true
     }
 
-    fn send_all(&mut self, queue: &mut VecDeque<Frame>) {
+    fn send_all(&mut self, driven: Option<Driven>, queue: &mut VecDeque<Frame>) {
         let cx = &mut Context::from_waker(&self.watched.waker);
         let before: Vec<Bytes> = queue.iter().map(Frame::to_bytes).collect();
         let mut lengths = Vec::new();
-        self.watched.end.send_all(cx, queue, &mut |length| lengths.push(length));
+        self.watched.end.send_all(cx, driven, queue, &mut |length| lengths.push(length));
         let sent = before.len() - queue.len();
         assert!(
             before[sent..].iter().eq(queue.iter().map(Frame::as_slice)),

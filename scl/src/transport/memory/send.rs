@@ -3,7 +3,7 @@
 use super::lend::Lender;
 use super::pipe::{PipeReader, PipeWriter};
 use super::switchboard::{Connector, Listener};
-use crate::transport::{Disconnected, Frame, Link, Loan, Peer, PeerKind, Sender};
+use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Peer, PeerKind, Sender, Sent};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -94,26 +94,40 @@ impl MemoryLink {
     fn new(pipe: PipeWriter<Bytes>, only_link: Option<OnlyLink>) -> Self {
         Self { pipe, lender: Lender::default(), _only_link: only_link }
     }
+
+    fn sent(&self, sent: Result<(), Bytes>) -> Sent {
+        match sent {
+            Ok(()) => Sent::Sent,
+            Err(message) if self.pipe.is_open() => Sent::Full(message.into()),
+            Err(message) => Sent::Gone(message.into()),
+        }
+    }
 }
 
 impl Link for MemoryLink {
-    fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Disconnected> {
-        if self.pipe.poll_open(cx) { Ok(()) } else { Err(Disconnected) }
+    fn drive(&mut self, cx: &mut Context<'_>) -> Result<Driven, Disconnected> {
+        if self.pipe.poll_open(cx) { Ok(Driven::default()) } else { Err(Disconnected) }
     }
 
-    fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Result<(), Frame> {
+    fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Sent {
         // A loan that cannot be sent yet stays one.
         if matches!(message, Frame::Loan(_)) && !self.pipe.has_room(cx) {
-            return Err(message);
+            return Sent::Full(message);
         }
-        self.pipe.send(cx, self.lender.take_back(message)).map_err(Frame::from)
+        self.sent(self.pipe.send(cx, self.lender.take_back(message)))
     }
 
-    fn send_latched(&mut self, cx: &mut Context<'_>, message: Frame, age: Duration) -> Result<(), Frame> {
-        self.pipe.send_latched(cx, message.into_bytes(), Instant::now().checked_sub(age)).map_err(Frame::from)
+    fn send_latched(&mut self, cx: &mut Context<'_>, message: Frame, age: Duration) -> Sent {
+        self.sent(self.pipe.send_latched(cx, message.into_bytes(), Instant::now().checked_sub(age)))
     }
 
-    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
+    fn send_all(
+        &mut self,
+        cx: &mut Context<'_>,
+        _driven: Option<Driven>,
+        queue: &mut VecDeque<Frame>,
+        sent: &mut dyn FnMut(usize),
+    ) {
         let to_item = |message| self.lender.take_back(message);
         self.pipe.send_all(cx, queue, to_item, |message| sent(message.len()));
     }

@@ -1,10 +1,10 @@
 //! The receiving side of a connection, of a subscriber or of a puller.
 
+use super::catch_up::CatchUp;
 use super::credit::ReceiveCredit;
 use super::session::{Closed, Session};
 use super::shared_memory::Arriving;
-use super::timer::Timer;
-use super::zmtp::{Command, FINISH, Item, Message, PeerReady, SHM_OPEN, acknowledgement, catch_up};
+use super::zmtp::{self, Command, FINISH, Item, Message, PeerReady, SHM_OPEN, acknowledgement};
 use crate::runtime_dir::SystemDir;
 use crate::transport::Endpoint;
 use bytes::Bytes;
@@ -14,13 +14,6 @@ use std::task::{Context, Poll, ready};
 use std::time::{Duration, Instant};
 use tokio::task::coop;
 
-/// How long a receiver waits for the messages that the sender has announced: a stopped sender must not stop a control
-/// loop.
-const CATCH_UP_LIMIT: Duration = Duration::from_millis(100);
-/// The limit passes in so many steps, so that time in which this program itself stands still counts as one of them at most.
-const CATCH_UP_STEPS: u32 = 10;
-/// For how long an answer counts for a caller that does not wait, and looks again.
-const FRESH: Duration = Duration::from_millis(1);
 /// How much is read ahead of the caller without a runtime, or a single message that is longer.
 const READ_AHEAD: usize = 256 << 10;
 /// After how many messages read ahead no more are fetched.
@@ -48,32 +41,9 @@ pub(super) struct Inbound {
     /// Whether the sender was asked to send nothing more, and has sent everything that it had sent before.
     finishing: bool,
     finished: bool,
-    /// Whether the sender holds messages until earlier ones are acknowledged.
-    behind: bool,
     /// Whether the socket was empty when `poll_next` last looked, just now.
     emptied: bool,
-    /// Whether the sender has let the time for catching up pass.
-    gave_up: bool,
-    /// For how many of the steps of that time it has been silent.
-    silent_steps: u32,
-    /// Number of the last question whether newer messages wait, and of the last that the sender has answered.
-    question: u64,
-    answered: u64,
-    answered_at: Option<Instant>,
-    answer: Answer,
-    timer: Timer,
-}
-
-/// What a sender has said about messages that are newer than those read.
-#[derive(PartialEq)]
-enum Answer {
-    /// Nothing that counts for the present call.
-    Forgotten,
-    /// Nothing yet since the call began.
-    Awaited,
-    /// That none waited, at some time since the call began. A sender that never pauses says in the same breath that
-    /// others wait.
-    CaughtUp,
+    catch_up: CatchUp,
 }
 
 impl Inbound {
@@ -97,15 +67,8 @@ impl Inbound {
             acknowledgement_requested: false,
             finishing: false,
             finished: false,
-            behind: false,
             emptied: false,
-            gave_up: false,
-            silent_steps: 0,
-            question: 0,
-            answered: 0,
-            answered_at: None,
-            answer: Answer::Forgotten,
-            timer: Timer::new(),
+            catch_up: CatchUp::new(),
         }
     }
 
@@ -177,8 +140,8 @@ impl Inbound {
                 Item::Command(Command::Sample { sequence, length }) => {
                     return self.take_sample(sequence, length).map(Some);
                 }
-                Item::Command(Command::Behind) => (self.behind, self.gave_up) = (true, false),
-                Item::Command(Command::CaughtUp(number)) => self.handle_caught_up(number),
+                Item::Command(Command::Behind) => self.catch_up.note_behind(),
+                Item::Command(Command::CaughtUp(number)) => self.catch_up.note_caught_up(number),
                 Item::Command(Command::Flush) => self.handle_flush(),
                 Item::Command(Command::Finished) => self.finished = true,
                 Item::Command(Command::Latched(age)) => {
@@ -200,16 +163,6 @@ impl Inbound {
             self.acknowledge();
         }
         Ok(message)
-    }
-
-    fn handle_caught_up(&mut self, number: u64) {
-        (self.behind, self.gave_up) = (false, false);
-        if number == self.question {
-            (self.answered, self.answered_at) = (number, Some(Instant::now()));
-            if self.answer == Answer::Awaited {
-                self.answer = Answer::CaughtUp;
-            }
-        }
     }
 
     fn count_taken(&mut self, length: usize) {
@@ -288,7 +241,7 @@ impl Inbound {
 
     /// A call begins: it does not rely on what was said before.
     pub(super) fn forget_answer(&mut self) {
-        self.answer = Answer::Forgotten;
+        self.catch_up.forget_answer();
     }
 
     /// Ready when the sender has nothing newer than what `poll_next` has returned or will return at once, and from then
@@ -301,33 +254,23 @@ impl Inbound {
         if !std::mem::take(&mut self.emptied) && self.fill_raw() {
             ready!(pin!(coop::consume_budget()).poll(cx));
         }
-        if self.answer == Answer::Forgotten {
+        if self.catch_up.is_forgotten() {
             self.await_answer();
             self.ask();
         }
         loop {
             self.read_ahead();
-            if !self.may_be_behind() || self.gave_up {
+            if !self.may_be_behind() || self.catch_up.gave_up() {
                 break;
             }
             self.acknowledge_all();
             match self.session.poll_fill(cx) {
                 Poll::Ready(Ok(())) => {}
                 Poll::Ready(Err(closed)) => self.closed = Some(closed),
-                Poll::Pending => {
-                    if !self.timer.is_set() {
-                        self.timer.set(CATCH_UP_LIMIT / CATCH_UP_STEPS);
-                    }
-                    if self.timer.poll(cx).is_pending() {
-                        return Poll::Pending;
-                    }
-                    self.silent_steps += 1;
-                    self.gave_up = self.silent_steps >= CATCH_UP_STEPS;
-                }
+                Poll::Pending => ready!(self.catch_up.poll_silence(cx)),
             }
         }
-        self.timer.unset();
-        self.silent_steps = 0;
+        self.catch_up.end_wait();
         if !self.ahead.is_empty() || self.closed.is_some() {
             // The runtime does not report what was read without it.
             cx.waker().wake_by_ref();
@@ -343,17 +286,16 @@ impl Inbound {
             return;
         }
         // The answer to an open question may be on its way already, so that one is not enough.
-        let is_answered = self.question == self.answered && self.answered_at.is_some_and(|at| at.elapsed() < FRESH);
+        let is_answered = self.catch_up.is_fresh();
         self.await_answer();
         if !is_answered {
             self.ask();
         }
-        while self.may_be_behind() && !self.gave_up {
+        while self.may_be_behind() && !self.catch_up.gave_up() {
             self.acknowledge_all();
             let left = deadline.saturating_duration_since(Instant::now());
             if !self.session.wait_readable(left) {
-                self.gave_up = within >= CATCH_UP_LIMIT;
-                return;
+                return self.catch_up.note_silence(within);
             }
             self.fill_raw();
             self.read_ahead();
@@ -363,16 +305,16 @@ impl Inbound {
     fn await_answer(&mut self) {
         // What has arrived already does not tell what waits now.
         self.read_ahead();
-        self.answer = Answer::Awaited;
+        self.catch_up.await_answer();
     }
 
     /// Asks the sender whether newer messages wait, if that cannot be known without asking.
     fn ask(&mut self) {
-        if self.credit.is_none() || self.session.is_immediate() || self.gave_up {
+        if self.credit.is_none() || self.session.is_immediate() || self.catch_up.gave_up() {
             return;
         }
-        self.question += 1;
-        let _reported_by_reading = self.session.write(&catch_up(self.question));
+        let question = self.catch_up.next_question();
+        let _reported_by_reading = self.session.write(&zmtp::catch_up(question));
     }
 
     /// Waits on the calling thread until something has arrived.
@@ -384,8 +326,7 @@ impl Inbound {
     fn may_be_behind(&self) -> bool {
         // A peer without credit cannot be asked; one that ignores the window is not worth waiting for.
         let can_catch_up = self.credit.is_some() && self.closed.is_none() && self.ahead.len() < MOST_AHEAD;
-        let is_awaited = self.behind || self.question != self.answered || self.session.buffered() > 0;
-        can_catch_up && self.answer != Answer::CaughtUp && is_awaited
+        can_catch_up && self.catch_up.may_be_behind(self.session.buffered() > 0)
     }
 
     fn acknowledge_all(&mut self) {

@@ -1,14 +1,15 @@
 //! The sending side of a connection, of a publisher to one subscriber or of a pusher to its puller.
 
+use super::burst::{Burst, GATHERED};
 use super::credit::SendCredit;
 use super::link_count::LinkAlive;
 use super::session::{Closed, Session};
-use super::shared_memory::{Sent, Sharing};
+use super::shared_memory::{SampleOutcome, Sharing};
 use super::topics::Topics;
-use super::zmtp::{BEHIND, Command, FINISHED, FLUSH, Header, Item, PeerReady, ProtocolError, caught_up, latched};
-use crate::transport::{Disconnected, Frame, Link, Loan, Resumed};
+use super::waiting_report::WaitingReport;
+use super::zmtp::{Command, FINISHED, FLUSH, Header, Item, PeerReady, ProtocolError, latched};
+use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Resumed, Sent};
 use bytes::{BufMut, BytesMut};
-use rustix::time::{ClockId, Timespec, clock_gettime};
 use std::collections::VecDeque;
 use std::io;
 use std::task::Context;
@@ -16,14 +17,6 @@ use std::time::{Duration, Instant};
 
 /// How many bytes of messages are written together at most; a longer message is written by itself.
 const BATCH: usize = 64 << 10;
-/// How many messages are written one by one, each by the call that sends it, while the link is not driven. More within one
-/// tick of the coarse clock (1 to 4 ms) are a burst: they are gathered until the link is driven, until there are
-/// [`GATHERED`], or until something is sent after that tick.
-const ONE_BY_ONE: u32 = 64;
-/// How many messages of a burst are written together if the link is not driven meanwhile.
-const GATHERED: usize = 128;
-/// Longer messages gain nothing from being written together.
-const SHORT: usize = 4 << 10;
 /// How often the socket is asked directly while messages are refused. A program that never waits in its runtime would
 /// otherwise never see an acknowledgement.
 const RAW_INTERVAL: Duration = Duration::from_micros(100);
@@ -37,29 +30,35 @@ pub(super) struct SendLink {
     credit: Option<SendCredit>,
     /// Long messages in shared memory.
     sharing: Sharing,
-    /// Whether the peer wants to be told when messages wait for its acknowledgement, and has been.
-    reports_waiting: bool,
-    reported_waiting: bool,
-    /// Number of the peer's last question whether newer messages wait, and of the last that was answered.
-    question: u64,
-    answered: u64,
+    state: State,
+    /// Whether calls no longer have a runtime. Then messages are sent without regard to credit.
+    detached: bool,
+    burst: Burst,
+    waiting_report: WaitingReport,
     /// Number of messages sent when the peer was last asked to acknowledge.
     flush_requested: u64,
     /// Memory for messages that are written together.
     batch: BytesMut,
-    /// Number of messages written one by one since the link was driven, and the tick in which that was.
-    one_by_one: u32,
-    tick: Timespec,
-    /// Whether the link was driven since messages were last sent from the queue.
-    driven: bool,
-    broken: bool,
-    /// Whether the peer wants nothing more over this connection, and whether it has been told that nothing follows.
-    finishing: bool,
-    finished: bool,
-    detached: bool,
     raw_read: Option<Instant>,
     resumed: Option<Resumed>,
     _alive: LinkAlive,
+}
+
+/// ```text
+/// Open ── FINISH read ──▶ Finishing ── FINISHED written ──▶ Finished
+///   └───────────┬─────────────┴─────────────┬──────────────────┘
+///               └── read or write failed ───┴──▶ Broken
+/// ```
+///
+/// Messages are sent in `Open` only. A link that is `Broken` is driven once more, which fails, and dropped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    Open,
+    /// The peer wants nothing more over this connection.
+    Finishing,
+    /// It has been told that nothing follows.
+    Finished,
+    Broken,
 }
 
 impl SendLink {
@@ -76,19 +75,12 @@ impl SendLink {
             topics,
             credit: scl.window.map(SendCredit::new),
             sharing,
-            reports_waiting: scl.newest_only,
-            reported_waiting: false,
-            question: 0,
-            answered: 0,
+            state: State::Open,
+            detached: false,
+            burst: Burst::new(),
+            waiting_report: WaitingReport::new(scl.newest_only),
             flush_requested: 0,
             batch: BytesMut::new(),
-            one_by_one: 0,
-            tick: tick(),
-            driven: false,
-            broken: false,
-            finishing: false,
-            finished: false,
-            detached: false,
             raw_read: None,
             resumed: None,
             _alive: alive,
@@ -100,26 +92,14 @@ impl SendLink {
         Self { resumed, ..self }
     }
 
-    fn is_open(&self) -> bool {
-        self.session.is_written() && self.window_is_open() && !self.broken
+    /// Returns true if the peer can take a message.
+    fn has_room(&self) -> bool {
+        self.session.is_written() && self.window_is_open()
     }
 
     /// Returns true if a message is to be gathered with others. One of which only the newest matters never is.
     fn is_gathered(&self, message: &[u8]) -> bool {
-        let may_be_burst = self.one_by_one >= ONE_BY_ONE && message.len() <= SHORT;
-        may_be_burst && !self.reports_waiting && !self.detached && self.tick == tick()
-    }
-
-    /// Counts a message that was written by itself. The task ends a burst that begins with it.
-    fn count_one(&mut self, cx: &Context<'_>) {
-        let now = tick();
-        if std::mem::replace(&mut self.tick, now) != now {
-            self.one_by_one = 0;
-        }
-        self.one_by_one += 1;
-        if self.one_by_one == ONE_BY_ONE {
-            cx.waker().wake_by_ref();
-        }
+        !self.waiting_report.is_wanted() && !self.detached && self.burst.gathers(message.len())
     }
 
     fn window_is_open(&self) -> bool {
@@ -129,7 +109,7 @@ impl SendLink {
     fn window_is_open_after(&self, messages: usize, bytes: usize) -> bool {
         let is_open = |credit: &SendCredit| credit.is_open_after(messages, bytes);
         let has_credit = || self.sharing.has_room() && self.credit.as_ref().is_none_or(is_open);
-        !self.finishing && (self.detached || has_credit())
+        self.state == State::Open && (self.detached || has_credit())
     }
 
     fn wants_everything(&self) -> bool {
@@ -145,8 +125,8 @@ impl SendLink {
                 }
             }
             Item::Command(Command::ShmOpen) => self.sharing.open(),
-            Item::Command(Command::CatchUp(number)) => self.question = number,
-            Item::Command(Command::Finish) => self.finishing = true,
+            Item::Command(Command::CatchUp(number)) => self.waiting_report.ask(number),
+            Item::Command(Command::Finish) if self.state == State::Open => self.state = State::Finishing,
             // Anything else that a peer sends here has no meaning.
             item => {
                 if let (Some(topics), Some(subscription)) = (&mut self.topics, item.into_subscription()) {
@@ -169,9 +149,10 @@ impl SendLink {
             }
             reads -= 1;
         }
-        if self.finishing && !std::mem::replace(&mut self.finished, true) {
+        if self.state == State::Finishing {
             // Behind everything that was sent.
             self.session.write(FINISHED)?;
+            self.state = State::Finished;
         }
         Ok(self.session.flush(cx)?)
     }
@@ -190,23 +171,37 @@ impl SendLink {
         Ok(self.session.flush_raw()?)
     }
 
-    /// Returns true if the peer can take a message after all.
-    fn reopen(&mut self, cx: &mut Context<'_>) -> bool {
+    /// Returns true if the peer can take a message, perhaps after a look past what the runtime knows.
+    fn find_room(&mut self, cx: &mut Context<'_>) -> bool {
+        if self.has_room() {
+            return true;
+        }
         let now = Instant::now();
-        if self.broken || self.raw_read.is_some_and(|before| now - before < RAW_INTERVAL) {
+        if self.state == State::Broken || self.raw_read.is_some_and(|before| now - before < RAW_INTERVAL) {
             return false;
         }
         self.raw_read = Some(now);
         if let Err(error) = self.try_drive_raw(cx) {
             self.fail(cx, &error);
         }
-        self.is_open()
+        self.has_room()
     }
 
     fn fail(&mut self, cx: &mut Context<'_>, error: &Closed) {
         tracing::debug!(%error, "a receiving peer is gone");
-        self.broken = true;
+        self.state = State::Broken;
         cx.waker().wake_by_ref();
+    }
+
+    /// The message of a call that failed.
+    fn gone(&mut self, cx: &mut Context<'_>, error: &Closed, message: Frame) -> Sent {
+        self.fail(cx, error);
+        Sent::Gone(message)
+    }
+
+    /// The message that the peer cannot take.
+    fn refused(&self, message: Frame) -> Sent {
+        if self.state == State::Broken { Sent::Gone(message) } else { Sent::Full(message) }
     }
 
     /// Sends a message to a peer that can take it.
@@ -231,9 +226,9 @@ impl SendLink {
     fn send_sample(&mut self, cx: &mut Context<'_>, message: &mut Frame) -> bool {
         let Some(credit) = &mut self.credit else { return false };
         let written = match self.sharing.send(message, credit.sent() + 1) {
-            Sent::Inline => return false,
-            Sent::Announce(command) => self.session.write(&command).and_then(|()| self.session.flush(cx)),
-            Sent::Lost(reason) => Err(io::Error::other(reason)),
+            SampleOutcome::Inline => return false,
+            SampleOutcome::Announce(command) => self.session.write(&command).and_then(|()| self.session.flush(cx)),
+            SampleOutcome::Lost(reason) => Err(io::Error::other(reason)),
         };
         // Also if that failed: the sample is gone, so the message is on its way, and lost with the connection. Its bytes
         // are not the socket's.
@@ -277,23 +272,23 @@ impl SendLink {
     fn try_send_all(
         &mut self,
         cx: &mut Context<'_>,
+        driven: bool,
         queue: &mut VecDeque<Frame>,
         sent: &mut dyn FnMut(usize),
     ) -> Result<(), Closed> {
-        let driven = std::mem::take(&mut self.driven);
         let waits = |message: &Frame| !driven && queue.len() < GATHERED && self.is_gathered(message.as_slice());
         if queue.front().is_some_and(waits) {
             return Ok(());
         }
         let before = queue.len();
         while !queue.is_empty() {
-            if !self.is_open() && !self.reopen(cx) {
-                if self.window_is_open() {
+            if !self.find_room(cx) {
+                if self.window_is_open() || self.state == State::Broken {
                     break;
                 }
                 // Only what has been polled wakes the task when an acknowledgement arrives.
                 self.try_drive(cx)?;
-                if !self.is_open() {
+                if !self.has_room() {
                     break;
                 }
             }
@@ -308,75 +303,54 @@ impl SendLink {
             }
         }
         if driven && before - queue.len() >= GATHERED / 4 {
-            // The burst goes on, most likely: one more message is enough to see that.
-            (self.one_by_one, self.tick) = (ONE_BY_ONE - 1, tick());
+            self.burst.expect_more();
         }
-        Ok(self.report_waiting(!queue.is_empty())?)
-    }
-
-    /// Tells a peer to which only the newest message matters whether newer ones wait for its acknowledgement.
-    fn report_waiting(&mut self, waiting: bool) -> io::Result<()> {
-        if self.reports_waiting && waiting && !self.reported_waiting {
-            self.reported_waiting = true;
-            self.session.write(BEHIND)?;
-        }
-        if !waiting && (self.reported_waiting || self.answered != self.question) {
-            self.reported_waiting = false;
-            self.answered = self.question;
-            self.session.write(&caught_up(self.answered))?;
-        }
-        Ok(())
+        Ok(self.waiting_report.write(&mut self.session, !queue.is_empty())?)
     }
 }
 
 impl Link for SendLink {
-    fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Disconnected> {
-        (self.one_by_one, self.driven) = (0, true);
-        if !self.broken {
-            match self.try_drive(cx) {
-                Ok(()) => return Ok(()),
-                Err(error) => tracing::debug!(%error, "a receiving peer is gone"),
-            }
-            self.broken = true;
+    fn drive(&mut self, cx: &mut Context<'_>) -> Result<Driven, Disconnected> {
+        self.burst.end();
+        if self.state == State::Broken {
+            return Err(Disconnected);
         }
-        Err(Disconnected)
+        self.try_drive(cx).map(|()| Driven::default()).map_err(|error| {
+            tracing::debug!(%error, "a receiving peer is gone");
+            self.state = State::Broken;
+            Disconnected
+        })
     }
 
-    fn send(&mut self, cx: &mut Context<'_>, mut message: Frame) -> Result<(), Frame> {
+    fn send(&mut self, cx: &mut Context<'_>, mut message: Frame) -> Sent {
         if self.is_gathered(message.as_slice()) {
-            return Err(message);
+            return Sent::Deferred(message);
         }
-        if !self.is_open() && !self.reopen(cx) {
-            if let Err(error) = self.report_waiting(true) {
-                self.fail(cx, &error.into());
-            }
-            return Err(message);
+        if !self.find_room(cx) {
+            return match self.waiting_report.write(&mut self.session, true) {
+                Ok(()) => self.refused(message),
+                Err(error) => self.gone(cx, &error.into(), message),
+            };
         }
         match self.send_one(cx, &mut message) {
             Ok(()) => {
-                self.count_one(cx);
-                Ok(())
+                self.burst.count_one(cx);
+                Sent::Sent
             }
-            Err(error) => {
-                self.fail(cx, &error);
-                Err(message)
-            }
+            Err(error) => self.gone(cx, &error, message),
         }
     }
 
-    fn send_latched(&mut self, cx: &mut Context<'_>, mut message: Frame, age: Duration) -> Result<(), Frame> {
-        if !self.is_open() && !self.reopen(cx) {
-            return Err(message);
+    fn send_latched(&mut self, cx: &mut Context<'_>, mut message: Frame, age: Duration) -> Sent {
+        if !self.find_room(cx) {
+            return self.refused(message);
         }
         let age = u64::try_from(age.as_nanos()).unwrap_or(u64::MAX);
         // A plain ZeroMQ program gets the message alone.
         let told = if self.credit.is_some() { self.session.write(&latched(age)) } else { Ok(()) };
         match told.map_err(Closed::from).and_then(|()| self.send_one(cx, &mut message)) {
-            Ok(()) => Ok(()),
-            Err(error) => {
-                self.fail(cx, &error);
-                Err(message)
-            }
+            Ok(()) => Sent::Sent,
+            Err(error) => self.gone(cx, &error, message),
         }
     }
 
@@ -388,8 +362,14 @@ impl Link for SendLink {
         self.resumed
     }
 
-    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
-        if let Err(error) = self.try_send_all(cx, queue, sent) {
+    fn send_all(
+        &mut self,
+        cx: &mut Context<'_>,
+        driven: Option<Driven>,
+        queue: &mut VecDeque<Frame>,
+        sent: &mut dyn FnMut(usize),
+    ) {
+        if let Err(error) = self.try_send_all(cx, driven.is_some(), queue, sent) {
             self.fail(cx, &error);
         }
     }
@@ -425,7 +405,7 @@ impl Link for SendLink {
 
     fn request_acknowledgement(&mut self, cx: &mut Context<'_>) {
         let Some(credit) = &self.credit else { return };
-        if credit.not_received() == 0 || self.flush_requested == credit.sent() || self.broken {
+        if credit.not_received() == 0 || self.flush_requested == credit.sent() || self.state == State::Broken {
             return;
         }
         self.flush_requested = credit.sent();
@@ -439,9 +419,4 @@ impl Link for SendLink {
         self.detached = true;
         self.session.detach();
     }
-}
-
-/// The time of the coarse clock, which costs a fraction of an exact one and moves every 1 to 4 ms.
-fn tick() -> Timespec {
-    clock_gettime(ClockId::MonotonicCoarse)
 }

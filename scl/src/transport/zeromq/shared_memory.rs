@@ -33,7 +33,7 @@ const INLINE: usize = 16 << 10;
 
 /// What became of a message that may be sent in shared memory.
 #[cfg_attr(not(feature = "shm"), expect(dead_code, reason = "every message goes through the socket"))]
-pub(super) enum Sent {
+pub(super) enum SampleOutcome {
     /// It was sent as a sample; this command announces it.
     Announce([u8; 31]),
     /// It is to be sent through the socket.

@@ -5,8 +5,8 @@ use super::message::Message;
 use super::model::Model;
 use bytes::Bytes;
 use scl::transport::{
-    Disconnected, Endpoint, Frame, Guarantees, Link, Loan, Peer, Receiver, Replier, Requester, Resumed, Sender, Tap,
-    Transport, TransportError,
+    Disconnected, Driven, Endpoint, Frame, Guarantees, Link, Loan, Peer, Receiver, Replier, Requester, Resumed, Sender,
+    Sent, Tap, Transport, TransportError,
 };
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -113,22 +113,28 @@ impl Drop for ObservedLink {
 }
 
 impl Link for ObservedLink {
-    fn drive(&mut self, cx: &mut Context<'_>) -> Result<(), Disconnected> {
+    fn drive(&mut self, cx: &mut Context<'_>) -> Result<Driven, Disconnected> {
         self.link.end.drive(cx)
     }
 
-    fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Result<(), Frame> {
+    fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Sent {
         let Observed { end, reader, model } = &mut self.link;
         let frame = message.to_bytes();
         let sent = end.send(cx, message);
-        offered(&mut model.lock(), *reader, &frame, sent.is_ok());
+        offered(&mut model.lock(), *reader, &frame, matches!(sent, Sent::Sent));
         sent
     }
 
-    fn send_all(&mut self, cx: &mut Context<'_>, queue: &mut VecDeque<Frame>, sent: &mut dyn FnMut(usize)) {
+    fn send_all(
+        &mut self,
+        cx: &mut Context<'_>,
+        driven: Option<Driven>,
+        queue: &mut VecDeque<Frame>,
+        sent: &mut dyn FnMut(usize),
+    ) {
         let Observed { end, reader, model } = &mut self.link;
         let before: Vec<Bytes> = queue.iter().map(Frame::to_bytes).collect();
-        end.send_all(cx, queue, sent);
+        end.send_all(cx, driven, queue, sent);
         let (mut model, accepted) = (model.lock(), before.len() - queue.len());
         for (index, frame) in before.iter().take(accepted + 1).enumerate() {
             offered(&mut model, *reader, frame, index < accepted);

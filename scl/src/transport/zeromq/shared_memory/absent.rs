@@ -1,7 +1,7 @@
 //! Without the feature `shm`: every message goes through the socket.
 
 use super::super::zmtp::{PeerReady, ProtocolError, ShmReady};
-use super::Sent;
+use super::SampleOutcome;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Endpoint, Frame, Loan, TransportError};
 use bytes::Bytes;
@@ -38,8 +38,8 @@ impl Sharing {
         false
     }
 
-    pub(in super::super) fn send(&mut self, _message: &mut Frame, _number: u64) -> Sent {
-        Sent::Inline
+    pub(in super::super) fn send(&mut self, _message: &mut Frame, _number: u64) -> SampleOutcome {
+        SampleOutcome::Inline
     }
 
     pub(in super::super) fn acknowledge(&mut self, _number: u64) {}

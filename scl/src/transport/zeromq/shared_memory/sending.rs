@@ -1,7 +1,7 @@
 //! The sending side of a connection.
 
 use super::super::zmtp::{self, PeerReady};
-use super::{INLINE, Sent};
+use super::{INLINE, SampleOutcome};
 use crate::causes::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Frame, Loan, LoanedMemory};
@@ -85,25 +85,25 @@ impl Sharing {
 
     /// Sends a message as a sample, if it is long and there is memory. `number` is its number among all messages of the
     /// connection. A loan of this link is taken from `message`; anything else is copied.
-    pub(in super::super) fn send(&mut self, message: &mut Frame, number: u64) -> Sent {
+    pub(in super::super) fn send(&mut self, message: &mut Frame, number: u64) -> SampleOutcome {
         let length = message.len();
         if !self.is_for(length) || !self.has_room() {
-            return Sent::Inline;
+            return SampleOutcome::Inline;
         }
-        let State::Open(open) = &mut self.state else { return Sent::Inline };
+        let State::Open(open) = &mut self.state else { return SampleOutcome::Inline };
         let sample = match open.take(message).map_or_else(|| open.sender.copy(message.as_slice()), Ok) {
             Ok(sample) => sample,
             Err(error) => {
                 self.count_inline(&error);
-                return Sent::Inline;
+                return SampleOutcome::Inline;
             }
         };
         if let Err(error) = open.sender.send(sample) {
-            return Sent::Lost(error.to_string());
+            return SampleOutcome::Lost(error.to_string());
         }
         open.sent += 1;
         open.unacknowledged.push_back(number);
-        Sent::Announce(zmtp::sample(open.sent, length as u64))
+        SampleOutcome::Announce(zmtp::sample(open.sent, length as u64))
     }
 
     /// Handles an acknowledgement of all messages up to a number.

@@ -150,7 +150,7 @@ async fn a_detached_link_sends_beyond_the_window_through_the_socket() {
         let Queued { link, queue, .. } = &mut sender.peers[0];
         link.detach();
         queue.extend((0..6).map(|index| Frame::from(pattern(LONG + index))));
-        link.send_all(cx, queue, &mut |_| {});
+        link.send_all(cx, None, queue, &mut |_| {});
         assert!(link.unacknowledged() > 4, "the window counts no longer");
         let receiving = tokio::spawn(async move {
             let mut received = Vec::new();

@@ -74,9 +74,10 @@ impl Outgoing {
             self.peers.push(Queued { kind, link, queue: VecDeque::new() });
         }
         self.peers.retain_mut(|peer| {
-            let connected = peer.link.drive(cx).is_ok();
-            peer.link.send_all(cx, &mut peer.queue, &mut |_| {});
-            connected
+            let driven = peer.link.drive(cx).ok();
+            let is_connected = driven.is_some();
+            peer.link.send_all(cx, driven, &mut peer.queue, &mut |_| {});
+            is_connected
         });
         // A link that was dropped may have been the only reason not to connect again.
         while let Poll::Ready(Peer { kind, link }) = self.end.poll_peer(cx) {
