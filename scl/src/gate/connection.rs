@@ -48,9 +48,11 @@ pub(crate) struct Connection {
     has_ended: Option<EndCheck>,
 }
 
-/// What became of the messages that left the queue.
+/// How many messages there were, and what became of those that left the queue.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Account {
+    /// Messages of the program.
+    published: u64,
     /// Messages handed to a link, or to plain programs in the place of the component.
     handed: u64,
     /// Those of them for the plain programs, which count them as well.
@@ -118,6 +120,7 @@ impl Connection {
         if let Some(latch) = &mut self.latch {
             latch.keep(&message);
         }
+        self.account.published += 1;
         let mut cx = Context::from_waker(&self.task);
         if !self.foreign.is_empty() {
             let shared = message.to_bytes();
@@ -138,6 +141,7 @@ impl Connection {
             }
             _ => self.keep(message),
         }
+        self.check_account();
     }
 
     /// Memory of the link to the peer, to be filled and sent without a copy.
@@ -217,6 +221,7 @@ impl Connection {
             link.request_acknowledgement(&mut Context::from_waker(&self.task));
         }
         let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
+        self.check_account();
         let (all, not_received) = (self.counts(), self.not_received());
         let figures = ConnectionFigures {
             connected: self.is_connected(),
@@ -241,12 +246,13 @@ impl Connection {
     }
 
     pub(crate) fn stats(&self) -> PeerStats {
+        self.check_account();
         let not_received = self.not_received();
         let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
         PeerStats {
             peer: format!("{}.{}", self.link.peer_component, self.link.peer_gate),
             connected: self.is_connected(),
-            published: self.account.handed + self.queue.len() as u64 + replaced + dropped_oldest + dropped_newest,
+            published: self.account.published + self.account.latched,
             taken: self.account.handed - self.account.lost - not_received,
             replaced,
             dropped_oldest,
@@ -255,6 +261,16 @@ impl Connection {
             latched: self.account.latched,
             waiting: self.queue.len() as u64 + not_received,
         }
+    }
+
+    /// Published, with those sent once more, = taken + in flight + lost + waiting + replaced + dropped; and a peer has received
+    /// no more than it was sent.
+    fn check_account(&self) {
+        let Account { published, handed, lost, latched, .. } = self.account;
+        let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
+        let kept = self.queue.len() as u64 + replaced + dropped_oldest + dropped_newest;
+        debug_assert_eq!(published + latched, handed + kept, "the account of {} does not add up", self.peer_name());
+        debug_assert!(lost + self.not_received() <= handed, "{} has received more than it was sent", self.peer_name());
     }
 
     fn accept_and_read(&mut self, cx: &mut Context<'_>) -> Option<Driven> {

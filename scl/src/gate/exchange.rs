@@ -252,6 +252,7 @@ impl End {
         match self.link.request(&mut Context::from_waker(&self.waker), id, body) {
             Ok(()) => {
                 self.sent += 1;
+                debug_assert!(self.sent_calls.iter().all(|call| call.id != id), "request {id} is sent a second time");
                 self.sent_calls.push(SentCall { id, result: None });
                 None
             }
@@ -286,6 +287,7 @@ impl End {
             return tracing::debug!("discarded the reply to an earlier call");
         };
         if let Ok(body) = &result {
+            debug_assert!(self.received < self.sent, "more replies than requests");
             self.received += 1;
             self.activity.add(body.len());
         }

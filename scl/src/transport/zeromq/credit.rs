@@ -73,6 +73,8 @@ impl SendCredit {
             self.bytes -= self.in_flight.pop_front().unwrap_or_default() as u64;
         }
         self.received = self.received.max(received.min(acknowledged));
+        debug_assert!(self.received + self.unacknowledged() <= self.sent, "received before it was acknowledged");
+        debug_assert!(self.unacknowledged() > 0 || self.bytes == 0, "bytes are in flight without a message");
         Ok(())
     }
 }
@@ -162,6 +164,7 @@ impl ReceiveCredit {
     /// Returns the numbers to acknowledge: of messages taken, and received by the program.
     pub(super) fn acknowledge(&mut self) -> (u64, u64) {
         (self.unacknowledged, self.unacknowledged_bytes) = (0, 0);
+        debug_assert!(self.received <= self.taken, "the program has received more than was taken");
         (self.taken, self.received)
     }
 }
@@ -174,6 +177,10 @@ impl Deferred {
             self.acknowledged += 1;
             self.pass_skipped();
         }
+        debug_assert!(
+            self.skipped.front().is_none_or(|&number| number > self.acknowledged),
+            "acknowledged out of order"
+        );
         (self.acknowledged > before).then_some(self.acknowledged)
     }
 
