@@ -1,15 +1,28 @@
 //! One connection at its sending end: the link to the peer, and the queue of what the peer has not taken.
+//!
+//! ```text
+//!              a component connects                  the gate is dropped
+//! Absent ───────────────────────────▶ Connected ─────────────────────────▶ Detached: no runtime; sends what
+//!    ▲  messages wait, up to the          │ sends in order; what the link    waits, without regard to credit,
+//!    │  queue; plain ZeroMQ programs      │ cannot take waits                until its peers have everything
+//!    │  may take them in its place        │
+//!    └────────────────────────────────────┘
+//!       it disconnects, or a newer program of the component replaces it:
+//!       what it had not received is lost
+//! ```
+
+mod account;
+mod flush;
 
 use super::foreign::{Counts, ForeignPeer};
 use super::latch::Latch;
 use super::queue::{Pushed, Queue, QueuePolicy};
-use super::stats::{Activity, PeerStats};
-use crate::error::{GateName, Missing, PeerName, Unflushed};
+use crate::error::{GateName, Missing, PeerName};
 use crate::registry::EndCheck;
-use crate::runtime_dir::{ConnectionFigures, GateFigures};
 use crate::spec::{ConnectionSpec, GateKind, GateSpec, WhenFull};
-use crate::state::{Changes, SendingEnd};
+use crate::state::Changes;
 use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Peer, PeerKind, Sender, Sent};
+use account::Account;
 use std::collections::VecDeque;
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
@@ -46,22 +59,6 @@ pub(crate) struct Connection {
     link: &'static ConnectionSpec,
     component_changes: Changes,
     has_ended: Option<EndCheck>,
-}
-
-/// How many messages there were, and what became of those that left the queue.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Account {
-    /// Messages of the program.
-    published: u64,
-    /// Messages handed to a link, or to plain programs in the place of the component.
-    handed: u64,
-    /// Those of them for the plain programs, which count them as well.
-    in_place: u64,
-    /// Messages that had not been received by the peer's program when their link broke.
-    lost: u64,
-    /// Messages that were sent once more to a subscriber that has joined.
-    latched: u64,
-    activity: Activity,
 }
 
 impl Connection {
@@ -203,76 +200,6 @@ impl Connection {
         PeerName::of(self.link)
     }
 
-    /// What became of the messages for all peers: the component, and plain ZeroMQ programs.
-    pub(crate) fn counts(&self) -> Counts {
-        let own = Counts {
-            sent: self.account.handed - self.account.in_place,
-            replaced: self.queue.replaced,
-            dropped_for_observers: 0,
-            activity: self.account.activity,
-        };
-        self.foreign.iter().fold(own.plus(self.foreign_left), |sum, one| sum.plus(one.counts()))
-    }
-
-    /// Adds what this connection has done to the figures of its gate, and returns its own.
-    pub(crate) fn add_to_figures(&mut self, gate: &mut GateFigures) -> ConnectionFigures {
-        // At a slow gate, a peer acknowledges only when it is asked.
-        if let Some(link) = &mut self.peer {
-            link.request_acknowledgement(&mut Context::from_waker(&self.task));
-        }
-        let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
-        self.check_account();
-        let (all, not_received) = (self.counts(), self.not_received());
-        let figures = ConnectionFigures {
-            connected: self.is_connected(),
-            waiting: self.queue.len() as u64,
-            taken: self.account.handed - self.account.lost - not_received,
-            dropped: dropped_oldest + dropped_newest,
-            lost: self.account.lost,
-            replaced,
-            in_flight: not_received,
-            latched: self.account.latched,
-        };
-        all.activity.add_to_figures(gate);
-        gate.sent += all.sent;
-        gate.replaced += all.replaced;
-        gate.dropped_oldest += dropped_oldest;
-        gate.dropped_newest += dropped_newest;
-        gate.dropped_for_observers += all.dropped_for_observers;
-        gate.lost += figures.lost;
-        gate.waiting += self.queue.len() as u64;
-        gate.peers += u64::from(figures.connected);
-        figures
-    }
-
-    pub(crate) fn stats(&self) -> PeerStats {
-        self.check_account();
-        let not_received = self.not_received();
-        let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
-        PeerStats {
-            peer: format!("{}.{}", self.link.peer_component, self.link.peer_gate),
-            connected: self.is_connected(),
-            published: self.account.published + self.account.latched,
-            taken: self.account.handed - self.account.lost - not_received,
-            replaced,
-            dropped_oldest,
-            dropped_newest,
-            lost: self.account.lost,
-            latched: self.account.latched,
-            waiting: self.queue.len() as u64 + not_received,
-        }
-    }
-
-    /// Published, with those sent once more, = taken + in flight + lost + waiting + replaced + dropped; and a peer has received
-    /// no more than it was sent.
-    fn check_account(&self) {
-        let Account { published, handed, lost, latched, .. } = self.account;
-        let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
-        let kept = self.queue.len() as u64 + replaced + dropped_oldest + dropped_newest;
-        debug_assert_eq!(published + latched, handed + kept, "the account of {} does not add up", self.peer_name());
-        debug_assert!(lost + self.not_received() <= handed, "{} has received more than it was sent", self.peer_name());
-    }
-
     fn accept_and_read(&mut self, cx: &mut Context<'_>) -> Option<Driven> {
         let driven = loop {
             while let Poll::Ready(peer) = self.sender.poll_peer(cx) {
@@ -396,20 +323,6 @@ impl Connection {
         self.latch.iter_mut().for_each(|latch| latch.note_queued(pushed));
     }
 
-    /// Returns true if all connected peers were given everything.
-    fn is_written(&self) -> bool {
-        self.peer.as_ref().is_none_or(|link| self.queue.is_empty() && link.is_written())
-            && self.foreign.iter().all(ForeignPeer::is_flushed)
-    }
-
-    fn unacknowledged(&self) -> u64 {
-        self.peer.as_ref().map_or(0, |link| link.unacknowledged())
-    }
-
-    fn not_received(&self) -> u64 {
-        self.peer.as_ref().map_or(0, |link| link.not_received())
-    }
-
     fn report_change(&mut self) {
         self.changes += 1;
         self.watcher.take().into_iter().for_each(Waker::wake);
@@ -445,83 +358,4 @@ fn policy(spec: &GateSpec, link: &ConnectionSpec) -> QueuePolicy {
     let may_wait = spec.options.backpressure || link.when_full != WhenFull::Wait;
     let when_full = if may_wait { link.when_full } else { WhenFull::DropOldest };
     QueuePolicy { capacity: link.queue as usize, when_full }
-}
-
-impl Account {
-    fn hand(&mut self, length: usize) {
-        self.handed += 1;
-        self.activity.add(length);
-    }
-}
-
-impl SendingEnd for Connection {
-    fn poll_flushed(&mut self, acknowledged: bool, cx: &mut Context<'_>) -> Poll<()> {
-        if !self.waiting_flushes.iter().any(|known| known.will_wake(cx.waker())) {
-            self.waiting_flushes.push(cx.waker().clone());
-        }
-        if acknowledged
-            && let Some(link) = &mut self.peer
-            && self.queue.is_empty()
-            && link.is_written()
-            && link.unacknowledged() > 0
-        {
-            link.request_acknowledgement(&mut Context::from_waker(&self.task));
-        }
-        let taken = !acknowledged || self.unacknowledged() == 0;
-        if !taken || !self.is_written() {
-            return Poll::Pending;
-        }
-        // The end may be removed next, and its task with it, which would have woken the others.
-        self.waiting_flushes.drain(..).filter(|waiting| !waiting.will_wake(cx.waker())).for_each(Waker::wake);
-        Poll::Ready(())
-    }
-
-    fn waits_for_absent_peer(&self) -> Option<Unflushed> {
-        if self.is_connected() || self.queue.is_empty() {
-            return None;
-        }
-        let left = self.report(self.queue.len() as u64);
-        (left.lossless || !self.has_completed()).then_some(left)
-    }
-
-    fn leftover(&self, acknowledged: bool) -> Option<Unflushed> {
-        self.peer.as_ref()?;
-        let waiting = self.queue.len() as u64 + if acknowledged { self.unacknowledged() } else { 0 };
-        (waiting > 0).then(|| self.report(waiting))
-    }
-
-    fn drive(&mut self, cx: &mut Context<'_>) {
-        Self::drive(self, cx);
-    }
-
-    fn wake_call(&mut self) {
-        self.waiting_sender.take().into_iter().for_each(Waker::wake);
-    }
-
-    fn call_waits(&self) -> bool {
-        self.waiting_sender.is_some()
-    }
-
-    fn write_out(&mut self) -> bool {
-        if !self.is_written() {
-            let task = self.task.clone();
-            Self::drive(self, &mut Context::from_waker(&task));
-        }
-        self.is_written()
-    }
-
-    fn detach(&mut self) {
-        self.detached = true;
-        self.sender.detach();
-        self.peer.iter_mut().for_each(|link| link.detach());
-        self.foreign.iter_mut().for_each(ForeignPeer::detach);
-    }
-}
-
-impl Connection {
-    fn report(&self, messages: u64) -> Unflushed {
-        // Nobody waits for an optional component that is not running.
-        let lossless = self.queue.waits() && (self.peer.is_some() || self.link.required);
-        Unflushed { gate: self.gate, peer: self.peer_name(), messages, running: false, lossless }
-    }
 }

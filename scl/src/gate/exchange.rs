@@ -1,4 +1,10 @@
 //! The end of a `req` gate, shared by its calls and its background task.
+//!
+//! ```text
+//! a call: waits for a permit ──▶ unsent ──▶ sent ──▶ replied, refused or lost ──▶ returned
+//!                                  │          └── timed out, or dropped: the reply is discarded
+//!                                  └── timed out, or dropped: nothing was sent
+//! ```
 
 use super::call_wakers::CallWakers;
 use super::stats::{Activity, GateStats};
