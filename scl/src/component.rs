@@ -91,7 +91,7 @@ pub(crate) async fn wait_for_peers(
     let deadline = started.checked_add(timeout);
     loop {
         let mut changed = std::pin::pin!(changes.next());
-        // Before the look, so that no change after it is missed.
+        // Subscribe before checking, so that no change is missed.
         changed.as_mut().enable();
         if missing().is_empty() {
             return Ok(());

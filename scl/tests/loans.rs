@@ -69,7 +69,7 @@ async fn send(camera: &mut Camera, number: u64) {
 fn every_call_carries_whole_messages() {
     on_each_transport_async(async |options| {
         let mut camera = Camera::open_with(options.clone()).await.unwrap();
-        // Before anybody is connected, from the heap.
+        // From the heap, before a peer is connected.
         send(&mut camera, 1).await;
         let mut detector = Detector::open_with(options).await.unwrap();
         camera.ready(LONG).await.unwrap();

@@ -23,7 +23,7 @@ async fn components_meet_in_memory_and_touch_no_file() {
     controller.ready(Duration::from_secs(300)).await.unwrap();
     sensor.ready(Duration::from_secs(300)).await.unwrap();
     sensor.measurements.send(&vec![1.5, 2.5]).await.unwrap();
-    assert_eq!(controller.sensor.recv().await.unwrap(), [0.5], "sent before anybody was there");
+    assert_eq!(controller.sensor.recv().await.unwrap(), [0.5], "sent before the peer was open");
     assert_eq!(controller.sensor.recv().await.unwrap(), [1.5, 2.5]);
 
     let answering = async { sensor.calibrate.recv().await.unwrap().reply(&"done".to_owned()).unwrap() };
@@ -39,7 +39,7 @@ async fn a_publisher_is_told_that_its_subscriber_came_and_went() {
     let mut sensor = Sensor::open_with(OpenOptions::new().transport(memory.clone())).await.unwrap();
     for _ in 0..3 {
         let controller = open_controller().await.unwrap();
-        // It comes while nobody waits for that, and goes while somebody does.
+        // It connects while no call waits for that, and disconnects while one does.
         sensor.ready(Duration::from_secs(300)).await.unwrap();
         assert_eq!(sensor.measurements.peers_changed().await, 1);
         let (peers, ()) = tokio::join!(sensor.measurements.peers_changed(), async { drop(controller) });

@@ -30,7 +30,7 @@ impl RawPeer {
         Self::try_connect(address).unwrap_or_else(|error| panic!("no connection to {address:?}: {error}"))
     }
 
-    /// [`connect`](Self::connect), if somebody listens.
+    /// [`connect`](Self::connect), if a listener is there.
     ///
     /// # Errors
     /// Those of the operating system.

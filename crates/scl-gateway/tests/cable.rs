@@ -57,8 +57,8 @@ impl Cable {
     }
 
     /// Undoes [`cut`](Self::cut).
-    pub(crate) fn mend(&mut self, port: usize) {
-        self.tell(&format!("mend {port}"));
+    pub(crate) fn repair(&mut self, port: usize) {
+        self.tell(&format!("repair {port}"));
     }
 
     /// What happens to the frames of this port that come from now on.

@@ -24,7 +24,7 @@ fn check(offset: &str) {
     fleet.player("sink").answer_to_next("lossless");
     fleet.network.cable.cut(0);
     std::thread::sleep(std::time::Duration::from_secs(1));
-    fleet.mend_and_measure(0, "cut between clocks that disagree");
+    fleet.repair_and_measure(0, "cut between clocks that disagree");
     fleet.stop_all();
     fleet.exact_accounts();
     fleet.still_works();

@@ -26,7 +26,7 @@ fn check(length: Duration) {
     sleep(length);
     let longest_call = reference.compare(&mut fleet, "during the cut");
     assert!(longest_call < length, "a call waited for the network: {longest_call:?}");
-    fleet.mend_and_measure(0, &format!("cut of {length:?}"));
+    fleet.repair_and_measure(0, &format!("cut of {length:?}"));
     fleet.stop_all();
     fleet.exact_accounts();
     fleet.still_works();
@@ -36,17 +36,17 @@ fn check(length: Duration) {
 
 impl Fleet {
     /// Connects a host again and prints how long each gate had to wait for its next message.
-    pub(crate) fn mend_and_measure(&mut self, port: usize, what: &str) {
+    pub(crate) fn repair_and_measure(&mut self, port: usize, what: &str) {
         let gates = ["control", "readings", "lossless", "jobs"];
         for gate in gates {
             // What was on its way when the cable was cut has arrived.
             self.player("sink").tell(gate, "next");
         }
-        self.network.cable.mend(port);
-        let mended = Instant::now();
+        self.network.cable.repair(port);
+        let repaired = Instant::now();
         for gate in gates {
             self.player("sink").answer(gate);
-            println!("after a {what}, `{gate}` resumed within {:?}", mended.elapsed());
+            println!("after a {what}, `{gate}` resumed within {:?}", repaired.elapsed());
         }
     }
 }
@@ -66,7 +66,7 @@ fn queues_keep_over_a_cut_what_they_declare() {
         fleet.player("source").ask(gate, &format!("send {sent} 0 200"));
     }
     let before = [CONTROL, READINGS, NEWEST_KEPT].map(|it| fleet.account(it));
-    fleet.network.cable.mend(1);
+    fleet.network.cable.repair(1);
     for gate in ["lossless", "jobs"] {
         fleet.player("source").wait_for(gate, "left", |counts| counts.get("left") == 0);
     }
@@ -97,10 +97,10 @@ fn requests_fail_while_the_network_is_gone_and_their_replies_are_never_mixed_up(
     fleet.network.cable.cut(0);
     let answer = fleet.player("source").counts("question", "call 5 100");
     assert_eq!(["answered", "failed", "wrong"].map(|name| answer.get(name)), [0, 5, 0]);
-    fleet.network.cable.mend(0);
-    let mended = Instant::now();
+    fleet.network.cable.repair(0);
+    let repaired = Instant::now();
     let answer = fleet.player("source").counts("question", "call 1 60000");
-    println!("after a cut, a request was answered within {:?}", mended.elapsed());
+    println!("after a cut, a request was answered within {:?}", repaired.elapsed());
     assert_eq!(["failed", "wrong"].map(|name| answer.get(name)), [0, 0], "{answer:?}");
     let answer = fleet.player("source").counts("question", "call 100 10000");
     assert_eq!(["answered", "failed", "wrong"].map(|name| answer.get(name)), [100, 0, 0], "{answer:?}");

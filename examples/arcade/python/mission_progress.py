@@ -30,7 +30,7 @@ class Progress:
     began_us: int | None = None  # when the leg's command took effect
     near_since_us: int | None = None
     repeat_us: int = 0  # when the command is sent (again)
-    interruption: str = ""  # why somebody else commands the vehicle
+    interruption: str = ""  # why another component commands the vehicle
     refusal: str = ""
 
     def update(self, flight: Flight, arbitration: Arbitration | None) -> Decision:

@@ -34,7 +34,7 @@ pub(super) struct Inbox {
     queue: Queue<Arrived>,
     /// Whether the last receiving call found nothing, and nothing was taken in since.
     was_empty: bool,
-    /// Whether the queue was full when the links were drained last, so that messages will not wake anybody.
+    /// Whether the queue was full when the links were drained last, so that messages wake neither call nor task.
     is_stalled: bool,
     /// The time of the last message when the links of a full queue were last told what the program has received.
     told_at: Option<CoarseTime>,

@@ -54,7 +54,7 @@ impl<T> Queue<T> {
         pushed
     }
 
-    /// Like [`push`](Self::push), but counts nothing: somebody else has taken the message.
+    /// Like [`push`](Self::push), but counts nothing: a program in the peer's place has the message.
     pub(crate) fn replace(&mut self, item: T) -> Pushed {
         if !self.is_full() {
             self.items.push_back(item);

@@ -32,7 +32,7 @@ pub(crate) struct GateTap {
 
 struct Shared {
     end: Mutex<End>,
-    /// Whether anybody observes; without, a message costs no more than a look at this and its number.
+    /// Whether there is an observer. Without one, a message costs only this check and its number.
     observed: AtomicBool,
     /// Whether observers that join get the last message.
     latches: bool,

@@ -24,7 +24,7 @@ pub enum Address {
 /// Finds the address of an endpoint, if it has been bound.
 ///
 /// If there is both a socket and a TCP address, the older one was left behind by a killed process, and the newer one is
-/// returned. Whether somebody is listening there shows only when connecting.
+/// returned. Whether a peer is listening there shows only when connecting.
 pub fn find(dir: &SystemDir, endpoint: &str) -> Option<Address> {
     let path = dir.path(endpoint).ok()?;
     match (find_ipc(&path), find_tcp(&tcp_file(&path))) {

@@ -44,7 +44,7 @@ impl ComponentLock {
         }
     }
 
-    /// Who runs a component, if anybody does.
+    /// The process that runs a component, if there is one.
     pub fn holder(dir: &SystemDir, component: &str) -> Option<ComponentProcess> {
         lock_holder(&dir.file_of(component, ".lock").ok()?).map(ComponentProcess::from)
     }

@@ -29,7 +29,7 @@ impl RuntimeDir {
     ///
     /// The folder cannot be read.
     pub fn systems(&self) -> io::Result<Vec<String>> {
-        // Not through a link, whose target may belong to anybody.
+        // Not through a link, whose target may belong to another user.
         names(fs::read_dir(self.path())?, |entry, name| is_folder(entry).then(|| name.to_owned()))
     }
 

@@ -143,7 +143,7 @@ impl State {
         let cable = &mut self.cables[words[1].parse::<usize>().unwrap()];
         match words[0] {
             "cut" => cable.is_cut = true,
-            "mend" => cable.is_cut = false,
+            "repair" => cable.is_cut = false,
             "shape" => {
                 cable.shape = Shape { loss: number(2), delay: number(3), jitter: number(4), rate: number(5) };
             }

@@ -52,7 +52,7 @@ pub(super) fn check() {
     scl_tests::wait_until("frames are lost", || network.cable.counts(0).1 > lost_before);
     assert_eq!(network.cable.counts(0).0, before, "no frame passed");
     assert_eq!(listening.try_next_line(), None);
-    network.cable.mend(0);
+    network.cable.repair(0);
     assert_eq!(listening.expect_containing("= "), format!("= {LENGTH} unchanged"));
 }
 

@@ -258,7 +258,7 @@ fn with_check() -> (Endpoint, Arc<AtomicBool>) {
     (Endpoint { check: Some(Arc::new(check)), ..Endpoint::new(ENDPOINT) }, accepts)
 }
 
-/// Polls until there is a result. For what an end tells without waking anybody.
+/// Polls until there is a result. For what an end reports without waking the task.
 async fn until<R>(mut poll: impl FnMut(&Context<'_>) -> Option<R>) -> R {
     poll_fn(|cx| {
         cx.waker().wake_by_ref();

@@ -215,7 +215,7 @@ impl Session {
         Ok(())
     }
 
-    /// Continues writing without the runtime, and without waking anybody.
+    /// Continues writing without the runtime. Wakes no task.
     pub(super) fn flush_raw(&mut self) -> io::Result<()> {
         while let Some(first) = self.unwritten.front_mut() {
             match none_if_blocked(self.stream.write(first))? {
