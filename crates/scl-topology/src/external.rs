@@ -1,7 +1,7 @@
 //! Rules that are checked elsewhere: by the loader that reads the files, by the macro, by `scl generate`, and by rustc. They are declared
 //! here, so that every code is explained in one place.
 
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 
 /// All of them, by their codes.
 pub(crate) const RULES: [&Rule; 22] = [
@@ -37,7 +37,9 @@ pub const FILE_NOT_FOUND: Rule = Rule {
     explanation: "The path in the macro call names no file. It is looked for beside the source file that calls the \
                   macro, then in the package's folder, then in the workspace's. Correct the path; the message lists \
                   each place that was tried and files of similar names.",
-    examples: Examples::Rust { bad: "scl::topology!(\"topolgy.yaml\");", good: "scl::topology!(\"topology.yaml\");" },
+    example: "-scl::topology!(\"topolgy.yaml\");
++scl::topology!(\"topology.yaml\");
+",
 };
 
 /// SCL0002.
@@ -47,7 +49,9 @@ pub const UNREADABLE_FILE: Rule = Rule {
     title: "path is a directory or cannot be read",
     explanation: "The path exists, but it is a folder, a broken link, or a file that this user may not read. Name a \
                   readable file; the text of the operating system stands at the end of the message.",
-    examples: Examples::Rust { bad: "scl::topology!(\"config/\");", good: "scl::topology!(\"config/topology.yaml\");" },
+    example: "-scl::topology!(\"config/\");
++scl::topology!(\"config/topology.yaml\");
+",
 };
 
 /// SCL0003.
@@ -57,7 +61,7 @@ pub const NOT_UTF8: Rule = Rule {
     title: "file is not UTF-8",
     explanation: "A topology file is UTF-8, so that every tool in every language reads the same names. Save it as \
                   UTF-8. A file that starts with 0xFF 0xFE is UTF-16, which some editors on Windows write.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL0004.
@@ -68,7 +72,7 @@ pub const FILE_TOO_LARGE: Rule = Rule {
     explanation: "The file is larger than any topology has reason to be, so it is probably the wrong file. The limit \
                   protects the compiler, inside of which the macro runs. A topology of 1000 components has some 200 \
                   KiB; generated ones may raise the limit with `max_size`.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL0005.
@@ -79,7 +83,9 @@ pub const BAD_ARGUMENTS: Rule = Rule {
     explanation: "The macro reads its file before the program exists, so the path has to be one plain string in the \
                   call. `concat!` and `env!` are not expanded before a macro sees them. Write \
                   `scl::topology!(\"topology.yaml\")`.",
-    examples: Examples::Rust { bad: "scl::topology!(topology.yaml);", good: "scl::topology!(\"topology.yaml\");" },
+    example: "-scl::topology!(topology.yaml);
++scl::topology!(\"topology.yaml\");
+",
 };
 
 /// SCL0006.
@@ -90,10 +96,9 @@ pub const PATH_OF_ONE_MACHINE: Rule = Rule {
     explanation: "An absolute path, or one that leaves the package, exists on this machine only: the crate will not \
                   build elsewhere, and `cargo package` does not carry the file. Write the path relative to the source \
                   file or to Cargo.toml.",
-    examples: Examples::Rust {
-        bad: "scl::topology!(\"/home/u/uav/topology.yaml\");",
-        good: "scl::topology!(\"topology.yaml\");",
-    },
+    example: "-scl::topology!(\"/home/u/uav/topology.yaml\");
++scl::topology!(\"topology.yaml\");
+",
 };
 
 /// SCL0007.
@@ -103,14 +108,12 @@ pub const GENERATED_TWICE: Rule = Rule {
     title: "the same names are generated twice",
     explanation: "Two calls of the macro in one module generate the same names. A macro cannot see its neighbours, so \
                   rustc reports it as E0428. Put one of the calls into a module of its own.",
-    examples: Examples::Rust {
-        bad: "scl::topology!(\"a.yaml\");
-scl::topology!(\"b.yaml\");",
-        good: "scl::topology!(\"a.yaml\");
-mod ground_station {
-    scl::topology!(\"b.yaml\");
-}",
-    },
+    example: " scl::topology!(\"a.yaml\");
+-scl::topology!(\"b.yaml\");
++mod ground_station {
++    scl::topology!(\"b.yaml\");
++}
+",
 };
 
 /// SCL0406.
@@ -122,20 +125,13 @@ pub const SCHEMA: Rule = Rule {
                   looked for beside the topology file, and what they import also beside each of them, or only in the \
                   folders of `schema_roots`. An import that two different files can mean is refused. A mistake inside is \
                   shown in its own file.",
-    examples: Examples::Topology {
-        bad: "schemas: [uav.prot]
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: uav.Measurement}
+    example: "-schemas: [uav.prot]
++schemas: [uav.proto]
+ components:
+   - name: sensor
+     gates:
+       - measurements: {pub: uav.Measurement}
 ",
-        good: "schemas: [uav.proto]
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: uav.Measurement}
-",
-    },
 };
 
 /// SCL0415.
@@ -146,7 +142,7 @@ pub const SCHEMA_ELSEWHERE: Rule = Rule {
     explanation: "An absolute path of a schema, or one that leaves the folder of the topology file, exists on this \
                   machine only: the file will not be found elsewhere, and `cargo package` does not carry it. Keep the \
                   schemas beside the topology file or below it.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL0416.
@@ -156,7 +152,7 @@ pub const SCHEMA_TWICE: Rule = Rule {
     title: "schema named twice",
     explanation: "Two entries of `schemas` lead to the same file, perhaps in two spellings such as `rover.proto` and \
                   `./rover.proto`. Each message would be declared twice. Remove one of them.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL0417.
@@ -170,7 +166,7 @@ pub const SCHEMA_NAME: Rule = Rule {
                   `Status` becomes `status`, as the package `rover.status` does in `rover`. A message without a package \
                   lies beside the components. A name of underscores only becomes nothing. Rename one; the bytes of \
                   messages contain no names. docs/messages.md has the rules.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL0418.
@@ -183,7 +179,7 @@ pub const HIDDEN_CRATE: Rule = Rule {
                   name ambiguous. Call the macro in a module of its own, as `mod wiring { ::scl::topology!(\"..\"); }`, \
                   where nothing else is, and then allow this warning. `scl check` knows the crates `std`, `core`, `alloc` \
                   and `scl`; the macro knows all that the program depends on.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL0605.
@@ -194,7 +190,7 @@ pub const DIFFERENT_RUST_TYPES: Rule = Rule {
     explanation: "Two type names that the file cannot tell apart, such as `nav.Attitude` and `log.Attitude`, turn out \
                   to be different Rust types. Only rustc knows that: the macro generates an assertion for each such \
                   connection, and the error shows the connection.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL0606.
@@ -205,7 +201,7 @@ pub const NOT_A_MESSAGE: Rule = Rule {
     explanation: "A type that the file names exists in Rust, but the gate's codec cannot carry it: for `protobuf` it \
                   has to be a prost message, for the others a serde type. rustc reports it at an assertion that names \
                   the gate.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL0609.
@@ -217,7 +213,7 @@ pub const TYPE_NOT_FOUND: Rule = Rule {
                   macro is called. Only the programs that open the component need it, and only there rustc reports it. \
                   Add the crate to the program's dependencies, bring the module into scope with `use`, or correct the \
                   path.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL0803.
@@ -227,7 +223,7 @@ pub const MESSAGE_TOO_LARGE: Rule = Rule {
     title: "message larger than a slot",
     explanation: "A message type is larger than the slots of a shared-memory transport. Shared memory is not part of \
                   this version, so nothing reports this yet; the code is kept for it.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL1001.
@@ -238,10 +234,9 @@ pub const WRONG_DIRECTION: Rule = Rule {
     explanation: "A gate can only do what its kind does: a `sub` gate has no `send`. Direction is part of the gate's \
                   Rust type, so rustc reports this. The documentation of the field names the kind and the place in the \
                   file.",
-    examples: Examples::Rust {
-        bad: "controller.sensor.send(&measurement).await?;",
-        good: "let measurement = controller.sensor.recv().await?;",
-    },
+    example: "-controller.sensor.send(&measurement).await?;
++let measurement = controller.sensor.recv().await?;
+",
 };
 
 /// SCL1002.
@@ -251,10 +246,9 @@ pub const WRONG_TYPE_IN_CODE: Rule = Rule {
     title: "wrong message type in code",
     explanation: "A program sends or expects another type than the file declares for the gate. rustc reports it as \
                   E0308; the documentation of the field says where the type is declared.",
-    examples: Examples::Rust {
-        bad: "sensor.measurements.send(&status).await?;",
-        good: "sensor.measurements.send(&measurement).await?;",
-    },
+    example: "-sensor.measurements.send(&status).await?;
++sensor.measurements.send(&measurement).await?;
+",
 };
 
 /// SCL1003.
@@ -264,10 +258,9 @@ pub const UNKNOWN_IN_CODE: Rule = Rule {
     title: "gate or component does not exist in code",
     explanation: "A program names a gate or component that the file does not declare. Gates are fields of a struct, so \
                   rustc reports E0609 and suggests similar names. Correct the program, or declare the gate.",
-    examples: Examples::Rust {
-        bad: "sensor.measurement.send(&measurement).await?;",
-        good: "sensor.measurements.send(&measurement).await?;",
-    },
+    example: "-sensor.measurement.send(&measurement).await?;
++sensor.measurements.send(&measurement).await?;
+",
 };
 
 /// SCL1101.
@@ -278,7 +271,7 @@ pub const MESSAGE_CLASH: Rule = Rule {
     explanation: "In generated code of some languages, components and messages share the namespace of the system: the \
                   component `sensor` and the message `rover.Sensor` would both become `rover::Sensor` in C++. Only \
                   `scl generate` and `scl check --for` report it; Rust keeps the two apart. Rename one of them.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL1102.
@@ -289,7 +282,7 @@ pub const NAME_CLASH: Rule = Rule {
     explanation: "Different names of the topology become one name in generated code: C joins the names of system, \
                   component and gate by `_`, so gate `b_c` of component `a` and gate `c` of component `a_b` become the \
                   same functions. Only `scl generate` and `scl check --for` report it. Rename one of them.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// SCL1103.
@@ -301,5 +294,5 @@ pub const UNWRITABLE_NAME: Rule = Rule {
                   packages, so `package export;` gives a header that no compiler accepts; and keywords that are new in \
                   C++20, such as `concept`, get an underscore from newer versions of protoc only. Only `scl generate` and \
                   `scl check --for` report it. Rename the package or the message.",
-    examples: Examples::None,
+    example: "",
 };

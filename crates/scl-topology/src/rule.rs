@@ -1,4 +1,4 @@
-//! One rule of the checker: its code, severity, explanation and examples. Only a rule makes a
+//! One rule of the checker: its code, severity, explanation and example. Only a rule makes a
 //! [`Diagnostic`](crate::diagnostic::Diagnostic).
 
 use std::hash::{Hash, Hasher};
@@ -25,29 +25,32 @@ pub struct Rule {
     pub title: &'static str,
     /// What it means, why it matters and how to fix it, in some sentences.
     pub explanation: &'static str,
-    /// A file with the mistake, and one without.
-    pub examples: Examples,
+    /// A topology with the mistake and its correction, as the lines of a diff: `-` begins a line with the mistake, `+` a
+    /// corrected one, and a space a line of both. Rules about Rust code show Rust. Empty if no example is short.
+    pub example: &'static str,
 }
 
-/// Texts that show a mistake and its correction.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Examples {
-    /// No example is possible, or none is short.
-    None,
-    /// Topology files.
-    Topology {
-        /// With the mistake.
-        bad: &'static str,
-        /// Corrected.
-        good: &'static str,
-    },
-    /// Lines of Rust.
-    Rust {
-        /// With the mistake.
-        bad: &'static str,
-        /// Corrected.
-        good: &'static str,
-    },
+impl Rule {
+    /// The example with the mistake.
+    pub fn bad_example(&self) -> String {
+        self.example_without('+')
+    }
+
+    /// The example corrected.
+    pub fn good_example(&self) -> String {
+        self.example_without('-')
+    }
+
+    fn example_without(&self, other: char) -> String {
+        let lines = self.example.split_inclusive('\n').filter(|line| !line.starts_with(other));
+        lines.filter_map(|line| line.get(1..)).collect()
+    }
+
+    /// Returns true if there is an example and it is a topology. Those of the families SCL00 (calls of the macro) and
+    /// SCL10 (code that uses gates) are Rust.
+    pub fn has_topology(&self) -> bool {
+        !(self.example.is_empty() || self.code.starts_with("SCL00") || self.code.starts_with("SCL10"))
+    }
 }
 
 impl PartialEq for Rule {

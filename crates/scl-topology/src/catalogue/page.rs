@@ -4,7 +4,7 @@ use super::{ALL, find};
 use crate::check::{Facts, SchemaMessages, check};
 use crate::diagnostic::{Diagnostics, Severity, render};
 use crate::parse::parse;
-use crate::rule::{Examples, Rule};
+use crate::rule::Rule;
 use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 
@@ -57,20 +57,17 @@ fn level(rule: &Rule) -> &'static str {
 fn entry(rule: &Rule) -> String {
     let level = if rule.severity == Severity::Lint { "lint, off unless asked for" } else { level(rule) };
     let mut text = format!("{} {} ({level})\n\n{}\n", rule.code, rule.title, rule.explanation);
-    match rule.examples {
-        Examples::None => {}
-        Examples::Rust { bad, good } => {
-            text.push_str(&format!("\nWrong:\n\n```rust\n{bad}\n```\n\nRight:\n\n```rust\n{good}\n```\n"));
-        }
-        Examples::Topology { bad, good } => {
-            text.push_str(&format!("\nWrong:\n\n```yaml\n{}```\n", visible(bad)));
-            let told = told(rule.code, bad);
-            if !told.is_empty() {
-                text.push_str(&format!("\n```text\n{told}\n```\n"));
-            }
-            text.push_str(&format!("\nRight:\n\n```yaml\n{good}```\n"));
-        }
+    if rule.example.is_empty() {
+        return text;
     }
+    let language = if rule.has_topology() { "yaml" } else { "rust" };
+    let (bad, good) = (rule.bad_example(), rule.good_example());
+    text.push_str(&format!("\nWrong:\n\n```{language}\n{}```\n", visible(&bad)));
+    let told = if rule.has_topology() { told(rule.code, &bad) } else { String::new() };
+    if !told.is_empty() {
+        text.push_str(&format!("\n```text\n{told}\n```\n"));
+    }
+    text.push_str(&format!("\nRight:\n\n```{language}\n{good}```\n"));
     text
 }
 

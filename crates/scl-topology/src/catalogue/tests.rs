@@ -3,8 +3,8 @@
 use super::{ALL, explain, page};
 use crate::cases::flow;
 use crate::check::testing::{USUAL, problems};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::rule::{Examples, Rule};
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Rule, Severity};
 
 /// The messages that the schemas of examples declare.
 const MESSAGES: [&str; 3] = ["uav.Command", "uav.Measurement", "uav.Status"];
@@ -18,12 +18,9 @@ fn is_companion(found: &Diagnostic, rule: &Rule) -> bool {
     found.severity == Severity::Lint || USUAL.contains(&found.code()) && rule.code != found.code()
 }
 
-fn topologies() -> impl Iterator<Item = (&'static Rule, &'static str, &'static str)> {
-    ALL.iter().filter_map(|rule| match rule.examples {
-        // The loader reads schemas; here no file exists.
-        Examples::Topology { bad, good } if rule.code != "SCL0406" => Some((*rule, bad, good)),
-        _ => None,
-    })
+fn topologies() -> impl Iterator<Item = &'static Rule> {
+    // The loader reads the schemas of SCL0406; here no file exists.
+    ALL.iter().copied().filter(|rule| rule.has_topology() && rule.code != "SCL0406")
 }
 
 #[test]
@@ -34,15 +31,18 @@ fn every_code_of_the_design_is_there_once() {
         let sentences = rule.explanation.matches(['.', '?']).count();
         assert!((2..=12).contains(&sentences) && rule.explanation.len() < 700, "{}", rule.code);
         assert!(!rule.title.ends_with('.') && rule.title.len() < 80, "{}", rule.code);
-        assert!(rule.examples != Examples::None || explain(rule.code).is_some());
+        let is_diff = rule.example.lines().all(|line| line.starts_with([' ', '-', '+']));
+        assert!(is_diff && (rule.example.is_empty() || rule.example.ends_with('\n')), "{}", rule.code);
+        assert!(!rule.example.is_empty() || explain(rule.code).is_some());
     }
 }
 
 #[test]
 fn a_bad_example_has_its_problem_and_no_other() {
-    for (rule, bad, _) in topologies() {
-        let spellings = [bad.to_owned(), bad.replace('\n', "\r\n"), bad.trim_end().to_owned()];
-        for text in spellings.into_iter().chain(flow::of(bad)) {
+    for rule in topologies() {
+        let bad = rule.bad_example();
+        let spellings = [bad.clone(), bad.replace('\n', "\r\n"), bad.trim_end().to_owned()];
+        for text in spellings.into_iter().chain(flow::of(&bad)) {
             let found = found(&text);
             assert!(found.iter().any(|found| found.code() == rule.code), "{} is not found in {text:?}", rule.code);
             let other = found.iter().find(|found| found.code() != rule.code && !is_companion(found, rule));
@@ -56,8 +56,9 @@ fn a_bad_example_has_its_problem_and_no_other() {
 
 #[test]
 fn a_good_example_has_no_problem() {
-    for (rule, _, good) in topologies() {
-        let found = found(good);
+    for rule in topologies() {
+        let good = rule.good_example();
+        let found = found(&good);
         let problem = found
             .iter()
             .find(|found| found.code() == rule.code || found.severity == Severity::Error && found.code() != "SCL0703");

@@ -1,9 +1,8 @@
 //! SCL0410: a receiver that would make its sender wait, and a sender that never waits.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::{GateKind, WhenFull};
 
 /// SCL0410.
@@ -14,28 +13,17 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "A receiver with `when_full: wait` makes its sender wait while its queue is full. That must not \
                   happen to a sender by surprise, so the sender allows it with `backpressure: true`. Allow it, or let \
                   the receiver lose messages.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement}
-  - name: recorder
-    gates:
-      - measurements: {sub: Measurement, when_full: wait}
-connections:
-  - [sensor.measurements, recorder.measurements]
+    example: " components:
+   - name: sensor
+     gates:
+-      - measurements: {pub: Measurement}
++      - measurements: {pub: Measurement, backpressure: true}
+   - name: recorder
+     gates:
+       - measurements: {sub: Measurement, when_full: wait}
+ connections:
+   - [sensor.measurements, recorder.measurements]
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, backpressure: true}
-  - name: recorder
-    gates:
-      - measurements: {sub: Measurement, when_full: wait}
-connections:
-  - [sensor.measurements, recorder.measurements]
-",
-    },
 };
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {

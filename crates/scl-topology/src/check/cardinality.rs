@@ -2,9 +2,8 @@
 //! repliers. SCL0513: a pusher with several pullers that does not say that they share the work.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 use crate::wording::listed;
 
@@ -16,37 +15,22 @@ pub(crate) const SEVERAL_PUBLISHERS: Rule = Rule {
     explanation: "Several publishers send to one subscribing gate, and their messages arrive mixed, in the order of \
                   arrival. That is allowed; the lint is for systems in which each gate has one source. If the \
                   publishers are implementations of one thing, declare one component that several programs can play.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: gps
-    gates:
-      - fix: pub
-  - name: replay
-    gates:
-      - fix: pub
-  - name: autopilot
-    gates:
-      - fix: sub
-connections:
-  - [gps.fix, autopilot.fix]
-  - [replay.fix, autopilot.fix]
+    example: " components:
+   - name: gps
+     gates:
+       - fix: pub
+   - name: replay
+     gates:
+       - fix: pub
+   - name: autopilot
+     gates:
+       - fix: sub
++      - replay_fix: sub
+ connections:
+   - [gps.fix, autopilot.fix]
+-  - [replay.fix, autopilot.fix]
++  - [replay.fix, autopilot.replay_fix]
 ",
-        good: "components:
-  - name: gps
-    gates:
-      - fix: pub
-  - name: replay
-    gates:
-      - fix: pub
-  - name: autopilot
-    gates:
-      - fix: sub
-      - replay_fix: sub
-connections:
-  - [gps.fix, autopilot.fix]
-  - [replay.fix, autopilot.replay_fix]
-",
-    },
 };
 
 /// SCL0512.
@@ -56,37 +40,22 @@ pub(crate) const SEVERAL_REPLIERS: Rule = Rule {
     title: "requester with two repliers",
     explanation: "A requester has two repliers, and nothing says who answers; plain ZeroMQ would ask them in turn. \
                   Declare one `req` gate for each. The other way round, many requesters of one replier, is fine.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: ui
-    gates:
-      - commands: req
-  - name: autopilot
-    gates:
-      - commands: rep
-  - name: camera
-    gates:
-      - commands: rep
-connections:
-  - [ui.commands, autopilot.commands]
-  - [ui.commands, camera.commands]
+    example: " components:
+   - name: ui
+     gates:
+       - commands: req
++      - camera_commands: req
+   - name: autopilot
+     gates:
+       - commands: rep
+   - name: camera
+     gates:
+       - commands: rep
+ connections:
+   - [ui.commands, autopilot.commands]
+-  - [ui.commands, camera.commands]
++  - [ui.camera_commands, camera.commands]
 ",
-        good: "components:
-  - name: ui
-    gates:
-      - commands: req
-      - camera_commands: req
-  - name: autopilot
-    gates:
-      - commands: rep
-  - name: camera
-    gates:
-      - commands: rep
-connections:
-  - [ui.commands, autopilot.commands]
-  - [ui.camera_commands, camera.commands]
-",
-    },
 };
 
 /// SCL0513.
@@ -96,36 +65,21 @@ pub(crate) const SEVERAL_PULLERS: Rule = Rule {
     title: "pusher with several pullers",
     explanation: "A `push` gate hands each message to one of its pullers, so with two of them each gets only a part. \
                   If both need everything, use `pub` and `sub`; if the work is to be shared, say `share: true`.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: camera
-    gates:
-      - frames: push
-  - name: detector
-    gates:
-      - frames: pull
-  - name: recorder
-    gates:
-      - frames: pull
-connections:
-  - [camera.frames, detector.frames]
-  - [camera.frames, recorder.frames]
+    example: " components:
+   - name: camera
+     gates:
+-      - frames: push
++      - frames: {push: , share: true}
+   - name: detector
+     gates:
+       - frames: pull
+   - name: recorder
+     gates:
+       - frames: pull
+ connections:
+   - [camera.frames, detector.frames]
+   - [camera.frames, recorder.frames]
 ",
-        good: "components:
-  - name: camera
-    gates:
-      - frames: {push: , share: true}
-  - name: detector
-    gates:
-      - frames: pull
-  - name: recorder
-    gates:
-      - frames: pull
-connections:
-  - [camera.frames, detector.frames]
-  - [camera.frames, recorder.frames]
-",
-    },
 };
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {

@@ -2,8 +2,7 @@
 
 use super::draft::Draft;
 use crate::diagnostic::Diagnostics;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::{GateKind, Payload};
 
 /// SCL0608.
@@ -13,28 +12,17 @@ pub(crate) const RULE: Rule = Rule {
     title: "codecs differ",
     explanation: "The two ends turn messages into bytes in different ways, so neither could read the other. Give both \
                   the same `codec`; an end without one takes that of the other.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: autopilot
-    gates:
-      - attitude: {pub: Attitude, codec: json}
-  - name: blackbox
-    gates:
-      - attitude: {sub: Attitude, codec: cbor}
-connections:
-  - [autopilot.attitude, blackbox.attitude]
+    example: " components:
+   - name: autopilot
+     gates:
+       - attitude: {pub: Attitude, codec: json}
+   - name: blackbox
+     gates:
+-      - attitude: {sub: Attitude, codec: cbor}
++      - attitude: {sub: Attitude, codec: json}
+ connections:
+   - [autopilot.attitude, blackbox.attitude]
 ",
-        good: "components:
-  - name: autopilot
-    gates:
-      - attitude: {pub: Attitude, codec: json}
-  - name: blackbox
-    gates:
-      - attitude: {sub: Attitude, codec: json}
-connections:
-  - [autopilot.attitude, blackbox.attitude]
-",
-    },
 };
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {

@@ -1,9 +1,8 @@
 //! SCL0407: a word that is no codec. Sets the codecs that gates name themselves.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::rust_name::{is_keyword, is_unescapable};
 use crate::source::Spanned;
 use crate::suggest::similar;
@@ -17,18 +16,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "unknown codec",
     explanation: "A codec turns messages into bytes; this one is unknown. The message lists those of the \
                   framework; one of your own is named by its Rust path, such as `my_crate::Flat`.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, codec: protobuff}
+    example: " components:
+   - name: sensor
+     gates:
+-      - measurements: {pub: Measurement, codec: protobuff}
++      - measurements: {pub: Measurement, codec: protobuf}
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, codec: protobuf}
-",
-    },
 };
 
 /// Reads the codecs of the gates, and gives the one of the whole file.

@@ -2,9 +2,8 @@
 
 use super::draft::Draft;
 use super::{unknown_component, unknown_gate};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Spanned;
 use crate::wording::{either, listed};
 
@@ -15,28 +14,17 @@ pub(crate) const RULE: Rule = Rule {
     title: "end is not `component.gate`",
     explanation: "An end is written `component.gate`: two names with one dot and nothing else between them. Other \
                   separators, spaces and wildcards are not understood.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [measurements, controller.sensor]
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: pub
+   - name: controller
+     gates:
+       - sensor: sub
+ connections:
+-  - [measurements, controller.sensor]
++  - [sensor.measurements, controller.sensor]
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-",
-    },
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {

@@ -5,9 +5,9 @@
 mod command;
 
 use super::feedback;
-use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{ControlModel, Model};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Sources;
 use command::{Command, command_span, read};
 use std::collections::{HashMap, HashSet};
@@ -21,18 +21,12 @@ pub(crate) const NO_EFFECT: Rule = Rule {
     title: "comment for the checker without effect",
     explanation: "An `allow` has nothing to allow: the problem has gone, the comment stands on another line, or it \
                   names another check. It would hide the problem when it comes back. Remove or move it.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - events: pub # scl: allow(SCL0702) wired in phase 2
+    example: " components:
+   - name: controller
+     gates:
+-      - events: pub # scl: allow(SCL0702) wired in phase 2
++      - events: pub # scl: allow(SCL0701) wired in phase 2
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - events: pub # scl: allow(SCL0701) wired in phase 2
-",
-    },
 };
 
 /// SCL0904.
@@ -41,18 +35,12 @@ pub(crate) const NO_REASON: Rule = Rule {
     severity: Severity::Warning,
     title: "`allow` without a reason",
     explanation: "Whoever reads an `allow` next year wants to know why. Write the reason after the bracket.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: ui
-    gates:
-      - commands: req # scl: allow(SCL0703)
+    example: " components:
+   - name: ui
+     gates:
+-      - commands: req # scl: allow(SCL0703)
++      - commands: req # scl: allow(SCL0703) the server is a program of another team
 ",
-        good: "components:
-  - name: ui
-    gates:
-      - commands: req # scl: allow(SCL0703) the server is a program of another team
-",
-    },
 };
 
 /// Applies the comments to all that was found so far, and says what is wrong with them.

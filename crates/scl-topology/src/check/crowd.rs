@@ -2,9 +2,8 @@
 
 use super::control;
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 
 /// SCL0710.
@@ -14,34 +13,20 @@ pub(crate) const RULE: Rule = Rule {
     title: "very many connections at one gate",
     explanation: "A gate has very many peers, and each costs time and memory for each message. The threshold is 32; `# \
                   scl: warn(SCL0710, 64)` turns the check on for the file and sets another.",
-    examples: Examples::Topology {
-        bad: "# scl: warn(SCL0710, 1)
-components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: display
-    gates:
-      - values: sub
-      - history: sub
-connections:
-  - [sensor.measurements, display.values]
-  - [sensor.measurements, display.history]
+    example: "-# scl: warn(SCL0710, 1)
++# scl: warn(SCL0710, 64)
+ components:
+   - name: sensor
+     gates:
+       - measurements: pub
+   - name: display
+     gates:
+       - values: sub
+       - history: sub
+ connections:
+   - [sensor.measurements, display.values]
+   - [sensor.measurements, display.history]
 ",
-        good: "# scl: warn(SCL0710, 64)
-components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: display
-    gates:
-      - values: sub
-      - history: sub
-connections:
-  - [sensor.measurements, display.values]
-  - [sensor.measurements, display.history]
-",
-    },
 };
 
 /// More peers than this are many, unless the file says another number.

@@ -11,8 +11,8 @@ use super::circles::Step;
 use super::draft::Draft;
 use super::feedback::PUSHES;
 use super::waits::{self, Call, Wait};
-use crate::diagnostic::{Diagnostics, Severity};
-use crate::rule::{Examples, Rule};
+use crate::diagnostic::Diagnostics;
+use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 use report::{HEADLINE, is_request, kind, place, report, waiting};
 use std::collections::HashSet;
@@ -28,34 +28,21 @@ pub(crate) const RULE: Rule = Rule {
                   Let one queue of the circle drop messages, or publish what another component asks for. If a \
                   component never waits at a connection while another one waits for it, say so: `# scl: allow(SCL0707) \
                   reason` above that connection. docs/deadlocks.md shows every shape and its ways out.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: arbiter
-    gates:
-      - power: req
-      - mission: rep
-  - name: power
-    gates:
-      - status: rep
-      - mission: req
-connections:
-  - [arbiter.power, power.status]
-  - [power.mission, arbiter.mission]
+    example: " components:
+   - name: arbiter
+     gates:
+       - power: req
+-      - mission: rep
++      - mission: pub
+   - name: power
+     gates:
+       - status: rep
+-      - mission: req
++      - mission: sub
+ connections:
+   - [arbiter.power, power.status]
+   - [power.mission, arbiter.mission]
 ",
-        good: "components:
-  - name: arbiter
-    gates:
-      - power: req
-      - mission: pub
-  - name: power
-    gates:
-      - status: rep
-      - mission: sub
-connections:
-  - [arbiter.power, power.status]
-  - [power.mission, arbiter.mission]
-",
-    },
 };
 
 /// `allowed_lines` tells about which lines a comment allows a rule.

@@ -1,9 +1,8 @@
 //! SCL0301: two components of one name. Every place that names it would mean both.
 
 use crate::diagnostic::Diagnostics;
-use crate::diagnostic::Severity;
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use std::collections::HashMap;
 
 /// SCL0301.
@@ -13,20 +12,13 @@ pub(crate) const RULE: Rule = Rule {
     title: "duplicate component",
     explanation: "Two components have one name, so no connection could say which it means, and two programs would \
                   fight for one place. Rename one, or merge their gates.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates: []
-  - name: sensor
-    gates: []
+    example: " components:
+   - name: sensor
+     gates: []
+-  - name: sensor
++  - name: sensor_2
+     gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-  - name: sensor_2
-    gates: []
-",
-    },
 };
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {

@@ -1,9 +1,8 @@
 //! SCL0510: the same two gates connected twice. Takes the second out, so that it is not counted as another peer.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostics, removal};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use std::collections::HashMap;
 
 /// SCL0510.
@@ -13,29 +12,17 @@ pub(crate) const RULE: Rule = Rule {
     title: "duplicate connection",
     explanation: "The same two gates are connected twice; the order of the ends makes no difference. Each message \
                   would arrive twice. Remove one.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-  - [controller.sensor, sensor.measurements]
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: pub
+   - name: controller
+     gates:
+       - sensor: sub
+ connections:
+   - [sensor.measurements, controller.sensor]
+-  - [controller.sensor, sensor.measurements]
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-",
-    },
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {

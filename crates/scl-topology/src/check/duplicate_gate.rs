@@ -1,9 +1,8 @@
 //! SCL0302: two gates of one name in a component. A connection could not say which it means.
 
 use crate::diagnostic::Diagnostics;
-use crate::diagnostic::Severity;
 use crate::model::{ComponentModel, Model};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use std::collections::HashMap;
 
 /// SCL0302.
@@ -13,20 +12,13 @@ pub(crate) const RULE: Rule = Rule {
     title: "duplicate gate",
     explanation: "Two gates of a component have one name, be their kinds equal or not. A connection could not say \
                   which it means, nor could a program. Rename one.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - sensor: sub
-      - sensor: pub
+    example: " components:
+   - name: controller
+     gates:
+       - sensor: sub
+-      - sensor: pub
++      - sensor_2: pub
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - sensor: sub
-      - sensor_2: pub
-",
-    },
 };
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {

@@ -3,9 +3,8 @@
 
 use super::draft::Draft;
 use super::message_type::differ;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::topology::{Payload, TypeName};
 
@@ -16,28 +15,17 @@ pub(crate) const REQUESTS_DIFFER: Rule = Rule {
     title: "request types differ",
     explanation: "The requester asks with another type than the replier understands. Use one request type at both \
                   ends; the message says whether the replies agree.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-  - name: ui
-    gates:
-      - commands: {req: Cmd -> Status}
-connections:
-  - [controller.commands, ui.commands]
+    example: " components:
+   - name: controller
+     gates:
+       - commands: {rep: Command -> Status}
+   - name: ui
+     gates:
+-      - commands: {req: Cmd -> Status}
++      - commands: {req: Command -> Status}
+ connections:
+   - [controller.commands, ui.commands]
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-  - name: ui
-    gates:
-      - commands: {req: Command -> Status}
-connections:
-  - [controller.commands, ui.commands]
-",
-    },
 };
 
 /// SCL0603.
@@ -46,28 +34,17 @@ pub(crate) const REPLIES_DIFFER: Rule = Rule {
     severity: Severity::Error,
     title: "reply types differ",
     explanation: "The replier answers with another type than the requester expects. Use one reply type at both ends.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-  - name: ui
-    gates:
-      - commands: {req: Command -> Ack}
-connections:
-  - [controller.commands, ui.commands]
+    example: " components:
+   - name: controller
+     gates:
+       - commands: {rep: Command -> Status}
+   - name: ui
+     gates:
+-      - commands: {req: Command -> Ack}
++      - commands: {req: Command -> Status}
+ connections:
+   - [controller.commands, ui.commands]
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-  - name: ui
-    gates:
-      - commands: {req: Command -> Status}
-connections:
-  - [controller.commands, ui.commands]
-",
-    },
 };
 
 /// SCL0604.
@@ -77,28 +54,17 @@ pub(crate) const SWAPPED_TYPES: Rule = Rule {
     title: "request and reply swapped",
     explanation: "Both ends name the same two types in opposite order. On both ends the left type is what the `req` \
                   gate sends and the right one what comes back. Swap them on one end.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-  - name: ui
-    gates:
-      - commands: {req: Status -> Command}
-connections:
-  - [controller.commands, ui.commands]
+    example: " components:
+   - name: controller
+     gates:
+       - commands: {rep: Command -> Status}
+   - name: ui
+     gates:
+-      - commands: {req: Status -> Command}
++      - commands: {req: Command -> Status}
+ connections:
+   - [controller.commands, ui.commands]
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-  - name: ui
-    gates:
-      - commands: {req: Command -> Status}
-connections:
-  - [controller.commands, ui.commands]
-",
-    },
 };
 
 type Exchange<'a> = (&'a TypeName, &'a TypeName);

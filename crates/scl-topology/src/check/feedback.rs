@@ -3,9 +3,8 @@
 use super::circles::{self, Circle, Graph, Step};
 use super::draft::Draft;
 use super::waits;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::topology::GateKind;
 
@@ -17,34 +16,21 @@ pub(crate) const PUSHES: Rule = Rule {
     explanation: "Work is pushed round in a circle, and nothing says what happens when a queue of it is full: the \
                   default is to drop the oldest message, which loses work. Make one of the links `pub` and `sub`, or \
                   write `when_full` at one of the `pull` gates.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: a
-    gates:
-      - outbox: push
-      - inbox: pull
-  - name: b
-    gates:
-      - outbox: push
-      - inbox: pull
-connections:
-  - [a.outbox, b.inbox]
-  - [b.outbox, a.inbox]
+    example: " components:
+   - name: a
+     gates:
+       - outbox: push
+-      - inbox: pull
++      - inbox: sub
+   - name: b
+     gates:
+-      - outbox: push
++      - outbox: pub
+       - inbox: pull
+ connections:
+   - [a.outbox, b.inbox]
+   - [b.outbox, a.inbox]
 ",
-        good: "components:
-  - name: a
-    gates:
-      - outbox: push
-      - inbox: sub
-  - name: b
-    gates:
-      - outbox: pub
-      - inbox: pull
-connections:
-  - [a.outbox, b.inbox]
-  - [b.outbox, a.inbox]
-",
-    },
 };
 
 /// SCL0709.
@@ -55,31 +41,19 @@ pub(crate) const LOOP: Rule = Rule {
     explanation: "Messages come back to the component that caused them. A control loop is built so on purpose. A \
                   component that sends at once for each message it receives would flood the system, and lose \
                   messages where a queue is full; the lint is there to look for such.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: a
-    gates:
-      - o: pub
-      - i: sub
-  - name: b
-    gates:
-      - o: pub
-      - i: sub
-connections:
-  - [a.o, b.i]
-  - [b.o, a.i]
+    example: " components:
+   - name: a
+     gates:
+       - o: pub
+-      - i: sub
+   - name: b
+     gates:
+-      - o: pub
+       - i: sub
+ connections:
+   - [a.o, b.i]
+-  - [b.o, a.i]
 ",
-        good: "components:
-  - name: a
-    gates:
-      - o: pub
-  - name: b
-    gates:
-      - i: sub
-connections:
-  - [a.o, b.i]
-",
-    },
 };
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {

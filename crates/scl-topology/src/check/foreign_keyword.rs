@@ -4,7 +4,7 @@ use super::named::{Noun, is_well_formed, names};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::keywords::{CPP, PYTHON};
 use crate::model::Model;
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
 use crate::source::Spanned;
 use crate::wording::all_of;
@@ -18,18 +18,12 @@ pub(crate) const RULE: Rule = Rule {
                   these languages read the same file, and cannot use the name for a variable, a field or a module; \
                   code that `scl generate` writes for them appends an underscore. Choose a name that says more; if no \
                   such program will ever exist, allow the warning.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: scheduler
-    gates:
-      - delete: sub
+    example: " components:
+   - name: scheduler
+     gates:
+-      - delete: sub
++      - delete_job: sub
 ",
-        good: "components:
-  - name: scheduler
-    gates:
-      - delete_job: sub
-",
-    },
 };
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {

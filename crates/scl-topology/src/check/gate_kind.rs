@@ -1,10 +1,9 @@
 //! SCL0401: a word that is no kind of gate. Sets the kind of every other gate.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::grammar::{PATTERNS, Pattern};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{Sources, Spanned};
 use crate::suggest;
 use crate::topology::GateKind;
@@ -16,18 +15,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "unknown gate kind",
     explanation: "The word is no kind of gate. The kinds come in pairs: `pub` and `sub`, `req` and `rep`, `push` and \
                   `pull`. The message translates words that other frameworks use.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - sensor: subscribe
+    example: " components:
+   - name: controller
+     gates:
+-      - sensor: subscribe
++      - sensor: sub
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - sensor: sub
-",
-    },
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {

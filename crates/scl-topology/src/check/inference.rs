@@ -2,9 +2,8 @@
 //! finds the connections on which neither end has a type.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::{GateKind, Payload};
 use crate::wording::example_type;
 use std::collections::VecDeque;
@@ -17,28 +16,17 @@ pub(crate) const UNTYPED: Rule = Rule {
     explanation: "Neither end of the connection names a message type, so it carries bytes and no compiler checks what \
                   is in them. That is allowed, and the paper's first listing is written so. One typed end is enough; \
                   the other takes it over.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
+    example: " components:
+   - name: sensor
+     gates:
+-      - measurements: pub
++      - measurements: {pub: Measurement}
+   - name: controller
+     gates:
+       - sensor: sub
+ connections:
+   - [sensor.measurements, controller.sensor]
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement}
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-",
-    },
 };
 
 /// SCL0607.
@@ -48,28 +36,17 @@ pub(crate) const TAKEN_OVER: Rule = Rule {
     title: "type taken over from the other end",
     explanation: "One end has no type and takes that of the other. That is meant to be convenient; the lint is for \
                   teams that want the contract written at both ends.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement}
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: {pub: Measurement}
+   - name: controller
+     gates:
+-      - sensor: sub
++      - sensor: {sub: Measurement}
+ connections:
+   - [sensor.measurements, controller.sensor]
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement}
-  - name: controller
-    gates:
-      - sensor: {sub: Measurement}
-connections:
-  - [sensor.measurements, controller.sensor]
-",
-    },
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {

@@ -1,9 +1,8 @@
 //! SCL0706, a lint: groups of components without a connection between them, which may be two systems in one file.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::wording::listed;
 use std::collections::BTreeMap;
 
@@ -14,44 +13,25 @@ pub(crate) const RULE: Rule = Rule {
     title: "the system falls apart into islands",
     explanation: "The components fall into groups with no connection between them, so the file may describe two \
                   systems, or a connection was forgotten. Two systems are better kept in two files.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: a
-    gates:
-      - x: pub
-  - name: b
-    gates:
-      - x: sub
-  - name: c
-    gates:
-      - y: pub
-  - name: d
-    gates:
-      - y: sub
-connections:
-  - [a.x, b.x]
-  - [c.y, d.y]
+    example: " components:
+   - name: a
+     gates:
+       - x: pub
+   - name: b
+     gates:
+       - x: sub
+   - name: c
+     gates:
+       - y: pub
+   - name: d
+     gates:
+       - y: sub
++      - x: sub
+ connections:
+   - [a.x, b.x]
+   - [c.y, d.y]
++  - [a.x, d.x]
 ",
-        good: "components:
-  - name: a
-    gates:
-      - x: pub
-  - name: b
-    gates:
-      - x: sub
-  - name: c
-    gates:
-      - y: pub
-  - name: d
-    gates:
-      - y: sub
-      - x: sub
-connections:
-  - [a.x, b.x]
-  - [c.y, d.y]
-  - [a.x, d.x]
-",
-    },
 };
 
 /// No more groups are shown.

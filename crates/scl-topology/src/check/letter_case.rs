@@ -1,10 +1,9 @@
 //! SCL0310: names that only letter case and `_` tell apart. People mix them up, and so do some file systems.
 
 use super::named::is_well_formed;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Spanned;
 use std::collections::HashMap;
@@ -17,20 +16,13 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "Two names differ only in capitals, `_` or `-`. People mix them up, a language that writes names in \
                   another case makes one name of them, and on file systems that ignore case their socket files would \
                   be one. Rename one.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: gps
-    gates: []
-  - name: GPS_
-    gates: []
+    example: " components:
+   - name: gps
+     gates: []
+-  - name: GPS_
++  - name: receiver
+     gates: []
 ",
-        good: "components:
-  - name: gps
-    gates: []
-  - name: receiver
-    gates: []
-",
-    },
 };
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {

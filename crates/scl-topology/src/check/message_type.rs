@@ -2,9 +2,8 @@
 //! if it alone differs from all its peers.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::{GateKind, Payload, TypeName};
 use crate::wording::listed;
 use std::collections::BTreeMap;
@@ -17,28 +16,17 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "The sender's message type is not the one that the receiver expects, so it would read nonsense. \
                   Connections of one gate are reported together. Use one type at both ends, or put a component between \
                   them that converts.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: autopilot
-    gates:
-      - attitude: {pub: Attitude}
-  - name: blackbox
-    gates:
-      - attitude: {sub: Telemetry}
-connections:
-  - [autopilot.attitude, blackbox.attitude]
+    example: " components:
+   - name: autopilot
+     gates:
+       - attitude: {pub: Attitude}
+   - name: blackbox
+     gates:
+-      - attitude: {sub: Telemetry}
++      - attitude: {sub: Attitude}
+ connections:
+   - [autopilot.attitude, blackbox.attitude]
 ",
-        good: "components:
-  - name: autopilot
-    gates:
-      - attitude: {pub: Attitude}
-  - name: blackbox
-    gates:
-      - attitude: {sub: Attitude}
-connections:
-  - [autopilot.attitude, blackbox.attitude]
-",
-    },
 };
 
 /// A connection whose ends differ: its index, and the gate at the other end of the gate it is grouped by.

@@ -2,10 +2,9 @@
 
 use super::look_alike::has_foreign_letter;
 use super::named::{Noun, is_allowed, names};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Spanned;
 
 /// SCL0303.
@@ -15,15 +14,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "invalid character in a name",
     explanation: "Names become socket paths, Rust fields and names in other languages, so they consist of letters, \
                   digits, `_` and `-`. A dot cannot be part of one, as it separates component and gate.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: gps sensor
+    example: " components:
+-  - name: gps sensor
++  - name: gps_sensor
++    gates: []
 ",
-        good: "components:
-  - name: gps_sensor
-    gates: []
-",
-    },
 };
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {

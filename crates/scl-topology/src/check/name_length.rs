@@ -2,9 +2,8 @@
 
 use super::named::{Noun, names};
 use crate::diagnostic::Diagnostics;
-use crate::diagnostic::Severity;
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 
 /// SCL0312.
 pub(crate) const RULE: Rule = Rule {
@@ -13,15 +12,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "name too long",
     explanation: "Names become parts of socket paths, which the kernel limits to 107 bytes, so a name has at most 64 \
                   characters and a system's at most 40. Shorten it.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: a_component_name_that_goes_on_and_on_and_on_and_on_and_on_and_on_and_on
+    example: " components:
+-  - name: a_component_name_that_goes_on_and_on_and_on_and_on_and_on_and_on_and_on
++  - name: a_short_name
++    gates: []
 ",
-        good: "components:
-  - name: a_short_name
-    gates: []
-",
-    },
 };
 
 /// The longest name of a component or gate, in characters.

@@ -1,10 +1,9 @@
 //! SCL0305: a name that starts with a digit or a hyphen. No programming language can spell it.
 
 use super::named::{Noun, is_allowed, may_start, names};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Spanned;
 
 /// SCL0305.
@@ -14,15 +13,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "name starts with the wrong character",
     explanation: "A name starts with a letter or `_`, as in every programming language that will use it. Put a word \
                   first.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: 2nd_sensor
+    example: " components:
+-  - name: 2nd_sensor
++  - name: second_sensor
++    gates: []
 ",
-        good: "components:
-  - name: second_sensor
-    gates: []
-",
-    },
 };
 
 const ORDINALS: [(&str, &str); 9] = [

@@ -1,9 +1,8 @@
 //! SCL0711: `unconnected: ok` on a gate that is connected. The mark would hide the loss of the connection one day.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostics, removal};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 
 /// SCL0711.
 pub(crate) const RULE: Rule = Rule {
@@ -12,28 +11,17 @@ pub(crate) const RULE: Rule = Rule {
     title: "`unconnected: ok` on a connected gate",
     explanation: "The gate says that it is meant to have no peer, and has one. The mark would hide the loss of the \
                   connection one day. Remove it.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - events: {pub: Event, unconnected: ok}
-  - name: ui
-    gates:
-      - events: {sub: Event}
-connections:
-  - [controller.events, ui.events]
+    example: " components:
+   - name: controller
+     gates:
+-      - events: {pub: Event, unconnected: ok}
++      - events: {pub: Event}
+   - name: ui
+     gates:
+       - events: {sub: Event}
+ connections:
+   - [controller.events, ui.events]
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - events: {pub: Event}
-  - name: ui
-    gates:
-      - events: {sub: Event}
-connections:
-  - [controller.events, ui.events]
-",
-    },
 };
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {

@@ -3,7 +3,7 @@
 
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use crate::topology::{Payload, WhenFull};
 use crate::wording::listed;
 
@@ -15,28 +15,17 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "The option changes nothing in this system: no receiver of a gate with `backpressure: true` waits, a \
                   gate with `share: true` has one puller, or a gate with a `codec` carries bytes of no type. The \
                   system does not do what the file seems to say. Remove the option, or change the other end.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, backpressure: true}
-  - name: recorder
-    gates:
-      - measurements: {sub: Measurement}
-connections:
-  - [sensor.measurements, recorder.measurements]
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: {pub: Measurement, backpressure: true}
+   - name: recorder
+     gates:
+-      - measurements: {sub: Measurement}
++      - measurements: {sub: Measurement, when_full: wait}
+ connections:
+   - [sensor.measurements, recorder.measurements]
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, backpressure: true}
-  - name: recorder
-    gates:
-      - measurements: {sub: Measurement, when_full: wait}
-connections:
-  - [sensor.measurements, recorder.measurements]
-",
-    },
 };
 
 /// Looks at sound files only: what is missing may be an option or a connection that could not be read.

@@ -1,10 +1,9 @@
 //! SCL0408: an option on a kind of gate that has no use for it.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::grammar;
 use crate::model::OptionModel;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 use crate::wording::all_of;
 
@@ -15,18 +14,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "option does not fit the kind",
     explanation: "The option exists, but not for this kind of gate: `queue` and `max_size` belong to the receiving end, \
                   `timeout` to the asking one. Move it to the other end, or remove it.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: ui
-    gates:
-      - commands: {req: Command -> Status, queue: 8}
+    example: " components:
+   - name: ui
+     gates:
+-      - commands: {req: Command -> Status, queue: 8}
++      - commands: {req: Command -> Status, timeout: 1s, unconnected: ok}
 ",
-        good: "components:
-  - name: ui
-    gates:
-      - commands: {req: Command -> Status, timeout: 1s, unconnected: ok}
-",
-    },
 };
 
 /// The problem of an option that this kind of gate does not have.

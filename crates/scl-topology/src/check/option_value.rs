@@ -2,11 +2,10 @@
 
 use super::draft::Draft;
 use super::option_fit;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::grammar::{self, GateKind, GateOption, OutOfRange};
 use crate::model::OptionModel;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 
 /// SCL0409.
 pub(crate) const RULE: Rule = Rule {
@@ -16,18 +15,12 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "The value is outside of what can work: a queue has room for at least one message, a timeout is more \
                   than nothing, and a message is held in memory as a whole. The message names the range; so does \
                   `scl explain queue`. Correct the value, or leave it out to get the default.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, queue: 0}
+    example: " components:
+   - name: sensor
+     gates:
+-      - measurements: {pub: Measurement, queue: 0}
++      - measurements: {sub: Measurement, queue: 1}
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {sub: Measurement, queue: 1}
-",
-    },
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {

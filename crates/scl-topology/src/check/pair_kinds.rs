@@ -2,9 +2,8 @@
 //! every other connection.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 
 /// SCL0505.
@@ -14,28 +13,17 @@ pub(crate) const SAME_DIRECTION: Rule = Rule {
     title: "both ends send, or both receive",
     explanation: "A connection has one end that sends and one that receives. Here both send, or both receive, so \
                   nothing would ever arrive. Mostly one of the kinds is wrong, or another gate was meant.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: gps
-    gates:
-      - fix: pub
-  - name: imu
-    gates:
-      - rate: pub
-connections:
-  - [gps.fix, imu.rate]
+    example: " components:
+   - name: gps
+     gates:
+       - fix: pub
+   - name: imu
+     gates:
+-      - rate: pub
++      - rate: sub
+ connections:
+   - [gps.fix, imu.rate]
 ",
-        good: "components:
-  - name: gps
-    gates:
-      - fix: pub
-  - name: imu
-    gates:
-      - rate: sub
-connections:
-  - [gps.fix, imu.rate]
-",
-    },
 };
 
 /// SCL0506.
@@ -46,33 +34,20 @@ pub(crate) const OTHER_PATTERN: Rule = Rule {
     explanation: "The two gates belong to different patterns: one publishes, the other wants an answer. `pub` meets \
                   `sub`, `req` meets `rep`, `push` meets `pull`. The message shows which gates of the two components \
                   would fit.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - commands: rep
-      - events: pub
-  - name: ui
-    gates:
-      - commands: req
-      - events: sub
-connections:
-  - [controller.events, ui.commands]
+    example: " components:
+   - name: controller
+     gates:
+       - commands: rep
+       - events: pub
+   - name: ui
+     gates:
+       - commands: req
+       - events: sub
+ connections:
+-  - [controller.events, ui.commands]
++  - [controller.events, ui.events]
++  - [controller.commands, ui.commands]
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - commands: rep
-      - events: pub
-  - name: ui
-    gates:
-      - commands: req
-      - events: sub
-connections:
-  - [controller.events, ui.events]
-  - [controller.commands, ui.commands]
-",
-    },
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {

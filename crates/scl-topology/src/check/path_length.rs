@@ -3,10 +3,9 @@
 
 use super::draft::Draft;
 use super::named::is_well_formed;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::resolve::{CONTRACT_LENGTH, TAP};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::socket_paths::SocketPaths;
 use crate::topology::GateKind;
 
@@ -18,18 +17,12 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "Names become paths of sockets, and the kernel allows 107 bytes for one. The check takes the longest \
                   usual runtime folder, so that the file works for every user. Shorten the names; long names of whole \
                   connections are cut by themselves.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: navigation_and_guidance_supervisor
-    gates:
-      - commanded_trajectory_and_velocity_profile_of_the_vehicle: pub
+    example: " components:
+   - name: navigation_and_guidance_supervisor
+     gates:
+-      - commanded_trajectory_and_velocity_profile_of_the_vehicle: pub
++      - commanded_trajectory: pub
 ",
-        good: "components:
-  - name: navigation_and_guidance_supervisor
-    gates:
-      - commanded_trajectory: pub
-",
-    },
 };
 
 /// Names longer than this have an error of their own.

@@ -2,9 +2,8 @@
 //! of every other gate.
 
 use super::draft::{Draft, DraftGate};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Spanned;
 use crate::topology::{GateKind, Payload, TypeName};
 
@@ -16,18 +15,12 @@ pub(crate) const NO_TYPE_NAME: Rule = Rule {
     explanation: "A message type is a dotted name such as `uav.Measurement`. References, generics, paths with `::` and \
                   types without a name cannot be one, because the file is read by tools in several languages. Give the \
                   type a name.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: \"&str\"}
+    example: " components:
+   - name: sensor
+     gates:
+-      - measurements: {pub: \"&str\"}
++      - measurements: {pub: Text}
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Text}
-",
-    },
 };
 
 /// SCL0404.
@@ -37,18 +30,12 @@ pub(crate) const WRONG_NUMBER_OF_TYPES: Rule = Rule {
     title: "types do not fit the kind",
     explanation: "`req` and `rep` carry a question and its answer, `A -> B`; the other kinds carry one type. This gate \
                   has too many types or too few. Write what the message says, or another kind.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: ui
-    gates:
-      - commands: {req: Command}
+    example: " components:
+   - name: ui
+     gates:
+-      - commands: {req: Command}
++      - commands: {req: Command -> Status, unconnected: ok}
 ",
-        good: "components:
-  - name: ui
-    gates:
-      - commands: {req: Command -> Status, unconnected: ok}
-",
-    },
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {

@@ -2,9 +2,8 @@
 
 use super::named::is_well_formed;
 use crate::diagnostic::Diagnostics;
-use crate::diagnostic::Severity;
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::rust_name::component_type;
 
 /// SCL0313.
@@ -15,15 +14,11 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "The component's Rust type has the name of a type that every Rust file knows, such as `Result`. A \
                   program that imports it by name hides the other. Choose a name that says more, or import it under \
                   another.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: result
+    example: " components:
+-  - name: result
++  - name: match_result
++    gates: []
 ",
-        good: "components:
-  - name: match_result
-    gates: []
-",
-    },
 };
 
 /// Types and where they come from.

@@ -2,9 +2,8 @@
 
 use super::named::{Noun, names};
 use crate::diagnostic::Diagnostics;
-use crate::diagnostic::Severity;
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 
 /// SCL0311.
 pub(crate) const RULE: Rule = Rule {
@@ -13,15 +12,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "reserved name",
     explanation: "The framework keeps a few names for itself, so that it can grow without breaking files: `scl`, \
                   `topology`, and names that start with `scl_` or `__`. Choose another.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: scl
+    example: " components:
+-  - name: scl
++  - name: framework
++    gates: []
 ",
-        good: "components:
-  - name: framework
-    gates: []
-",
-    },
 };
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {

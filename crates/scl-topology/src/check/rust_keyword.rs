@@ -1,10 +1,9 @@
 //! SCL0306: a gate whose field needs `r#`. SCL0307: a name that not even `r#` makes usable.
 
 use super::named::{Noun, is_well_formed, names};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
 use crate::source::Spanned;
 
@@ -15,18 +14,12 @@ pub(crate) const KEYWORD: Rule = Rule {
     title: "gate name is a Rust keyword",
     explanation: "The name is a keyword of Rust, so programs have to write `r#` before it. That works, but is \
                   hard to read. Choose a name that says more.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - type: pub
+    example: " components:
+   - name: sensor
+     gates:
+-      - type: pub
++      - model: pub
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - model: pub
-",
-    },
 };
 
 /// SCL0307.
@@ -36,15 +29,11 @@ pub(crate) const HARD_KEYWORD: Rule = Rule {
     title: "keyword that cannot be escaped",
     explanation: "The name is one of the few keywords that not even `r#` makes usable, so no Rust program could name \
                   the gate or component. Choose another.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: crate
+    example: " components:
+-  - name: crate
++  - name: box_of_parts
++    gates: []
 ",
-        good: "components:
-  - name: box_of_parts
-    gates: []
-",
-    },
 };
 
 /// Other words for the keywords that name a thing in a real system.

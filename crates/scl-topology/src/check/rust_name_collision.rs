@@ -1,10 +1,9 @@
 //! SCL0308 and SCL0309: names that differ in the file and would be one in Rust.
 
 use super::named::is_well_formed;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Spanned;
 use std::collections::HashMap;
@@ -17,20 +16,13 @@ pub(crate) const SAME_TYPE: Rule = Rule {
     explanation: "Different names in the file become one Rust type: `user-interface` and `user_interface` both become \
                   `UserInterface`. A component may not be named like the counterpart that is generated for tests of \
                   another either, which is its name with `Peer`. Rename one.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: user-interface
-    gates: []
-  - name: user_interface
-    gates: []
+    example: " components:
+-  - name: user-interface
++  - name: operator
+     gates: []
+   - name: user_interface
+     gates: []
 ",
-        good: "components:
-  - name: operator
-    gates: []
-  - name: user_interface
-    gates: []
-",
-    },
 };
 
 /// SCL0309.
@@ -40,20 +32,13 @@ pub(crate) const SAME_FIELD: Rule = Rule {
     title: "two gates become the same Rust field",
     explanation: "Different names of gates become one Rust field: `set-point` and `setPoint` both become `set_point`. \
                   Rename one.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: actuator
-    gates:
-      - set-point: sub
-      - setPoint: sub
+    example: " components:
+   - name: actuator
+     gates:
+       - set-point: sub
+-      - setPoint: sub
++      - limit: sub
 ",
-        good: "components:
-  - name: actuator
-    gates:
-      - set-point: sub
-      - limit: sub
-",
-    },
 };
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {

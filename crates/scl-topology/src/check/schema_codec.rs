@@ -2,7 +2,7 @@
 
 use super::draft::{Draft, DraftGate};
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::topology::{Codec, Payload, TypeName};
 use crate::wording::listed;
@@ -16,20 +16,13 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "A message of the `schemas` has two encodings, which are the same in every language: `protobuf`, and \
                   `json` in protobuf's canonical form. `cbor`, `msgpack` and `postcard` encode Rust types with serde's \
                   traits, and `raw` encodes Rust types of fixed layout. Use one of the two, or a Rust type of your own.",
-    examples: Examples::Topology {
-        bad: "schemas: [uav.proto]
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: uav.Measurement, codec: cbor}
+    example: " schemas: [uav.proto]
+ components:
+   - name: sensor
+     gates:
+-      - measurements: {pub: uav.Measurement, codec: cbor}
++      - measurements: {pub: uav.Measurement, codec: json}
 ",
-        good: "schemas: [uav.proto]
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: uav.Measurement, codec: json}
-",
-    },
 };
 
 /// Gates by the place and the word of their codec.

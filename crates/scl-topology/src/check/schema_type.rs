@@ -5,9 +5,8 @@
 
 use super::draft::Draft;
 use super::{Facts, SchemaMessages};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::suggest::{same_parts, similar};
 use crate::topology::TypeName;
 use crate::wording::{either, listed};
@@ -24,20 +23,13 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "The first part of this type is a package of the `schemas`, or nearly one, but no schema declares such \
                   a message. It is mostly misspelt, or its package is missing before the dot. A type whose first part \
                   is no package is a Rust path, which rustc looks up where the macro is called.",
-    examples: Examples::Topology {
-        bad: "schemas: [uav.proto]
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: uav.Mesurement}
+    example: " schemas: [uav.proto]
+ components:
+   - name: sensor
+     gates:
+-      - measurements: {pub: uav.Mesurement}
++      - measurements: {pub: uav.Measurement}
 ",
-        good: "schemas: [uav.proto]
-components:
-  - name: sensor
-    gates:
-      - measurements: {pub: uav.Measurement}
-",
-    },
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, facts: &Facts, problems: &mut Diagnostics) {

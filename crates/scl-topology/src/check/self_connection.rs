@@ -4,9 +4,8 @@
 use super::deadlock::drop_messages;
 use super::draft::Draft;
 use super::waits::{self, Wait};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 use std::collections::HashSet;
 
@@ -17,25 +16,17 @@ pub(crate) const ITSELF: Rule = Rule {
     title: "gate connected to itself",
     explanation: "Both ends of the connection are one gate. A gate either sends or receives, so it cannot talk to \
                   itself; another gate was meant.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - commands: rep
-connections:
-  - [controller.commands, controller.commands]
+    example: " components:
+   - name: controller
+     gates:
+       - commands: rep
++  - name: ui
++    gates:
++      - commands: req
+ connections:
+-  - [controller.commands, controller.commands]
++  - [controller.commands, ui.commands]
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - commands: rep
-  - name: ui
-    gates:
-      - commands: req
-connections:
-  - [controller.commands, ui.commands]
-",
-    },
 };
 
 /// SCL0508.
@@ -46,26 +37,17 @@ pub(crate) const WAITS_FOR_ITSELF: Rule = Rule {
     explanation: "A component that asks itself waits for an answer that only it can give; one that sends itself \
                   messages with `backpressure: true` and `when_full: wait` waits for room in a queue that only it can \
                   empty. Call a function inside the component, or keep the value in it.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: planner
-    gates:
-      - ask: req
-      - answer: rep
-connections:
-  - [planner.ask, planner.answer]
+    example: " components:
+   - name: planner
+     gates:
+       - ask: req
++  - name: map
++    gates:
+       - answer: rep
+ connections:
+-  - [planner.ask, planner.answer]
++  - [planner.ask, map.answer]
 ",
-        good: "components:
-  - name: planner
-    gates:
-      - ask: req
-  - name: map
-    gates:
-      - answer: rep
-connections:
-  - [planner.ask, map.answer]
-",
-    },
 };
 
 /// SCL0509.
@@ -75,26 +57,18 @@ pub(crate) const HEARS_ITSELF: Rule = Rule {
     title: "component subscribes to itself",
     explanation: "A component receives what it sends itself: the message leaves the process and comes back. Keeping \
                   the value in the component is faster and simpler. Some designs want it; then allow it with a reason.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: planner
-    gates:
-      - plan: pub
-      - old_plan: sub
-connections:
-  - [planner.plan, planner.old_plan]
+    example: " components:
+   - name: planner
+     gates:
+       - plan: pub
+-      - old_plan: sub
++  - name: pilot
++    gates:
++      - plan: sub
+ connections:
+-  - [planner.plan, planner.old_plan]
++  - [planner.plan, pilot.plan]
 ",
-        good: "components:
-  - name: planner
-    gates:
-      - plan: pub
-  - name: pilot
-    gates:
-      - plan: sub
-connections:
-  - [planner.plan, pilot.plan]
-",
-    },
 };
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {

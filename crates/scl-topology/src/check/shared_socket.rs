@@ -5,9 +5,8 @@
 
 use super::draft::Draft;
 use crate::diagnostic::Diagnostics;
-use crate::diagnostic::Severity;
 use crate::resolve::shortened;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 use std::collections::HashMap;
 
@@ -19,7 +18,7 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "Two connections would have one socket. The names of gates and connections are built so that they \
                   cannot meet, as long as they need not be cut; those that are cut carry a fingerprint. This check \
                   holds that down as an assertion, and no file is known that it rejects.",
-    examples: Examples::None,
+    example: "",
 };
 
 pub(super) fn check(draft: &Draft<'_>, room: usize, problems: &mut Diagnostics) {

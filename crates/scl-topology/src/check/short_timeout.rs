@@ -3,7 +3,7 @@
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::duration;
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 
 /// SCL0414.
@@ -15,38 +15,22 @@ pub(crate) const RULE: Rule = Rule {
                   the replier makes it while it answers, the requester gives up although the reply is still possible, \
                   and never learns which call was late. Make the outer timeout longer, or the inner one shorter. If \
                   the two requests have nothing to do with each other, allow the warning.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: user_interface
-    gates:
-      - commands: {req: Command -> Status, timeout: 500ms}
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-      - map: {req: Area -> Map, timeout: 2s}
-  - name: map_server
-    gates:
-      - map: {rep: Area -> Map}
-connections:
-  - [user_interface.commands, controller.commands]
-  - [controller.map, map_server.map]
+    example: " components:
+   - name: user_interface
+     gates:
+-      - commands: {req: Command -> Status, timeout: 500ms}
++      - commands: {req: Command -> Status, timeout: 3s}
+   - name: controller
+     gates:
+       - commands: {rep: Command -> Status}
+       - map: {req: Area -> Map, timeout: 2s}
+   - name: map_server
+     gates:
+       - map: {rep: Area -> Map}
+ connections:
+   - [user_interface.commands, controller.commands]
+   - [controller.map, map_server.map]
 ",
-        good: "components:
-  - name: user_interface
-    gates:
-      - commands: {req: Command -> Status, timeout: 3s}
-  - name: controller
-    gates:
-      - commands: {rep: Command -> Status}
-      - map: {req: Area -> Map, timeout: 2s}
-  - name: map_server
-    gates:
-      - map: {rep: Area -> Map}
-connections:
-  - [user_interface.commands, controller.commands]
-  - [controller.map, map_server.map]
-",
-    },
 };
 
 /// Looks at sound files only: what is missing may be a timeout that could not be read.

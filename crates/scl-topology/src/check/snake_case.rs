@@ -2,9 +2,8 @@
 
 use super::named::{Noun, is_well_formed, names};
 use crate::diagnostic::Diagnostics;
-use crate::diagnostic::Severity;
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::rust_name::gate_field;
 
 /// SCL0314.
@@ -14,15 +13,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "name is not snake_case",
     explanation: "By convention names are snake_case, as the Rust fields and modules are that they become. Other \
                   styles work; the lint is for teams that want one style.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: UserInterface
+    example: " components:
+-  - name: UserInterface
++  - name: user_interface
++    gates: []
 ",
-        good: "components:
-  - name: user_interface
-    gates: []
-",
-    },
 };
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {

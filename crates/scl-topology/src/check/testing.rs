@@ -2,9 +2,9 @@
 
 use super::{Facts, SchemaMessages, check};
 use crate::diagnostic::render;
-use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::parse::parse;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 use crate::topology::Topology;
@@ -22,21 +22,19 @@ pub(super) fn example(code: &str, yaml: &str, expected: Expect) {
 /// The bad example of a rule, which is its problem.
 #[track_caller]
 pub(super) fn rule_example(rule: &Rule, expected: Expect) {
-    example(rule.code, bad(rule), expected);
+    example(rule.code, &bad(rule), expected);
 }
 
 /// The same for an example whose schemas declare these messages.
 #[track_caller]
 pub(super) fn rule_example_with(rule: &Rule, messages: Option<&[&str]>, expected: Expect) {
-    example_with(rule.code, bad(rule), messages, expected);
+    example_with(rule.code, &bad(rule), messages, expected);
 }
 
 #[track_caller]
-fn bad(rule: &Rule) -> &'static str {
-    match rule.examples {
-        Examples::Topology { bad, .. } => bad,
-        _ => panic!("{} has no topology as its example", rule.code),
-    }
+fn bad(rule: &Rule) -> String {
+    assert!(rule.has_topology(), "{} has no topology as its example", rule.code);
+    rule.bad_example()
 }
 
 /// The same for a file whose schemas declare these messages.

@@ -4,9 +4,8 @@
 
 use super::draft::{Draft, DraftComponent};
 use super::fitting_sender::FittingSenders;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 use crate::wording::listed;
 
@@ -18,18 +17,12 @@ pub(crate) const NO_RECEIVER: Rule = Rule {
     explanation: "A gate sends, and nobody receives: its messages are dropped. Connect it, or remove it. If that is \
                   meant, write `unconnected: ok`, which works for a gate without a type too: `events: {pub: , \
                   unconnected: ok}`.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - events: pub
+    example: " components:
+   - name: controller
+     gates:
+-      - events: pub
++      - events: {pub: , unconnected: ok}
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - events: {pub: , unconnected: ok}
-",
-    },
 };
 
 /// SCL0702.
@@ -39,18 +32,12 @@ pub(crate) const NO_SENDER: Rule = Rule {
     title: "subscriber without a publisher",
     explanation: "A receiving gate is in no connection, so a program that waits at it never gets anything. Connect it; the \
                   message offers senders that fit. If that is meant, write `unconnected: ok`.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - sensor: sub
+    example: " components:
+   - name: controller
+     gates:
+-      - sensor: sub
++      - sensor: {sub: , unconnected: ok}
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - sensor: {sub: , unconnected: ok}
-",
-    },
 };
 
 /// SCL0703.
@@ -61,18 +48,12 @@ pub(crate) const NO_REPLIER: Rule = Rule {
     explanation: "A requester has nobody to ask: every call would end with a timeout. Connect it, or write \
                   `unconnected: ok`. Where the replier is a program outside of SCL, the error can be allowed with a \
                   reason.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: ui
-    gates:
-      - commands: req
+    example: " components:
+   - name: ui
+     gates:
+-      - commands: req
++      - commands: {req: , unconnected: ok}
 ",
-        good: "components:
-  - name: ui
-    gates:
-      - commands: {req: , unconnected: ok}
-",
-    },
 };
 
 /// SCL0704.
@@ -81,18 +62,12 @@ pub(crate) const NO_REQUESTER: Rule = Rule {
     severity: Severity::Warning,
     title: "replier without requesters",
     explanation: "A replier is never asked. Connect it, or write `unconnected: ok` if requesters come from outside.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - commands: rep
+    example: " components:
+   - name: controller
+     gates:
+-      - commands: rep
++      - commands: {rep: , unconnected: ok}
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - commands: {rep: , unconnected: ok}
-",
-    },
 };
 
 /// SCL0705.
@@ -102,24 +77,17 @@ pub(crate) const LONELY_COMPONENT: Rule = Rule {
     title: "component without any connection",
     explanation: "None of the component's gates is connected. One warning says so for all of them. Connect it, or \
                   remove it.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: logger
-    gates:
-      - a: sub
-      - b: sub
+    example: " components:
+   - name: logger
+     gates:
+       - a: sub
+-      - b: sub
++  - name: sensor
++    gates:
++      - a: pub
++connections:
++  - [sensor.a, logger.a]
 ",
-        good: "components:
-  - name: logger
-    gates:
-      - a: sub
-  - name: sensor
-    gates:
-      - a: pub
-connections:
-  - [sensor.a, logger.a]
-",
-    },
 };
 
 /// In a file without the section `connections`, more warnings than this say no more than that the section is missing.

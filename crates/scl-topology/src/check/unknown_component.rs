@@ -1,9 +1,8 @@
 //! SCL0501: an end of a component that does not exist. SCL0504: its two names are swapped.
 
 use super::draft::Draft;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::suggest::{MOST, nearest, similar};
 use crate::wording::{either, listed};
@@ -15,28 +14,17 @@ pub const UNKNOWN: Rule = Rule {
     title: "unknown component",
     explanation: "An end of a connection names a component that is not declared, mostly because it is misspelt. The \
                   message offers the declared ones that resemble it and have such a gate.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controler.sensor]
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: pub
+   - name: controller
+     gates:
+       - sensor: sub
+ connections:
+-  - [sensor.measurements, controler.sensor]
++  - [sensor.measurements, controller.sensor]
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-",
-    },
 };
 
 /// SCL0504.
@@ -46,28 +34,17 @@ pub(crate) const SWAPPED: Rule = Rule {
     title: "component and gate swapped",
     explanation: "Component and gate stand in the wrong order. Written the other way round, they name a gate that \
                   exists.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [measurements.sensor, controller.sensor]
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: pub
+   - name: controller
+     gates:
+       - sensor: sub
+ connections:
+-  - [measurements.sensor, controller.sensor]
++  - [sensor.measurements, controller.sensor]
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-",
-    },
 };
 
 pub(super) fn check(

@@ -2,9 +2,8 @@
 
 use super::draft::Draft;
 use super::unknown_component::swap;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Spanned;
 use crate::suggest::{MOST, nearest};
 use crate::wording::{either, shortened};
@@ -16,28 +15,17 @@ pub(crate) const RULE: Rule = Rule {
     title: "unknown gate",
     explanation: "The component exists, but has no gate of this name. The message lists its gates, and offers those \
                   that resemble it and would fit the other end.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurement, controller.sensor]
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: pub
+   - name: controller
+     gates:
+       - sensor: sub
+ connections:
+-  - [sensor.measurement, controller.sensor]
++  - [sensor.measurements, controller.sensor]
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-",
-    },
 };
 
 pub(super) fn check(

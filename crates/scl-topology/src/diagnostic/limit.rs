@@ -1,7 +1,7 @@
 //! SCL0008: no more problems than somebody reads.
 
 use super::{Diagnostic, Severity};
-use crate::rule::{Examples, Rule};
+use crate::rule::Rule;
 
 /// SCL0008.
 pub(crate) const RULE: Rule = Rule {
@@ -10,7 +10,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "too many problems",
     explanation: "More problems were found than anybody reads at once; the macro shows the first 20, errors first. \
                   `scl check` shows all of them. Mending the first often makes many others go.",
-    examples: Examples::None,
+    example: "",
 };
 
 /// How many problems the macro shows.

@@ -1,6 +1,6 @@
 //! Rules for the tests of the renderer.
 
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 
 /// An error.
 pub(super) const ERROR: Rule = rule("SCL0999", Severity::Error);
@@ -9,5 +9,5 @@ pub(super) const ERROR: Rule = rule("SCL0999", Severity::Error);
 pub(super) const WARNING: Rule = rule("SCL0999", Severity::Warning);
 
 const fn rule(code: &'static str, severity: Severity) -> Rule {
-    Rule { code, severity, title: "", explanation: "", examples: Examples::None }
+    Rule { code, severity, title: "", explanation: "", example: "" }
 }

@@ -1,9 +1,9 @@
 //! What the tests of the rules share.
 
 use super::parse;
-use crate::diagnostic::{Diagnostic, Diagnostics, Severity, render};
+use crate::diagnostic::{Diagnostic, Diagnostics, render};
 use crate::model::Model;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Sources;
 use expect_test::Expect;
 
@@ -30,9 +30,10 @@ pub(super) fn headlines(text: &str) -> String {
 /// a byte order mark.
 #[track_caller]
 pub(super) fn check(rule: &Rule, expected: Expect) {
-    let Examples::Topology { bad: text, .. } = rule.examples else { panic!("{} has no example", rule.code) };
+    let text = rule.bad_example();
+    assert!(rule.has_topology(), "{} has no example", rule.code);
     let code = rule.code;
-    let spellings = [text.to_owned(), text.replace('\n', "\r\n"), format!("\u{feff}{text}")];
+    let spellings = [text.clone(), text.replace('\n', "\r\n"), format!("\u{feff}{text}")];
     let [plain, others @ ..] = spellings.map(|spelling| {
         let (_, problems, sources) = parse_text(&spelling);
         let other = problems.iter().find(|problem| problem.code() != code && problem.severity == Severity::Error);

@@ -7,7 +7,6 @@ use scl_loader::{Loaded, Request, load_bytes};
 use scl_topology::catalogue::ALL;
 use scl_topology::diagnostic::Severity;
 use scl_topology::external::FILE_NOT_FOUND;
-use scl_topology::rule::Examples;
 use scl_topology::source::Span;
 use std::collections::HashSet;
 
@@ -160,14 +159,14 @@ fn fixes_that_overlap_are_not_applied_at_once() {
 #[test]
 fn a_sure_fix_of_an_example_removes_its_problem() {
     let mut fixed_rules = Vec::new();
-    for rule in ALL.iter() {
-        let Examples::Topology { bad, .. } = rule.examples else { continue };
+    for rule in ALL.iter().filter(|rule| rule.has_topology()) {
+        let bad = rule.bad_example();
         let check = |text: &str| load_bytes(&Request::new("topology.yaml"), text.as_bytes().to_vec());
-        let loaded = check(bad);
+        let loaded = check(&bad);
         let has_fix =
             loaded.diagnostics.iter().any(|found| found.rule == *rule && found.fixes.iter().any(|fix| fix.sure));
         if has_fix {
-            let fixed = fix(loaded, bad.to_owned(), check);
+            let fixed = fix(loaded, bad, check);
             let left = fixed.loaded.diagnostics.iter().find(|found| found.rule == *rule);
             assert!(left.is_none(), "{}: {left:?} in {}", rule.code, fixed.text);
             fixed_rules.push(rule.code);

@@ -1,6 +1,6 @@
 //! Rules for the tests of the formats.
 
-use scl_topology::rule::{Examples, Rule, Severity};
+use scl_topology::rule::{Rule, Severity};
 
 /// An error.
 pub(super) const ERROR: Rule = rule("SCL0999", Severity::Error);
@@ -12,5 +12,5 @@ pub(super) const WARNING: Rule = rule("SCL0999", Severity::Warning);
 pub(super) const OTHER: Rule = rule("SCL0100", Severity::Error);
 
 const fn rule(code: &'static str, severity: Severity) -> Rule {
-    Rule { code, severity, title: "", explanation: "", examples: Examples::None }
+    Rule { code, severity, title: "", explanation: "", example: "" }
 }

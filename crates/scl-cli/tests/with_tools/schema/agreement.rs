@@ -13,7 +13,7 @@ use scl_topology::check::{Facts, check};
 use scl_topology::diagnostic::Diagnostics;
 use scl_topology::grammar::{COMPONENT_KEYS, GateKind, OPTIONS, SECTIONS, page};
 use scl_topology::parse::parse;
-use scl_topology::rule::{Examples, Severity};
+use scl_topology::rule::Severity;
 use scl_topology::source::Sources;
 use std::path::{Path, PathBuf};
 
@@ -58,11 +58,8 @@ fn topologies() -> Vec<String> {
     let cases = cases.map(|entry| entry.unwrap().path()).filter(|path| !path.ends_with("verdicts.txt"));
     let cases = cases.flat_map(|path| file::read(&std::fs::read_to_string(path).unwrap()));
     let mut texts: Vec<String> = cases.map(|case| case.text).collect();
-    for rule in ALL.iter() {
-        if let Examples::Topology { bad, good } = rule.examples {
-            texts.extend([bad.to_owned(), good.to_owned()]);
-        }
-    }
+    let examples = ALL.iter().filter(|rule| rule.has_topology());
+    texts.extend(examples.flat_map(|rule| [rule.bad_example(), rule.good_example()]));
     let page = page();
     let blocks = page.split("```yaml\n").skip(1).map(|rest| rest.split("```").next().unwrap().to_owned());
     texts.extend(blocks.filter(|block| block.contains("components:")));

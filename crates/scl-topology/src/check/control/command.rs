@@ -1,9 +1,9 @@
 //! Reads one comment for the checker. SCL0901: nobody knows what it says. SCL0903: it wants to allow what cannot be.
 
 use crate::check::{ALL, deadlock, find, unconnected};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
 use crate::model::ControlModel;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::suggest::one_edit_away;
 use crate::wording::listed;
@@ -16,13 +16,9 @@ pub(crate) const UNKNOWN_CODE: Rule = Rule {
     explanation: "A comment for the checker names a check that does not exist, or cannot be read at all, so it does \
                   nothing. Write `# scl: allow(CODE) reason` on the line of a problem or above it, or `# scl: \
                   warn(CODE)` to turn a lint on.",
-    examples: Examples::Topology {
-        bad: "# scl: allow(SCL0799)
-components: []
+    example: "-# scl: allow(SCL0799)
+ components: []
 ",
-        good: "components: []
-",
-    },
 };
 
 /// SCL0903.
@@ -32,13 +28,9 @@ pub(crate) const FIXED: Rule = Rule {
     title: "check that cannot be allowed",
     explanation: "The check is an error that no reason can make right: a system with it could never work. Only SCL0703 \
                   and SCL0707 are errors that somebody may know better about. Mend the cause instead.",
-    examples: Examples::Topology {
-        bad: "# scl: allow(SCL0601)
-components: []
+    example: "-# scl: allow(SCL0601)
+ components: []
 ",
-        good: "components: []
-",
-    },
 };
 
 /// Errors that somebody may know better than the checker.

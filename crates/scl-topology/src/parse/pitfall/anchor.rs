@@ -1,9 +1,8 @@
 //! SCL0111: anchors and aliases.
 
 use super::Place;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::yaml::{Anchor, Node, NodeKind, Tree};
 
@@ -15,23 +14,16 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "YAML can name a value with `&` and repeat it with `*`. A topology is a contract that people read \
                   line by line, and repeated values would make places in messages ambiguous and tiny files enormous. \
                   Write the value out.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: a
-    gates: &g
-      - x: pub
-  - name: b
-    gates: *g
+    example: " components:
+   - name: a
+-    gates: &g
++    gates: 
+       - x: pub
+   - name: b
+-    gates: *g
++    gates:
++      - x: pub
 ",
-        good: "components:
-  - name: a
-    gates: 
-      - x: pub
-  - name: b
-    gates:
-      - x: pub
-",
-    },
 };
 
 /// Only the first anchors get a help made for their place, as finding it takes a walk over the whole tree.

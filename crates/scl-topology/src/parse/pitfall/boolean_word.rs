@@ -1,8 +1,7 @@
 //! SCL0108: a word that YAML 1.1 reads as a boolean.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 
 /// SCL0108.
@@ -13,18 +12,12 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "Older YAML tools read words such as `on` and `no` as true or false, so a gate of this name \
                   would have another name in Python than in Rust. Put the word in quotes, or better choose a name that \
                   says more.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: heater
-    gates:
-      - on: sub
+    example: " components:
+   - name: heater
+     gates:
+-      - on: sub
++      - switch_on: sub
 ",
-        good: "components:
-  - name: heater
-    gates:
-      - switch_on: sub
-",
-    },
 };
 
 /// YAML 1.1 lists `y` and `n` too, but no usual tool follows it there, and `x`, `y`, `z` are good names of gates.

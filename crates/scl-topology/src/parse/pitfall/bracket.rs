@@ -2,8 +2,7 @@
 
 use super::{Place, scan};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::yaml::SyntaxError;
 use std::ops::Range;
 
@@ -14,15 +13,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "bracket never closed",
     explanation: "A bracket or brace has no partner, or one of the other kind. The place shown is the bracket itself, \
                   not the far end of the file where a parser notices it. Add or correct the missing one.",
-    examples: Examples::Topology {
-        bad: "connections:
-  - [sensor.measurements, controller.sensor
-  - [controller.actuator, actuator.setpoint]
+    example: "-connections:
+-  - [sensor.measurements, controller.sensor
+-  - [controller.actuator, actuator.setpoint]
++components: []
++connections: []
 ",
-        good: "components: []
-connections: []
-",
-    },
 };
 
 /// A bracket problem that the parser noticed as such.

@@ -2,7 +2,7 @@
 
 use super::Place;
 use crate::diagnostic::Diagnostic;
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use std::ops::Range;
 
 /// SCL0126.
@@ -12,20 +12,14 @@ pub(crate) const RULE: Rule = Rule {
     title: "merge conflict marker",
     explanation: "git could not merge two versions of the file and left both in it, between `<<<<<<<`, `=======` and \
                   `>>>>>>>`. Keep the lines that are right, and remove the others together with the markers.",
-    examples: Examples::Topology {
-        bad: "components:
-<<<<<<< HEAD
-  - name: sensor
-=======
-  - name: imu
->>>>>>> rename
-    gates: []
+    example: " components:
+-<<<<<<< HEAD
+   - name: sensor
+-=======
+-  - name: imu
+->>>>>>> rename
+     gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 const MARKERS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];

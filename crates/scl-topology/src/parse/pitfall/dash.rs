@@ -2,7 +2,7 @@
 
 use super::Place;
 use crate::diagnostic::Diagnostic;
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use std::ops::Range;
 
 /// SCL0124.
@@ -12,20 +12,14 @@ pub(crate) const RULE: Rule = Rule {
     title: "list item without a proper dash",
     explanation: "Each item of a list starts with one dash and a space. Here the dash or the space is missing, or there \
                   is a dash too many. Write `- ` before the item.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-      -status: pub
+    example: " components:
+   - name: sensor
+     gates:
+-      - measurements: pub
+-      -status: pub
++      - measurements: {pub: , unconnected: ok}
++      - status: {pub: , unconnected: ok}
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: , unconnected: ok}
-      - status: {pub: , unconnected: ok}
-",
-    },
 };
 
 /// A help repeats no more of a line than this.

@@ -1,8 +1,7 @@
 //! SCL0116: nested too deeply.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::yaml::MAX_DEPTH;
 
@@ -13,12 +12,9 @@ pub(crate) const RULE: Rule = Rule {
     title: "nested too deeply",
     explanation: "Brackets or indentation go deeper than any topology needs, which is 6 levels. The limit of 16 keeps \
                   the programs that read the file, the compiler above all, from running out of stack.",
-    examples: Examples::Topology {
-        bad: "components: [[[[[[[[[[[[[[[[[x]]]]]]]]]]]]]]]]]
+    example: "-components: [[[[[[[[[[[[[[[[[x]]]]]]]]]]]]]]]]]
++components: []
 ",
-        good: "components: []
-",
-    },
 };
 
 pub(in crate::parse) fn diagnose(at: Span) -> Diagnostic {

@@ -1,9 +1,8 @@
 //! SCL0118: a YAML directive, such as `%YAML 1.1`.
 
 use super::Place;
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use std::ops::Range;
 
 /// SCL0118.
@@ -13,14 +12,10 @@ pub(crate) const RULE: Rule = Rule {
     title: "YAML directive",
     explanation: "Lines that start with `%` are orders to the YAML parser. A topology is always read as YAML 1.2, so \
                   it has none. Remove the line and the `---` below it.",
-    examples: Examples::Topology {
-        bad: "%YAML 1.1
----
-components: []
+    example: "-%YAML 1.1
+----
+ components: []
 ",
-        good: "components: []
-",
-    },
 };
 
 /// Reports the directives before the document, and puts spaces in their place.

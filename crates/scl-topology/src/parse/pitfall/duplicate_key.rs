@@ -1,9 +1,8 @@
 //! SCL0107: a key is written twice.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::field::Field;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::yaml::NodeKind;
 
@@ -14,21 +13,13 @@ pub(crate) const RULE: Rule = Rule {
     title: "duplicate key",
     explanation: "A key is written twice in one place. YAML tools disagree which of the two counts, some of them \
                   silently. Merge the two values, or remove one.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-    gates:
-      - status: pub
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: pub
+-    gates:
+       - status: pub
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-      - status: pub
-",
-    },
 };
 
 /// `owner` says whose key it is, for example `this component`.

@@ -2,8 +2,7 @@
 
 use super::Place;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::yaml::Tree;
 
 /// SCL0115.
@@ -12,16 +11,13 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Error,
     title: "empty file",
     explanation: "The file holds nothing, or only comments. Write at least the section `components`.",
-    examples: Examples::Topology {
-        bad: "# TODO
+    example: "-# TODO
++components:
++  - name: sensor
++    gates:
++      - measurements: pub
++connections: []
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-connections: []
-",
-    },
 };
 
 pub(super) fn find(tree: &Tree, place: &Place<'_>) -> Option<Diagnostic> {

@@ -2,9 +2,8 @@
 
 use super::Place;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::words::COMPONENT_KEYS;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::yaml::{MAX_DEPTH, SyntaxError};
 use std::ops::Range;
 
@@ -16,18 +15,12 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "YAML reads structure from indentation: the keys of one component stand in one column, the items of \
                   one list too. This line stands in a column that no line above it uses. Move it to the column that \
                   the message names.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-   gates:
-      - measurements: pub
+    example: " components:
+   - name: sensor
+-   gates:
++    gates:
+       - measurements: pub
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-",
-    },
 };
 
 /// How far above an error its cause is looked for, in lines.

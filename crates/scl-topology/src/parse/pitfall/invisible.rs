@@ -1,9 +1,8 @@
 //! SCL0117: a character that nobody sees, or that only looks like a space.
 
 use super::{Place, scan::Scan};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use std::collections::BTreeMap;
 
 /// SCL0117.
@@ -14,15 +13,11 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "The file holds a character that nobody sees, or that looks like a space and is none. Such characters \
                   come from web pages and word processors, and make two names differ that look the same. Remove it, or \
                   replace it by an ordinary space.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name:\u{a0}sensor
+    example: " components:
+-  - name:\u{a0}sensor
++  - name: sensor
++    gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 /// Reports each such character once, at its first place; puts spaces in the place of all of them. Says

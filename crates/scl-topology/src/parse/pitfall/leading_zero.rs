@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::parse::field::Field;
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 
 /// SCL0128.
 pub(crate) const RULE: Rule = Rule {
@@ -12,18 +12,12 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "YAML 1.2 reads `010` as 10, older YAML tools such as PyYAML read it as the octal number 8, and `08` as \
                   text. A topology file is read by programs in several languages, so its numbers must mean the same \
                   in all of them. Write the number without the zero.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - sensor: {sub: Measurement, queue: 010}
+    example: " components:
+   - name: controller
+     gates:
+-      - sensor: {sub: Measurement, queue: 010}
++      - sensor: {sub: Measurement, queue: 10}
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - sensor: {sub: Measurement, queue: 10}
-",
-    },
 };
 
 /// Looks at a whole number without quotes.

@@ -4,7 +4,7 @@
 use super::Place;
 use crate::confusable;
 use crate::diagnostic::Diagnostic;
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 use std::ops::Range;
@@ -16,16 +16,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "character that looks like a mark of YAML",
     explanation: "Word processors and some keyboards write other colons, commas, quotes and dashes than YAML knows: \
                   fullwidth marks, curly quotes, long dashes. YAML reads them as letters. Retype the character.",
-    examples: Examples::Topology {
-        bad: "components:
-  – name: sensor
-    gates: []
+    example: " components:
+-  – name: sensor
++  - name: sensor
+     gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 /// SCL0304.
@@ -35,15 +30,11 @@ pub(crate) const LETTER: Rule = Rule {
     title: "look-alike character in a name",
     explanation: "The name has a letter outside of ASCII, perhaps one that looks exactly like an ASCII letter: two \
                   names on the screen would look alike and differ. Retype it.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sеnsor
+    example: " components:
+-  - name: sеnsor
++  - name: sensor
++    gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 /// The characters of a text that look like a mark: place, character, mark.

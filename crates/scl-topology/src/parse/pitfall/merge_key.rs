@@ -1,8 +1,7 @@
 //! SCL0112: the merge key `<<`.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::yaml::Node;
 
 /// SCL0112.
@@ -12,16 +11,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "merge key",
     explanation: "`<<` merges keys of another mapping in some YAML tools; it is no part of YAML 1.2, so tools disagree \
                   about it. Write the keys out.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: b
-    <<: {gates: []}
+    example: " components:
+   - name: b
+-    <<: {gates: []}
++    gates: []
 ",
-        good: "components:
-  - name: b
-    gates: []
-",
-    },
 };
 
 pub(in crate::parse) fn diagnose(key: &Node) -> Diagnostic {

@@ -2,7 +2,7 @@
 
 use super::Place;
 use crate::diagnostic::Diagnostic;
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use std::ops::Range;
 
 /// SCL0123.
@@ -12,16 +12,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "missing `:` after a key",
     explanation: "A key and its value are separated by a colon and a space. Here the colon is missing, or another mark \
                   stands in its place. Write the colon.",
-    examples: Examples::Topology {
-        bad: "components
-  - name: sensor
-    gates: []
+    example: "-components
++components:
+   - name: sensor
+     gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 /// No colon after a word.

@@ -2,7 +2,7 @@
 
 use super::Place;
 use crate::diagnostic::Diagnostic;
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use std::ops::Range;
 
 /// SCL0122.
@@ -12,18 +12,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "missing comma",
     explanation: "In brackets and braces a comma separates the entries. Without it, or with another mark in its place, \
                   YAML reads two entries as one. Write the comma.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - sensor: {sub: Measurement queue: 4}
+    example: " components:
+   - name: controller
+     gates:
+-      - sensor: {sub: Measurement queue: 4}
++      - sensor: {sub: Measurement, queue: 4, unconnected: ok}
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - sensor: {sub: Measurement, queue: 4, unconnected: ok}
-",
-    },
 };
 
 /// No comma between two words.

@@ -2,11 +2,10 @@
 
 use super::Place;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::is_plain;
 use crate::parse::words::is_kind;
 use crate::parse::words::known_word;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, SyntaxError};
 use std::ops::Range;
@@ -18,16 +17,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "missing space after `:`",
     explanation: "Between a key and its value stand a colon and a space. Without the space YAML reads both as one \
                   word. Add the space.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name:sensor
-    gates: []
+    example: " components:
+-  - name:sensor
++  - name: sensor
+     gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 /// How many lines the parser may go on before it stumbles.

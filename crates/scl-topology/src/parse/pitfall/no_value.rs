@@ -1,11 +1,10 @@
 //! SCL0110: nothing where a name or value is expected.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::grammar;
 use crate::parse::field::{Field, end_with_colon};
 use crate::parse::with_dash;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 
@@ -17,16 +16,11 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "A key has no value where one is needed; YAML reads this as null. Write the value after the colon. \
                   One place may stay empty: the kind of a gate, as in `events: {pub: , queue: 1}`, which is a gate \
                   without a type that has options.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name:
-    gates: []
+    example: " components:
+-  - name:
++  - name: sensor
+     gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 /// `key:` without a value; `what` is what the value would be, for example `component name`.

@@ -2,9 +2,8 @@
 
 use super::{Place, dash, missing_colon};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::yaml::SyntaxError;
 use std::ops::Range;
 
@@ -15,18 +14,13 @@ pub(crate) const RULE: Rule = Rule {
     title: "text that is not YAML",
     explanation: "The text is not valid YAML, and no single change near this place makes it so: there may be more than \
                   one mistake. The place is where the parser gave up; the first mistake stands there or shortly before.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-sensor reads the bus
-  - name: camera
-camera is optional
+    example: " components:
+   - name: sensor
+-sensor reads the bus
+-  - name: camera
+-camera is optional
++    gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 pub(in crate::parse) fn diagnose(error: &SyntaxError, place: &Place<'_>) -> Diagnostic {

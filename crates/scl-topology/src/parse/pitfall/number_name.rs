@@ -1,8 +1,7 @@
 //! SCL0109: a number where a name belongs.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 
 /// SCL0109.
@@ -12,16 +11,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "number used as a name",
     explanation: "Where a name belongs stands a number or a date, as some YAML tools read it: `1.10` would become 1.1. \
                   Start the name with a letter.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: 1.10
-    gates: []
+    example: " components:
+-  - name: 1.10
++  - name: v1_10
+     gates: []
 ",
-        good: "components:
-  - name: v1_10
-    gates: []
-",
-    },
 };
 
 /// Looks at a name that stands without quotes.

@@ -1,8 +1,7 @@
 //! SCL0120: a key that is no plain word.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::yaml::Node;
 
 /// SCL0120.
@@ -11,18 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Error,
     title: "key is not a plain word",
     explanation: "YAML allows lists and mappings as keys, and null. In a topology each key is a plain word. Write one.",
-    examples: Examples::Topology {
-        bad: "components:
-  - ? [a, b]
-    : pub
+    example: " components:
+-  - ? [a, b]
+-    : pub
++  - name: sensor
++    gates:
++      - measurements: pub
++connections: []
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-connections: []
-",
-    },
 };
 
 pub(in crate::parse) fn diagnose(key: &Node) -> Diagnostic {

@@ -2,8 +2,7 @@
 
 use super::{Place, scan};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::yaml::{SyntaxError, SyntaxErrorKind};
 
 /// SCL0104.
@@ -13,16 +12,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "quote never closed",
     explanation: "A text starts with a quote that nothing closes, so everything that follows belongs to it. Add the \
                   closing quote, or remove the opening one: names need no quotes.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: \"sensor
-    gates: []
+    example: " components:
+-  - name: \"sensor
++  - name: \"sensor\"
+     gates: []
 ",
-        good: "components:
-  - name: \"sensor\"
-    gates: []
-",
-    },
 };
 
 /// A quoted text that runs over the end of its line and covers, or ends just before, the place of the error.

@@ -2,8 +2,7 @@
 
 use super::{Place, dash};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 
 /// SCL0106.
 pub(crate) const RULE: Rule = Rule {
@@ -12,15 +11,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "character that cannot start a value",
     explanation: "Some characters have a meaning of their own at the start of a value, such as `@`, `%`, `&` and `*`. \
                   Remove the character, or put the value in quotes.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: @sensor
+    example: " components:
+-  - name: @sensor
++  - name: sensor
++    gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 /// The character at the place of the error, if a reserved one stands there.

@@ -2,8 +2,7 @@
 
 use super::Place;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 
 /// SCL0114.
@@ -13,15 +12,10 @@ pub(crate) const RULE: Rule = Rule {
     title: "more than one document",
     explanation: "`---` starts another YAML document in the same file. A topology is one document; most tools would \
                   silently ignore the rest. Remove the line.",
-    examples: Examples::Topology {
-        bad: "components: []
----
-connections: []
+    example: " components: []
+----
+ connections: []
 ",
-        good: "components: []
-connections: []
-",
-    },
 };
 
 /// The parser may place the start of a document without `---` at its content.

@@ -1,9 +1,8 @@
 //! SCL0101: a tab is used for indentation.
 
 use super::{Place, scan::Scan};
-use crate::diagnostic::Severity;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 
 /// SCL0101.
 pub(crate) const RULE: Rule = Rule {
@@ -12,15 +11,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "tab used for indentation",
     explanation: "A line is indented with a tab. YAML forbids that, because nobody knows how wide a tab is. Replace \
                   tabs by spaces; editors have a command for it.",
-    examples: Examples::Topology {
-        bad: "components:
-\t- name: sensor
+    example: " components:
+-\t- name: sensor
++  - name: sensor
++    gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 /// Reports the first line that is indented with a tab, and how many follow; puts spaces in their place.

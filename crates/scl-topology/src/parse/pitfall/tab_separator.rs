@@ -2,7 +2,7 @@
 
 use super::{Place, scan::Scan, tab::opens_block};
 use crate::diagnostic::Diagnostics;
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 
 /// SCL0129.
 pub(crate) const RULE: Rule = Rule {
@@ -12,16 +12,11 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "A tab separates two words, ends a line or fills an empty one. YAML allows that, but other readers, \
                   such as PyYAML, refuse the file. A topology file is read by programs in several languages. Replace \
                   the tab by a space; in quotes and comments tabs are allowed.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name:\tsensor
-    gates: []
+    example: " components:
+-  - name:\tsensor
++  - name: sensor
+     gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 /// Reports the first such tab, and how many lines have one; puts spaces in their place.

@@ -1,8 +1,7 @@
 //! SCL0113: a YAML tag.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 
 /// SCL0113.
@@ -12,15 +11,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "tag",
     explanation: "A tag such as `!!str` changes the type of a value, and in some languages even runs code. A topology \
                   needs none. Remove it.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: !!python/name:os.system sensor
+    example: " components:
+-  - name: !!python/name:os.system sensor
++  - name: sensor
++    gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 pub(super) fn diagnose(tag: Span) -> Diagnostic {

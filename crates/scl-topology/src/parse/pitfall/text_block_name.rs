@@ -1,8 +1,7 @@
 //! SCL0119: a text block where a name belongs.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 
@@ -13,16 +12,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "text block used as a name",
     explanation: "`|` and `>` start a text of several lines, whose value ends with a line break. A name stands on one \
                   line. Write it behind its key.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: |
-      sensor
+    example: " components:
+-  - name: |
+-      sensor
++  - name: sensor
++    gates: []
 ",
-        good: "components:
-  - name: sensor
-    gates: []
-",
-    },
 };
 
 pub(in crate::parse) fn diagnose(node: &Node, text: &str, source: &SourceFile) -> Diagnostic {

@@ -2,7 +2,7 @@
 
 use super::Place;
 use crate::diagnostic::Diagnostic;
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use std::ops::Range;
 
 /// SCL0125.
@@ -12,18 +12,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "text that is not expected here",
     explanation: "A value has ended, and yet the line goes on, or a mark stands where none can. YAML reads one value \
                   for a key, and one item on a line. Remove the rest, or give it a line of its own.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement} often
+    example: " components:
+   - name: sensor
+     gates:
+-      - measurements: {pub: Measurement} often
++      - measurements: {pub: Measurement, unconnected: ok} # often
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, unconnected: ok} # often
-",
-    },
 };
 
 /// A message repeats no more than this.

@@ -2,11 +2,10 @@
 
 use super::{own_key, suggest, ticked};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
 use crate::parse::words::COMPONENT_KEYS;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::suggest::similar;
 
 /// SCL0207.
@@ -16,18 +15,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "unknown key in a component",
     explanation: "A component has the keys `name`, `gates`, `doc` and `optional`. Another one is mostly misspelt, and \
                   would be ignored silently otherwise. Correct or remove it.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gate:
-      - measurements: pub
+    example: " components:
+   - name: sensor
+-    gate:
++    gates:
+       - measurements: pub
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-",
-    },
 };
 
 pub(in crate::parse) fn diagnose(field: Field<'_>, component: &str) -> Diagnostic {

@@ -1,9 +1,8 @@
 //! SCL0211: a connection that is not a pair of ends.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::{scalar, shape_word};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::yaml::{Node, NodeKind};
 
@@ -14,15 +13,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "connection does not have two ends",
     explanation: "A connection is a pair: `[component.gate, component.gate]`, in either order. This entry has fewer or \
                   more ends, or is no list. For one sender and several receivers write one connection each.",
-    examples: Examples::Topology {
-        bad: "components: []
-connections:
-  - [controller.events, user_interface.events, logger.events]
+    example: " components: []
+-connections:
+-  - [controller.events, user_interface.events, logger.events]
++connections: []
 ",
-        good: "components: []
-connections: []
-",
-    },
 };
 
 const PAIR: &str = "a connection joins exactly two gates";

@@ -2,12 +2,11 @@
 
 use super::ticked;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::model::GateModel;
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
 use crate::parse::words::is_kind;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{Span, Spanned};
 use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};
@@ -20,22 +19,15 @@ pub(crate) const RULE: Rule = Rule {
     explanation: "An entry of `gates` is `name: kind`, or `name: {kind: type, option: value}`. This one has another \
                   shape: no kind, two kinds, two names, or the kind as a value. The message says which, and what to \
                   write.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements
-      - status: pub
-        health: pub
+    example: " components:
+   - name: sensor
+     gates:
+-      - measurements
++      - measurements: pub
+       - status: pub
+-        health: pub
++      - health: pub
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-      - status: pub
-      - health: pub
-",
-    },
 };
 
 /// `- measurements`.

@@ -2,10 +2,9 @@
 
 use super::{own_key, ticked};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::grammar::{OPTIONS, option};
 use crate::parse::field::Field;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::suggest::similar;
 use crate::topology::GateKind;
@@ -18,18 +17,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "unknown key in a gate",
     explanation: "A gate has its kind and options as keys. This key is neither, mostly because it is misspelt. The \
                   message lists the options that this kind of gate has.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, que: 4}
+    example: " components:
+   - name: sensor
+     gates:
+-      - measurements: {pub: Measurement, que: 4}
++      - measurements: {sub: Measurement, queue: 4}
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {sub: Measurement, queue: 4}
-",
-    },
 };
 
 /// `kind` is the kind as written, `path` the gate with its component.

@@ -1,9 +1,8 @@
 //! SCL0209: a component without gates.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::field::Field;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::Spanned;
 
 /// SCL0209.
@@ -13,16 +12,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "component without gates",
     explanation: "A component without gates can talk to nobody, so it is probably not finished. Add a gate, or remove \
                   the component; `gates: []` says that it is meant.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: logger
-    gates:
+    example: " components:
+   - name: logger
+-    gates:
++    gates: []
 ",
-        good: "components:
-  - name: logger
-    gates: []
-",
-    },
 };
 
 /// A warning where `gates` is missing or has no value; `gates: []` is meant.

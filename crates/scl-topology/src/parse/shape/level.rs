@@ -1,12 +1,11 @@
 //! SCL0214: a key that belongs elsewhere.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::model::ComponentModel;
 use crate::parse::field::{Field, Fields, head};
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS, is_kind, is_option};
 use crate::parse::{scalar, with_dash};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 
@@ -17,28 +16,18 @@ pub(crate) const RULE: Rule = Rule {
     title: "key at the wrong level",
     explanation: "The key is known, but at another level: a section inside a component, an option beside a gate, gates \
                   at the top. It is mostly a slip of the indentation. Move it to where the message says.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: controller
-    gates:
-      - sensor: sub
-  - name: sensor
-    gates:
-      - measurements: pub
-    connections:
-      - [sensor.measurements, controller.sensor]
+    example: " components:
+   - name: controller
+     gates:
+       - sensor: sub
+   - name: sensor
+     gates:
+       - measurements: pub
+-    connections:
+-      - [sensor.measurements, controller.sensor]
++connections:
++  - [sensor.measurements, controller.sensor]
 ",
-        good: "components:
-  - name: controller
-    gates:
-      - sensor: sub
-  - name: sensor
-    gates:
-      - measurements: pub
-connections:
-  - [sensor.measurements, controller.sensor]
-",
-    },
 };
 
 /// A key of a component, or of a gate, at the top level.

@@ -2,9 +2,8 @@
 
 use super::ticked;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::field::Fields;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{FileId, Span};
 
 /// SCL0203.
@@ -14,14 +13,11 @@ pub(crate) const RULE: Rule = Rule {
     title: "required section missing",
     explanation: "The section `components` declares who may talk at all; without it nothing else has a meaning. Add \
                   it.",
-    examples: Examples::Topology {
-        bad: "connections:
-  - [sensor.measurements, controller.sensor]
+    example: "-connections:
+-  - [sensor.measurements, controller.sensor]
++components: []
++connections: []
 ",
-        good: "components: []
-connections: []
-",
-    },
 };
 
 pub(in crate::parse) fn diagnose(fields: &Fields<'_>, file: FileId) -> Diagnostic {

@@ -1,10 +1,9 @@
 //! SCL0208: a component without a name.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::field::{Fields, head};
 use crate::parse::shape_word;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 
@@ -14,17 +13,12 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Error,
     title: "component without a name",
     explanation: "Each component has a name, by which connections and programs know it. Add `name:`.",
-    examples: Examples::Topology {
-        bad: "components:
-  - gates:
-      - measurements: pub
+    example: " components:
+-  - gates:
++  - name: sensor
++    gates:
+       - measurements: pub
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-",
-    },
 };
 
 const MESSAGE: &str = "this component has no name";

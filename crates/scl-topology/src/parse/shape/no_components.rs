@@ -1,9 +1,8 @@
 //! SCL0205: the section `components` is empty.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::field::Field;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 
 /// SCL0205.
 pub(crate) const RULE: Rule = Rule {
@@ -12,14 +11,10 @@ pub(crate) const RULE: Rule = Rule {
     title: "no components",
     explanation: "The section `components` has no entry. Add at least one component; a file that is meant to be empty \
                   says `components: []`.",
-    examples: Examples::Topology {
-        bad: "components:
-connections: []
+    example: "-components:
++components: []
+ connections: []
 ",
-        good: "components: []
-connections: []
-",
-    },
 };
 
 /// An explicit `components: []` is meant, as it is for gates and connections.

@@ -1,9 +1,8 @@
 //! SCL0206: no connections.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::field::Field;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 
 /// SCL0206.
 pub(crate) const RULE: Rule = Rule {
@@ -12,19 +11,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "no connections",
     explanation: "Gates are declared, and none of them is connected. Add the section `connections`. If the wiring \
                   follows later, write `connections: []`, which says so.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: pub
++connections: []
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-connections: []
-",
-    },
 };
 
 /// A warning where gates exist, and `connections` is missing or has no value; `connections: []` is meant.

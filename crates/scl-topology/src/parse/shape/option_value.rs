@@ -1,11 +1,10 @@
 //! SCL0215: a value of the wrong kind.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::grammar::{self, Shape};
 use crate::parse::field::Field;
 use crate::parse::{is_plain, shape_word};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::size;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
@@ -17,18 +16,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "option value has the wrong kind",
     explanation: "The value has the wrong type: text where a number belongs, a number without a unit where a duration \
                   or a size belongs, or a word that the option does not know. The message gives an example.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: {pub: Measurement, queue: many}
+    example: " components:
+   - name: sensor
+     gates:
+-      - measurements: {pub: Measurement, queue: many}
++      - measurements: {sub: Measurement, queue: 16}
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: {sub: Measurement, queue: 16}
-",
-    },
 };
 
 pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Shape) -> Diagnostic {

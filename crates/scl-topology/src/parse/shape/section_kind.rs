@@ -1,12 +1,11 @@
 //! SCL0204: a section, or the list of gates, has the wrong kind.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::model::ComponentModel;
 use crate::parse::field::Field;
 use crate::parse::field::end_with_colon;
 use crate::parse::shape_word;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 
@@ -17,18 +16,12 @@ pub(crate) const RULE: Rule = Rule {
     title: "section has the wrong kind",
     explanation: "A section that is a list is written as something else, often as a mapping with names as keys. Lists \
                   keep the order of the file and find doubled names. Start each entry with `-`.",
-    examples: Examples::Topology {
-        bad: "components:
-  sensor:
-    gates:
-      - measurements: pub
+    example: " components:
+-  sensor:
++  - name: sensor
+     gates:
+       - measurements: pub
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-",
-    },
 };
 
 /// `components: {sensor: ...}`; `first` is the first component that could be read from it.

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::parse::{scalar, with_dash};
-use crate::rule::{Examples, Rule, Severity};
+use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 
@@ -13,27 +13,16 @@ pub(crate) const RULE: Rule = Rule {
     title: "connection among the components",
     explanation: "A pair of gates stands in the list of components, mostly because the line `connections:` is missing \
                   or a comment. Write `connections:` at the start of the line above the first pair.",
-    examples: Examples::Topology {
-        bad: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-  - [sensor.measurements, controller.sensor]
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: pub
+   - name: controller
+     gates:
+       - sensor: sub
++connections:
+   - [sensor.measurements, controller.sensor]
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-  - name: controller
-    gates:
-      - sensor: sub
-connections:
-  - [sensor.measurements, controller.sensor]
-",
-    },
 };
 
 /// Whether a list item looks like a connection and not like a component.

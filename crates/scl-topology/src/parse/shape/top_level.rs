@@ -1,10 +1,9 @@
 //! SCL0201: the top level is not a mapping.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::words::SECTIONS;
 use crate::parse::{pitfall, with_dash};
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 
@@ -15,18 +14,15 @@ pub(crate) const RULE: Rule = Rule {
     title: "top level is not a mapping",
     explanation: "A topology is a mapping: section names with their values. This file starts with something else, \
                   often with the list that belongs below `components:`. Add the key and indent the list.",
-    examples: Examples::Topology {
-        bad: "- name: sensor
-  gates:
-    - measurements: pub
+    example: "-- name: sensor
+-  gates:
+-    - measurements: pub
++components:
++  - name: sensor
++    gates:
++      - measurements: pub
++connections: []
 ",
-        good: "components:
-  - name: sensor
-    gates:
-      - measurements: pub
-connections: []
-",
-    },
 };
 
 pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile) -> Diagnostic {

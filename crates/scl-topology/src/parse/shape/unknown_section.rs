@@ -2,10 +2,9 @@
 
 use super::{suggest, ticked};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::parse::field::Field;
 use crate::parse::words::SECTIONS;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 
 /// SCL0202.
 pub(crate) const RULE: Rule = Rule {
@@ -14,14 +13,10 @@ pub(crate) const RULE: Rule = Rule {
     title: "unknown top-level key",
     explanation: "The key is none of the sections of a topology. An unknown section is mostly a misspelt one, and \
                   would be ignored silently otherwise. Correct it; keys that start with `x-` are yours to use.",
-    examples: Examples::Topology {
-        bad: "components: []
-conections: []
+    example: " components: []
+-conections: []
++connections: []
 ",
-        good: "components: []
-connections: []
-",
-    },
 };
 
 pub(in crate::parse) fn diagnose(field: Field<'_>) -> Diagnostic {

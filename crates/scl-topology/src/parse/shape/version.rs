@@ -2,12 +2,11 @@
 
 use super::option_value;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Severity;
 use crate::grammar::{FORMAT, Shape, is_whole_number};
 use crate::parse::field::Field;
 use crate::parse::is_plain;
 use crate::parse::pitfall::leading_zero;
-use crate::rule::{Examples, Rule};
+use crate::rule::{Rule, Severity};
 use crate::yaml::NodeKind;
 
 /// SCL0213.
@@ -17,14 +16,10 @@ pub(crate) const RULE: Rule = Rule {
     title: "unsupported format version",
     explanation: "`scl:` says which version of the file's format is needed, and this version of scl does not read it. \
                   Update scl, or write the file for the format it knows.",
-    examples: Examples::Topology {
-        bad: "scl: 3
-components: []
+    example: "-scl: 3
++scl: 1
+ components: []
 ",
-        good: "scl: 1
-components: []
-",
-    },
 };
 
 pub(in crate::parse) fn find(field: Field<'_>) -> Option<Diagnostic> {
