@@ -16,14 +16,10 @@ pub(crate) struct SyntaxError {
 /// Which rule has a say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SyntaxErrorKind {
-    /// Brackets or braces do not match.
-    Bracket,
     /// A quoted text does not end, or goes on after its end.
     Quote,
     /// A `[` or `{` right after a colon.
     Glued,
-    /// `key: value` or `- item` where none can be.
-    Structure,
     /// A character that starts no value.
     Character(char),
     /// A tab in a place where only spaces can be.
@@ -48,32 +44,12 @@ impl SyntaxError {
 fn kind_of(kind: &ErrorKind) -> SyntaxErrorKind {
     use ErrorKind as E;
     match kind {
-        E::UnexpectedEofFlowSequence
-        | E::UnexpectedEofFlowMapping
-        | E::UnexpectedEofImplicitFlowMapping
-        | E::ExpectedFlowMappingSeparator
-        | E::ExpectedFlowSequenceSeparator
-        | E::MisplacedFlowCollectionEnd
-        | E::MismatchedFlowCollectionEnd { .. }
-        | E::UnclosedFlowCollection { .. }
-        | E::BlockEntryInFlowCollection => SyntaxErrorKind::Bracket,
         E::FlowMappingValueAdjacentCollection => SyntaxErrorKind::Glued,
         E::UnclosedQuotedScalar
         | E::DocumentIndicatorInQuotedScalar
         | E::InvalidQuotedScalarIndent
         | E::InvalidTrailingSingleQuotedScalar
         | E::InvalidTrailingDoubleQuotedScalar => SyntaxErrorKind::Quote,
-        E::ExpectedBlockMappingKey
-        | E::ExpectedBlockSequenceEntry
-        | E::SimpleKeyExpected
-        | E::InvalidSimpleKey
-        | E::InvalidIndentation
-        | E::BlockSequenceEntryNotAllowed
-        | E::MappingKeyNotAllowed
-        | E::MappingValueNotAllowed
-        | E::ExpectedNodeContent
-        | E::ExpectedDocumentStart
-        | E::InvalidDocumentEnd => SyntaxErrorKind::Structure,
         E::UnexpectedCharacter { character } => SyntaxErrorKind::Character(*character),
         E::TabNotAllowed
         | E::TabInBlockIndentation

@@ -89,7 +89,7 @@ fn a_syntax_error_keeps_what_stands_before_it() {
                 "d" Plain "d"
                   "[e" list
                     "e" Plain "e"
-        error at 19: Bracket, unclosed bracket '['
+        error at 19: Other, unclosed bracket '['
     "#]],
     );
     check(
@@ -100,7 +100,7 @@ fn a_syntax_error_keeps_what_stands_before_it() {
             "{b: c" mapping
               "b" Plain "b"
                 "c" Plain "c"
-        error at 3: Bracket, unclosed bracket '{'
+        error at 3: Other, unclosed bracket '{'
     "#]],
     );
     check(
@@ -109,7 +109,7 @@ fn a_syntax_error_keeps_what_stands_before_it() {
         "a: b" mapping
           "a" Plain "a"
             "b" Plain "b"
-        error at 4: Structure, mapping values are not allowed in this context
+        error at 4: Other, mapping values are not allowed in this context
     "#]],
     );
     check(
@@ -120,7 +120,7 @@ fn a_syntax_error_keeps_what_stands_before_it() {
             "b" mapping
               "b" Plain "b"
                 "" Plain ""
-        error at 9: Structure, while parsing a block mapping, did not find expected key
+        error at 9: Other, while parsing a block mapping, did not find expected key
     "#]],
     );
 }
