@@ -3,8 +3,8 @@
 use clap::Args;
 use scl_terminal::{print_err, print_out};
 use scl_topology::catalogue::{self, ALL};
+use scl_topology::diagnostic::{Rule, Severity};
 use scl_topology::grammar::{self, Entry};
-use scl_topology::rule::{Rule, Severity};
 use scl_topology::suggest::similar;
 use std::process::ExitCode;
 

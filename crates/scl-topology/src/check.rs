@@ -59,9 +59,8 @@ mod unknown_component;
 mod unknown_gate;
 mod waits;
 
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostics, Rule};
 use crate::model::Model;
-use crate::rule::Rule;
 use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 use crate::topology::Topology;

@@ -3,19 +3,19 @@
 mod fix;
 mod limit;
 mod render;
+mod rule;
 #[cfg(test)]
 mod testing;
 
-use crate::rule::Rule;
 use crate::source::Span;
 use std::borrow::Cow;
 
-pub use crate::rule::Severity;
 pub use fix::Fix;
 pub(crate) use fix::removal;
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};
+pub use rule::{Rule, Severity};
 
 /// A place with a word on it.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Rules that are checked elsewhere: by the loader that reads the files, by the macro, by `scl generate`, and by rustc. They are declared
 //! here, so that every code is explained in one place.
 
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Rule, Severity};
 
 /// All of them, by their codes.
 pub(crate) const RULES: [&Rule; 22] = [

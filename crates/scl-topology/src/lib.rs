@@ -72,7 +72,6 @@ pub mod keywords;
 pub mod model;
 pub mod parse;
 pub mod resolve;
-pub mod rule;
 pub mod rust_name;
 pub mod size;
 pub mod socket_paths;

@@ -2,9 +2,8 @@
 
 use super::{ALL, find};
 use crate::check::{Facts, SchemaMessages, check};
-use crate::diagnostic::{Diagnostics, Severity, render};
+use crate::diagnostic::{Diagnostics, Rule, Severity, render};
 use crate::parse::parse;
-use crate::rule::Rule;
 use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 

@@ -3,8 +3,7 @@
 use super::{ALL, explain, page};
 use crate::cases::flow;
 use crate::check::testing::{USUAL, problems};
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 
 /// The messages that the schemas of examples declare.
 const MESSAGES: [&str; 3] = ["uav.Command", "uav.Measurement", "uav.Status"];

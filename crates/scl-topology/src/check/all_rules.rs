@@ -1,7 +1,7 @@
 //! The rules of all stages, so that a comment in a file can name any of them.
 
 use super::RULES;
-use crate::rule::Rule;
+use crate::diagnostic::Rule;
 use crate::{diagnostic, external, parse};
 use std::sync::LazyLock;
 

@@ -1,8 +1,7 @@
 //! SCL0410: a receiver that would make its sender wait, and a sender that never waits.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::{GateKind, WhenFull};
 
 /// SCL0410.

@@ -2,8 +2,7 @@
 //! repliers. SCL0513: a pusher with several pullers that does not say that they share the work.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::GateKind;
 use crate::wording::listed;
 

@@ -1,8 +1,7 @@
 //! SCL0608: the two ends write and read bytes in different ways.
 
 use super::draft::Draft;
-use crate::diagnostic::Diagnostics;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::topology::{GateKind, Payload};
 
 /// SCL0608.

@@ -1,8 +1,7 @@
 //! SCL0407: a word that is no codec. Sets the codecs that gates name themselves.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::rust_name::{is_keyword, is_unescapable};
 use crate::source::Spanned;
 use crate::suggest::similar;

@@ -2,8 +2,7 @@
 
 use super::draft::Draft;
 use super::{unknown_component, unknown_gate};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Spanned;
 use crate::wording::{either, listed};
 

@@ -5,9 +5,8 @@
 mod command;
 
 use super::feedback;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::{ControlModel, Model};
-use crate::rule::{Rule, Severity};
 use crate::source::Sources;
 use command::{Command, command_span, read};
 use std::collections::{HashMap, HashSet};

@@ -2,8 +2,7 @@
 
 use super::control;
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::GateKind;
 
 /// SCL0710.

@@ -1,8 +1,7 @@
 //! SCL0301: two components of one name. Every place that names it would mean both.
 
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 use std::collections::HashMap;
 
 /// SCL0301.

@@ -1,8 +1,7 @@
 //! SCL0510: the same two gates connected twice. Takes the second out, so that it is not counted as another peer.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostics, removal};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostics, Rule, Severity, removal};
 use std::collections::HashMap;
 
 /// SCL0510.

@@ -1,8 +1,7 @@
 //! SCL0302: two gates of one name in a component. A connection could not say which it means.
 
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::{ComponentModel, Model};
-use crate::rule::{Rule, Severity};
 use std::collections::HashMap;
 
 /// SCL0302.

@@ -3,8 +3,7 @@
 
 use super::draft::Draft;
 use super::message_type::differ;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Span;
 use crate::topology::{Payload, TypeName};
 

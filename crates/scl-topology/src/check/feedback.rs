@@ -3,8 +3,7 @@
 use super::circles::{self, Circle, Graph, Step};
 use super::draft::Draft;
 use super::waits;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Span;
 use crate::topology::GateKind;
 

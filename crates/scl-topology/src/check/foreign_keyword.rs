@@ -1,10 +1,9 @@
 //! SCL0315: a name that C++ or Python reserves. The same file is read by programs in these languages.
 
 use super::named::{Noun, is_well_formed, names};
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::keywords::{CPP, PYTHON};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
 use crate::source::Spanned;
 use crate::wording::all_of;

@@ -1,9 +1,8 @@
 //! SCL0401: a word that is no kind of gate. Sets the kind of every other gate.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::grammar::{PATTERNS, Pattern};
-use crate::rule::{Rule, Severity};
 use crate::source::{Sources, Spanned};
 use crate::suggest;
 use crate::topology::GateKind;

@@ -2,8 +2,7 @@
 //! finds the connections on which neither end has a type.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::{GateKind, Payload};
 use crate::wording::example_type;
 use std::collections::VecDeque;

@@ -1,8 +1,7 @@
 //! SCL0706, a lint: groups of components without a connection between them, which may be two systems in one file.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::wording::listed;
 use std::collections::BTreeMap;
 

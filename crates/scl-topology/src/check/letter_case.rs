@@ -1,9 +1,8 @@
 //! SCL0310: names that only letter case and `_` tell apart. People mix them up, and so do some file systems.
 
 use super::named::is_well_formed;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Spanned;
 use std::collections::HashMap;

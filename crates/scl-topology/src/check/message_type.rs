@@ -2,8 +2,7 @@
 //! if it alone differs from all its peers.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::{GateKind, Payload, TypeName};
 use crate::wording::listed;
 use std::collections::BTreeMap;

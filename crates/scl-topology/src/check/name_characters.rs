@@ -2,9 +2,8 @@
 
 use super::look_alike::has_foreign_letter;
 use super::named::{Noun, is_allowed, names};
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 use crate::source::Spanned;
 
 /// SCL0303.

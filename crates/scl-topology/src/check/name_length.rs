@@ -1,9 +1,8 @@
 //! SCL0312: a name that leaves no room for the others in a socket path.
 
 use super::named::{Noun, names};
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 
 /// SCL0312.
 pub(crate) const RULE: Rule = Rule {

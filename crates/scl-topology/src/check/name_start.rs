@@ -1,9 +1,8 @@
 //! SCL0305: a name that starts with a digit or a hyphen. No programming language can spell it.
 
 use super::named::{Noun, is_allowed, may_start, names};
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 use crate::source::Spanned;
 
 /// SCL0305.

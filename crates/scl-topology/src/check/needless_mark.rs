@@ -1,8 +1,7 @@
 //! SCL0711: `unconnected: ok` on a gate that is connected. The mark would hide the loss of the connection one day.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostics, removal};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostics, Rule, Severity, removal};
 
 /// SCL0711.
 pub(crate) const RULE: Rule = Rule {

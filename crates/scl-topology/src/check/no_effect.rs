@@ -2,8 +2,7 @@
 //! at a gate that carries bytes.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::{Payload, WhenFull};
 use crate::wording::listed;
 

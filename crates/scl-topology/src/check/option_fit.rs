@@ -1,9 +1,8 @@
 //! SCL0408: an option on a kind of gate that has no use for it.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar;
 use crate::model::OptionModel;
-use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 use crate::wording::all_of;
 

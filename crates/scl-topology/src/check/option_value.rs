@@ -2,10 +2,9 @@
 
 use super::draft::Draft;
 use super::option_fit;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::grammar::{self, GateKind, GateOption, OutOfRange};
 use crate::model::OptionModel;
-use crate::rule::{Rule, Severity};
 
 /// SCL0409.
 pub(crate) const RULE: Rule = Rule {

@@ -3,9 +3,8 @@
 
 use super::draft::Draft;
 use super::named::is_well_formed;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::resolve::{CONTRACT_LENGTH, TAP};
-use crate::rule::{Rule, Severity};
 use crate::socket_paths::SocketPaths;
 use crate::topology::GateKind;
 

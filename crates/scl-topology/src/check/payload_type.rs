@@ -2,8 +2,7 @@
 //! of every other gate.
 
 use super::draft::{Draft, DraftGate};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Spanned;
 use crate::topology::{GateKind, Payload, TypeName};
 

@@ -1,9 +1,8 @@
 //! SCL0313, a lint: a component whose type hides a name that every Rust file has in scope.
 
 use super::named::is_well_formed;
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 use crate::rust_name::component_type;
 
 /// SCL0313.

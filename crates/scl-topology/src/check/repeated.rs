@@ -3,9 +3,8 @@
 //! and the others are shown there.
 
 use super::{backpressure, codec_agreement, exchange_type, message_type, pair_kinds, unknown_component, unknown_gate};
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule};
 use crate::parse::{LETTER, LOOK_ALIKE};
-use crate::rule::Rule;
 use crate::source::Span;
 use std::collections::HashMap;
 

@@ -1,9 +1,8 @@
 //! SCL0311: names that the framework keeps for itself, so that it can grow without breaking a file.
 
 use super::named::{Noun, names};
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 
 /// SCL0311.
 pub(crate) const RULE: Rule = Rule {

@@ -1,9 +1,8 @@
 //! SCL0306: a gate whose field needs `r#`. SCL0307: a name that not even `r#` makes usable.
 
 use super::named::{Noun, is_well_formed, names};
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
 use crate::source::Spanned;
 

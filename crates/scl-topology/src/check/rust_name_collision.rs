@@ -1,9 +1,8 @@
 //! SCL0308 and SCL0309: names that differ in the file and would be one in Rust.
 
 use super::named::is_well_formed;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Spanned;
 use std::collections::HashMap;

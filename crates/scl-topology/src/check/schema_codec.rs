@@ -1,8 +1,7 @@
 //! SCL0412: a codec that cannot carry a message of the schemas. Gates with the same codec are reported together.
 
 use super::draft::{Draft, DraftGate};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Span;
 use crate::topology::{Codec, Payload, TypeName};
 use crate::wording::listed;

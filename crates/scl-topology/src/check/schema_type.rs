@@ -5,8 +5,7 @@
 
 use super::draft::Draft;
 use super::{Facts, SchemaMessages};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::suggest::{same_parts, similar};
 use crate::topology::TypeName;
 use crate::wording::{either, listed};

@@ -4,8 +4,7 @@
 use super::deadlock::drop_messages;
 use super::draft::Draft;
 use super::waits::{self, Wait};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::GateKind;
 use std::collections::HashSet;
 

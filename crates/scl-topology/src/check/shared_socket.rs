@@ -4,9 +4,8 @@
 //! [`resolve`](crate::resolve) promises, and no file is known that it rejects.
 
 use super::draft::Draft;
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::resolve::shortened;
-use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 use std::collections::HashMap;
 

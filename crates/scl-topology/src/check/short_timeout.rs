@@ -1,9 +1,8 @@
 //! SCL0414: a request that times out before the replier's own requests can.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::duration;
-use crate::rule::{Rule, Severity};
 use crate::topology::GateKind;
 
 /// SCL0414.

@@ -1,9 +1,8 @@
 //! SCL0314, a lint: a name in another style than the rest of the world of Rust writes fields and modules.
 
 use super::named::{Noun, is_well_formed, names};
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 use crate::rust_name::gate_field;
 
 /// SCL0314.

@@ -1,10 +1,8 @@
 //! What the tests of the rules share: a text goes in, the words that users read come out.
 
 use super::{Facts, SchemaMessages, check};
-use crate::diagnostic::render;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};
 use crate::parse::parse;
-use crate::rule::{Rule, Severity};
 use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 use crate::topology::Topology;

@@ -4,8 +4,7 @@
 
 use super::draft::{Draft, DraftComponent};
 use super::fitting_sender::FittingSenders;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::GateKind;
 use crate::wording::listed;
 

@@ -1,8 +1,7 @@
 //! SCL0501: an end of a component that does not exist. SCL0504: its two names are swapped.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Span;
 use crate::suggest::{MOST, nearest, similar};
 use crate::wording::{either, listed};

@@ -2,8 +2,7 @@
 
 use super::draft::Draft;
 use super::unknown_component::swap;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Spanned;
 use crate::suggest::{MOST, nearest};
 use crate::wording::{either, shortened};

@@ -1,7 +1,6 @@
 //! SCL0008: no more problems than somebody reads.
 
-use super::{Diagnostic, Severity};
-use crate::rule::Rule;
+use super::{Diagnostic, Rule, Severity};
 
 /// SCL0008.
 pub(crate) const RULE: Rule = Rule {

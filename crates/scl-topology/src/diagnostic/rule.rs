@@ -1,5 +1,5 @@
 //! One rule of the checker: its code, severity, explanation and example. Only a rule makes a
-//! [`Diagnostic`](crate::diagnostic::Diagnostic).
+//! [`Diagnostic`](super::Diagnostic).
 
 use std::hash::{Hash, Hasher};
 

@@ -1,6 +1,6 @@
 //! Rules for the tests of the renderer.
 
-use crate::rule::{Rule, Severity};
+use super::{Rule, Severity};
 
 /// An error.
 pub(super) const ERROR: Rule = rule("SCL0999", Severity::Error);

@@ -31,8 +31,7 @@ mod tag;
 pub(super) mod text_block_name;
 pub(super) mod unexpected;
 
-use crate::diagnostic::Diagnostics;
-use crate::rule::Rule;
+use crate::diagnostic::{Diagnostics, Rule};
 use crate::source::{FileId, SourceFile, Span};
 use crate::yaml::Tree;
 

@@ -17,9 +17,8 @@ pub(super) mod top_level;
 pub(super) mod unknown_section;
 pub(super) mod version;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule};
 use crate::grammar;
-use crate::rule::Rule;
 use crate::suggest::similar;
 
 /// All of them, by their codes.

@@ -1,9 +1,8 @@
 //! What the tests of the rules share.
 
 use super::parse;
-use crate::diagnostic::{Diagnostic, Diagnostics, render};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};
 use crate::model::Model;
-use crate::rule::{Rule, Severity};
 use crate::source::Sources;
 use expect_test::Expect;
 

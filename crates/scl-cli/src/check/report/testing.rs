@@ -1,6 +1,6 @@
 //! Rules for the tests of the formats.
 
-use scl_topology::rule::{Rule, Severity};
+use scl_topology::diagnostic::{Rule, Severity};
 
 /// An error.
 pub(super) const ERROR: Rule = rule("SCL0999", Severity::Error);

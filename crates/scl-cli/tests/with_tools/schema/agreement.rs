@@ -10,10 +10,9 @@ use crate::system::System;
 use scl_needs::needs;
 use scl_topology::catalogue::ALL;
 use scl_topology::check::{Facts, check};
-use scl_topology::diagnostic::Diagnostics;
+use scl_topology::diagnostic::{Diagnostics, Severity};
 use scl_topology::grammar::{COMPONENT_KEYS, GateKind, OPTIONS, SECTIONS, page};
 use scl_topology::parse::parse;
-use scl_topology::rule::Severity;
 use scl_topology::source::Sources;
 use std::path::{Path, PathBuf};
 

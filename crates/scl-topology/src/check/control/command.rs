@@ -1,9 +1,8 @@
 //! Reads one comment for the checker. SCL0901: nobody knows what it says. SCL0903: it wants to allow what cannot be.
 
 use crate::check::{ALL, deadlock, find, unconnected};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::model::ControlModel;
-use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::suggest::one_edit_away;
 use crate::wording::listed;

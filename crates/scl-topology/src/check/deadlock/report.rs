@@ -3,8 +3,7 @@
 use super::search::Deadlock;
 use crate::check::circles::{self, Step};
 use crate::check::draft::Draft;
-use crate::diagnostic::Diagnostic;
-use crate::rule::Rule;
+use crate::diagnostic::{Diagnostic, Rule};
 use crate::source::Span;
 use crate::topology::{GateKind, WhenFull};
 use crate::wording::listed;

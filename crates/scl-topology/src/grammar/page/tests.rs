@@ -2,8 +2,7 @@
 
 use super::{entries, explain, page};
 use crate::check::testing::{USUAL, problems};
-use crate::diagnostic::render;
-use crate::rule::Severity;
+use crate::diagnostic::{Severity, render};
 
 /// The texts between ```` ```yaml ```` and ```` ``` ````.
 fn examples(markdown: &str) -> Vec<&str> {

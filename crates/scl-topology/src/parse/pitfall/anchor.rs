@@ -1,8 +1,7 @@
 //! SCL0111: anchors and aliases.
 
 use super::Place;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Span;
 use crate::yaml::{Anchor, Node, NodeKind, Tree};
 

@@ -1,7 +1,6 @@
 //! SCL0108: a word that YAML 1.1 reads as a boolean.
 
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::source::Span;
 
 /// SCL0108.

@@ -1,8 +1,7 @@
 //! SCL0102: brackets that do not match.
 
 use super::{Place, scan};
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::yaml::SyntaxError;
 use std::ops::Range;
 

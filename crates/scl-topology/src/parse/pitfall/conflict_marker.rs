@@ -1,8 +1,7 @@
 //! SCL0126: the marks that git leaves where two versions contradict each other.
 
 use super::Place;
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0126.

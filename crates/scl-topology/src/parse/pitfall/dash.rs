@@ -1,8 +1,7 @@
 //! SCL0124: a list item without its dash, or with an odd one.
 
 use super::Place;
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0124.

@@ -1,7 +1,6 @@
 //! SCL0116: nested too deeply.
 
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::source::Span;
 use crate::yaml::MAX_DEPTH;
 

@@ -1,8 +1,7 @@
 //! SCL0118: a YAML directive, such as `%YAML 1.1`.
 
 use super::Place;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0118.

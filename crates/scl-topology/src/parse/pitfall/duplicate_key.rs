@@ -1,8 +1,7 @@
 //! SCL0107: a key is written twice.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::Field;
-use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::yaml::NodeKind;
 

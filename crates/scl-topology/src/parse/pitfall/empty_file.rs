@@ -1,8 +1,7 @@
 //! SCL0115: nothing in the file.
 
 use super::Place;
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::yaml::Tree;
 
 /// SCL0115.

@@ -1,9 +1,8 @@
 //! SCL0105: a line whose indentation fits no line above it.
 
 use super::Place;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::words::COMPONENT_KEYS;
-use crate::rule::{Rule, Severity};
 use crate::yaml::{MAX_DEPTH, SyntaxError};
 use std::ops::Range;
 

@@ -1,8 +1,7 @@
 //! SCL0117: a character that nobody sees, or that only looks like a space.
 
 use super::{Place, scan::Scan};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use std::collections::BTreeMap;
 
 /// SCL0117.

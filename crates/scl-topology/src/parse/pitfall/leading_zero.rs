@@ -1,8 +1,7 @@
 //! SCL0128: a number with a leading zero, which YAML 1.1 reads as octal.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::Field;
-use crate::rule::{Rule, Severity};
 
 /// SCL0128.
 pub(crate) const RULE: Rule = Rule {

@@ -3,8 +3,7 @@
 
 use super::Place;
 use crate::confusable;
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 use std::ops::Range;

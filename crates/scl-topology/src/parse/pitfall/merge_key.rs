@@ -1,7 +1,6 @@
 //! SCL0112: the merge key `<<`.
 
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::yaml::Node;
 
 /// SCL0112.

@@ -1,8 +1,7 @@
 //! SCL0123: no colon after a key.
 
 use super::Place;
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0123.

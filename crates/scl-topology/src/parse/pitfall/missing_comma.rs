@@ -1,8 +1,7 @@
 //! SCL0122: no comma between two entries in brackets.
 
 use super::Place;
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0122.

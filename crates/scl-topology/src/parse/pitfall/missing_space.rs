@@ -1,11 +1,10 @@
 //! SCL0103: no space after `:`.
 
 use super::Place;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::is_plain;
 use crate::parse::words::is_kind;
 use crate::parse::words::known_word;
-use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, SyntaxError};
 use std::ops::Range;

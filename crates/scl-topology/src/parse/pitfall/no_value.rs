@@ -1,10 +1,9 @@
 //! SCL0110: nothing where a name or value is expected.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar;
 use crate::parse::field::{Field, end_with_colon};
 use crate::parse::with_dash;
-use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 

@@ -1,9 +1,8 @@
 //! SCL0121: a syntax error that no other rule explains.
 
 use super::{Place, dash, missing_colon};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
-use crate::rule::{Rule, Severity};
 use crate::yaml::SyntaxError;
 use std::ops::Range;
 

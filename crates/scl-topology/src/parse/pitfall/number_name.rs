@@ -1,7 +1,6 @@
 //! SCL0109: a number where a name belongs.
 
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::source::Span;
 
 /// SCL0109.

@@ -1,7 +1,6 @@
 //! SCL0120: a key that is no plain word.
 
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::yaml::Node;
 
 /// SCL0120.

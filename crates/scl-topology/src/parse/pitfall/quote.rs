@@ -1,8 +1,7 @@
 //! SCL0104: a quote is never closed.
 
 use super::{Place, scan};
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::yaml::{SyntaxError, SyntaxErrorKind};
 
 /// SCL0104.

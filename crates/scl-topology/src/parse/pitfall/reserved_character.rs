@@ -1,8 +1,7 @@
 //! SCL0106: a character that cannot start a value.
 
 use super::{Place, dash};
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 
 /// SCL0106.
 pub(crate) const RULE: Rule = Rule {

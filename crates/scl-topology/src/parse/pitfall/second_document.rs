@@ -1,8 +1,7 @@
 //! SCL0114: more than one document.
 
 use super::Place;
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::source::Span;
 
 /// SCL0114.

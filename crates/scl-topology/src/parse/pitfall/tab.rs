@@ -1,8 +1,7 @@
 //! SCL0101: a tab is used for indentation.
 
 use super::{Place, scan::Scan};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 
 /// SCL0101.
 pub(crate) const RULE: Rule = Rule {

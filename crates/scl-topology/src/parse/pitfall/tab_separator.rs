@@ -1,8 +1,7 @@
 //! SCL0129: a tab outside of quotes, comments and text blocks that does not indent a line.
 
 use super::{Place, scan::Scan, tab::opens_block};
-use crate::diagnostic::Diagnostics;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 
 /// SCL0129.
 pub(crate) const RULE: Rule = Rule {

@@ -1,7 +1,6 @@
 //! SCL0113: a YAML tag.
 
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::source::Span;
 
 /// SCL0113.

@@ -1,7 +1,6 @@
 //! SCL0119: a text block where a name belongs.
 
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 

@@ -1,8 +1,7 @@
 //! SCL0125: something behind a value, or between two, that belongs to neither.
 
 use super::Place;
-use crate::diagnostic::Diagnostic;
-use crate::rule::{Rule, Severity};
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use std::ops::Range;
 
 /// SCL0125.

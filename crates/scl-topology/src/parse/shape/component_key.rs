@@ -1,11 +1,10 @@
 //! SCL0207: an unknown key in a component.
 
 use super::{own_key, suggest, ticked};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
 use crate::parse::words::COMPONENT_KEYS;
-use crate::rule::{Rule, Severity};
 use crate::suggest::similar;
 
 /// SCL0207.

@@ -1,8 +1,7 @@
 //! SCL0211: a connection that is not a pair of ends.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::{scalar, shape_word};
-use crate::rule::{Rule, Severity};
 use crate::source::Span;
 use crate::yaml::{Node, NodeKind};
 

@@ -1,12 +1,11 @@
 //! SCL0210: a gate that is not written as `name: kind` or `name: {kind: type, option: value}`.
 
 use super::ticked;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::model::GateModel;
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
 use crate::parse::words::is_kind;
-use crate::rule::{Rule, Severity};
 use crate::source::{Span, Spanned};
 use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};

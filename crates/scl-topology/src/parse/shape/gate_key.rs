@@ -1,10 +1,9 @@
 //! SCL0212: an unknown key in a gate.
 
 use super::{own_key, ticked};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar::{OPTIONS, option};
 use crate::parse::field::Field;
-use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::suggest::similar;
 use crate::topology::GateKind;

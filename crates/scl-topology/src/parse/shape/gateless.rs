@@ -1,8 +1,7 @@
 //! SCL0209: a component without gates.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::Field;
-use crate::rule::{Rule, Severity};
 use crate::source::Spanned;
 
 /// SCL0209.

@@ -1,11 +1,10 @@
 //! SCL0214: a key that belongs elsewhere.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::model::ComponentModel;
 use crate::parse::field::{Field, Fields, head};
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS, is_kind, is_option};
 use crate::parse::{scalar, with_dash};
-use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 

@@ -1,9 +1,8 @@
 //! SCL0203: the section `components` is missing.
 
 use super::ticked;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::Fields;
-use crate::rule::{Rule, Severity};
 use crate::source::{FileId, Span};
 
 /// SCL0203.

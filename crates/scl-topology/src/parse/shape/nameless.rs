@@ -1,9 +1,8 @@
 //! SCL0208: a component without a name.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::{Fields, head};
 use crate::parse::shape_word;
-use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 

@@ -1,8 +1,7 @@
 //! SCL0205: the section `components` is empty.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::Field;
-use crate::rule::{Rule, Severity};
 
 /// SCL0205.
 pub(crate) const RULE: Rule = Rule {

@@ -1,8 +1,7 @@
 //! SCL0206: no connections.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::Field;
-use crate::rule::{Rule, Severity};
 
 /// SCL0206.
 pub(crate) const RULE: Rule = Rule {

@@ -1,10 +1,9 @@
 //! SCL0215: a value of the wrong kind.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar::{self, Shape};
 use crate::parse::field::Field;
 use crate::parse::{is_plain, shape_word};
-use crate::rule::{Rule, Severity};
 use crate::size;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};

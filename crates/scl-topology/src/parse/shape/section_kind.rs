@@ -1,11 +1,10 @@
 //! SCL0204: a section, or the list of gates, has the wrong kind.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::model::ComponentModel;
 use crate::parse::field::Field;
 use crate::parse::field::end_with_colon;
 use crate::parse::shape_word;
-use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 

@@ -1,9 +1,8 @@
 //! SCL0201: the top level is not a mapping.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::words::SECTIONS;
 use crate::parse::{pitfall, with_dash};
-use crate::rule::{Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 

@@ -1,10 +1,9 @@
 //! SCL0202: an unknown key at the top level.
 
 use super::{suggest, ticked};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::Field;
 use crate::parse::words::SECTIONS;
-use crate::rule::{Rule, Severity};
 
 /// SCL0202.
 pub(crate) const RULE: Rule = Rule {

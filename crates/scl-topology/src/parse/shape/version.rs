@@ -1,12 +1,11 @@
 //! SCL0213: a format version that this version of scl does not read.
 
 use super::option_value;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar::{FORMAT, Shape, is_whole_number};
 use crate::parse::field::Field;
 use crate::parse::is_plain;
 use crate::parse::pitfall::leading_zero;
-use crate::rule::{Rule, Severity};
 use crate::yaml::NodeKind;
 
 /// SCL0213.
