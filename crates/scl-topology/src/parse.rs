@@ -42,19 +42,18 @@ use crate::yaml::{self, Node, NodeKind, Style, Tree};
 /// let mut sources = Sources::new();
 /// let file = sources.add("topology.yaml", "components:\n  - name: 1.10\n    gates: []\n");
 /// let mut problems = Diagnostics::new();
-/// let model = parse(&sources, file, &mut problems);
+/// let model = parse(sources, file, &mut problems);
 /// assert_eq!(model.components.len(), 1);
 /// let problems = problems.into_sorted();
 /// assert!(render(&problems[0], &sources).starts_with("error: [SCL0109] a name is expected here"));
 /// ```
 pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Model {
     let source = sources.file(file);
-    let text = pitfall::check_text(source, file, problems);
+    let text = pitfall::check_text(source, problems);
     let tree = yaml::read(&text.text, file);
-    let place = pitfall::Place::new(source, file);
-    pitfall::check_tree(&tree, &place, problems);
-    problems.extend(syntax_error::explain(&tree, &text, &place));
-    let mut reader = Reader::new(source, file);
+    pitfall::check_tree(&tree, source, problems);
+    problems.extend(syntax_error::explain(&tree, &text, source));
+    let mut reader = Reader::new(source);
     reader.read_root(&tree);
     reader.read_controls(tree.root.as_ref());
     let Reader { mut model, problems: found, .. } = reader;
@@ -71,7 +70,6 @@ pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Mod
 /// The walk over the tree: where it reads, what it found so far.
 struct Reader<'s> {
     source: &'s SourceFile,
-    file: FileId,
     problems: Diagnostics,
     model: Model,
     /// Connections stand where they do not belong, and a problem says so.
@@ -79,9 +77,9 @@ struct Reader<'s> {
 }
 
 impl<'s> Reader<'s> {
-    fn new(source: &'s SourceFile, file: FileId) -> Self {
+    fn new(source: &'s SourceFile) -> Self {
         let (problems, model) = (Diagnostics::new(), Model::default());
-        Reader { source, file, problems, model, has_stray_connections: false }
+        Reader { source, problems, model, has_stray_connections: false }
     }
 
     fn read_root(&mut self, tree: &Tree) {

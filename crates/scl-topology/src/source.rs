@@ -1,5 +1,7 @@
 //! The texts that diagnostics point into, and the places in them.
 
+use std::ops::Range;
+
 /// Which of the [`Sources`] a [`Span`] lies in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FileId(pub(crate) u16);
@@ -34,6 +36,7 @@ pub struct Spanned<T> {
 /// One text with the path under which messages name it.
 #[derive(Debug, Clone)]
 pub struct SourceFile {
+    id: FileId,
     path: String,
     text: String,
     has_byte_order_mark: bool,
@@ -72,13 +75,13 @@ impl SourceFile {
 
     /// Line and column of a byte; a byte past the end counts as the end.
     pub fn line_column(&self, byte: u32) -> LineColumn {
-        let line = self.line_starts.partition_point(|&start| start <= byte).max(1);
-        let start = self.line_starts[line - 1] as usize;
+        let line = self.line(byte as usize);
+        let start = self.line_starts[line as usize - 1] as usize;
         let mut end = (byte as usize).clamp(start, self.text.len());
         while !self.text.is_char_boundary(end) {
             end -= 1;
         }
-        LineColumn { line: line as u32, column: self.characters(end) - self.characters(start) + 1 }
+        LineColumn { line, column: self.characters(end) - self.characters(start) + 1 }
     }
 
     /// Number of characters that begin before a byte.
@@ -98,18 +101,34 @@ impl SourceFile {
         self.line_starts.get(line).map_or(self.text.len(), |&start| start as usize)
     }
 
+    /// The span of some bytes.
+    pub(crate) fn span(&self, range: Range<usize>) -> Span {
+        Span { file: self.id, start: range.start as u32, end: range.end as u32 }
+    }
+
+    /// The text that a span covers.
+    pub(crate) fn snippet(&self, span: Span) -> &str {
+        self.text.get(span.start as usize..span.end as usize).unwrap_or("")
+    }
+
     /// The line of a byte, from 1.
-    pub(crate) fn line(&self, byte: u32) -> u32 {
-        self.line_starts.partition_point(|&start| start <= byte).max(1) as u32
+    pub(crate) fn line(&self, byte: usize) -> u32 {
+        self.line_starts.partition_point(|&start| start as usize <= byte).max(1) as u32
     }
 
     /// The bytes of the line in which a byte lies, without the line break.
-    pub(crate) fn line_range(&self, byte: u32) -> std::ops::Range<usize> {
+    pub(crate) fn line_range(&self, byte: usize) -> Range<usize> {
         self.range_of_line(self.line(byte))
     }
 
+    /// The bytes of the line below one that ends at a byte, without the line break; nothing at the end of the file.
+    pub(crate) fn line_below(&self, end: usize) -> Range<usize> {
+        let next = self.text[end..].find('\n').map_or(self.text.len(), |at| end + at + 1);
+        self.line_range(next)
+    }
+
     /// The bytes of a line, counted from 1, without the line break.
-    pub(crate) fn range_of_line(&self, line: u32) -> std::ops::Range<usize> {
+    pub(crate) fn range_of_line(&self, line: u32) -> Range<usize> {
         let line = line as usize;
         let start = self.line_starts[line - 1] as usize;
         let end = self.line_starts.get(line).map_or(self.text.len(), |&next| next as usize);
@@ -148,8 +167,9 @@ impl Sources {
                 Some(*sum)
             }))
             .collect();
-        self.files.push(SourceFile { path: path.into(), text, has_byte_order_mark, line_starts, characters_before });
-        FileId((self.files.len() - 1) as u16)
+        let (id, path) = (FileId(self.files.len() as u16), path.into());
+        self.files.push(SourceFile { id, path, text, has_byte_order_mark, line_starts, characters_before });
+        id
     }
 
     /// The file of this path, which is added if there is none.
@@ -167,7 +187,7 @@ impl Sources {
 
     /// The text that a span covers.
     pub fn snippet(&self, span: Span) -> &str {
-        self.file(span.file).text().get(span.start as usize..span.end as usize).unwrap_or("")
+        self.file(span.file).snippet(span)
     }
 
     /// `text` in the quotes of what a span covers, if there are any: how to replace a scalar by another one.

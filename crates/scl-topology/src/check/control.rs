@@ -142,7 +142,7 @@ fn lines(problem: &Diagnostic, sources: &Sources) -> Vec<u32> {
     let is_loop = [&feedback::PUSHES, &feedback::LOOP].contains(&problem.rule);
     let others = problem.secondary.iter().filter(|_| is_loop);
     let labels = problem.primary.iter().chain(others);
-    labels.map(|label| sources.file(label.span.file).line(label.span.start)).collect()
+    labels.map(|label| sources.file(label.span.file).line(label.span.start as usize)).collect()
 }
 
 fn is_on(control: &ControlModel, rule: &Rule) -> Diagnostic {

@@ -85,7 +85,7 @@ impl Allowed {
     /// The rule that is allowed. A comment that allows a circle of push gates allows it to wait, too.
     fn rule(&self, draft: &Draft<'_>, step: &Step) -> Option<&'static Rule> {
         let span = place(draft, step);
-        let line = draft.sources.file(span.file).line(span.start);
+        let line = draft.sources.file(span.file).line(span.start as usize);
         if self.waiting.contains(&line) {
             return Some(&RULE);
         }

@@ -57,7 +57,7 @@ impl Diagnostic {
 pub(crate) fn removal(source: &SourceFile, span: Span) -> Option<Span> {
     let text = source.text();
     let (before, after) = (text.get(..span.start as usize)?, text.get(span.end as usize..)?);
-    let line = source.line_range(span.start);
+    let line = source.line_range(span.start as usize);
     let head = text.get(line.start..span.start as usize)?.trim_start();
     let rest = after.split('\n').next().unwrap_or(after);
     if (head.is_empty() || head == "- ") && rest.trim_end().is_empty() {

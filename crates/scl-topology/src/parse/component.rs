@@ -58,9 +58,8 @@ impl Reader<'_> {
             let (first, rest) = entries.split_at(second);
             self.read_component_entries(item, first);
             let start = rest.first().map_or(item.span.end, |(key, _)| key.span.start) as usize;
-            let line = start..self.source.line_range(start as u32).end;
-            let place = pitfall::Place::new(self.source, self.file);
-            self.report(pitfall::dash::missing(&line, self.source.text(), &place));
+            let line = start..self.source.line_range(start).end;
+            self.report(pitfall::dash::missing(&line, self.source.text(), self.source));
             return self.read_component_entries(item, rest);
         }
         self.read_component_entries(item, entries);

@@ -77,8 +77,8 @@ impl Reader<'_> {
             return None;
         }
         if text.starts_with("--") {
-            let (start, place) = (value.span.start as usize, pitfall::Place::new(self.source, self.file));
-            return Some(pitfall::dash::doubled(&(start..start + 2), self.source.text(), &place));
+            let start = value.span.start as usize;
+            return Some(pitfall::dash::doubled(&(start..start + 2), self.source.text(), self.source));
         }
         Some(self.dash_without_space(value.span))
     }
@@ -86,8 +86,7 @@ impl Reader<'_> {
     /// A dash at the start of a value, with no space after it.
     pub(super) fn dash_without_space(&self, value: Span) -> Diagnostic {
         let start = value.start as usize;
-        let place = pitfall::Place::new(self.source, self.file);
-        pitfall::dash::without_space(&(start..start + 1), self.source.text(), &place)
+        pitfall::dash::without_space(&(start..start + 1), self.source.text(), self.source)
     }
 
     fn end(&mut self, node: &Node) -> Option<Spanned<String>> {

@@ -26,7 +26,7 @@ impl Reader<'_> {
             let in_text = next > 0 && hash < texts[next - 1].end as usize;
             // The rest of a comment belongs to the first mark in it.
             if !in_text && hash >= line_end {
-                line_end = self.source.line_range(hash as u32).end;
+                line_end = self.source.line_range(hash).end;
                 let control = self.control(hash, start);
                 self.model.controls.push(control);
             }
@@ -35,10 +35,10 @@ impl Reader<'_> {
 
     fn control(&self, hash: usize, start: usize) -> ControlModel {
         let source = self.source;
-        let line = source.line_range(hash as u32);
-        let own = source.line(hash as u32);
+        let line = source.line_range(hash);
+        let own = source.line(hash);
         let value = source.text()[start..line.end].trim_end().to_owned();
-        let span = Span { file: self.file, start: start as u32, end: (start + value.len()) as u32 };
+        let span = source.span(start..start + value.len());
         let stands_alone = source.text()[line.start..hash].trim().is_empty();
         let below = source.text()[line.end..].split('\n').skip(1).take(MOST_BETWEEN);
         let is_skipped = |line: &&str| line.trim().is_empty() || line.trim_start().starts_with('#');

@@ -32,7 +32,7 @@ pub(super) mod text_block_name;
 pub(super) mod unexpected;
 
 use crate::diagnostic::{Diagnostics, Rule};
-use crate::source::{FileId, SourceFile, Span};
+use crate::source::SourceFile;
 use crate::yaml::Tree;
 
 /// All of them, by their codes.
@@ -72,40 +72,6 @@ pub(crate) const RULES: [&Rule; 29] = [
 pub(crate) const MISREAD: [&Rule; 4] =
     [&boolean_word::RULE, &number_name::RULE, &invisible::RULE, &text_block_name::RULE];
 
-/// Where a rule looks: the file, and the text with every reported character replaced by spaces.
-pub(super) struct Place<'s> {
-    pub(super) source: &'s SourceFile,
-    file: FileId,
-}
-
-impl<'s> Place<'s> {
-    pub(super) fn new(source: &'s SourceFile, file: FileId) -> Self {
-        Place { source, file }
-    }
-
-    /// The span of some bytes of the file.
-    pub(super) fn span(&self, range: std::ops::Range<usize>) -> Span {
-        Span { file: self.file, start: range.start as u32, end: range.end as u32 }
-    }
-
-    /// The line of a byte, from 1.
-    pub(super) fn line(&self, at: usize) -> u32 {
-        self.source.line(at as u32)
-    }
-
-    /// The bytes of the line below one that ends at a byte, without the line break; at the end of the file, nothing.
-    pub(super) fn line_below(&self, end: usize) -> std::ops::Range<usize> {
-        let text = self.source.text();
-        let next = text[end..].find('\n').map_or(text.len(), |at| end + at + 1);
-        self.line_range(next)
-    }
-
-    /// The bytes of the line of a byte, without the line break.
-    pub(super) fn line_range(&self, at: usize) -> std::ops::Range<usize> {
-        self.source.line_range(at as u32)
-    }
-}
-
 /// The text as the parser shall see it.
 pub(super) struct CheckedText {
     /// Of the same length as the file, with spaces where a reported character stood.
@@ -117,27 +83,26 @@ pub(super) struct CheckedText {
 }
 
 /// The rules that need no parser.
-pub(super) fn check_text(source: &SourceFile, file: FileId, problems: &mut Diagnostics) -> CheckedText {
-    let place = Place { source, file };
+pub(super) fn check_text(source: &SourceFile, problems: &mut Diagnostics) -> CheckedText {
     let mut text = source.text().to_owned();
-    let conflict = conflict_marker::check(&place, &mut text);
+    let conflict = conflict_marker::check(source, &mut text);
     let has_conflict = conflict.is_some();
     problems.extend(conflict);
     let scan = scan::scan(&text);
-    let is_cleaned = invisible::check(&place, &scan, &mut text, problems);
-    directive::check(&place, &mut text, problems);
-    let has_tabs = tab::check(&place, &scan, &mut text, problems);
-    tab_separator::check(&place, &scan, &mut text, problems);
+    let is_cleaned = invisible::check(source, &scan, &mut text, problems);
+    directive::check(source, &mut text, problems);
+    let has_tabs = tab::check(source, &scan, &mut text, problems);
+    tab_separator::check(source, &scan, &mut text, problems);
     CheckedText { text, is_mended: is_cleaned || has_tabs || has_conflict, has_conflict }
 }
 
 /// The rules about what the parser found, but not about what it means.
-pub(super) fn check_tree(tree: &Tree, place: &Place<'_>, problems: &mut Diagnostics) {
-    anchor::check(tree, place, problems);
+pub(super) fn check_tree(tree: &Tree, source: &SourceFile, problems: &mut Diagnostics) {
+    anchor::check(tree, source, problems);
     problems.extend(tree.tags.iter().map(|tag| tag::diagnose(*tag)));
-    problems.extend(tree.second_document.map(|at| second_document::diagnose(place, at)));
+    problems.extend(tree.second_document.map(|at| second_document::diagnose(source, at)));
     problems.extend(tree.too_deep.map(depth::diagnose));
     if tree.error.is_none() {
-        problems.extend(empty_file::find(tree, place));
+        problems.extend(empty_file::find(tree, source));
     }
 }

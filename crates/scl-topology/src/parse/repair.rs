@@ -9,12 +9,12 @@ mod line;
 mod tell;
 mod window;
 
-use super::pitfall::{CheckedText, Place};
+use super::pitfall::CheckedText;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::model::Model;
 use crate::parse::words::is_kind;
 use crate::parse::{Reader, shape};
-use crate::source::Sources;
+use crate::source::{SourceFile, Sources};
 use crate::yaml::{self, SyntaxError};
 use std::ops::Range;
 use window::Window;
@@ -103,21 +103,21 @@ pub(super) struct Repair {
 const MOST_RIVALS: usize = 16;
 
 /// The problem that the best change stands for, if any change makes the text readable.
-pub(super) fn find(error: &SyntaxError, text: &CheckedText, place: &Place<'_>) -> Option<Repair> {
+pub(super) fn find(error: &SyntaxError, text: &CheckedText, source: &SourceFile) -> Option<Repair> {
     let text = &text.text;
-    let window = window::around(error, text, place)?;
-    find_in(&window, true, error, text, place).or_else(|| {
+    let window = window::around(error, text, source)?;
+    find_in(&window, true, error, text, source).or_else(|| {
         // A second mistake below keeps all of it from being read.
-        let above = window.without_lines_below(error, text, place)?;
-        find_in(&above, false, error, text, place).filter(|repair| repair.is_sure)
+        let above = window.without_lines_below(error, text, source)?;
+        find_in(&above, false, error, text, source).filter(|repair| repair.is_sure)
     })
 }
 
 /// The same for a part of the text. Fixes are sure only if that is all of what belongs together.
-fn find_in(window: &Window, is_complete: bool, error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Repair> {
-    let lines = window::suspects(error, text, place, window);
+fn find_in(window: &Window, is_complete: bool, error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Repair> {
+    let lines = window::suspects(error, text, source, window);
     let mut edits: Vec<(usize, Edit)> = Vec::new();
-    for edit in lines.iter().flat_map(|line| candidates::of_line(line, text, place)) {
+    for edit in lines.iter().flat_map(|line| candidates::of_line(line, text, source)) {
         if edit.changes.iter().all(|(range, _)| range.start >= window.range.start && range.end <= window.range.end) {
             let distance = edit.changes.first().map_or(0, |(range, _)| range.start.abs_diff(error.at));
             edits.push((distance, edit));
@@ -141,9 +141,9 @@ fn find_in(window: &Window, is_complete: bool, error: &SyntaxError, text: &str, 
     let mended = window.with(edit, text);
     let mut rivals = rivals.take(MOST_RIVALS).map(|rival| window.with(rival, text)).filter(|other| *other != mended);
     let is_meant = is_complete && left == 0 && edit.is_meant() && !rivals.any(|other| problems_left(&other) == Some(0));
-    let problem = edit.changes.iter().fold(tell::tell(edit, text, place), |problem, (range, with)| match is_meant {
-        true => problem.fix(place.span(range.clone()), with),
-        false => problem.maybe_fix(place.span(range.clone()), with),
+    let problem = edit.changes.iter().fold(tell::tell(edit, text, source), |problem, (range, with)| match is_meant {
+        true => problem.fix(source.span(range.clone()), with),
+        false => problem.maybe_fix(source.span(range.clone()), with),
     });
     Some(Repair { problem, is_sure: left == 0 })
 }
@@ -157,7 +157,7 @@ fn problems_left(text: &str) -> Option<usize> {
         return None;
     }
     let odd = tree.anchors.len() + tree.tags.len() + usize::from(tree.second_document.is_some());
-    let mut reader = Reader::new(sources.file(file), file);
+    let mut reader = Reader::new(sources.file(file));
     reader.read_root(&tree);
     let Reader { model, problems, .. } = reader;
     let found = problems.into_sorted();

@@ -107,7 +107,7 @@ impl Reader<'_> {
             None if perhaps("components") => self.model.components_unread = true,
             None => {
                 self.model.components_unread = true;
-                self.report(shape::missing_section::diagnose(fields, self.file));
+                self.report(shape::missing_section::diagnose(fields, self.source));
             }
             Some(components) if !connections_unread && !is_stray && self.model.broken_ends.is_empty() => {
                 let gates: usize = self.model.components.iter().map(|component| component.gates.len()).sum();

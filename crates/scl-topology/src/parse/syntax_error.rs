@@ -1,44 +1,45 @@
 //! Why the parser stopped: the rule that explains it best.
 
 use super::pitfall::{
-    CheckedText, Place, bracket, depth, directive, indentation, missing_space, not_yaml, quote, reserved_character, tab,
+    CheckedText, bracket, depth, directive, indentation, missing_space, not_yaml, quote, reserved_character, tab,
 };
 use super::repair;
 use crate::diagnostic::Diagnostic;
+use crate::source::SourceFile;
 use crate::yaml::{SyntaxErrorKind, Tree};
 
 /// `None` where the parser did not stop, or a problem says so already.
-pub(super) fn explain(tree: &Tree, text: &CheckedText, place: &Place<'_>) -> Option<Diagnostic> {
+pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile) -> Option<Diagnostic> {
     let error = tree.error.as_ref()?;
     if error.kind == SyntaxErrorKind::Limit {
         // The parser may notice it before it hands out the first of the nested values.
-        return tree.too_deep.is_none().then(|| depth::diagnose(place.span(error.at..error.at)));
+        return tree.too_deep.is_none().then(|| depth::diagnose(source.span(error.at..error.at)));
     }
     if text.is_mended {
         return None;
     }
     let explained = match error.kind {
-        SyntaxErrorKind::Glued => missing_space::at_bracket(error, &text.text, place),
-        SyntaxErrorKind::Quote => quote::find(error, &text.text, place),
-        SyntaxErrorKind::Character(character) => Some(reserved_character::diagnose(error.at, character, place)),
-        SyntaxErrorKind::Property => reserved_character::find(error.at, place),
-        SyntaxErrorKind::Tab => Some(tab::elsewhere(error.at, place)),
-        SyntaxErrorKind::Directive => Some(directive::diagnose(place, error.at)),
+        SyntaxErrorKind::Glued => missing_space::at_bracket(error, &text.text, source),
+        SyntaxErrorKind::Quote => quote::find(error, &text.text, source),
+        SyntaxErrorKind::Character(character) => Some(reserved_character::diagnose(error.at, character, source)),
+        SyntaxErrorKind::Property => reserved_character::find(error.at, source),
+        SyntaxErrorKind::Tab => Some(tab::elsewhere(error.at, source)),
+        SyntaxErrorKind::Directive => Some(directive::diagnose(source, error.at)),
         _ => None,
     };
     let explained =
-        explained.or_else(|| missing_space::before(error, place)).or_else(|| quote::find(error, &text.text, place));
+        explained.or_else(|| missing_space::before(error, source)).or_else(|| quote::find(error, &text.text, source));
     if explained.is_some() {
         return explained;
     }
-    let repair = repair::find(error, text, place);
+    let repair = repair::find(error, text, source);
     if repair.as_ref().is_some_and(|repair| repair.is_sure) {
         return repair.map(|repair| repair.problem);
     }
-    bracket::find(error, &text.text, place)
-        .or_else(|| not_yaml::missing_dash_space(error, place))
-        .or_else(|| not_yaml::missing_colon(error, place))
-        .or_else(|| indentation::find(error, &text.text, place))
+    bracket::find(error, &text.text, source)
+        .or_else(|| not_yaml::missing_dash_space(error, source))
+        .or_else(|| not_yaml::missing_colon(error, source))
+        .or_else(|| indentation::find(error, &text.text, source))
         .or_else(|| repair.map(|repair| repair.problem))
-        .or_else(|| Some(not_yaml::diagnose(error, place)))
+        .or_else(|| Some(not_yaml::diagnose(error, source)))
 }

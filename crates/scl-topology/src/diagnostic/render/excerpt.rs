@@ -50,7 +50,7 @@ impl<'s> Excerpt<'s> {
             .map(|(label, is_primary)| {
                 let range = first_line_of(label, source);
                 let text = one_line(&label.text);
-                (source.line(range.start as u32), Mark { range, is_primary: *is_primary, text })
+                (source.line(range.start), Mark { range, is_primary: *is_primary, text })
             })
             .collect();
         marks.sort_by_key(|(line, _)| *line);
@@ -152,7 +152,7 @@ fn boundary(text: &str, byte: usize) -> usize {
 fn first_line_of(label: &Label, source: &SourceFile) -> Range<usize> {
     let text = source.text();
     let start = boundary(text, label.span.start as usize);
-    let line = source.line_range(start as u32);
+    let line = source.line_range(start);
     let start = start.min(line.end);
     let mut end = (label.span.end as usize).clamp(start, line.end);
     while !text.is_char_boundary(end) {

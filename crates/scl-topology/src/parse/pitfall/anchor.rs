@@ -1,8 +1,7 @@
 //! SCL0111: anchors and aliases.
 
-use super::Place;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
-use crate::source::Span;
+use crate::source::{SourceFile, Span};
 use crate::yaml::{Anchor, Node, NodeKind, Tree};
 
 /// SCL0111.
@@ -29,14 +28,14 @@ pub(crate) const RULE: Rule = Rule {
 const EXPLAINED: usize = 20;
 
 /// Reports each anchor with its aliases, and each alias without an anchor.
-pub(super) fn check(tree: &Tree, place: &Place<'_>, problems: &mut Diagnostics) {
+pub(super) fn check(tree: &Tree, source: &SourceFile, problems: &mut Diagnostics) {
     for (number, anchor) in tree.anchors.iter().enumerate() {
         let root = tree.root.as_ref().filter(|_| number < EXPLAINED);
-        problems.push(diagnose(anchor, root, place));
+        problems.push(diagnose(anchor, root, source));
     }
 }
 
-fn diagnose(anchor: &Anchor, root: Option<&Node>, place: &Place<'_>) -> Diagnostic {
+fn diagnose(anchor: &Anchor, root: Option<&Node>, source: &SourceFile) -> Diagnostic {
     const MESSAGE: &str = "YAML anchors and aliases are not supported in a topology";
     let first_use = anchor.aliases.first().copied();
     let mut problem = match (anchor.definition, first_use) {
@@ -50,7 +49,7 @@ fn diagnose(anchor: &Anchor, root: Option<&Node>, place: &Place<'_>) -> Diagnost
         }
     }
     let help = match first_use {
-        Some(alias) => help(alias, root, place),
+        Some(alias) => help(alias, root, source),
         None => "remove it; nothing refers to it".to_owned(),
     };
     problem.help(help).note(
@@ -59,15 +58,11 @@ fn diagnose(anchor: &Anchor, root: Option<&Node>, place: &Place<'_>) -> Diagnost
     )
 }
 
-fn help(alias: Span, root: Option<&Node>, place: &Place<'_>) -> String {
+fn help(alias: Span, root: Option<&Node>, source: &SourceFile) -> String {
     match root.and_then(|root| named_place(root, alias)) {
         Some((key, owner)) => format!("write the {key} of `{owner}` out"),
-        None => format!("write the value out in the place of `{}`", snippet(place, alias)),
+        None => format!("write the value out in the place of `{}`", source.snippet(alias)),
     }
-}
-
-fn snippet<'s>(place: &Place<'s>, span: Span) -> &'s str {
-    place.source.text().get(span.start as usize..span.end as usize).unwrap_or("")
 }
 
 /// The key whose value a node is, and the `name` beside that key. The depth of the tree bounds the recursion.

@@ -1,7 +1,7 @@
 //! SCL0126: the marks that git leaves where two versions contradict each other.
 
-use super::Place;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::source::SourceFile;
 use std::ops::Range;
 
 /// SCL0126.
@@ -25,15 +25,15 @@ const MARKERS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
 
 /// The problem at the first marker, and spaces in the place of the markers and of all but the first version. The
 /// version that is left may not be the one meant, so nothing else is to be said about it.
-pub(super) fn check(place: &Place<'_>, text: &mut String) -> Option<Diagnostic> {
+pub(super) fn check(source: &SourceFile, text: &mut String) -> Option<Diagnostic> {
     let markers = markers(text);
     // A line of `=` alone may be text of a documentation.
     let (first, _) = markers.iter().find(|(_, sign)| *sign != '=')?.clone();
     let mut problem = RULE
-        .at("this is a conflict marker of git", place.span(first.start..first.start + 7), "left by a merge")
+        .at("this is a conflict marker of git", source.span(first.start..first.start + 7), "left by a merge")
         .help("keep the lines that are right, and remove the others and the markers");
     if let [_, .., (last, _)] = markers.as_slice() {
-        problem = problem.note(format!("{} markers, up to line {}", markers.len(), place.line(last.start)));
+        problem = problem.note(format!("{} markers, up to line {}", markers.len(), source.line(last.start)));
     }
     blank(&markers, text);
     Some(problem)

@@ -1,7 +1,7 @@
 //! SCL0118: a YAML directive, such as `%YAML 1.1`.
 
-use super::Place;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::source::SourceFile;
 use std::ops::Range;
 
 /// SCL0118.
@@ -18,24 +18,24 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// Reports the directives before the document, and puts spaces in their place.
-pub(in crate::parse) fn check(place: &Place<'_>, text: &mut String, problems: &mut Diagnostics) {
+pub(in crate::parse) fn check(source: &SourceFile, text: &mut String, problems: &mut Diagnostics) {
     let directives = leading_directives(text);
     for directive in &directives {
-        problems.push(diagnose(place, directive.start));
+        problems.push(diagnose(source, directive.start));
         text.replace_range(directive.clone(), &" ".repeat(directive.len()));
     }
 }
 
-pub(in crate::parse) fn diagnose(place: &Place<'_>, at: usize) -> Diagnostic {
-    let range = place.line_range(at);
-    let line = place.line(at);
-    let marker = place.source.text()[range.end..].trim_start().starts_with("---");
+pub(in crate::parse) fn diagnose(source: &SourceFile, at: usize) -> Diagnostic {
+    let range = source.line_range(at);
+    let line = source.line(at);
+    let marker = source.text()[range.end..].trim_start().starts_with("---");
     let help = if marker { format!("remove lines {line} and {}", line + 1) } else { format!("remove line {line}") };
-    let text = place.source.text();
+    let text = source.text();
     let end = range.end + text[range.end..].find('\n').map_or(0, |at| at + 1);
     let with_marker = text[end..].find('\n').filter(|_| marker && text[end..].starts_with("---"));
-    let removed = place.span(range.start..end + with_marker.map_or(0, |at| at + 1));
-    RULE.at("YAML directives are not supported", place.span(range), "directive")
+    let removed = source.span(range.start..end + with_marker.map_or(0, |at| at + 1));
+    RULE.at("YAML directives are not supported", source.span(range), "directive")
         .help(help)
         .fix(removed, "")
         .note("a topology is read as YAML 1.2; see SCL0108 for the words that differ")

@@ -1,7 +1,7 @@
 //! SCL0115: nothing in the file.
 
-use super::Place;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::source::SourceFile;
 use crate::yaml::Tree;
 
 /// SCL0115.
@@ -19,19 +19,19 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-pub(super) fn find(tree: &Tree, place: &Place<'_>) -> Option<Diagnostic> {
+pub(super) fn find(tree: &Tree, source: &SourceFile) -> Option<Diagnostic> {
     if tree.root.as_ref().is_some_and(|root| !root.is_null()) {
         return None;
     }
-    let text = place.source.text();
+    let text = source.text();
     let first = text.len() - text.trim_start().len();
-    let line = place.line_range(first);
+    let line = source.line_range(first);
     let label = match text[first..].chars().next() {
         None => "nothing here",
         Some('#') => "only comments here",
         Some(_) => "no value here",
     };
-    let span = if first == text.len() { place.span(0..0) } else { place.span(first..line.end.max(first)) };
+    let span = if first == text.len() { source.span(0..0) } else { source.span(first..line.end.max(first)) };
     let example = "a minimal topology:\ncomponents:\n  - name: sensor\n    gates:\n      - measurements: pub";
     Some(RULE.at("the topology file is empty", span, label).help(example))
 }

@@ -1,8 +1,8 @@
 //! SCL0105: a line whose indentation fits no line above it.
 
-use super::Place;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::words::COMPONENT_KEYS;
+use crate::source::SourceFile;
 use crate::yaml::{MAX_DEPTH, SyntaxError};
 use std::ops::Range;
 
@@ -34,26 +34,26 @@ struct Level {
 }
 
 /// Looks at the line of a syntax error.
-pub(in crate::parse) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
-    let line = place.line_range(error.at.min(text.len()));
+pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Diagnostic> {
+    let line = source.line_range(error.at.min(text.len()));
     let words = levels_of(&text[line.clone()], line.start);
     let first = words.first()?;
     let above = levels_above(text, line.start);
-    if let Some(problem) = deeper_below(&line, text, place).or_else(|| fallen_out(&line, first.indent, text, place)) {
+    if let Some(problem) = deeper_below(&line, text, source).or_else(|| fallen_out(&line, first.indent, text, source)) {
         return Some(problem);
     }
     if first.is_dash
-        && let Some(problem) = first_of_list(first, &line, text, place)
+        && let Some(problem) = first_of_list(first, &line, text, source)
     {
         return Some(problem);
     }
     if first.is_dash && above.iter().all(|level| level.indent < first.indent) {
-        let key = above.last().filter(|level| has_value(level, text, place))?;
-        return Some(list_without_key(first, key, place));
+        let key = above.last().filter(|level| has_value(level, text, source))?;
+        return Some(list_without_key(first, key, source));
     }
     let item = above.iter().rev().find(|level| level.is_dash && first.is_dash);
     if let Some(item) = item.filter(|item| item.indent < first.indent) {
-        return Some(uneven_items(first, item, "deeper", place));
+        return Some(uneven_items(first, item, "deeper", source));
     }
     let same = above.iter().find(|level| level.indent == first.indent);
     let is_misplaced_key = same.is_some_and(|level| level.is_dash) && !first.is_dash;
@@ -62,7 +62,7 @@ pub(in crate::parse) fn find(error: &SyntaxError, text: &str, place: &Place<'_>)
     }
     let keys = above.iter().filter(|level| level.is_dash == first.is_dash);
     let meant = keys.min_by_key(|level| (level.indent.abs_diff(first.indent), std::cmp::Reverse(level.indent)))?;
-    Some(diagnose(first, meant, is_misplaced_key, &above, text, place))
+    Some(diagnose(first, meant, is_misplaced_key, &above, text, source))
 }
 
 /// A line, by its first word, that belongs into another column.
@@ -70,9 +70,9 @@ pub(in crate::parse) fn in_wrong_column(
     word: &Range<usize>,
     column: usize,
     text: &str,
-    place: &Place<'_>,
+    source: &SourceFile,
 ) -> Diagnostic {
-    let line = place.line_range(word.start);
+    let line = source.line_range(word.start);
     let above = levels_above(text, line.start);
     let own = levels_of(&text[line.clone()], line.start).into_iter().next();
     let own = own.unwrap_or(Level { indent: word.start - line.start, is_dash: false, word: word.clone() });
@@ -80,7 +80,7 @@ pub(in crate::parse) fn in_wrong_column(
     let same = above.iter().find(|level| level.indent == own.indent);
     let is_misplaced_key = same.is_some_and(|level| level.is_dash) && !own.is_dash && column > 0;
     if let Some(meant) = meant.filter(|_| same.is_none() || is_misplaced_key) {
-        return diagnose(&own, meant, is_misplaced_key, &above, text, place);
+        return diagnose(&own, meant, is_misplaced_key, &above, text, source);
     }
     let name = &text[own.word.clone()];
     let what = if own.is_dash { "this list item".to_owned() } else { format!("`{name}`") };
@@ -88,9 +88,9 @@ pub(in crate::parse) fn in_wrong_column(
         0 => format!("{what} is indented by {}, and starts in column 1", spaces(own.indent)),
         _ => format!("{what} is indented by {} instead of {}", spaces(own.indent), spaces(column)),
     };
-    let problem = RULE.at(message, place.span(own.word.clone()), spaces(own.indent));
+    let problem = RULE.at(message, source.span(own.word.clone()), spaces(own.indent));
     let problem = match meant.or_else(|| above.iter().find(|level| level.indent == column)) {
-        Some(meant) if column > 0 => problem.label(place.span(meant.word.clone()), spaces(column)),
+        Some(meant) if column > 0 => problem.label(source.span(meant.word.clone()), spaces(column)),
         _ => problem,
     };
     problem.help(way_out(&own, column, text))
@@ -107,28 +107,28 @@ fn way_out(line: &Level, column: usize, text: &str) -> String {
 
 /// A key that is indented deeper than the one above it, which has a value in its line: YAML takes both lines for one
 /// text, and stumbles over the colon.
-fn deeper_below(line: &Range<usize>, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
-    let below = place.line_below(line.end);
+fn deeper_below(line: &Range<usize>, text: &str, source: &SourceFile) -> Option<Diagnostic> {
+    let below = source.line_below(line.end);
     let key = levels_of(&text[below.clone()], below.start).pop().filter(|key| !key.is_dash)?;
-    let own = levels_of(&text[line.clone()], line.start).pop().filter(|own| has_value(own, text, place))?;
+    let own = levels_of(&text[line.clone()], line.start).pop().filter(|own| has_value(own, text, source))?;
     let is_key = text[key.word.end..].starts_with(':') && below.start > line.start;
     (is_key && key.indent > own.indent).then(|| {
         let word = &text[key.word.clone()];
         RULE.at(
             format!("this line is indented by {}, deeper than the key above it", spaces(key.indent)),
-            place.span(key.word.clone()),
+            source.span(key.word.clone()),
             spaces(key.indent),
         )
-        .label(place.span(own.word.clone()), format!("{}, with a value already", spaces(own.indent)))
+        .label(source.span(own.word.clone()), format!("{}, with a value already", spaces(own.indent)))
         .help(format!("indent `{word}` by {}", spaces(own.indent)))
     })
 }
 
 /// A key of a component at the start of a line ends all that was open, so that the lines after it seem to be wrong.
-fn fallen_out(line: &Range<usize>, indent: usize, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+fn fallen_out(line: &Range<usize>, indent: usize, text: &str, source: &SourceFile) -> Option<Diagnostic> {
     let mut at = line.start;
     for _ in 0..MOST_ABOVE {
-        let above = place.line_range(at.checked_sub(1)?);
+        let above = source.line_range(at.checked_sub(1)?);
         let content = &text[above.clone()];
         let key = content.split(':').next().unwrap_or("");
         if indent > 0 && !content.is_empty() && !content.starts_with([' ', '#']) {
@@ -136,10 +136,10 @@ fn fallen_out(line: &Range<usize>, indent: usize, text: &str, place: &Place<'_>)
             return is_fallen.then(|| {
                 RULE.at(
                     format!("`{key}` stands at the start of the line, outside of any component"),
-                    place.span(above.start..above.start + key.len()),
+                    source.span(above.start..above.start + key.len()),
                     "0 spaces",
                 )
-                .label(place.span(line.start + indent..line.end), "so this line belongs to nothing")
+                .label(source.span(line.start + indent..line.end), "so this line belongs to nothing")
                 .help(format!("indent `{key}` like the other keys of its component"))
             });
         }
@@ -149,41 +149,41 @@ fn fallen_out(line: &Range<usize>, indent: usize, text: &str, place: &Place<'_>)
 }
 
 /// The line above a list item, if it starts the list and is another kind of line: without its `-`, or indented deeper.
-fn first_of_list(item: &Level, line: &Range<usize>, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
-    let above = place.line_range(line.start.checked_sub(1)?);
-    let key = place.line_range(above.start.checked_sub(1)?);
+fn first_of_list(item: &Level, line: &Range<usize>, text: &str, source: &SourceFile) -> Option<Diagnostic> {
+    let above = source.line_range(line.start.checked_sub(1)?);
+    let key = source.line_range(above.start.checked_sub(1)?);
     let levels = levels_of(&text[above.clone()], above.start);
     let start = levels.first().filter(|_| text[key].trim_end().ends_with(':'))?;
     if start.is_dash {
-        return (start.indent > item.indent).then(|| uneven_items(item, start, "less deep", place));
+        return (start.indent > item.indent).then(|| uneven_items(item, start, "less deep", source));
     }
     let content = text[start.word.start..above.end].trim_end();
     (start.indent >= item.indent && !content.ends_with(':')).then(|| {
-        RULE.at("missing `-` before the first item of this list", place.span(start.word.clone()), "no list item")
-            .label(place.span(item.word.clone()), "a list item")
+        RULE.at("missing `-` before the first item of this list", source.span(start.word.clone()), "no list item")
+            .label(source.span(item.word.clone()), "a list item")
             .help(format!("write `- {content}`"))
     })
 }
 
 /// Two items of a list in different columns.
-fn uneven_items(item: &Level, above: &Level, how: &str, place: &Place<'_>) -> Diagnostic {
+fn uneven_items(item: &Level, above: &Level, how: &str, source: &SourceFile) -> Diagnostic {
     let message = format!("this list item is indented by {}, {how} than the one above it", spaces(item.indent));
-    RULE.at(message, place.span(item.word.clone()), spaces(item.indent))
-        .label(place.span(above.word.clone()), spaces(above.indent))
+    RULE.at(message, source.span(item.word.clone()), spaces(item.indent))
+        .label(source.span(above.word.clone()), spaces(above.indent))
         .help("indent both alike")
 }
 
 /// Whether a level's word is a key with a value in the same line.
-fn has_value(level: &Level, text: &str, place: &Place<'_>) -> bool {
-    let rest = &text[level.word.end..place.line_range(level.word.end).end];
+fn has_value(level: &Level, text: &str, source: &SourceFile) -> bool {
+    let rest = &text[level.word.end..source.line_range(level.word.end).end];
     rest.strip_prefix(':').is_some_and(|value| !value.trim().is_empty() && !value.trim().starts_with('#'))
 }
 
 /// A list below a line that has a value already.
-fn list_without_key(item: &Level, above: &Level, place: &Place<'_>) -> Diagnostic {
-    let span = place.span(item.word.clone());
+fn list_without_key(item: &Level, above: &Level, source: &SourceFile) -> Diagnostic {
+    let span = source.span(item.word.clone());
     RULE.at("this list belongs to no key", span, "indented deeper than the line above")
-        .label(place.span(above.word.clone()), "this key has a value already")
+        .label(source.span(above.word.clone()), "this key has a value already")
         .help(format!("add a line with a key above it, for example `gates:`, indented by {}", spaces(above.indent)))
 }
 
@@ -193,15 +193,15 @@ fn diagnose(
     is_misplaced_key: bool,
     above: &[Level],
     text: &str,
-    place: &Place<'_>,
+    source: &SourceFile,
 ) -> Diagnostic {
     let message = match is_misplaced_key {
         true => "this key is indented like the `-` of the list item above it, not like its keys".to_owned(),
         false => format!("this line is indented by {}, which matches no line above it", spaces(line.indent)),
     };
     let label = format!("{} are indented by {}", owner(meant, above, text), spaces(meant.indent));
-    RULE.at(message, place.span(line.word.clone()), spaces(line.indent))
-        .label(place.span(meant.word.clone()), label)
+    RULE.at(message, source.span(line.word.clone()), spaces(line.indent))
+        .label(source.span(meant.word.clone()), label)
         .help(way_out(line, meant.indent, text))
 }
 

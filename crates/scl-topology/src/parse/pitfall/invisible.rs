@@ -1,7 +1,8 @@
 //! SCL0117: a character that nobody sees, or that only looks like a space.
 
-use super::{Place, scan::Scan};
+use super::scan::Scan;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::source::SourceFile;
 use std::collections::BTreeMap;
 
 /// SCL0117.
@@ -21,7 +22,7 @@ pub(crate) const RULE: Rule = Rule {
 
 /// Reports each such character once, at its first place; puts spaces in the place of all of them. Says
 /// whether there are any.
-pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
+pub(super) fn check(source: &SourceFile, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
     let mut places: BTreeMap<char, Vec<usize>> = BTreeMap::new();
     for (at, character) in text.char_indices() {
         if is_bad(character, text, at, scan) {
@@ -33,7 +34,7 @@ pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems:
     }
     let mut bytes = std::mem::take(text).into_bytes();
     for (character, places) in &places {
-        problems.push(diagnose(*character, places, place));
+        problems.push(diagnose(*character, places, source));
         for at in places {
             bytes[*at..*at + character.len_utf8()].fill(b' ');
         }
@@ -64,9 +65,9 @@ fn is_bad(character: char, text: &str, at: usize, scan: &Scan) -> bool {
     }
 }
 
-fn diagnose(character: char, places: &[usize], place: &Place<'_>) -> Diagnostic {
+fn diagnose(character: char, places: &[usize], source: &SourceFile) -> Diagnostic {
     let first = places.first().copied().unwrap_or_default();
-    let span = place.span(first..first + character.len_utf8());
+    let span = source.span(first..first + character.len_utf8());
     let (name, label, help) = describe(character);
     let kind = if character.is_control() { "control character" } else { "invisible character" };
     let name = if name.is_empty() { String::new() } else { format!(" ({name})") };
@@ -84,7 +85,7 @@ fn diagnose(character: char, places: &[usize], place: &Place<'_>) -> Diagnostic 
         _ => "\n",
     };
     for &at in places {
-        problem = problem.fix(place.span(at..at + character.len_utf8()), replacement);
+        problem = problem.fix(source.span(at..at + character.len_utf8()), replacement);
     }
     if places.len() > 1 {
         problem = problem.note(format!("it occurs {} times in this file", places.len()));

@@ -1,7 +1,6 @@
 //! SCL0127: a character that looks like a mark of YAML and is another. SCL0304: a letter of another script that looks
 //! like an ASCII letter.
 
-use super::Place;
 use crate::confusable;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::source::{SourceFile, Span};
@@ -43,15 +42,15 @@ pub(in crate::parse) fn marks(text: &str) -> impl Iterator<Item = (usize, char, 
 }
 
 /// The character at a place.
-pub(in crate::parse) fn diagnose(mark: &Range<usize>, place: &Place<'_>) -> Diagnostic {
-    let letter = place.source.text()[mark.clone()].chars().next().unwrap_or(' ');
-    look_alike_mark(letter, place.span(mark.clone()))
+pub(in crate::parse) fn diagnose(mark: &Range<usize>, source: &SourceFile) -> Diagnostic {
+    let letter = source.text()[mark.clone()].chars().next().unwrap_or(' ');
+    look_alike_mark(letter, source.span(mark.clone()))
 }
 
 /// The first such character of a word; `what` is the word's part in a message, for example `gate name`.
 pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &SourceFile) -> Option<Diagnostic> {
     let (_, letter) = confusable::first(text)?;
-    let written = source.text().get(node.span.start as usize..node.span.end as usize).unwrap_or("");
+    let written = source.snippet(node.span);
     let span = match written.find(letter) {
         Some(at) => {
             let start = node.span.start + at as u32;

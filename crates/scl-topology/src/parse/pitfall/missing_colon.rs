@@ -1,7 +1,7 @@
 //! SCL0123: no colon after a key.
 
-use super::Place;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::source::SourceFile;
 use std::ops::Range;
 
 /// SCL0123.
@@ -19,18 +19,18 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// No colon after a word.
-pub(in crate::parse) fn after(word: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn after(word: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
     let key = &text[word.clone()];
-    RULE.at(format!("missing `:` after `{key}`"), place.span(word.clone()), "a key").help(format!("write `{key}:`"))
+    RULE.at(format!("missing `:` after `{key}`"), source.span(word.clone()), "a key").help(format!("write `{key}:`"))
 }
 
 /// Another mark in the place of a colon.
-pub(in crate::parse) fn instead(mark: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn instead(mark: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
     let found = &text[mark.clone()];
-    let line = place.line_range(mark.start);
+    let line = source.line_range(mark.start);
     let key = text[line.start..mark.start].trim_end().rsplit([' ', ',', '{']).next().unwrap_or("");
     let value = text[mark.end..line.end].trim_start().split([',', '}']).next().unwrap_or("").trim_end();
-    RULE.at(format!("`{found}` stands where a colon is expected"), place.span(mark.clone()), "expected `:`")
+    RULE.at(format!("`{found}` stands where a colon is expected"), source.span(mark.clone()), "expected `:`")
         .help(format!("write `{key}: {value}`"))
 }
 

@@ -1,7 +1,7 @@
 //! SCL0122: no comma between two entries in brackets.
 
-use super::Place;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::source::SourceFile;
 use std::ops::Range;
 
 /// SCL0122.
@@ -24,7 +24,7 @@ pub(in crate::parse) fn between(
     before: &Range<usize>,
     after: &Range<usize>,
     text: &str,
-    place: &Place<'_>,
+    source: &SourceFile,
 ) -> Diagnostic {
     let (first, second) = (&text[before.clone()], &text[after.clone()]);
     let message = format!("a comma is missing before {}", described(second));
@@ -32,19 +32,19 @@ pub(in crate::parse) fn between(
         ":" => format!("add `,` before `{second}`"),
         _ => format!("add `,` after `{first}`"),
     };
-    match place.line(before.start) == place.line(after.start) {
-        true => RULE.at(message, place.span(after.clone()), "a new entry starts here").help(help),
+    match source.line(before.start) == source.line(after.start) {
+        true => RULE.at(message, source.span(after.clone()), "a new entry starts here").help(help),
         false => RULE
-            .at(message, place.span(before.clone()), "no comma after this")
-            .label(place.span(after.clone()), "a new entry starts here")
+            .at(message, source.span(before.clone()), "no comma after this")
+            .label(source.span(after.clone()), "a new entry starts here")
             .help(help),
     }
 }
 
 /// Another mark in the place of a comma.
-pub(in crate::parse) fn instead(mark: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn instead(mark: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
     let message = format!("`{}` does not separate entries", &text[mark.clone()]);
-    RULE.at(message, place.span(mark.clone()), "expected a comma").help("write `,`")
+    RULE.at(message, source.span(mark.clone()), "expected a comma").help("write `,`")
 }
 
 fn described(word: &str) -> String {

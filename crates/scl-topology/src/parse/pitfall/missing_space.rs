@@ -1,6 +1,5 @@
 //! SCL0103: no space after `:`.
 
-use super::Place;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::is_plain;
 use crate::parse::words::is_kind;
@@ -31,7 +30,7 @@ pub(in crate::parse) fn in_node(node: &Node, source: &SourceFile) -> Option<Diag
     if !is_plain(node) {
         return None;
     }
-    let written = source.text().get(node.span.start as usize..node.span.end as usize)?;
+    let written = source.snippet(node.span);
     let (key, value) = split(written.lines().next()?)?;
     Some(diagnose(key, value, node.span))
 }
@@ -43,41 +42,41 @@ pub(in crate::parse) fn in_key(key: &Node, text: &str) -> Option<Diagnostic> {
 }
 
 /// `{x:{pub: A}}`: YAML 1.2 allows it, and most readers do not.
-pub(in crate::parse) fn in_brackets(glued: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn in_brackets(glued: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
     let written = &text[glued.clone()];
     let (key, value) = written.split_once(':').unwrap_or((written, ""));
-    diagnose(key, value, place.span(glued.start..glued.start))
+    diagnose(key, value, source.span(glued.start..glued.start))
 }
 
 /// The colon at or shortly before an error, where a bracket follows at once.
-pub(in crate::parse) fn at_bracket(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn at_bracket(error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Diagnostic> {
     let end = text.get(error.at..)?.find(['[', '{'])?;
     let bracket = error.at + end;
     let before = text[..bracket].strip_suffix(':')?;
     let start = before.rfind([' ', ',', '[', '{', '\n']).map_or(0, |at| at + 1);
-    Some(in_brackets(&(start..bracket + 1), text, place))
+    Some(in_brackets(&(start..bracket + 1), text, source))
 }
 
 /// A word such as `name:sensor` in the lines before a syntax error.
-pub(in crate::parse) fn before(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
-    let text = place.source.text();
-    let mut line = place.line_range(error.at);
+pub(in crate::parse) fn before(error: &SyntaxError, source: &SourceFile) -> Option<Diagnostic> {
+    let text = source.text();
+    let mut line = source.line_range(error.at);
     for _ in 0..LINES {
         let content = &text[line.clone()];
         let word = content.trim_start_matches([' ', '-']);
         if let Some((key, value)) = split(word) {
             let start = line.start + content.len() - word.len();
-            let problem = diagnose(key, value, place.span(start..start));
-            return Some(with_words(problem, error, start, place));
+            let problem = diagnose(key, value, source.span(start..start));
+            return Some(with_words(problem, error, start, source));
         }
-        line = place.line_range(line.start.checked_sub(1)?);
+        line = source.line_range(line.start.checked_sub(1)?);
     }
     None
 }
 
-fn with_words(problem: Diagnostic, error: &SyntaxError, start: usize, place: &Place<'_>) -> Diagnostic {
-    let noticed = place.line(error.at);
-    if noticed == place.line(start) {
+fn with_words(problem: Diagnostic, error: &SyntaxError, start: usize, source: &SourceFile) -> Diagnostic {
+    let noticed = source.line(error.at);
+    if noticed == source.line(start) {
         return problem;
     }
     problem.note(format!("the parser notices it only on line {noticed}, where it says \"{}\"", error.words))

@@ -1,8 +1,9 @@
 //! SCL0121: a syntax error that no other rule explains.
 
-use super::{Place, dash, missing_colon};
+use super::{dash, missing_colon};
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
+use crate::source::SourceFile;
 use crate::yaml::SyntaxError;
 use std::ops::Range;
 
@@ -22,48 +23,48 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-pub(in crate::parse) fn diagnose(error: &SyntaxError, place: &Place<'_>) -> Diagnostic {
-    let text = place.source.text();
+pub(in crate::parse) fn diagnose(error: &SyntaxError, source: &SourceFile) -> Diagnostic {
+    let text = source.text();
     let mut at = error.at;
     while at > 0 && !text.is_char_boundary(at) {
         at -= 1;
     }
     let end = at + text[at..].chars().next().filter(|c| !c.is_control()).map_or(0, char::len_utf8);
     let words = error.words.rsplit(", ").next().unwrap_or(&error.words);
-    RULE.at(format!("this is not valid YAML: {words}"), place.span(at..end), "the parser stops here")
+    RULE.at(format!("this is not valid YAML: {words}"), source.span(at..end), "the parser stops here")
         .help("the mistake is here or shortly before")
 }
 
 /// A section or key without its colon, in the line of the error or the one before.
-pub(in crate::parse) fn missing_colon(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
-    let text = place.source.text();
-    here_and_above(error, place).find_map(|line| {
+pub(in crate::parse) fn missing_colon(error: &SyntaxError, source: &SourceFile) -> Option<Diagnostic> {
+    let text = source.text();
+    here_and_above(error, source).find_map(|line| {
         let content = text[line.clone()].trim_start_matches([' ', '-']);
         let word = content.split([' ', '#']).next().filter(|word| is_key(word))?;
         let start = line.end - content.len();
-        Some(missing_colon::after(&(start..start + word.len()), text, place))
+        Some(missing_colon::after(&(start..start + word.len()), text, source))
     })
 }
 
 /// The line of the error and the one above it.
-fn here_and_above(error: &SyntaxError, place: &Place<'_>) -> impl Iterator<Item = Range<usize>> {
-    let here = place.line_range(error.at);
-    let above = here.start.checked_sub(1).map(|at| place.line_range(at));
+fn here_and_above(error: &SyntaxError, source: &SourceFile) -> impl Iterator<Item = Range<usize>> {
+    let here = source.line_range(error.at);
+    let above = here.start.checked_sub(1).map(|at| source.line_range(at));
     std::iter::once(here).chain(above)
 }
 
 /// `-sensor` or `-- sensor` where `- sensor` is meant.
-pub(in crate::parse) fn missing_dash_space(error: &SyntaxError, place: &Place<'_>) -> Option<Diagnostic> {
-    let text = place.source.text();
-    here_and_above(error, place).find_map(|line| {
+pub(in crate::parse) fn missing_dash_space(error: &SyntaxError, source: &SourceFile) -> Option<Diagnostic> {
+    let text = source.text();
+    here_and_above(error, source).find_map(|line| {
         let word = text[line.clone()].trim_start_matches(' ');
         let rest = word.trim_start_matches('-');
         let dashes = word.len() - rest.len();
         let starts_word = rest.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '[');
         let at = line.end - word.len()..line.end - word.len() + dashes;
         match dashes {
-            1 if starts_word && !rest.starts_with(' ') => Some(dash::without_space(&at, text, place)),
-            2 if starts_word => Some(dash::doubled(&at, text, place)),
+            1 if starts_word && !rest.starts_with(' ') => Some(dash::without_space(&at, text, source)),
+            2 if starts_word => Some(dash::doubled(&at, text, source)),
             _ => None,
         }
     })

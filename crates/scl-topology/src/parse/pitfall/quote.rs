@@ -1,7 +1,8 @@
 //! SCL0104: a quote is never closed.
 
-use super::{Place, scan};
+use super::scan;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::source::SourceFile;
 use crate::yaml::{SyntaxError, SyntaxErrorKind};
 
 /// SCL0104.
@@ -19,7 +20,7 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// A quoted text that runs over the end of its line and covers, or ends just before, the place of the error.
-pub(in crate::parse) fn find(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Diagnostic> {
     let quoted = scan::scan(text).quoted;
     let next = quoted.partition_point(|range| range.start <= error.at);
     let range = quoted.get(next.checked_sub(1)?)?.clone();
@@ -29,27 +30,27 @@ pub(in crate::parse) fn find(error: &SyntaxError, text: &str, place: &Place<'_>)
         return None;
     }
     let quote = &text[range.start..range.start + 1];
-    let help = format!("add the closing `{quote}` at the end of line {}", place.line(range.start));
-    let span = place.span(range.start..range.start + 1);
+    let help = format!("add the closing `{quote}` at the end of line {}", source.line(range.start));
+    let span = source.span(range.start..range.start + 1);
     Some(RULE.at("this quoted string is never closed", span, "opened here").help(help))
 }
 
 /// A quote without a partner in its line.
-pub(in crate::parse) fn alone(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn alone(at: usize, text: &str, source: &SourceFile) -> Diagnostic {
     let quote = &text[at..at + 1];
-    RULE.at("this quote has no partner", place.span(at..at + 1), "the only one in its line")
+    RULE.at("this quote has no partner", source.span(at..at + 1), "the only one in its line")
         .help(format!("remove it, or add the other `{quote}`"))
 }
 
 /// The place of a quote that is missing before or after a word.
-pub(in crate::parse) fn missing(at: usize, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn missing(at: usize, text: &str, source: &SourceFile) -> Diagnostic {
     let is_word = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '.' | '-');
     let after = text[at..].len() - text[at..].trim_start_matches(is_word).len();
     let before = text[..at].len() - text[..at].trim_end_matches(is_word).len();
     let side = if after > 0 { "before" } else { "after" };
     let word = at - before..at + after;
     let name = &text[word.clone()];
-    RULE.at(format!("a quote is missing {side} `{name}`"), place.span(word), "has a quote at one end only")
+    RULE.at(format!("a quote is missing {side} `{name}`"), source.span(word), "has a quote at one end only")
         .help(format!("write `\"{name}\"`"))
 }
 

@@ -1,7 +1,8 @@
 //! SCL0106: a character that cannot start a value.
 
-use super::{Place, dash};
+use super::dash;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::source::SourceFile;
 
 /// SCL0106.
 pub(crate) const RULE: Rule = Rule {
@@ -18,22 +19,22 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// The character at the place of the error, if a reserved one stands there.
-pub(in crate::parse) fn find(at: usize, place: &Place<'_>) -> Option<Diagnostic> {
-    let character = place.source.text().get(at..)?.chars().next()?;
-    matches!(character, '@' | '`' | '%' | '&' | '*' | '!').then(|| diagnose(at, character, place))
+pub(in crate::parse) fn find(at: usize, source: &SourceFile) -> Option<Diagnostic> {
+    let character = source.text().get(at..)?.chars().next()?;
+    matches!(character, '@' | '`' | '%' | '&' | '*' | '!').then(|| diagnose(at, character, source))
 }
 
-pub(in crate::parse) fn diagnose(at: usize, character: char, place: &Place<'_>) -> Diagnostic {
-    let text = place.source.text();
-    let line = place.line_range(at);
+pub(in crate::parse) fn diagnose(at: usize, character: char, source: &SourceFile) -> Diagnostic {
+    let text = source.text();
+    let line = source.line_range(at);
     let is_first = text.get(line.start..at).is_some_and(|before| before.trim().is_empty());
     if is_first && text.get(at + 1..line.end).is_some_and(|rest| rest.starts_with(' ')) {
-        return dash::other_mark(at, place).fix(place.span(at..at + 1), "-");
+        return dash::other_mark(at, source).fix(source.span(at..at + 1), "-");
     }
-    let rest = text.get(at..place.line_range(at).end).unwrap_or("");
+    let rest = text.get(at..source.line_range(at).end).unwrap_or("");
     let word = rest.split([' ', ',', ']', '}']).next().unwrap_or(rest);
-    let span = place.span(at..at + rest.chars().next().map_or(0, char::len_utf8));
-    let before = text.get(place.line_range(at).start..at).unwrap_or("");
+    let span = source.span(at..at + rest.chars().next().map_or(0, char::len_utf8));
+    let before = text.get(source.line_range(at).start..at).unwrap_or("");
     let is_name = !before.contains("doc:");
     let then = if is_name { " (it would then fail SCL0303)" } else { "" };
     RULE.at(format!("a value cannot start with {} in YAML", ticked(character)), span, "reserved character")

@@ -1,8 +1,7 @@
 //! SCL0114: more than one document.
 
-use super::Place;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
-use crate::source::Span;
+use crate::source::{SourceFile, Span};
 
 /// SCL0114.
 pub(crate) const RULE: Rule = Rule {
@@ -18,8 +17,8 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// The parser may place the start of a document without `---` at its content.
-pub(super) fn diagnose(place: &Place<'_>, at: Span) -> Diagnostic {
-    let rest = place.source.text().get(at.start as usize..).unwrap_or("");
+pub(super) fn diagnose(source: &SourceFile, at: Span) -> Diagnostic {
+    let rest = source.text().get(at.start as usize..).unwrap_or("");
     let marker = rest.starts_with("---");
     let help = if marker { "remove the `---` line" } else { "remove the `...` line above" };
     let span = if marker { Span { end: at.start + 3, ..at } } else { at };

@@ -1,7 +1,8 @@
 //! SCL0101: a tab is used for indentation.
 
-use super::{Place, scan::Scan};
+use super::scan::Scan;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::source::SourceFile;
 
 /// SCL0101.
 pub(crate) const RULE: Rule = Rule {
@@ -18,18 +19,18 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// Reports the first line that is indented with a tab, and how many follow; puts spaces in their place.
-pub(in crate::parse) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
+pub(in crate::parse) fn check(source: &SourceFile, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
     let tabs = indenting_tabs(text, scan);
     let Some(&first) = tabs.first() else { return false };
-    let mut problem = diagnose(first, "a tab character is used for indentation", place)
+    let mut problem = diagnose(first, "a tab character is used for indentation", source)
         .note("YAML forbids tabs in indentation because their width is not defined");
     let lines = tabs.chunk_by(|before, after| !text[*before..*after].contains('\n')).count();
     if lines > 1 {
-        let last = place.line(tabs.last().copied().unwrap_or(first));
+        let last = source.line(tabs.last().copied().unwrap_or(first));
         problem = problem.note(format!("{lines} lines are indented with tabs, up to line {last}"));
     }
     if !is_mixed(text) {
-        let with_spaces = |problem: Diagnostic, at: &usize| problem.fix(place.span(*at..*at + 1), "  ");
+        let with_spaces = |problem: Diagnostic, at: &usize| problem.fix(source.span(*at..*at + 1), "  ");
         problem = tabs.iter().fold(problem, with_spaces);
     }
     problems.push(problem);
@@ -46,15 +47,15 @@ fn is_mixed(text: &str) -> bool {
 }
 
 /// A tab elsewhere, where the parser accepts only spaces.
-pub(in crate::parse) fn elsewhere(at: usize, place: &Place<'_>) -> Diagnostic {
-    let line = place.line_range(at);
-    let text = &place.source.text()[line.clone()];
+pub(in crate::parse) fn elsewhere(at: usize, source: &SourceFile) -> Diagnostic {
+    let line = source.line_range(at);
+    let text = &source.text()[line.clone()];
     let tab = text.find('\t').map_or(at, |found| line.start + found);
-    diagnose(tab, "a tab character stands where only spaces are allowed", place)
+    diagnose(tab, "a tab character stands where only spaces are allowed", source)
 }
 
-fn diagnose(tab: usize, message: &str, place: &Place<'_>) -> Diagnostic {
-    RULE.at(message, place.span(tab..tab + 1), "this is a tab (shown as 4 spaces)")
+fn diagnose(tab: usize, message: &str, source: &SourceFile) -> Diagnostic {
+    RULE.at(message, source.span(tab..tab + 1), "this is a tab (shown as 4 spaces)")
         .help("replace it with spaces; most editors: \"Convert Indentation to Spaces\"")
 }
 

@@ -1,7 +1,8 @@
 //! SCL0129: a tab outside of quotes, comments and text blocks that does not indent a line.
 
-use super::{Place, scan::Scan, tab::opens_block};
+use super::{scan::Scan, tab::opens_block};
 use crate::diagnostic::{Diagnostics, Rule, Severity};
+use crate::source::SourceFile;
 
 /// SCL0129.
 pub(crate) const RULE: Rule = Rule {
@@ -19,19 +20,23 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// Reports the first such tab, and how many lines have one; puts spaces in their place.
-pub(super) fn check(place: &Place<'_>, scan: &Scan, text: &mut String, problems: &mut Diagnostics) {
+pub(super) fn check(source: &SourceFile, scan: &Scan, text: &mut String, problems: &mut Diagnostics) {
     let tabs = separating_tabs(text, scan);
     let Some(&first) = tabs.first() else { return };
     let mut problem = RULE
-        .at("a tab character is used as white space", place.span(first..first + 1), "this is a tab (shown as 4 spaces)")
+        .at(
+            "a tab character is used as white space",
+            source.span(first..first + 1),
+            "this is a tab (shown as 4 spaces)",
+        )
         .help("replace it with a space")
         .note("PyYAML and other readers refuse tabs outside of quotes and comments");
     let lines = tabs.chunk_by(|before, after| !text[*before..*after].contains('\n')).count();
     if lines > 1 {
-        let last = place.line(tabs.last().copied().unwrap_or(first));
+        let last = source.line(tabs.last().copied().unwrap_or(first));
         problem = problem.note(format!("{lines} lines have such tabs, up to line {last}"));
     }
-    problems.push(tabs.iter().fold(problem, |problem, &at| problem.fix(place.span(at..at + 1), " ")));
+    problems.push(tabs.iter().fold(problem, |problem, &at| problem.fix(source.span(at..at + 1), " ")));
     let mut bytes = std::mem::take(text).into_bytes();
     tabs.iter().for_each(|at| bytes[*at] = b' ');
     // One ASCII byte took the place of another, so the text is as valid as before.

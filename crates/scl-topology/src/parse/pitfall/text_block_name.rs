@@ -29,7 +29,7 @@ pub(in crate::parse) fn diagnose(node: &Node, text: &str, source: &SourceFile) -
     }
     let block = header(node, source).to(node.span);
     // The block ends with its last line break, which stays.
-    let whole = source.text().get(block.start as usize..block.end as usize).unwrap_or("");
+    let whole = source.snippet(block);
     let end = block.start + whole.trim_end().len() as u32;
     problem.help(format!("write `{}`", written(node, name, source))).fix(Span { end, ..block }, name)
 }
@@ -37,7 +37,7 @@ pub(in crate::parse) fn diagnose(node: &Node, text: &str, source: &SourceFile) -
 /// The `|` or `>`, in the line above the text.
 fn header(node: &Node, source: &SourceFile) -> Span {
     let before = source.text().get(..node.span.start as usize).unwrap_or("").trim_end();
-    let line = source.line_range(before.len() as u32).start;
+    let line = source.line_range(before.len()).start;
     let found = before.get(line..).and_then(|above| above.find(['|', '>']));
     found.map_or(node.span, |at| {
         let start = (line + at) as u32;
@@ -48,7 +48,7 @@ fn header(node: &Node, source: &SourceFile) -> Span {
 /// The key of the header's line, and the name after it.
 fn written(node: &Node, name: &str, source: &SourceFile) -> String {
     let header = header(node, source).start as usize;
-    let line = source.line_range(header as u32).start;
+    let line = source.line_range(header).start;
     let before = source.text().get(line..header).unwrap_or("");
     format!("{}{name}", before.trim_start_matches([' ', '-']))
 }

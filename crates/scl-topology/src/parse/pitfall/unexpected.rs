@@ -1,7 +1,7 @@
 //! SCL0125: something behind a value, or between two, that belongs to neither.
 
-use super::Place;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::source::SourceFile;
 use std::ops::Range;
 
 /// SCL0125.
@@ -22,9 +22,9 @@ pub(crate) const RULE: Rule = Rule {
 /// A message repeats no more than this.
 const MOST_SHOWN: usize = 40;
 
-pub(in crate::parse) fn diagnose(range: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn diagnose(range: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
     let word = &text[range.clone()];
-    let line = place.line_range(range.start);
+    let line = source.line_range(range.start);
     let before = text[line.start..range.start].trim_end();
     let after = match before.chars().last() {
         Some(bracket @ (']' | '}')) => format!(" after `{bracket}`"),
@@ -35,7 +35,7 @@ pub(in crate::parse) fn diagnose(range: &Range<usize>, text: &str, place: &Place
         false => format!("`{word}`"),
     };
     let label = if after.is_empty() { "not expected" } else { "the value ends before it" };
-    let problem = RULE.at(format!("{shown} is not expected here{after}"), place.span(range.clone()), label);
+    let problem = RULE.at(format!("{shown} is not expected here{after}"), source.span(range.clone()), label);
     let is_item = before.trim_start().starts_with('-');
     match word.chars().next() {
         Some('[' | '{') if is_item => problem.help("start each list item on a line of its own, with `-`"),
@@ -48,26 +48,26 @@ pub(in crate::parse) fn diagnose(range: &Range<usize>, text: &str, place: &Place
 }
 
 /// `A[]`.
-pub(in crate::parse) fn brackets_after_type(range: &Range<usize>, text: &str, place: &Place<'_>) -> Diagnostic {
+pub(in crate::parse) fn brackets_after_type(range: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
     let word = &text[range.clone()];
     let name = word.split(['[', '{']).next().unwrap_or(word);
-    RULE.at(format!("`{word}` is not a type"), place.span(range.clone()), "brackets after a name")
+    RULE.at(format!("`{word}` is not a type"), source.span(range.clone()), "brackets after a name")
         .help(format!("write `{name}`, or give the list a name: in Rust `type Name = ...;`, in a schema a message"))
 }
 
 /// `}#c`.
-pub(in crate::parse) fn glued_comment(hash: usize, text: &str, place: &Place<'_>) -> Diagnostic {
-    let comment = text[hash..place.line_range(hash).end].trim_end();
+pub(in crate::parse) fn glued_comment(hash: usize, text: &str, source: &SourceFile) -> Diagnostic {
+    let comment = text[hash..source.line_range(hash).end].trim_end();
     let label = "a comment, but for the space";
-    RULE.at("a comment starts with a space and `#`", place.span(hash..hash + comment.len()), label)
+    RULE.at("a comment starts with a space and `#`", source.span(hash..hash + comment.len()), label)
         .help("write a space before `#`")
 }
 
 /// `- x: pub - y: pub`.
-pub(in crate::parse) fn item_in_line(dash: usize, text: &str, place: &Place<'_>) -> Diagnostic {
-    let rest = text[dash..place.line_range(dash).end].trim_end();
+pub(in crate::parse) fn item_in_line(dash: usize, text: &str, source: &SourceFile) -> Diagnostic {
+    let rest = text[dash..source.line_range(dash).end].trim_end();
     let label = "a second item in the line";
-    RULE.at("each list item stands on a line of its own", place.span(dash..dash + rest.len()), label)
+    RULE.at("each list item stands on a line of its own", source.span(dash..dash + rest.len()), label)
         .help(format!("move `{rest}` to the next line"))
 }
 

@@ -2,8 +2,9 @@
 
 use super::line::{Class, Token, tokens};
 use super::{Edit, Kind};
-use crate::parse::pitfall::{Place, look_alike};
+use crate::parse::pitfall::look_alike;
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
+use crate::source::SourceFile;
 use std::ops::Range;
 
 /// How many lines below a line may move with it.
@@ -15,7 +16,7 @@ const MOST_ABOVE: usize = 40;
 /// How much of a file shows which columns are usual.
 const MOST_LINES: usize = 400;
 
-pub(super) fn of_line(line: &Range<usize>, text: &str, place: &Place<'_>) -> Vec<Edit> {
+pub(super) fn of_line(line: &Range<usize>, text: &str, source: &SourceFile) -> Vec<Edit> {
     let (tokens, open_after) = tokens(line, text);
     let mut edits = Vec::new();
     look_alikes(line, text, &mut edits);
@@ -33,7 +34,7 @@ pub(super) fn of_line(line: &Range<usize>, text: &str, place: &Place<'_>) -> Vec
     first_of_line(&tokens, line, text, &mut edits);
     other_mark(&tokens, text, &mut edits);
     dash(&tokens, line, text, &mut edits);
-    columns(&tokens, line, text, place, &mut edits);
+    columns(&tokens, line, text, source, &mut edits);
     edits
 }
 
@@ -237,15 +238,15 @@ fn quotes(line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
     let is_word = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.' | b'-');
     let bytes = content.as_bytes();
     for at in 0..bytes.len() {
-        let place = line.start + at;
+        let offset = line.start + at;
         if bytes[at] == b'"' {
-            edits.push(edit(Kind::Quote(place), place..place + 1, "", 2));
+            edits.push(edit(Kind::Quote(offset), offset..offset + 1, "", 2));
         }
         let starts = is_word(bytes[at]) && (at == 0 || !is_word(bytes[at - 1]) && bytes[at - 1] != b'"');
         let ends = is_word(bytes[at]) && bytes.get(at + 1).is_none_or(|next| !is_word(*next) && *next != b'"');
-        for (is_edge, place) in [(starts, place), (ends, place + 1)] {
+        for (is_edge, edge) in [(starts, offset), (ends, offset + 1)] {
             if is_edge {
-                edits.push(edit(Kind::Unquoted(place), place..place, "\"", 1));
+                edits.push(edit(Kind::Unquoted(edge), edge..edge, "\"", 1));
             }
         }
     }
@@ -297,20 +298,20 @@ fn dash(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Edit>
 }
 
 /// The line, with all that is indented deeper below it, in each of the columns that the lines above use.
-fn columns(tokens: &[Token], line: &Range<usize>, text: &str, place: &Place<'_>, edits: &mut Vec<Edit>) {
+fn columns(tokens: &[Token], line: &Range<usize>, text: &str, source: &SourceFile, edits: &mut Vec<Edit>) {
     let Some(first) = tokens.first() else { return };
     let indent = first.range.start - line.start;
     let mut meant = vec![0];
     let mut at = line.start;
     for _ in 0..MOST_ABOVE {
-        let Some(above) = at.checked_sub(1).map(|at| place.line_range(at)) else { break };
+        let Some(above) = at.checked_sub(1).map(|at| source.line_range(at)) else { break };
         let content = &text[above.clone()];
         let dash = content.len() - content.trim_start_matches(' ').len();
         let word = content.len() - content.trim_start_matches([' ', '-']).len();
         meant.extend([dash, word].into_iter().filter(|_| !content.trim().is_empty()));
         at = above.start;
     }
-    let below = place.line_below(line.end);
+    let below = source.line_below(line.end);
     meant.push(text[below.clone()].len() - text[below].trim_start_matches(' ').len());
     meant.sort_unstable();
     meant.dedup();

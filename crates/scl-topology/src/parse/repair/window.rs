@@ -2,7 +2,8 @@
 //! around the error.
 
 use super::Edit;
-use crate::parse::pitfall::{Place, scan};
+use crate::parse::pitfall::scan;
+use crate::source::SourceFile;
 use crate::yaml::SyntaxError;
 use std::ops::Range;
 
@@ -50,9 +51,9 @@ impl Window {
 impl Window {
     /// The part up to the line in which the parser stopped, or to the end of what is in brackets there; `None` if that is
     /// all of it.
-    pub(super) fn without_lines_below(&self, error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Self> {
+    pub(super) fn without_lines_below(&self, error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Self> {
         let with_break = |end: usize| text[end..].find('\n').map_or(text.len(), |found| end + found + 1);
-        let mut end = with_break(place.line_range(error.at.min(text.len())).end);
+        let mut end = with_break(source.line_range(error.at.min(text.len())).end);
         while end < self.range.end && !scan::scan(&text[self.range.start..end]).open_brackets.is_empty() {
             end = with_break(end);
         }
@@ -61,17 +62,17 @@ impl Window {
     }
 }
 
-pub(super) fn around(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Window> {
+pub(super) fn around(error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Window> {
     let whole = || Window { head: 0..0, range: 0..text.len() };
     if text.len() <= WHOLE {
         return Some(whole());
     }
-    of_section(error, text, place).or_else(|| (text.len() <= WHOLE_IN_NEED).then(whole))
+    of_section(error, text, source).or_else(|| (text.len() <= WHOLE_IN_NEED).then(whole))
 }
 
 /// The head of the section in which the parser stopped, and the items around.
-fn of_section(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Window> {
-    let at = place.line_range(error.at.min(text.len())).start;
+fn of_section(error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Window> {
+    let at = source.line_range(error.at.min(text.len())).start;
     let is_key = |line: &str| line.starts_with(|c: char| c.is_ascii_alphabetic());
     let head = lines_up(text, at).find(|line| is_key(&text[line.clone()]))?;
     if !text[head.clone()].trim_end().ends_with(':') {
@@ -97,8 +98,8 @@ fn of_section(error: &SyntaxError, text: &str, place: &Place<'_>) -> Option<Wind
 }
 
 /// The lines that may hold the mistake, the most suspect first.
-pub(super) fn suspects(error: &SyntaxError, text: &str, place: &Place<'_>, window: &Window) -> Vec<Range<usize>> {
-    let here = place.line_range(error.at.min(text.len()));
+pub(super) fn suspects(error: &SyntaxError, text: &str, source: &SourceFile, window: &Window) -> Vec<Range<usize>> {
+    let here = source.line_range(error.at.min(text.len()));
     let mut lines = vec![here.clone()];
     let is_blank = |line: &Range<usize>| {
         let content = text[line.clone()].trim();
@@ -108,7 +109,7 @@ pub(super) fn suspects(error: &SyntaxError, text: &str, place: &Place<'_>, windo
         .take(MOST_ABOVE)
         .filter(|line| !is_blank(line))
         .take_while(|line| line.end > window.range.start)
-        .map(|line| place.line_range(line.start))
+        .map(|line| source.line_range(line.start))
         .collect();
     let items = above.iter().filter(|line| text[(*line).clone()].trim_start().starts_with("- ")).take(2);
     // A text that goes on over several lines begins where its list begins.
@@ -120,7 +121,7 @@ pub(super) fn suspects(error: &SyntaxError, text: &str, place: &Place<'_>, windo
     let section = above.iter().position(|line| !text[line.clone()].starts_with([' ', '-'])).unwrap_or(above.len());
     let first = section.checked_sub(1).and_then(|at| above.get(at));
     lines.extend(above.iter().take(2).chain(items).chain(start).chain(first).cloned());
-    lines.extend(unbalanced(error, text, place, window));
+    lines.extend(unbalanced(error, text, source, window));
     let mut seen = Vec::new();
     lines.retain(|line| {
         !is_blank(line) && !seen.contains(line) && {
@@ -133,12 +134,12 @@ pub(super) fn suspects(error: &SyntaxError, text: &str, place: &Place<'_>, windo
 }
 
 /// Lines with other brackets opened than closed, around an error of brackets.
-fn unbalanced(error: &SyntaxError, text: &str, place: &Place<'_>, window: &Window) -> Vec<Range<usize>> {
+fn unbalanced(error: &SyntaxError, text: &str, source: &SourceFile, window: &Window) -> Vec<Range<usize>> {
     let at = error.at.min(text.len());
     let in_window = &text[window.range.start..at.max(window.range.start)];
     let open = scan::scan(in_window).open_brackets.first().map_or(at, |open| window.range.start + open);
     let mut found = Vec::new();
-    let mut start = place.line_range(open).start;
+    let mut start = source.line_range(open).start;
     for line in text[start..window.range.end].split_inclusive('\n').take(MOST_ABOVE) {
         let balance = line.bytes().fold([0_i32; 2], |[square, curly], byte| match byte {
             b'[' => [square + 1, curly],
@@ -149,7 +150,7 @@ fn unbalanced(error: &SyntaxError, text: &str, place: &Place<'_>, window: &Windo
         });
         let content = line.trim();
         if balance != [0, 0] || content.ends_with(':') || content.starts_with([',', ']', '}']) {
-            found.push(place.line_range(start));
+            found.push(source.line_range(start));
         }
         start += line.len();
     }

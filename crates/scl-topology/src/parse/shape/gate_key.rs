@@ -47,7 +47,7 @@ pub(in crate::parse) fn diagnose(field: Field<'_>, kind: &str, path: &str) -> Di
 pub(in crate::parse) fn comma_in_doc(key: Span, text: Span, source: &SourceFile, path: &str) -> Diagnostic {
     let message = format!("the text of `doc` in gate `{path}` ends at its comma");
     let problem = RULE.at(message, key, "read as a key of the gate");
-    let words = &source.text()[text.start as usize..text.end as usize];
+    let words = source.snippet(text);
     // In double quotes, these would have to be written otherwise.
     if words.contains(['"', '\\', '\n']) {
         return problem.help("put the text in single quotes");

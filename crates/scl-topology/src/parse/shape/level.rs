@@ -60,7 +60,7 @@ pub(in crate::parse) fn option_beside_gate(option: Field<'_>, gate: Field<'_>, s
 
 /// A gate whose dash stands in the column of the components' dashes.
 pub(in crate::parse) fn gate_among_components(item: &Node, above: &ComponentModel, source: &SourceFile) -> Diagnostic {
-    let name = source.text().get(item.span.start as usize..item.span.end as usize).unwrap_or("");
+    let name = source.snippet(item.span);
     let name = name.split([':', '\n']).next().unwrap_or("");
     let start = with_dash(item.span, source);
     let end = item.span.start + name.len() as u32;
@@ -104,7 +104,7 @@ pub(in crate::parse) fn gates_after_dash(
 }
 
 fn problem(message: String, key: Span, source: &SourceFile) -> Diagnostic {
-    let line = source.line_range(key.start);
+    let line = source.line_range(key.start as usize);
     let before = source.text().get(line.start..key.start as usize).unwrap_or("");
     let label = match before.chars().all(|c| c == ' ') {
         true if before.is_empty() => "at column 1".to_owned(),

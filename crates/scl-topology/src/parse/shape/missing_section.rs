@@ -3,7 +3,7 @@
 use super::ticked;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::Fields;
-use crate::source::{FileId, Span};
+use crate::source::SourceFile;
 
 /// SCL0203.
 pub(crate) const RULE: Rule = Rule {
@@ -19,11 +19,11 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-pub(in crate::parse) fn diagnose(fields: &Fields<'_>, file: FileId) -> Diagnostic {
+pub(in crate::parse) fn diagnose(fields: &Fields<'_>, source: &SourceFile) -> Diagnostic {
     const MESSAGE: &str = "the section `components` is missing";
     const SHOWN: usize = 6;
     let keys: Vec<&str> = fields.list.iter().map(|field| field.key).collect();
-    let first = fields.list.first().map_or(Span { file, start: 0, end: 0 }, |field| field.key_span);
+    let first = fields.list.first().map_or(source.span(0..0), |field| field.key_span);
     let label = match keys.len() {
         0 => "this file has no section".to_owned(),
         count if count > SHOWN => {

@@ -32,8 +32,8 @@ pub(in crate::parse) fn is_pair(item: &Node) -> bool {
 
 pub(in crate::parse) fn diagnose(item: &Node, source: &SourceFile) -> Diagnostic {
     let span = with_dash(item.span, source);
-    let end = (source.line_range(span.start).end as u32).min(span.end);
-    let line = source.line_range(span.start).start as u32;
+    let line = source.line_range(span.start as usize);
+    let (line, end) = (line.start as u32, span.end.min(line.end as u32));
     RULE.at("this list of pairs has no `connections:` above it", Span { end, ..span }, "a connection, not a component")
         .help("add the line `connections:` above it, starting in column 1")
         .fix(Span { start: line, end: line, ..span }, "connections:\n")

@@ -29,7 +29,7 @@ pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile) -> Diagnostic
         return problem;
     }
     let start = with_dash(root.span, source);
-    let end = (source.line_range(start.start).end as u32).min(start.end.max(start.start));
+    let end = (source.line_range(start.start as usize).end as u32).min(start.end.max(start.start));
     let span = Span { end, ..start };
     let is_list = matches!(root.kind, NodeKind::Sequence { .. });
     let (thing, label) = if is_list { ("a list", "list item") } else { ("text", "text without a key") };
