@@ -52,7 +52,7 @@ mod version;
 pub use error::{PlanError, UnknownComponent};
 pub use kind::{GateKind, Undecodable, WhenFull};
 pub use nearest::nearest;
-pub use options::{GateOptions, OptionField, Place};
+pub use options::{GateOptions, OptionAccess, OptionField};
 pub use plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
 pub use system::SystemPlan;
 #[cfg(feature = "json")]

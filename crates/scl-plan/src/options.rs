@@ -58,21 +58,33 @@ impl GateOptions {
 
     /// All of them, in the order of the JSON text.
     pub const ALL: [OptionField; 8] = [
-        OptionField { key: "max_size", json: "max_size", place: Place::Size(|options| &mut options.max_size) },
-        OptionField { key: "queue", json: "queue", place: Place::Number(|options| &mut options.queue) },
-        OptionField { key: "when_full", json: "when_full", place: Place::Policy(|options| &mut options.when_full) },
+        OptionField { key: "max_size", json: "max_size", access: OptionAccess::Size(|options| &mut options.max_size) },
+        OptionField { key: "queue", json: "queue", access: OptionAccess::Number(|options| &mut options.queue) },
+        OptionField {
+            key: "when_full",
+            json: "when_full",
+            access: OptionAccess::Policy(|options| &mut options.when_full),
+        },
         OptionField {
             key: "backpressure",
             json: "backpressure",
-            place: Place::Flag(|options| &mut options.backpressure),
+            access: OptionAccess::Flag(|options| &mut options.backpressure),
         },
-        OptionField { key: "latched", json: "latched", place: Place::Flag(|options| &mut options.latched) },
-        OptionField { key: "timeout", json: "timeout_ns", place: Place::Duration(|options| &mut options.timeout) },
-        OptionField { key: "in_flight", json: "in_flight", place: Place::Number(|options| &mut options.in_flight) },
+        OptionField { key: "latched", json: "latched", access: OptionAccess::Flag(|options| &mut options.latched) },
+        OptionField {
+            key: "timeout",
+            json: "timeout_ns",
+            access: OptionAccess::Duration(|options| &mut options.timeout),
+        },
+        OptionField {
+            key: "in_flight",
+            json: "in_flight",
+            access: OptionAccess::Number(|options| &mut options.in_flight),
+        },
         OptionField {
             key: "undecodable",
             json: "undecodable",
-            place: Place::Undecodable(|options| &mut options.undecodable),
+            access: OptionAccess::Undecodable(|options| &mut options.undecodable),
         },
     ];
 }
@@ -90,13 +102,13 @@ pub struct OptionField {
     pub key: &'static str,
     /// Its name in JSON.
     pub json: &'static str,
-    /// Where its value is.
-    pub place: Place,
+    /// How to get at its value.
+    pub access: OptionAccess,
 }
 
-/// Where the value of an option is, by its type.
+/// How to get at the value of an option, by its type.
 #[derive(Debug, Clone, Copy)]
-pub enum Place {
+pub enum OptionAccess {
     /// A whole number.
     Number(fn(&mut GateOptions) -> &mut u32),
     /// A number of bytes.

@@ -14,7 +14,7 @@ mod shape;
 
 pub use codec::{Codec, CodecRow};
 pub use kind::{KindRow, PATTERNS, Pattern};
-pub use option::{GateOption, GateOptions, OPTIONS, option};
+pub use option::{DeclaredOptions, GateOption, OPTIONS, option};
 pub use page::{Entry, entries, explain, page, without_references};
 
 pub use scl_plan::{GateKind, WhenFull};

@@ -1,6 +1,6 @@
 //! The checked topology: indices instead of names, no error left. Only [`check`](crate::check) makes one.
 
-pub use crate::grammar::{Codec, GateKind, GateOptions, WhenFull};
+pub use crate::grammar::{Codec, DeclaredOptions, GateKind, WhenFull};
 
 use crate::source::Span;
 use std::fmt;
@@ -135,7 +135,7 @@ pub struct Gate {
     pub(crate) kind: GateKind,
     pub(crate) payload: Payload,
     pub(crate) codec: Codec,
-    pub(crate) options: GateOptions,
+    pub(crate) options: DeclaredOptions,
     pub(crate) doc: Option<String>,
     pub(crate) span: Span,
     pub(crate) connections: Vec<ConnectionId>,
@@ -167,7 +167,7 @@ impl Gate {
         &self.codec
     }
     /// The options, defaults filled in.
-    pub fn options(&self) -> &GateOptions {
+    pub fn options(&self) -> &DeclaredOptions {
         &self.options
     }
     /// `doc:`.

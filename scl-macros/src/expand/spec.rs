@@ -4,7 +4,7 @@ use super::context::Context;
 use super::schemas::EmbeddedSchemas;
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
-use scl_plan::{ConnectionPlan, GateOptions, GatePlan, Place, Plan};
+use scl_plan::{ConnectionPlan, GateOptions, GatePlan, OptionAccess, Plan};
 use std::fmt::Debug;
 use std::time::Duration;
 use syn::Ident;
@@ -42,24 +42,24 @@ fn expand_gate(private: &TokenStream, gate: &GatePlan) -> TokenStream {
 fn expand_options(private: &TokenStream, options: &GateOptions) -> TokenStream {
     let fields = GateOptions::ALL.into_iter().filter_map(|option| {
         let [ours, default] =
-            [options, &GateOptions::DEFAULT].map(|it| expand_option(private, it.clone(), option.place));
+            [options, &GateOptions::DEFAULT].map(|it| expand_option(private, it.clone(), option.access));
         let name = format_ident!("{}", option.key);
         (ours.to_string() != default.to_string()).then(|| quote!(#name: #ours,))
     });
     quote!(#private::GateOptions { #(#fields)* ..#private::GateOptions::DEFAULT })
 }
 
-fn expand_option(private: &TokenStream, mut options: GateOptions, place: Place) -> TokenStream {
-    match place {
-        Place::Number(number) => number(&mut options).to_token_stream(),
-        Place::Size(size) => size(&mut options).to_token_stream(),
-        Place::Duration(duration) => expand_duration(private, *duration(&mut options)),
-        Place::Flag(flag) => flag(&mut options).to_token_stream(),
-        Place::Policy(policy) => {
+fn expand_option(private: &TokenStream, mut options: GateOptions, access: OptionAccess) -> TokenStream {
+    match access {
+        OptionAccess::Number(number) => number(&mut options).to_token_stream(),
+        OptionAccess::Size(size) => size(&mut options).to_token_stream(),
+        OptionAccess::Duration(duration) => expand_duration(private, *duration(&mut options)),
+        OptionAccess::Flag(flag) => flag(&mut options).to_token_stream(),
+        OptionAccess::Policy(policy) => {
             let policy = variant(policy(&mut options));
             quote!(#private::WhenFull::#policy)
         }
-        Place::Undecodable(choice) => {
+        OptionAccess::Undecodable(choice) => {
             let choice = variant(choice(&mut options));
             quote!(#private::Undecodable::#choice)
         }

@@ -3,7 +3,7 @@
 use crate::comment;
 use crate::system::{Component, Gate, System};
 use crate::writer::Writer;
-use scl_plan::{GateOptions, Payload, Place};
+use scl_plan::{GateOptions, OptionAccess, Payload};
 
 /// Writes a docstring.
 pub(super) fn write(text: &str, out: &mut Writer) {
@@ -87,19 +87,19 @@ fn options(gate: &Gate) -> Vec<String> {
     let is_typed = gate.plan.payload != Payload::Bytes;
     let codec = (is_typed && gate.plan.codec != "protobuf").then(|| format!("`codec: {}`", gate.plan.codec));
     let changed = GateOptions::ALL.iter().filter_map(|option| {
-        let value = value_of(&option.place, &mut options);
-        (value != value_of(&option.place, &mut default)).then(|| format!("`{}: {value}`", option.key))
+        let value = value_of(&option.access, &mut options);
+        (value != value_of(&option.access, &mut default)).then(|| format!("`{}: {value}`", option.key))
     });
     codec.into_iter().chain(changed).collect()
 }
 
-fn value_of(place: &Place, options: &mut GateOptions) -> String {
-    match place {
-        Place::Number(number) => number(options).to_string(),
-        Place::Size(size) => format!("{}B", size(options)),
-        Place::Duration(duration) => format!("{:?}", duration(options)).replace('µ', "u"),
-        Place::Flag(flag) => flag(options).to_string(),
-        Place::Policy(policy) => policy(options).word().to_owned(),
-        Place::Undecodable(choice) => choice(options).word().to_owned(),
+fn value_of(access: &OptionAccess, options: &mut GateOptions) -> String {
+    match access {
+        OptionAccess::Number(number) => number(options).to_string(),
+        OptionAccess::Size(size) => format!("{}B", size(options)),
+        OptionAccess::Duration(duration) => format!("{:?}", duration(options)).replace('µ', "u"),
+        OptionAccess::Flag(flag) => flag(options).to_string(),
+        OptionAccess::Policy(policy) => policy(options).word().to_owned(),
+        OptionAccess::Undecodable(choice) => choice(options).word().to_owned(),
     }
 }

@@ -4,7 +4,7 @@ use super::object::At;
 use crate::base64;
 use crate::error::PlanError;
 use crate::kind::{GateKind, Undecodable, WhenFull};
-use crate::options::{GateOptions, Place};
+use crate::options::{GateOptions, OptionAccess};
 use crate::plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
 use crate::system::SystemPlan;
 use crate::version::VERSION;
@@ -102,7 +102,7 @@ fn gate(at: &At<'_>) -> Result<GatePlan, PlanError> {
     let mut options = GateOptions::DEFAULT;
     // One that an earlier release did not know, in a recording for example, has its default.
     for option in GateOptions::ALL.into_iter().filter(|option| fields.has(option.json)) {
-        read_option(&fields.field(option.json)?, option.place, &mut options)?;
+        read_option(&fields.field(option.json)?, option.access, &mut options)?;
     }
     Ok(GatePlan {
         name: fields.text("name")?,
@@ -118,14 +118,14 @@ fn gate(at: &At<'_>) -> Result<GatePlan, PlanError> {
     })
 }
 
-fn read_option(at: &At<'_>, place: Place, options: &mut GateOptions) -> Result<(), PlanError> {
-    match place {
-        Place::Number(number) => *number(options) = at.number(u32::MAX)?,
-        Place::Size(size) => *size(options) = at.number(u64::MAX)?,
-        Place::Duration(duration) => *duration(options) = Duration::from_nanos(at.number(u64::MAX)?),
-        Place::Flag(flag) => *flag(options) = at.flag()?,
-        Place::Policy(policy) => *policy(options) = at.word(&WhenFull::ALL, WhenFull::word)?,
-        Place::Undecodable(choice) => *choice(options) = at.word(&Undecodable::ALL, Undecodable::word)?,
+fn read_option(at: &At<'_>, access: OptionAccess, options: &mut GateOptions) -> Result<(), PlanError> {
+    match access {
+        OptionAccess::Number(number) => *number(options) = at.number(u32::MAX)?,
+        OptionAccess::Size(size) => *size(options) = at.number(u64::MAX)?,
+        OptionAccess::Duration(duration) => *duration(options) = Duration::from_nanos(at.number(u64::MAX)?),
+        OptionAccess::Flag(flag) => *flag(options) = at.flag()?,
+        OptionAccess::Policy(policy) => *policy(options) = at.word(&WhenFull::ALL, WhenFull::word)?,
+        OptionAccess::Undecodable(choice) => *choice(options) = at.word(&Undecodable::ALL, Undecodable::word)?,
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::text::Json;
 use crate::base64;
-use crate::options::{GateOptions, Place};
+use crate::options::{GateOptions, OptionAccess};
 use crate::plan::{ConnectionPlan, GatePlan, Payload, Plan};
 use crate::system::SystemPlan;
 use crate::version::VERSION;
@@ -61,20 +61,22 @@ fn gate(gate: &GatePlan) -> Json {
         ("tap", Json::or_null(gate.tap.as_deref())),
         ("contract", Json::text(&gate.contract)),
     ];
-    let options = GateOptions::ALL.map(|field| (field.json, option(gate.options.clone(), field.place)));
+    let options = GateOptions::ALL.map(|field| (field.json, option(gate.options.clone(), field.access)));
     let connections = ("connections", Json::List(gate.connections.iter().map(connection).collect()));
     Json::object(own.into_iter().chain(options).chain([connections]))
 }
 
-fn option(mut options: GateOptions, place: Place) -> Json {
-    match place {
-        Place::Number(number) => Json::Number((*number(&mut options)).into()),
-        Place::Size(size) => Json::Number(*size(&mut options)),
+fn option(mut options: GateOptions, access: OptionAccess) -> Json {
+    match access {
+        OptionAccess::Number(number) => Json::Number((*number(&mut options)).into()),
+        OptionAccess::Size(size) => Json::Number(*size(&mut options)),
         // A duration of over 584 years is none that `validate` accepts.
-        Place::Duration(duration) => Json::Number(u64::try_from(duration(&mut options).as_nanos()).unwrap_or(u64::MAX)),
-        Place::Flag(flag) => Json::Bool(*flag(&mut options)),
-        Place::Policy(policy) => Json::text(policy(&mut options).word()),
-        Place::Undecodable(choice) => Json::text(choice(&mut options).word()),
+        OptionAccess::Duration(duration) => {
+            Json::Number(u64::try_from(duration(&mut options).as_nanos()).unwrap_or(u64::MAX))
+        }
+        OptionAccess::Flag(flag) => Json::Bool(*flag(&mut options)),
+        OptionAccess::Policy(policy) => Json::text(policy(&mut options).word()),
+        OptionAccess::Undecodable(choice) => Json::text(choice(&mut options).word()),
     }
 }
 

@@ -48,19 +48,19 @@ pub(super) fn apply(model: &Model, sources: &Sources, problems: &mut Diagnostics
         return;
     }
     let mut own = Vec::new();
-    let mut wishes = Wishes::of(model, &mut own);
+    let mut requests = Requests::of(model, &mut own);
     let mut left: HashMap<u32, &'static Rule> = HashMap::new();
     problems.retain(|problem| {
-        if problem.severity == Severity::Lint && wishes.lints.contains(problem.rule) {
+        if problem.severity == Severity::Lint && requests.lints.contains(problem.rule) {
             problem.severity = Severity::Warning;
         }
         let lines = lines(problem, sources);
-        let is_allowed = lines.iter().any(|line| wishes.allow(problem.rule, *line));
+        let is_allowed = lines.iter().any(|line| requests.allow(problem.rule, *line));
         let line = lines.first().filter(|_| !is_allowed && problem.severity != Severity::Lint);
         line.into_iter().for_each(|line| _ = left.entry(*line).or_insert(problem.rule));
         !is_allowed
     });
-    wishes.report(&left, problems.has_errors(), &mut own);
+    requests.report(&left, problems.has_errors(), &mut own);
     problems.extend(own);
 }
 
@@ -83,8 +83,8 @@ pub(super) fn allowed_lines(model: &Model, of: &Rule) -> HashSet<u32> {
     allows.map(|control| control.line).collect()
 }
 
-/// What all comments together ask for.
-struct Wishes<'m> {
+/// The requests of all comments.
+struct Requests<'m> {
     /// By rule and line.
     allowed: HashMap<(&'static Rule, u32), Allow<'m>>,
     /// The lints that are turned on.
@@ -98,25 +98,25 @@ struct Allow<'m> {
     used: bool,
 }
 
-impl<'m> Wishes<'m> {
+impl<'m> Requests<'m> {
     fn of(model: &'m Model, own: &mut Vec<Diagnostic>) -> Self {
-        let mut wishes = Self { allowed: HashMap::new(), lints: HashSet::new() };
+        let mut requests = Self { allowed: HashMap::new(), lints: HashSet::new() };
         for control in &model.controls {
             match read(control, own) {
                 Some(Command::Allow { rules, reason }) => {
                     for rule in rules {
                         let place = (rule, control.line);
-                        wishes.allowed.entry(place).or_insert(Allow { control, reason, used: false });
+                        requests.allowed.entry(place).or_insert(Allow { control, reason, used: false });
                     }
                 }
                 Some(Command::Warn { rule, .. }) if rule.severity == Severity::Lint => {
-                    wishes.lints.insert(rule);
+                    requests.lints.insert(rule);
                 }
                 Some(Command::Warn { rule, .. }) => own.push(is_on(control, rule)),
                 None => {}
             }
         }
-        wishes
+        requests
     }
 
     /// Whether a problem is allowed; notes that it occurred.

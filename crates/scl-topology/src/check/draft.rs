@@ -4,7 +4,7 @@
 
 use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use crate::source::{Sources, Span, Spanned};
-use crate::topology::{Codec, GateKind, GateOptions, Payload};
+use crate::topology::{Codec, DeclaredOptions, GateKind, Payload};
 use crate::work;
 use std::collections::HashMap;
 
@@ -49,7 +49,7 @@ pub(super) struct DraftGate<'m> {
     pub(super) codec: Option<Spanned<Codec>>,
     /// Whether the codec is written but unusable.
     pub(super) codec_broken: bool,
-    pub(super) options: GateOptions,
+    pub(super) options: DeclaredOptions,
     /// Whether an earlier gate of the component has its name.
     pub(super) duplicate: bool,
     /// Whether a connection names it, be the connection good or not.
@@ -181,7 +181,7 @@ impl<'m> DraftGate<'m> {
             payload_from: None,
             codec: None,
             codec_broken: false,
-            options: GateOptions::default(),
+            options: DeclaredOptions::default(),
             duplicate,
             named: false,
         }

@@ -45,7 +45,7 @@ fn report(kind: Option<GateKind>, row: &GateOption, option: &OptionModel, range:
     if let Some(default) = row.default() {
         found = found.help(format!("leave it out to get the default, {default}"));
     }
-    if let Some(reason) = row.limit(range) {
+    if let Some(reason) = range.reason {
         found = found.note(reason);
     }
     // An option that this kind of gate does not have needs no other value.

@@ -1,18 +1,19 @@
 //! The options of a gate: one row each. The checks, the schema, the reference page and the generated documentation read
-//! the row; what the option does at run time reads the field of [`GateOptions`] that the row names.
+//! the row; what the option does at run time reads the field of the plan's options with the key
+//! of the row.
 
 use super::queue_policy::POLICIES;
 use super::shape::{self, OutOfRange, Shape, Word};
 use crate::{duration, size};
 use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
-use scl_plan::{Undecodable, WhenFull};
+use scl_plan::{OptionAccess, Undecodable, WhenFull};
 use std::ops::{Deref, DerefMut};
 use std::time::Duration;
 
 /// The options of a gate, defaults filled in: those of its program, which read as if they were here, and those of the
 /// checker alone.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct GateOptions {
+pub struct DeclaredOptions {
     /// Those that the program needs.
     pub program: scl_plan::GateOptions,
     /// `share`.
@@ -21,7 +22,7 @@ pub struct GateOptions {
     pub unconnected_ok: bool,
 }
 
-impl Deref for GateOptions {
+impl Deref for DeclaredOptions {
     type Target = scl_plan::GateOptions;
 
     fn deref(&self) -> &Self::Target {
@@ -29,13 +30,13 @@ impl Deref for GateOptions {
     }
 }
 
-impl DerefMut for GateOptions {
+impl DerefMut for DeclaredOptions {
     fn deref_mut(&mut self) -> &mut Self::Target {
         &mut self.program
     }
 }
 
-impl GateOptions {
+impl DeclaredOptions {
     /// The largest `max_size` of a gate: 1 GiB.
     pub const LARGEST_MAX_SIZE: u64 = 1 << 30;
 }
@@ -55,30 +56,25 @@ pub static OPTIONS: [GateOption; 12] = [
         key: "doc",
         shape: Shape::Text,
         kinds: &GateKind::ALL,
-        field: Field::Elsewhere,
         summary: "A paragraph for the generated documentation.",
         text: "Editors show it when the cursor is on the gate's field.",
         examples: &["attitude: {pub: Attitude, doc: Roll and pitch at 100 Hz.}"],
         absent: &[],
-        limits: ["", ""],
     },
     GateOption {
         key: "codec",
         shape: Shape::Codec,
         kinds: &GateKind::ALL,
-        field: Field::Elsewhere,
         summary: "How messages become bytes; without it, the codec of the other end, or that of the file.",
         text: "Both ends of a connection have the same codec, so one of them is enough to say it. A gate without a type \
                carries bytes as they are, whatever its `codec`. See [codecs](#codecs).",
         examples: &["attitude: {pub: Attitude, codec: json}", "position: {pub: Position, codec: my_crate::Flat}"],
         absent: &[],
-        limits: ["", ""],
     },
     GateOption {
         key: "queue",
         shape: Shape::Number { least: 1, most: LONGEST_QUEUE },
         kinds: &[Sub, Pull],
-        field: Field::Number(|options| &mut options.queue),
         summary: "How many messages may wait for this gate; 1 means: only the newest.",
         text: "Counted in messages, for each connection. What happens when it is full is `when_full`. A queue of 1 with \
                `drop_oldest` always holds the newest value, also after a pause of the receiver: nothing older waits in \
@@ -89,16 +85,11 @@ pub static OPTIONS: [GateOption; 12] = [
             (&[Req, Rep], "`req` and `rep` take turns, so there is never more than one message waiting"),
             (&[Pub, Push], "each receiver says how many messages may wait for it"),
         ],
-        limits: ["", ""],
     },
     GateOption {
         key: "when_full",
         shape: Shape::Word(&POLICIES),
         kinds: &[Sub, Pull],
-        field: Field::Word {
-            read: |options| Some(options.when_full.word()),
-            write: |options, word| options.when_full = WhenFull::of(word).unwrap_or(options.when_full),
-        },
         summary: "What a full queue does: drop the oldest message, drop the newest, or make the sender wait.",
         text: "`wait` needs `backpressure: true` at the sender. See [queue policies](#queue-policies).",
         examples: &["samples: {sub: Sample, queue: 1000, when_full: drop_newest}"],
@@ -106,26 +97,22 @@ pub static OPTIONS: [GateOption; 12] = [
             (&[Req, Rep], "`req` and `rep` take turns, so there is never more than one message waiting"),
             (&[Pub, Push], "each receiver says how many messages may wait for it"),
         ],
-        limits: ["", ""],
     },
     GateOption {
         key: "backpressure",
         shape: Shape::Boolean,
         kinds: &[Pub, Push],
-        field: Field::Switch(|options| &mut options.backpressure),
         summary: "Allows a receiver with `when_full: wait` to make this gate wait.",
         text: "Both ends agree to it, so that no sender waits by surprise. Receivers with another `when_full` are not \
                affected. For a receiver in an `optional` component the gate waits only while it is connected; without \
                it, a full queue drops its oldest message, which is counted.",
         examples: &["samples: {pub: Sample, backpressure: true}"],
         absent: &[(&[Sub, Pull], "a receiver asks for it with `when_full: wait`")],
-        limits: ["", ""],
     },
     GateOption {
         key: "latched",
         shape: Shape::Boolean,
         kinds: &[Pub],
-        field: Field::Switch(|options| &mut options.latched),
         summary: "A subscriber that joins or restarts gets the last message at once.",
         text: "For state that seldom changes, such as a mode or a configuration, so that nobody has to send it again and \
                again, or wait for its first subscriber. This holds over every transport, between hosts, and in every language. \
@@ -141,48 +128,38 @@ pub static OPTIONS: [GateOption; 12] = [
             (&[Push, Pull], "each message goes to one puller, once"),
             (&[Req, Rep], "a reply belongs to one call"),
         ],
-        limits: ["", ""],
     },
     GateOption {
         key: "max_size",
-        shape: Shape::Size { most: GateOptions::LARGEST_MAX_SIZE },
+        shape: Shape::Size { most: DeclaredOptions::LARGEST_MAX_SIZE },
         kinds: &[Sub, Pull, Req, Rep],
-        field: Field::Size(|options| &mut options.max_size),
         summary: "The longest message that this gate accepts.",
         text: "Checked before memory is reserved. A sender refuses a message that is longer than a receiver accepts. \
                A message of `schemas` whose decoding would take more than 16 times this size in memory (at least 16 MiB) is \
                undecodable.",
         examples: &["image: {sub: Image, max_size: 8MiB}"],
         absent: &[(&[Pub, Push], "each receiving gate sets its own limit")],
-        limits: [
-            "a gate with this limit would accept empty messages only",
-            "a message is held in memory as a whole; send larger data in several messages",
-        ],
     },
     GateOption {
         key: "timeout",
         shape: Shape::Duration { most: LONGEST_TIMEOUT },
         kinds: &[Req],
-        field: Field::Duration(|options| &mut options.timeout),
         summary: "How long a call may take.",
         text: "Counted from the call until the reply. A reply that arrives later is dropped. If the replier makes calls \
                of its own before it answers, this timeout has to be longer than theirs.",
         examples: &["set_mode: {req: Mode -> Accepted, timeout: 500ms}"],
         absent: &[(&[Rep], "each requester says how long it waits")],
-        limits: ["", ""],
     },
     GateOption {
         key: "in_flight",
         shape: Shape::Number { least: 1, most: MOST_IN_FLIGHT },
         kinds: &[Req],
-        field: Field::Number(|options| &mut options.in_flight),
         summary: "How many calls may be in progress at once.",
         text: "For programs that call from several tasks. A call beyond the limit waits, within its timeout, until another one \
                ends. Each reply is matched with its request; a replier may answer in any order, or take one request after \
                the other.",
         examples: &["tiles: {req: Area -> Tile, in_flight: 8}"],
         absent: &[(&[Rep], "a replier may hold any number of requests")],
-        limits: ["", ""],
     },
     GateOption {
         key: "undecodable",
@@ -195,10 +172,6 @@ pub static OPTIONS: [GateOption; 12] = [
             Word { word: Undecodable::Fail.word(), summary: "the call fails", text: "The next call goes on." },
         ]),
         kinds: &[Sub, Pull, Rep],
-        field: Field::Word {
-            read: |options| Some(options.undecodable.word()),
-            write: |options, word| options.undecodable = Undecodable::of(word).unwrap_or(options.undecodable),
-        },
         summary: "What a receiving call does with a message that the codec cannot read: skip it, or fail.",
         text: "With `skip`, the message is counted as `undecodable`, the first one of each peer is logged with the \
                reason, and the call goes on with the next message within its time. With `fail`, the call returns the \
@@ -208,33 +181,25 @@ pub static OPTIONS: [GateOption; 12] = [
             (&[Pub, Push], "each receiving gate says what it does with messages that it cannot read"),
             (&[Req], "an undecodable reply fails the call that it answers"),
         ],
-        limits: ["", ""],
     },
     GateOption {
         key: "share",
         shape: Shape::Boolean,
         kinds: &[Push],
-        field: Field::Switch(|options| &mut options.share),
         summary: "Several pullers share the work: each message goes to one of them.",
         text: "Without it, a `push` gate has one puller.",
         examples: &["jobs: {push: Job, share: true}"],
         absent: &[(&[Pub], "every subscriber gets every message")],
-        limits: ["", ""],
     },
     GateOption {
         key: "unconnected",
         shape: Shape::Word(&[Word { word: "ok", summary: "no peer is needed", text: "" }]),
         kinds: &GateKind::ALL,
-        field: Field::Word {
-            read: |options| options.unconnected_ok.then_some("ok"),
-            write: |options, word| options.unconnected_ok = word == "ok",
-        },
         summary: "`ok`: this gate is meant to have no peer, so nothing warns about it.",
         text: "Without it, a gate without a connection is a warning, and an error at a `req` gate, whose calls could only \
                fail.",
         examples: &["debug: {pub: Trace, unconnected: ok}"],
         absent: &[],
-        limits: ["", ""],
     },
 ];
 
@@ -255,24 +220,16 @@ pub struct GateOption {
     pub examples: &'static [&'static str],
     /// Why other kinds do not have it, where there is more to say than that.
     absent: &'static [(&'static [GateKind], &'static str)],
-    /// Why a value below or above its range cannot work; empty where the range says enough.
-    limits: [&'static str; 2],
-    field: Field,
 }
 
 /// Where the value of an option goes.
-#[derive(Debug)]
-enum Field {
-    /// Not into [`GateOptions`].
-    Elsewhere,
-    Number(fn(&mut GateOptions) -> &mut u32),
-    Duration(fn(&mut GateOptions) -> &mut Duration),
-    Size(fn(&mut GateOptions) -> &mut u64),
-    Switch(fn(&mut GateOptions) -> &mut bool),
-    Word {
-        read: fn(&GateOptions) -> Option<&'static str>,
-        write: fn(&mut GateOptions, &str),
-    },
+enum Home {
+    /// Into the gate itself: `doc` and `codec`.
+    Gate,
+    /// Into the options of the program, which the plan tells.
+    Program(OptionAccess),
+    Share,
+    Unconnected,
 }
 
 /// The option with this key.
@@ -291,52 +248,71 @@ impl GateOption {
         self.absent.iter().find(|(kinds, _)| kinds.contains(&kind)).map(|(_, reason)| *reason)
     }
 
-    /// Why a value out of range cannot work, if there is more to say than the range.
-    pub fn limit(&self, error: &OutOfRange) -> Option<&'static str> {
-        Some(self.limits[usize::from(error.is_above)]).filter(|text| !text.is_empty())
-    }
-
     /// Stores a value that looks right; the parser has seen to that.
     ///
     /// # Errors
     ///
     /// The value is out of its range; then nothing is stored.
-    pub fn set(&self, options: &mut GateOptions, text: &str) -> Result<(), OutOfRange> {
-        match (&self.field, self.shape) {
-            (Field::Number(field), Shape::Number { least, most }) => {
-                *field(options) = shape::number(text, least, most)?;
+    pub fn set(&self, options: &mut DeclaredOptions, text: &str) -> Result<(), OutOfRange> {
+        let program = &mut options.program;
+        match (self.home(), self.shape) {
+            (Home::Program(OptionAccess::Number(number)), Shape::Number { least, most }) => {
+                *number(program) = shape::number(text, least, most)?;
             }
-            (Field::Duration(field), Shape::Duration { most }) => *field(options) = shape::duration(text, most)?,
-            (Field::Size(field), Shape::Size { most }) => *field(options) = shape::size(text, most)?,
-            (Field::Switch(field), _) => *field(options) = text == "true",
-            (Field::Word { write, .. }, _) => write(options, text),
+            (Home::Program(OptionAccess::Duration(duration)), Shape::Duration { most }) => {
+                *duration(program) = shape::duration(text, most)?;
+            }
+            (Home::Program(OptionAccess::Size(size)), Shape::Size { most }) => {
+                *size(program) = shape::size(text, most)?;
+            }
+            (Home::Program(OptionAccess::Flag(flag)), _) => *flag(program) = text == "true",
+            (Home::Program(OptionAccess::Policy(policy)), _) => {
+                *policy(program) = WhenFull::of(text).unwrap_or_default();
+            }
+            (Home::Program(OptionAccess::Undecodable(choice)), _) => {
+                *choice(program) = Undecodable::of(text).unwrap_or_default();
+            }
+            (Home::Share, _) => options.share = text == "true",
+            (Home::Unconnected, _) => options.unconnected_ok = text == "ok",
             _ => {}
         }
         Ok(())
     }
 
-    /// The value as in the file. None for `doc` and `codec`, whose values are not among [`GateOptions`], and where no
+    /// The value as in the file. None for `doc` and `codec`, whose values are not among [`DeclaredOptions`], and where no
     /// word stands for the value.
-    pub fn get(&self, options: &GateOptions) -> Option<String> {
-        let mut options = options.clone();
-        match &self.field {
-            Field::Elsewhere => None,
-            Field::Number(field) => Some(field(&mut options).to_string()),
-            Field::Duration(field) => Some(duration::text(*field(&mut options))),
-            Field::Size(field) => Some(size::text(*field(&mut options))),
-            Field::Switch(field) => Some(field(&mut options).to_string()),
-            Field::Word { read, .. } => read(&options).map(str::to_owned),
+    pub fn get(&self, options: &DeclaredOptions) -> Option<String> {
+        let mut program = options.program.clone();
+        Some(match self.home() {
+            Home::Gate => return None,
+            Home::Program(OptionAccess::Number(number)) => number(&mut program).to_string(),
+            Home::Program(OptionAccess::Duration(length)) => duration::text(*length(&mut program)),
+            Home::Program(OptionAccess::Size(bytes)) => size::text(*bytes(&mut program)),
+            Home::Program(OptionAccess::Flag(flag)) => flag(&mut program).to_string(),
+            Home::Program(OptionAccess::Policy(policy)) => policy(&mut program).word().to_owned(),
+            Home::Program(OptionAccess::Undecodable(choice)) => choice(&mut program).word().to_owned(),
+            Home::Share => options.share.to_string(),
+            Home::Unconnected => return options.unconnected_ok.then(|| "ok".to_owned()),
+        })
+    }
+
+    fn home(&self) -> Home {
+        match scl_plan::GateOptions::ALL.into_iter().find(|field| field.key == self.key) {
+            Some(field) => Home::Program(field.access),
+            None if self.key == "share" => Home::Share,
+            None if self.key == "unconnected" => Home::Unconnected,
+            None => Home::Gate,
         }
     }
 
-    /// Whether the gate has the value itself, not its [`GateOptions`]: `doc` and `codec`.
+    /// Whether the gate has the value itself, not its [`DeclaredOptions`]: `doc` and `codec`.
     pub fn is_text(&self) -> bool {
-        matches!(self.field, Field::Elsewhere)
+        matches!(self.home(), Home::Gate)
     }
 
     /// The default as in the file, where it has one.
     pub fn default(&self) -> Option<String> {
-        self.get(&GateOptions::default())
+        self.get(&DeclaredOptions::default())
     }
 
     /// A value, for messages.
@@ -349,7 +325,7 @@ impl GateOption {
 
 #[cfg(test)]
 mod tests {
-    use super::{Field, GateOptions, OPTIONS, Shape, option};
+    use super::{DeclaredOptions, OPTIONS, option};
     use crate::grammar::GateKind;
 
     #[test]
@@ -357,16 +333,16 @@ mod tests {
         for option in &OPTIONS {
             let key = option.key;
             assert!(option.shape.fits(option.example(), true), "{key}: {}", option.example());
-            let mut options = GateOptions::default();
+            let mut options = DeclaredOptions::default();
             assert_eq!(option.set(&mut options, option.example()), Ok(()), "{key}");
-            match option.field {
-                Field::Elsewhere => assert_eq!(options, GateOptions::default()),
-                _ => {
-                    assert_eq!(option.get(&options).as_deref(), Some(option.example()), "{key}");
-                    let another = OPTIONS.iter().find(|it| it.key != key && it.get(&options) != it.default());
-                    assert!(another.is_none_or(|it| it.key == "queue"), "{key} sets {another:?}");
-                }
+            assert_eq!(option.is_text(), matches!(key, "doc" | "codec"), "{key}");
+            if option.is_text() {
+                assert_eq!(options, DeclaredOptions::default());
+                continue;
             }
+            assert_eq!(option.get(&options).as_deref(), Some(option.example()), "{key}");
+            let another = OPTIONS.iter().find(|it| it.key != key && it.get(&options) != it.default());
+            assert!(another.is_none_or(|it| it.key == "queue"), "{key} sets {another:?}");
         }
     }
 
@@ -381,7 +357,7 @@ mod tests {
     #[test]
     fn a_limit_has_the_reason_of_its_end() {
         let max_size = option("max_size").unwrap();
-        let reason = |text| max_size.set(&mut GateOptions::default(), text).map_err(|error| max_size.limit(&error));
+        let reason = |text| max_size.set(&mut DeclaredOptions::default(), text).map_err(|error| error.reason);
         assert_eq!(reason("0B"), Err(Some("a gate with this limit would accept empty messages only")));
         assert!(reason("2GiB").is_err_and(|reason| reason.is_some_and(|text| text.contains("held in memory"))));
     }
@@ -392,8 +368,6 @@ mod tests {
             for kind in GateKind::ALL {
                 assert!(!option.fits(kind) || option.reason(kind).is_none(), "{} of {}", option.key, kind.word());
             }
-            let has_limits = matches!(option.shape, Shape::Number { .. } | Shape::Size { .. } | Shape::Duration { .. });
-            assert!(has_limits || option.limits == ["", ""], "{}", option.key);
         }
     }
 }

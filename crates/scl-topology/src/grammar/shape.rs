@@ -70,8 +70,8 @@ pub enum Item {
 pub struct OutOfRange {
     /// What it must be: `at least 1`.
     pub rule: String,
-    /// Whether it is above the range, not below.
-    pub is_above: bool,
+    /// Why another value cannot work, if there is more to say than the range.
+    pub reason: Option<&'static str>,
 }
 
 impl Shape {
@@ -140,10 +140,10 @@ pub(super) fn number(text: &str, least: u32, most: u32) -> Result<u32, OutOfRang
     let is_negative = text.starts_with('-') && digits.bytes().any(|digit| digit != b'0');
     // Digits alone fail to parse only if they are too many.
     match digits.parse::<u32>() {
-        _ if is_negative => Err(below(format!("at least {least}"))),
-        Ok(number) if number < least => Err(below(format!("at least {least}"))),
+        _ if is_negative => Err(outside(format!("at least {least}"))),
+        Ok(number) if number < least => Err(outside(format!("at least {least}"))),
         Ok(number) if number <= most => Ok(number),
-        _ => Err(above(format!("at most {most}"))),
+        _ => Err(outside(format!("at most {most}"))),
     }
 }
 
@@ -151,26 +151,28 @@ pub(super) fn number(text: &str, least: u32, most: u32) -> Result<u32, OutOfRang
 pub(super) fn duration(text: &str, most: Duration) -> Result<Duration, OutOfRange> {
     match duration::parse(text) {
         Ok(duration) if duration <= most => Ok(duration),
-        Err(DurationError::TooSmall | DurationError::Malformed) => Err(below("more than 0".to_owned())),
-        Ok(_) | Err(DurationError::TooLarge) => Err(above(format!("at most {}", duration::text(most)))),
+        Err(DurationError::TooSmall | DurationError::Malformed) => Err(outside("more than 0".to_owned())),
+        Ok(_) | Err(DurationError::TooLarge) => Err(outside(format!("at most {}", duration::text(most)))),
     }
 }
 
 /// A number of bytes in its range.
 pub(super) fn size(text: &str, most: u64) -> Result<u64, OutOfRange> {
     match size::parse(text) {
-        Ok(0) | Err(SizeError::Negative | SizeError::Malformed) => Err(below("at least 1B".to_owned())),
+        Ok(0) | Err(SizeError::Negative | SizeError::Malformed) => Err(OutOfRange {
+            rule: "at least 1B".to_owned(),
+            reason: Some("a gate with this limit would accept empty messages only"),
+        }),
         Ok(bytes) if bytes <= most => Ok(bytes),
-        Ok(_) | Err(SizeError::TooLarge) => Err(above(format!("at most {}", size::text(most)))),
+        Ok(_) | Err(SizeError::TooLarge) => Err(OutOfRange {
+            rule: format!("at most {}", size::text(most)),
+            reason: Some("a message is held in memory as a whole; send larger data in several messages"),
+        }),
     }
 }
 
-fn below(rule: String) -> OutOfRange {
-    OutOfRange { rule, is_above: false }
-}
-
-fn above(rule: String) -> OutOfRange {
-    OutOfRange { rule, is_above: true }
+fn outside(rule: String) -> OutOfRange {
+    OutOfRange { rule, reason: None }
 }
 
 #[cfg(test)]
@@ -189,10 +191,16 @@ mod tests {
 
     #[test]
     fn numbers_have_two_ends() {
-        let is_above = |text| number(text, 1, 9).map_err(|error| error.is_above);
-        assert_eq!(
-            ["1", "+9", "-0", "-5", "0", "10", "99999999999"].map(is_above),
-            [Ok(1), Ok(9), Err(false), Err(false), Err(false), Err(true), Err(true)]
-        );
+        let read = |text| number(text, 1, 9).map_err(|error| error.rule);
+        for (text, expected) in [("1", 1), ("+9", 9)] {
+            assert_eq!(read(text), Ok(expected));
+        }
+        for (text, rule) in ["-0", "-5", "0"]
+            .map(|text| (text, "at least 1"))
+            .into_iter()
+            .chain(["10", "99999999999"].map(|text| (text, "at most 9")))
+        {
+            assert_eq!(read(text), Err(rule.to_owned()), "{text}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! SCL0417: declarations of the schemas that would get the same Rust name, or none.
 
-use super::declared::{Declared, Place, of_components, of_schema};
+use super::declared::{Declared, Origin, of_components, of_schema};
 use crate::schemas::place::Places;
 use prost_types::FileDescriptorProto;
 use scl_topology::diagnostic::Diagnostic;
@@ -32,7 +32,7 @@ pub(in crate::schemas) fn find_clashes(
         // Packages whose names become one share a module, and a package may have several files.
         let is_one = other.what == declared.what || is_package(other) && is_package(declared);
         // Several names come from one declaration; one of them tells enough.
-        if !is_one && told.insert((&other.place, &declared.place)) {
+        if !is_one && told.insert((&other.origin, &declared.origin)) {
             found.push(report(other, declared, places));
         }
     }
@@ -65,9 +65,9 @@ fn report(first: &Declared<'_>, second: &Declared<'_>, places: &mut Places<'_>) 
     if let Some(span) = span(first, places) {
         problem = problem.label(span, format!("becomes `{name}`"));
     }
-    match first.place {
-        Place::Topology(_) => problem.help("rename the component, or give the schema a `package`"),
-        Place::Schema { .. } => problem.help("rename one of them").note(NOT_IN_BYTES),
+    match first.origin {
+        Origin::Topology(_) => problem.help("rename the component, or give the schema a `package`"),
+        Origin::Schema { .. } => problem.help("rename one of them").note(NOT_IN_BYTES),
     }
 }
 
@@ -79,9 +79,9 @@ fn at(declared: &Declared<'_>, headline: String, label: &str, places: &mut Place
 }
 
 fn span(declared: &Declared<'_>, places: &mut Places<'_>) -> Option<Span> {
-    match &declared.place {
-        Place::Topology(span) => Some(*span),
-        Place::Schema { file, path } => places.of(file, path),
+    match &declared.origin {
+        Origin::Topology(span) => Some(*span),
+        Origin::Schema { file, path } => places.of(file, path),
     }
 }
 

@@ -19,12 +19,12 @@ pub(super) struct Declared<'f> {
     /// What it stands for, as messages say it: ``message `rover.Status` ``.
     pub(super) what: String,
     /// Where the declaration is written.
-    pub(super) place: Place<'f>,
+    pub(super) origin: Origin<'f>,
 }
 
 /// Where a declaration is written.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(super) enum Place<'f> {
+pub(super) enum Origin<'f> {
     /// In a schema file, at a path as in `google.protobuf.SourceCodeInfo`.
     Schema { file: &'f str, path: Vec<i32> },
     /// In the topology file.
@@ -51,8 +51,8 @@ pub(super) fn of_components(model: &Model) -> impl Iterator<Item = Declared<'sta
         let what = format!("component `{}`", component.name.value);
         let name = component_type(&component.name.value);
         let peer = (format!("{name}Peer"), format!("the counterpart of {what}"));
-        let place = Place::Topology(component.name.span);
-        [(name, what), peer].map(|(name, what)| Declared { scope: ROOT.to_owned(), name, what, place: place.clone() })
+        let origin = Origin::Topology(component.name.span);
+        [(name, what), peer].map(|(name, what)| Declared { scope: ROOT.to_owned(), name, what, origin: origin.clone() })
     })
 }
 
@@ -96,8 +96,8 @@ impl<'f> Walk<'f> {
     }
 
     fn add(&mut self, scope: String, name: &str, what: String, path: Vec<i32>) {
-        let place = Place::Schema { file: self.file, path };
-        self.found.push(Declared { scope, name: name.to_owned(), what, place });
+        let origin = Origin::Schema { file: self.file, path };
+        self.found.push(Declared { scope, name: name.to_owned(), what, origin });
     }
 
     /// Adds a name for the declaration at the current path.
