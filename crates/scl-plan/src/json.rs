@@ -8,5 +8,4 @@
 
 mod object;
 mod read;
-mod text;
 mod write;

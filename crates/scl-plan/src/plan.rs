@@ -7,10 +7,13 @@ use std::sync::Arc;
 
 /// Everything a program needs to run one component.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "json", derive(serde::Serialize))]
 pub struct Plan {
     /// The system's name.
+    #[cfg_attr(feature = "json", serde(skip))]
     pub system: String,
     /// The component's name, as in the topology file.
+    #[cfg_attr(feature = "json", serde(rename = "name"))]
     pub component: String,
     /// Where it is declared: `topology.yaml:4:11`.
     pub declared_at: String,
@@ -29,6 +32,7 @@ impl Plan {
 
 /// A gate: what it carries, how, and between which gates.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "json", derive(serde::Serialize))]
 pub struct GatePlan {
     /// The gate's name, as in the topology file.
     pub name: String,
@@ -47,6 +51,7 @@ pub struct GatePlan {
     /// A short hash of pattern, types and codec.
     pub contract: String,
     /// The options, defaults filled in.
+    #[cfg_attr(feature = "json", serde(flatten))]
     pub options: GateOptions,
     /// The gate's connections, in the order of the topology file. A `req` gate has at most one.
     pub connections: Vec<ConnectionPlan>,
@@ -54,6 +59,7 @@ pub struct GatePlan {
 
 /// One connection, seen from one of its gates.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "json", derive(serde::Serialize))]
 pub struct ConnectionPlan {
     /// The component at the other end.
     pub peer_component: String,
@@ -75,12 +81,15 @@ pub struct ConnectionPlan {
 
 /// What a gate carries.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "json", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 pub enum Payload {
-    /// Bytes of no declared type, in both directions.
-    Bytes,
     /// Messages of one type, of `pub`, `sub`, `push` and `pull`, as in the topology file: `rover.Measurement`.
     Message(String),
+    /// Bytes of no declared type, in both directions.
+    #[cfg_attr(feature = "json", serde(untagged))]
+    Bytes,
     /// A request and its reply, of `req` and `rep`.
+    #[cfg_attr(feature = "json", serde(untagged))]
     Exchange {
         /// The type of requests.
         request: String,

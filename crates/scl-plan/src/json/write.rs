@@ -1,11 +1,12 @@
 //! From plans to JSON.
 
-use super::text::Json;
 use crate::base64;
+use crate::kind::{GateKind, Undecodable, WhenFull};
 use crate::options::{GateOptions, OptionAccess};
-use crate::plan::{ConnectionPlan, GatePlan, Payload, Plan};
+use crate::plan::{Plan, Schema};
 use crate::system::SystemPlan;
 use crate::version::VERSION;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::collections::BTreeMap;
 
 impl SystemPlan {
@@ -22,83 +23,61 @@ impl Plan {
     }
 }
 
+/// The whole text; its fields stand in the order in which they are read best.
+#[derive(serde::Serialize)]
+struct Document<'p> {
+    version: u64,
+    system: &'p str,
+    components: &'p [Plan],
+    schemas: BTreeMap<&'p str, String>,
+}
+
 fn document(system: &str, components: &[Plan]) -> String {
-    let schemas: BTreeMap<&str, &[u8]> = components
-        .iter()
-        .filter_map(|plan| plan.schema.as_ref())
-        .map(|schema| (schema.hash.as_str(), &*schema.descriptors))
-        .collect();
-    let schemas = schemas.into_iter().map(|(hash, bytes)| (hash.to_owned(), Json::Text(base64::encode(bytes))));
-    let document = Json::object([
-        ("version", Json::Number(VERSION)),
-        ("system", Json::text(system)),
-        ("components", Json::List(components.iter().map(component).collect())),
-        ("schemas", Json::Object(schemas.collect())),
-    ]);
-    let mut text = String::new();
-    document.write(0, &mut text);
-    text.push('\n');
-    text
+    let schemas = components.iter().filter_map(|plan| plan.schema.as_ref());
+    let schemas = schemas.map(|schema| (schema.hash.as_str(), base64::encode(&schema.descriptors))).collect();
+    let document = Document { version: VERSION, system, components, schemas };
+    // All keys are texts and nothing is read while it is written, so this cannot fail.
+    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
 }
 
-fn component(plan: &Plan) -> Json {
-    Json::object([
-        ("name", Json::text(&plan.component)),
-        ("declared_at", Json::text(&plan.declared_at)),
-        ("schema", Json::or_null(plan.schema.as_ref().map(|schema| schema.hash.as_str()))),
-        ("gates", Json::List(plan.gates.iter().map(gate).collect())),
-    ])
-}
-
-fn gate(gate: &GatePlan) -> Json {
-    let own = [
-        ("name", Json::text(&gate.name)),
-        ("kind", Json::text(gate.kind.word())),
-        ("payload", payload(&gate.payload)),
-        ("codec", Json::text(&gate.codec)),
-        ("declared_at", Json::text(&gate.declared_at)),
-        ("endpoint", Json::or_null(gate.endpoint.as_deref())),
-        ("tap", Json::or_null(gate.tap.as_deref())),
-        ("contract", Json::text(&gate.contract)),
-    ];
-    let options = GateOptions::ALL.map(|field| (field.json, option(gate.options.clone(), field.access)));
-    let connections = ("connections", Json::List(gate.connections.iter().map(connection).collect()));
-    Json::object(own.into_iter().chain(options).chain([connections]))
-}
-
-fn option(mut options: GateOptions, access: OptionAccess) -> Json {
-    match access {
-        OptionAccess::Number(number) => Json::Number((*number(&mut options)).into()),
-        OptionAccess::Size(size) => Json::Number(*size(&mut options)),
-        // A duration of over 584 years is none that `validate` accepts.
-        OptionAccess::Duration(duration) => {
-            Json::Number(u64::try_from(duration(&mut options).as_nanos()).unwrap_or(u64::MAX))
-        }
-        OptionAccess::Flag(flag) => Json::Bool(*flag(&mut options)),
-        OptionAccess::Policy(policy) => Json::text(policy(&mut options).word()),
-        OptionAccess::Undecodable(choice) => Json::text(choice(&mut options).word()),
+/// A component refers to its schema by the hash.
+impl Serialize for Schema {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.hash.serialize(serializer)
     }
 }
 
-fn payload(payload: &Payload) -> Json {
-    match payload {
-        Payload::Bytes => Json::Null,
-        Payload::Message(name) => Json::object([("message", Json::text(name))]),
-        Payload::Exchange { request, reply } => {
-            Json::object([("request", Json::text(request)), ("reply", Json::text(reply))])
+impl Serialize for GateOptions {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut options = self.clone();
+        let mut map = serializer.serialize_map(None)?;
+        for field in Self::ALL {
+            match field.access {
+                OptionAccess::Number(number) => map.serialize_entry(field.json, number(&mut options)),
+                OptionAccess::Size(size) => map.serialize_entry(field.json, size(&mut options)),
+                OptionAccess::Duration(duration) => {
+                    // A duration of over 584 years is none that `validate` accepts.
+                    let nanoseconds = u64::try_from(duration(&mut options).as_nanos()).unwrap_or(u64::MAX);
+                    map.serialize_entry(field.json, &nanoseconds)
+                }
+                OptionAccess::Flag(flag) => map.serialize_entry(field.json, flag(&mut options)),
+                OptionAccess::Policy(policy) => map.serialize_entry(field.json, policy(&mut options)),
+                OptionAccess::Undecodable(choice) => map.serialize_entry(field.json, choice(&mut options)),
+            }?;
         }
+        map.end()
     }
 }
 
-fn connection(connection: &ConnectionPlan) -> Json {
-    Json::object([
-        ("peer_component", Json::text(&connection.peer_component)),
-        ("peer_gate", Json::text(&connection.peer_gate)),
-        ("endpoint", Json::text(&connection.endpoint)),
-        ("contract", Json::text(&connection.contract)),
-        ("required", Json::Bool(connection.required)),
-        ("queue", Json::Number(connection.queue.into())),
-        ("when_full", Json::text(connection.when_full.word())),
-        ("max_size", Json::Number(connection.max_size)),
-    ])
+/// The words of the topology file.
+macro_rules! serialize_as_word {
+    ($($kind:ty),+) => {$(
+        impl Serialize for $kind {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                self.word().serialize(serializer)
+            }
+        }
+    )+};
 }
+
+serialize_as_word!(GateKind, Undecodable, WhenFull);
