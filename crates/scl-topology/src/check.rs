@@ -11,44 +11,38 @@ mod control;
 mod crowd;
 mod deadlock;
 mod draft;
-mod duplicate_component;
 mod duplicate_connection;
-mod duplicate_gate;
+mod duplicate_name;
 mod exchange_type;
 mod feedback;
 mod finish;
 mod fitting_sender;
-mod foreign_keyword;
 mod gate_kind;
 mod inference;
 mod island;
-mod letter_case;
+mod keyword;
 mod look_alike;
 mod message_type;
 mod misread;
 mod name_characters;
-mod name_length;
 mod name_start;
+mod name_style;
 mod named;
 mod needless_mark;
 mod no_effect;
-mod option_fit;
-mod option_value;
+mod option;
 mod pair_kinds;
 mod path_length;
 mod payload_type;
-mod prelude_type;
 mod repeated;
 mod reserved_name;
-mod rust_keyword;
-mod rust_name_collision;
 mod rust_path;
 mod schema_codec;
 mod schema_type;
 mod self_connection;
 mod shared_socket;
 mod short_timeout;
-mod snake_case;
+mod similar_name;
 mod system_name;
 #[cfg(test)]
 pub(crate) mod testing;
@@ -71,21 +65,21 @@ pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
 
 /// The rules of this stage, by their codes.
 pub(crate) const RULES: [&Rule; 63] = [
-    &duplicate_component::RULE,
-    &duplicate_gate::RULE,
+    &duplicate_name::COMPONENT,
+    &duplicate_name::GATE,
     &name_characters::RULE,
     &look_alike::RULE,
     &name_start::RULE,
-    &rust_keyword::KEYWORD,
-    &rust_keyword::HARD_KEYWORD,
-    &rust_name_collision::SAME_TYPE,
-    &rust_name_collision::SAME_FIELD,
-    &letter_case::RULE,
-    &reserved_name::RULE,
-    &name_length::RULE,
-    &prelude_type::RULE,
-    &snake_case::RULE,
-    &foreign_keyword::RULE,
+    &keyword::OF_RUST,
+    &keyword::UNUSABLE,
+    &similar_name::SAME_TYPE,
+    &similar_name::SAME_FIELD,
+    &similar_name::LETTER_CASE,
+    &reserved_name::RESERVED,
+    &reserved_name::TOO_LONG,
+    &name_style::HIDES_PRELUDE,
+    &name_style::NOT_SNAKE_CASE,
+    &keyword::FOREIGN,
     &gate_kind::RULE,
     &inference::UNTYPED,
     &payload_type::NO_TYPE_NAME,
@@ -93,8 +87,8 @@ pub(crate) const RULES: [&Rule; 63] = [
     &schema_type::RULE,
     &codec_name::RULE,
     &schema_codec::RULE,
-    &option_fit::RULE,
-    &option_value::RULE,
+    &option::MISFIT,
+    &option::VALUE,
     &backpressure::RULE,
     &no_effect::RULE,
     &short_timeout::RULE,
@@ -174,7 +168,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     payload_type::check(&mut draft, problems);
     schema_type::check(&mut draft, facts, problems);
     rust_path::check(&mut draft, facts, problems);
-    option_value::check(&mut draft, problems);
+    option::check(&mut draft, problems);
     let codec = codec_name::check(&mut draft, problems);
 
     connection_end::check(&mut draft, problems);
@@ -211,17 +205,12 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
 }
 
 fn check_names(model: &Model, problems: &mut Diagnostics) {
-    duplicate_component::check(model, problems);
-    duplicate_gate::check(model, problems);
+    duplicate_name::check(model, problems);
     name_characters::check(model, problems);
     look_alike::check(model, problems);
     name_start::check(model, problems);
-    rust_keyword::check(model, problems);
-    rust_name_collision::check(model, problems);
-    letter_case::check(model, problems);
+    keyword::check(model, problems);
+    similar_name::check(model, problems);
     reserved_name::check(model, problems);
-    name_length::check(model, problems);
-    prelude_type::check(model, problems);
-    snake_case::check(model, problems);
-    foreign_keyword::check(model, problems);
+    name_style::check(model, problems);
 }

@@ -1,11 +1,12 @@
-//! SCL0311: names that the framework keeps for itself, so that it can grow without breaking a file.
+//! SCL0311: names that the framework keeps for itself, so that it can grow without breaking a file. SCL0312: a name that
+//! leaves no room for the others in a socket path.
 
 use super::named::{Noun, names};
 use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
 
 /// SCL0311.
-pub(crate) const RULE: Rule = Rule {
+pub(crate) const RESERVED: Rule = Rule {
     code: "SCL0311",
     severity: Severity::Error,
     title: "reserved name",
@@ -18,14 +19,42 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
+/// SCL0312.
+pub(crate) const TOO_LONG: Rule = Rule {
+    code: "SCL0312",
+    severity: Severity::Error,
+    title: "name too long",
+    explanation: "Names become parts of socket paths, which the kernel limits to 107 bytes, so a name has at most 64 \
+                  characters and a system's at most 40. Shorten it.",
+    example: " components:
+-  - name: a_component_name_that_goes_on_and_on_and_on_and_on_and_on_and_on_and_on
++  - name: a_short_name
++    gates: []
+",
+};
+
+/// The longest name of a component or gate, in characters.
+const LONGEST_NAME: usize = 64;
+
+/// The longest name of a system: at least 41 bytes of a socket path remain for the names of gates.
+const LONGEST_SYSTEM: usize = 40;
+
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     for (noun, name) in names(model) {
         if is_reserved(noun, &name.value) {
-            let headline = format!("`{}` is reserved for the framework", name.value);
-            let found = RULE
-                .at(headline, name.span, "")
+            let found = RESERVED
+                .at(format!("`{}` is reserved for the framework", name.value), name.span, "")
                 .help("choose another name")
                 .note("reserved: `scl`, `topology`, and names that start with `scl_` or `__`");
+            problems.push(found);
+        }
+        let limit = if noun == Noun::System { LONGEST_SYSTEM } else { LONGEST_NAME };
+        let length = name.value.chars().count();
+        if length > limit {
+            let headline = format!("this name has {length} characters; the limit is {limit}");
+            let found = TOO_LONG
+                .at(headline, name.span, "")
+                .note("names become parts of socket paths, which the kernel limits to 107 bytes (see SCL0801)");
             problems.push(found);
         }
     }
@@ -42,14 +71,14 @@ fn is_reserved(noun: Noun, name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::RULE;
+    use super::{RESERVED, TOO_LONG};
     use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn reserved_name() {
         rule_example(
-            &RULE,
+            &RESERVED,
             expect![[r#"
             error: [SCL0311] `scl` is reserved for the framework
              --> topology.yaml:2:11
@@ -59,6 +88,22 @@ mod tests {
               |
               = help: choose another name
               = note: reserved: `scl`, `topology`, and names that start with `scl_` or `__`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn name_too_long() {
+        rule_example(
+            &TOO_LONG,
+            expect![[r#"
+            error: [SCL0312] this name has 71 characters; the limit is 64
+             --> topology.yaml:2:11
+              |
+            2 |   - name: a_component_name_that_goes_on_and_on_and_on_and_on_and_on_and_on_and_on
+              |           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+              |
+              = note: names become parts of socket paths, which the kernel limits to 107 bytes (see SCL0801)
         "#]],
         );
     }

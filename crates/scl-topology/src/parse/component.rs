@@ -16,7 +16,7 @@ impl Reader<'_> {
             _ => {
                 self.model.components_unread = true;
                 let problem = match section.value.is_null() {
-                    true => shape::no_components::diagnose(section),
+                    true => shape::missing::components(section),
                     false => self.glued_or(section.value, shape::section_kind::text(section)),
                 };
                 self.report(problem);
@@ -72,9 +72,9 @@ impl Reader<'_> {
         let fields = self.fields(entries, "this component");
         let name = match fields.get("name") {
             Some(field) => self.name_in(field, "component name"),
-            None => match shape::component_key::misnamed(&fields) {
+            None => match shape::unknown_key::misnamed(&fields) {
                 Some(field) => {
-                    self.report(shape::component_key::instead_of_name(field));
+                    self.report(shape::unknown_key::instead_of_name(field));
                     scalar(field.value)
                 }
                 None => {
@@ -138,7 +138,7 @@ impl Reader<'_> {
         for field in &fields.list {
             match field.key {
                 "name" => {}
-                key if fields.get("name").is_none() && shape::component_key::is_misnamed(key) => {}
+                key if fields.get("name").is_none() && shape::unknown_key::is_misnamed(key) => {}
                 "doc" => component.doc = self.text(*field),
                 "optional" => component.optional = self.boolean(*field).unwrap_or(false),
                 "gates" => self.read_all_gates(fields, &mut component),
@@ -147,7 +147,7 @@ impl Reader<'_> {
         }
         let gates = fields.all("gates").last();
         if component.gates.is_empty() && !component.gates_unread {
-            self.problems.extend(shape::gateless::find(&component.name, gates));
+            self.problems.extend(shape::missing::find_gates(&component.name, gates));
         }
         self.model.components.push(component);
     }
@@ -176,7 +176,7 @@ impl Reader<'_> {
         }
         let owner = &component.name.value;
         let problem = shape::level::in_component(field, owner, self.source)
-            .unwrap_or_else(|| shape::component_key::diagnose(field, owner));
+            .unwrap_or_else(|| shape::unknown_key::of_component(field, owner));
         self.report(problem);
     }
 

@@ -30,7 +30,7 @@ impl Reader<'_> {
             match seen.get(key.as_str()) {
                 Some(&first) => {
                     let field = Field { key, key_span: key_node.span, key_node, value };
-                    self.report(pitfall::duplicate_key::diagnose(&field, first, owner));
+                    self.report(pitfall::key::duplicate(&field, first, owner));
                 }
                 None => {
                     seen.insert(key, key_node.span);

@@ -35,7 +35,7 @@ impl Reader<'_> {
             if let Some(&first) = seen.get(key) {
                 match repeated.entry(key) {
                     Entry::Occupied(found) => found.into_mut().add_label(field.key_span, "and here"),
-                    Entry::Vacant(none) => _ = none.insert(pitfall::duplicate_key::diagnose(&field, first, owner)),
+                    Entry::Vacant(none) => _ = none.insert(pitfall::key::duplicate(&field, first, owner)),
                 }
                 fields.repeated.push(field);
                 continue;
@@ -75,10 +75,10 @@ impl Reader<'_> {
         let problem = match &node.kind {
             NodeKind::Unread => return None,
             NodeKind::Scalar { text, .. } if text == "<<" && super::is_plain(node) => {
-                pitfall::merge_key::diagnose(node)
+                pitfall::unsupported::merge_key(node)
             }
             NodeKind::Scalar { text, .. } if !text.is_empty() => return Some(self.known_key(node, text)),
-            _ => pitfall::odd_key::diagnose(node),
+            _ => pitfall::key::not_a_word(node),
         };
         self.report(problem);
         None

@@ -210,14 +210,14 @@ impl Reader<'_> {
         let rest_of_doc = rest_of_doc(&fields);
         if let (Some(doc), [first, .., last] | [first @ last]) = (fields.get("doc"), rest_of_doc) {
             let text = doc.value.span.to(last.key_span);
-            self.report(shape::gate_key::comma_in_doc(first.key_span, text, self.source, &path));
+            self.report(shape::unknown_key::comma_in_doc(first.key_span, text, self.source, &path));
         }
         let is_rest = |field: &Field<'_>| rest_of_doc.iter().any(|rest| rest.key_span == field.key_span);
         for option in fields.list.iter().filter(|field| field.key_span != kind.key_span && !is_rest(field)) {
             if is_option(option.key) {
                 gate.options.extend(self.option(*option));
             } else if !is_kind(option.key) {
-                self.report(shape::gate_key::diagnose(*option, kind.key, &path));
+                self.report(shape::unknown_key::of_gate(*option, kind.key, &path));
             }
         }
         gate

@@ -26,7 +26,7 @@ impl Reader<'_> {
                 return None;
             }
             NodeKind::Scalar { text, style: Style::Block } => {
-                self.report(pitfall::text_block_name::diagnose(node, text, self.source));
+                self.report(pitfall::misread_name::text_block(node, text, self.source));
                 let value = text.trim().to_owned();
                 return (!value.is_empty() && !value.contains('\n')).then_some(Spanned { value, span: node.span });
             }
@@ -54,8 +54,8 @@ impl Reader<'_> {
 
     /// Text without quotes that YAML reads as something else.
     fn check_word(&mut self, node: &Node, text: &str) {
-        let problem =
-            pitfall::boolean_word::find(text, node.span).or_else(|| pitfall::number_name::find(text, node.span));
+        let problem = pitfall::misread_name::find_boolean(text, node.span)
+            .or_else(|| pitfall::misread_name::find_number(text, node.span));
         if let Some(problem) = problem {
             self.report(problem);
         }

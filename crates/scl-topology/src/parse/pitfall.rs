@@ -1,35 +1,27 @@
 //! `SCL01xx`: where YAML is not YAML, or means something else than it seems to.
 
-mod anchor;
-pub(super) mod boolean_word;
 pub(super) mod bracket;
 mod conflict_marker;
 pub(super) mod dash;
 pub(super) mod depth;
-pub(super) mod directive;
-pub(super) mod duplicate_key;
 mod empty_file;
 pub(super) mod indentation;
 mod invisible;
+pub(super) mod key;
 pub(super) mod leading_zero;
 pub(super) mod look_alike;
-pub(super) mod merge_key;
-pub(super) mod missing_colon;
-pub(super) mod missing_comma;
+pub(super) mod misread_name;
+pub(super) mod missing_mark;
 pub(super) mod missing_space;
 pub(super) mod no_value;
 pub(super) mod not_yaml;
-pub(super) mod number_name;
-pub(super) mod odd_key;
 pub(super) mod quote;
 pub(super) mod reserved_character;
 pub(super) mod scan;
-mod second_document;
 pub(super) mod tab;
 mod tab_separator;
-mod tag;
-pub(super) mod text_block_name;
 pub(super) mod unexpected;
+pub(super) mod unsupported;
 
 use crate::diagnostic::{Diagnostics, Rule};
 use crate::source::SourceFile;
@@ -43,23 +35,23 @@ pub(crate) const RULES: [&Rule; 29] = [
     &quote::RULE,
     &indentation::RULE,
     &reserved_character::RULE,
-    &duplicate_key::RULE,
-    &boolean_word::RULE,
-    &number_name::RULE,
+    &key::DUPLICATE,
+    &misread_name::BOOLEAN,
+    &misread_name::NUMBER,
     &no_value::RULE,
-    &anchor::RULE,
-    &merge_key::RULE,
-    &tag::RULE,
-    &second_document::RULE,
+    &unsupported::ANCHOR,
+    &unsupported::MERGE_KEY,
+    &unsupported::TAG,
+    &unsupported::SECOND_DOCUMENT,
     &empty_file::RULE,
     &depth::RULE,
     &invisible::RULE,
-    &directive::RULE,
-    &text_block_name::RULE,
-    &odd_key::RULE,
+    &unsupported::DIRECTIVE,
+    &misread_name::TEXT_BLOCK,
+    &key::NOT_A_WORD,
     &not_yaml::RULE,
-    &missing_comma::RULE,
-    &missing_colon::RULE,
+    &missing_mark::COMMA,
+    &missing_mark::COLON,
     &dash::RULE,
     &unexpected::RULE,
     &conflict_marker::RULE,
@@ -70,7 +62,7 @@ pub(crate) const RULES: [&Rule; 29] = [
 
 /// The rules about words that YAML reads as something else, or that hold an invisible character.
 pub(crate) const MISREAD: [&Rule; 4] =
-    [&boolean_word::RULE, &number_name::RULE, &invisible::RULE, &text_block_name::RULE];
+    [&misread_name::BOOLEAN, &misread_name::NUMBER, &invisible::RULE, &misread_name::TEXT_BLOCK];
 
 /// The text as the parser shall see it.
 pub(super) struct CheckedText {
@@ -90,7 +82,7 @@ pub(super) fn check_text(source: &SourceFile, problems: &mut Diagnostics) -> Che
     problems.extend(conflict);
     let scan = scan::scan(&text);
     let is_cleaned = invisible::check(source, &scan, &mut text, problems);
-    directive::check(source, &mut text, problems);
+    unsupported::check_directives(source, &mut text, problems);
     let has_tabs = tab::check(source, &scan, &mut text, problems);
     tab_separator::check(source, &scan, &mut text, problems);
     CheckedText { text, is_mended: is_cleaned || has_tabs || has_conflict, has_conflict }
@@ -98,9 +90,9 @@ pub(super) fn check_text(source: &SourceFile, problems: &mut Diagnostics) -> Che
 
 /// The rules about what the parser found, but not about what it means.
 pub(super) fn check_tree(tree: &Tree, source: &SourceFile, problems: &mut Diagnostics) {
-    anchor::check(tree, source, problems);
-    problems.extend(tree.tags.iter().map(|tag| tag::diagnose(*tag)));
-    problems.extend(tree.second_document.map(|at| second_document::diagnose(source, at)));
+    unsupported::check_anchors(tree, source, problems);
+    problems.extend(tree.tags.iter().map(|tag| unsupported::tag(*tag)));
+    problems.extend(tree.second_document.map(|at| unsupported::second_document(source, at)));
     problems.extend(tree.too_deep.map(depth::diagnose));
     if tree.error.is_none() {
         problems.extend(empty_file::find(tree, source));

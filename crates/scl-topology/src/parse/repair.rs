@@ -163,7 +163,7 @@ fn problems_left(text: &str) -> Option<usize> {
     let found = problems.into_sorted();
     // The window may show one section only.
     let counts =
-        |found: &&Diagnostic| found.severity == Severity::Error && found.code() != shape::missing_section::RULE.code;
+        |found: &&Diagnostic| found.severity == Severity::Error && found.code() != shape::missing::SECTION.code;
     Some(odd + found.iter().filter(counts).count() + implausible(&model))
 }
 

@@ -80,11 +80,10 @@ impl Reader<'_> {
             component.gates_unread = true;
             let name = component.name.span;
             self.problems.retain(|found| {
-                *found.rule != shape::gateless::RULE || found.primary.as_ref().is_none_or(|label| label.span != name)
+                *found.rule != shape::missing::GATES || found.primary.as_ref().is_none_or(|label| label.span != name)
             });
         }
-        let problem =
-            shape::level::at_top(field, self.source).unwrap_or_else(|| shape::unknown_section::diagnose(field));
+        let problem = shape::level::at_top(field, self.source).unwrap_or_else(|| shape::unknown_key::section(field));
         self.report(problem);
     }
 
@@ -107,12 +106,12 @@ impl Reader<'_> {
             None if perhaps("components") => self.model.components_unread = true,
             None => {
                 self.model.components_unread = true;
-                self.report(shape::missing_section::diagnose(fields, self.source));
+                self.report(shape::missing::section(fields, self.source));
             }
             Some(components) if !connections_unread && !is_stray && self.model.broken_ends.is_empty() => {
                 let gates: usize = self.model.components.iter().map(|component| component.gates.len()).sum();
                 let connections = fields.all("connections").last();
-                self.problems.extend(shape::no_connections::find(components, connections, gates));
+                self.problems.extend(shape::missing::find_connections(components, connections, gates));
             }
             Some(_) => {}
         }

@@ -1,20 +1,15 @@
 //! `SCL02xx`: good YAML that has not the shape of a topology.
 
-pub(super) mod component_key;
 pub(super) mod ends;
 pub(super) mod gate;
-pub(super) mod gate_key;
-pub(super) mod gateless;
 pub(super) mod level;
-pub(super) mod missing_section;
+pub(super) mod missing;
 pub(super) mod nameless;
-pub(super) mod no_components;
-pub(super) mod no_connections;
 pub(super) mod option_value;
 pub(super) mod section_kind;
 pub(super) mod stray_connection;
 pub(super) mod top_level;
-pub(super) mod unknown_section;
+pub(super) mod unknown_key;
 pub(super) mod version;
 
 use crate::diagnostic::{Diagnostic, Rule};
@@ -24,17 +19,17 @@ use crate::suggest::similar;
 /// All of them, by their codes.
 pub(crate) const RULES: [&Rule; 16] = [
     &top_level::RULE,
-    &unknown_section::RULE,
-    &missing_section::RULE,
+    &unknown_key::SECTION,
+    &missing::SECTION,
     &section_kind::RULE,
-    &no_components::RULE,
-    &no_connections::RULE,
-    &component_key::RULE,
+    &missing::COMPONENTS,
+    &missing::CONNECTIONS,
+    &unknown_key::OF_COMPONENT,
     &nameless::RULE,
-    &gateless::RULE,
+    &missing::GATES,
     &gate::RULE,
     &ends::RULE,
-    &gate_key::RULE,
+    &unknown_key::OF_GATE,
     &version::RULE,
     &level::RULE,
     &option_value::RULE,

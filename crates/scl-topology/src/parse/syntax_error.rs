@@ -1,7 +1,7 @@
 //! Why the parser stopped: the rule that explains it best.
 
 use super::pitfall::{
-    CheckedText, bracket, depth, directive, indentation, missing_space, not_yaml, quote, reserved_character, tab,
+    CheckedText, bracket, depth, indentation, missing_space, not_yaml, quote, reserved_character, tab, unsupported,
 };
 use super::repair;
 use crate::diagnostic::Diagnostic;
@@ -24,7 +24,7 @@ pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile) -> O
         SyntaxErrorKind::Character(character) => Some(reserved_character::diagnose(error.at, character, source)),
         SyntaxErrorKind::Property => reserved_character::find(error.at, source),
         SyntaxErrorKind::Tab => Some(tab::elsewhere(error.at, source)),
-        SyntaxErrorKind::Directive => Some(directive::diagnose(source, error.at)),
+        SyntaxErrorKind::Directive => Some(unsupported::diagnose_directive(source, error.at)),
         _ => None,
     };
     let explained =

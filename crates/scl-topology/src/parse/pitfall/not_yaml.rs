@@ -1,6 +1,6 @@
 //! SCL0121: a syntax error that no other rule explains.
 
-use super::{dash, missing_colon};
+use super::{dash, missing_mark};
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
 use crate::source::SourceFile;
@@ -42,7 +42,7 @@ pub(in crate::parse) fn missing_colon(error: &SyntaxError, source: &SourceFile) 
         let content = text[line.clone()].trim_start_matches([' ', '-']);
         let word = content.split([' ', '#']).next().filter(|word| is_key(word))?;
         let start = line.end - content.len();
-        Some(missing_colon::after(&(start..start + word.len()), text, source))
+        Some(missing_mark::colon_after(&(start..start + word.len()), text, source))
     })
 }
 

@@ -2,22 +2,20 @@
 
 use super::{Edit, Kind};
 use crate::diagnostic::Diagnostic;
-use crate::parse::pitfall::{
-    bracket, dash, indentation, look_alike, missing_colon, missing_comma, missing_space, quote, unexpected,
-};
+use crate::parse::pitfall::{bracket, dash, indentation, look_alike, missing_mark, missing_space, quote, unexpected};
 use crate::parse::shape::nameless;
 use crate::source::SourceFile;
 use std::ops::Range;
 
 pub(super) fn tell(edit: &Edit, text: &str, source: &SourceFile) -> Diagnostic {
     match &edit.kind {
-        Kind::Comma(before, after) => missing_comma::between(before, after, text, source),
-        Kind::Colon(word) => missing_colon::after(word, text, source),
+        Kind::Comma(before, after) => missing_mark::comma_between(before, after, text, source),
+        Kind::Colon(word) => missing_mark::colon_after(word, text, source),
         Kind::Close(open, word) => bracket::close_after(*open, word, text, source),
         Kind::Open(close, word) => bracket::open_before(*close, word, text, source),
         Kind::Partner(open, close) => bracket::mismatched(*open, *close, text, source),
-        Kind::Instead(range, ',') => missing_comma::instead(range, text, source),
-        Kind::Instead(range, _) => missing_colon::instead(range, text, source),
+        Kind::Instead(range, ',') => missing_mark::instead_of_comma(range, text, source),
+        Kind::Instead(range, _) => missing_mark::instead_of_colon(range, text, source),
         Kind::Surplus(range) => surplus(range, text, source),
         Kind::ArrayType(range) => unexpected::brackets_after_type(range, text, source),
         Kind::Space(glued) => missing_space::in_brackets(glued, text, source),

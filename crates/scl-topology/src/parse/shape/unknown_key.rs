@@ -1,16 +1,87 @@
-//! SCL0212: an unknown key in a gate.
+//! Keys that nothing knows. SCL0202: at the top level. SCL0207: in a component. SCL0212: in a gate.
 
-use super::{own_key, ticked};
+use super::{own_key, suggest, ticked};
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar::{OPTIONS, option};
-use crate::parse::field::Field;
+use crate::parse::field::{Field, Fields};
+use crate::parse::scalar;
+use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
 use crate::source::{SourceFile, Span};
 use crate::suggest::similar;
 use crate::topology::GateKind;
 use crate::wording::all_of;
 
+/// SCL0202.
+pub(crate) const SECTION: Rule = Rule {
+    code: "SCL0202",
+    severity: Severity::Error,
+    title: "unknown top-level key",
+    explanation: "The key is none of the sections of a topology. An unknown section is mostly a misspelt one, and \
+                  would be ignored silently otherwise. Correct it; keys that start with `x-` are yours to use.",
+    example: " components: []
+-conections: []
++connections: []
+",
+};
+
+pub(in crate::parse) fn section(field: Field<'_>) -> Diagnostic {
+    let message = format!("unknown section `{}`", field.key);
+    let problem = SECTION.at(message, field.key_span, "not a section of a topology");
+    suggest(problem, "section", field.key, SECTIONS)
+        .note(format!("sections: {}", ticked(SECTIONS)))
+        .note("keys that start with `x-` are ignored, for your own use")
+}
+
+/// SCL0207.
+pub(crate) const OF_COMPONENT: Rule = Rule {
+    code: "SCL0207",
+    severity: Severity::Error,
+    title: "unknown key in a component",
+    explanation: "A component has the keys `name`, `gates`, `doc` and `optional`. Another one is mostly misspelt, and \
+                  would be ignored silently otherwise. Correct or remove it.",
+    example: " components:
+   - name: sensor
+-    gate:
++    gates:
+       - measurements: pub
+",
+};
+
+pub(in crate::parse) fn of_component(field: Field<'_>, component: &str) -> Diagnostic {
+    let message = format!("unknown key `{}` in component `{component}`", field.key);
+    let problem = OF_COMPONENT.at(message, field.key_span, "not a key of a component");
+    let problem = own_key(problem, field.key);
+    suggest(problem, "key", field.key, COMPONENT_KEYS).note(format!("keys of a component: {}", ticked(COMPONENT_KEYS)))
+}
+
+/// Words that other formats use for a name.
+const OTHER_WORDS: [&str; 6] = ["id", "component", "node", "title", "label", "process"];
+
+/// Whether a key was probably meant to be `name`.
+pub(in crate::parse) fn is_misnamed(key: &str) -> bool {
+    let is_near = !COMPONENT_KEYS.contains(&key) && similar(key, COMPONENT_KEYS).first() == Some(&"name");
+    is_near || OTHER_WORDS.contains(&key)
+}
+
+/// The key that was probably meant to be `name`.
+pub(in crate::parse) fn misnamed<'n>(fields: &Fields<'n>) -> Option<Field<'n>> {
+    fields.list.iter().copied().find(|field| is_misnamed(field.key) && scalar(field.value).is_some())
+}
+
+/// A key in the place of `name`.
+pub(in crate::parse) fn instead_of_name(field: Field<'_>) -> Diagnostic {
+    let name = scalar(field.value).map_or(String::new(), |name| name.value);
+    let problem =
+        OF_COMPONENT.at(format!("unknown key `{}` in a component", field.key), field.key_span, "expected `name`");
+    match OTHER_WORDS.contains(&field.key) {
+        true => problem.help(format!("write `name: {name}`")),
+        false => problem.help("a key with a similar name exists: `name`").fix(field.key_span, "name"),
+    }
+    .note(format!("keys of a component: {}", ticked(COMPONENT_KEYS)))
+}
+
 /// SCL0212.
-pub(crate) const RULE: Rule = Rule {
+pub(crate) const OF_GATE: Rule = Rule {
     code: "SCL0212",
     severity: Severity::Error,
     title: "unknown key in a gate",
@@ -25,9 +96,9 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// `kind` is the kind as written, `path` the gate with its component.
-pub(in crate::parse) fn diagnose(field: Field<'_>, kind: &str, path: &str) -> Diagnostic {
+pub(in crate::parse) fn of_gate(field: Field<'_>, kind: &str, path: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in gate `{path}`", field.key);
-    let mut problem = own_key(RULE.at(message, field.key_span, ""), field.key);
+    let mut problem = own_key(OF_GATE.at(message, field.key_span, ""), field.key);
     let similar = similar(field.key, OPTIONS.iter().map(|option| option.key));
     // An option of other kinds would be the next mistake.
     if similar.iter().all(|name| only_of(name, kind).is_empty()) {
@@ -46,7 +117,7 @@ pub(in crate::parse) fn diagnose(field: Field<'_>, kind: &str, path: &str) -> Di
 /// `{pub: Fix, doc: One, two}`: `two` is a key, because the text has no quotes. `text` is all of it.
 pub(in crate::parse) fn comma_in_doc(key: Span, text: Span, source: &SourceFile, path: &str) -> Diagnostic {
     let message = format!("the text of `doc` in gate `{path}` ends at its comma");
-    let problem = RULE.at(message, key, "read as a key of the gate");
+    let problem = OF_GATE.at(message, key, "read as a key of the gate");
     let words = source.snippet(text);
     // In double quotes, these would have to be written otherwise.
     if words.contains(['"', '\\', '\n']) {
@@ -67,10 +138,43 @@ fn only_of(key: &str, kind: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::RULE;
+    use super::{OF_COMPONENT, OF_GATE, SECTION};
     use crate::diagnostic::render;
     use crate::parse::testing::{check, parse_text};
     use expect_test::expect;
+
+    #[test]
+    fn unknown_section() {
+        check(
+            &SECTION,
+            expect![[r#"
+                error: [SCL0202] unknown section `conections`
+                 --> topology.yaml:2:1
+                  |
+                2 | conections: []
+                  | ^^^^^^^^^^ not a section of a topology
+                  |
+                  = help: a section with a similar name exists: `connections`
+                  = note: sections: `components`, `connections`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
+                  = note: keys that start with `x-` are ignored, for your own use"#]],
+        );
+    }
+
+    #[test]
+    fn key_of_a_component() {
+        check(
+            &OF_COMPONENT,
+            expect![[r#"
+            error: [SCL0207] unknown key `gate` in component `sensor`
+             --> topology.yaml:3:5
+              |
+            3 |     gate:
+              |     ^^^^ not a key of a component
+              |
+              = help: a key with a similar name exists: `gates`
+              = note: keys of a component: `name`, `gates`, `doc`, `optional`"#]],
+        );
+    }
 
     #[test]
     fn a_comma_in_a_text_without_quotes() {
@@ -111,9 +215,9 @@ mod tests {
     }
 
     #[test]
-    fn example() {
+    fn key_of_a_gate() {
         check(
-            &RULE,
+            &OF_GATE,
             expect![[r#"
             error: [SCL0212] unknown key `que` in gate `sensor.measurements`
              --> topology.yaml:4:42

@@ -1,12 +1,13 @@
-//! SCL0313, a lint: a component whose type hides a name that every Rust file has in scope.
+//! Lints about names that work. SCL0313: a component whose type hides a name that every Rust file has in scope. SCL0314: a
+//! name in another style than the fields and modules of Rust.
 
-use super::named::is_well_formed;
+use super::named::{Noun, is_well_formed, names};
 use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::rust_name::component_type;
+use crate::rust_name::{component_type, gate_field};
 
 /// SCL0313.
-pub(crate) const RULE: Rule = Rule {
+pub(crate) const HIDES_PRELUDE: Rule = Rule {
     code: "SCL0313",
     severity: Severity::Lint,
     title: "type name hides a prelude type",
@@ -40,13 +41,18 @@ const PRELUDE: [(&str, &str); 15] = [
 ];
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+    check_prelude(model, problems);
+    check_snake_case(model, problems);
+}
+
+fn check_prelude(model: &Model, problems: &mut Diagnostics) {
     for component in model.components.iter().filter(|component| is_well_formed(&component.name.value)) {
         let name = &component.name;
         let rust = component_type(&name.value);
         let Some((_, hidden)) = PRELUDE.iter().find(|(short, _)| *short == rust) else { continue };
         let start = format!("component `{}` becomes the Rust type `{rust}`", name.value);
         let headline = format!("{start}, which hides `{hidden}` where you import it");
-        let found = RULE
+        let found = HIDES_PRELUDE
             .at(headline, name.span, "")
             .help(format!("choose a name that says whose {} it is", name.value))
             .note("also: option, box, vec, string, some, ok, err, send, sync, drop, clone, default, iterator");
@@ -54,16 +60,40 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     }
 }
 
+/// SCL0314.
+pub(crate) const NOT_SNAKE_CASE: Rule = Rule {
+    code: "SCL0314",
+    severity: Severity::Lint,
+    title: "name is not snake_case",
+    explanation: "By convention names are snake_case, as the Rust fields and modules are that they become. Other \
+                  styles work; the lint is for teams that want one style.",
+    example: " components:
+-  - name: UserInterface
++  - name: user_interface
++    gates: []
+",
+};
+
+fn check_snake_case(model: &Model, problems: &mut Diagnostics) {
+    for (noun, name) in names(model).filter(|(noun, name)| *noun != Noun::System && is_well_formed(&name.value)) {
+        let snake = gate_field(&name.value);
+        if snake != name.value {
+            let headline = format!("{} name `{}` is not snake_case", noun.word(), name.value);
+            problems.push(NOT_SNAKE_CASE.at(headline, name.span, "").help(format!("write `{snake}`")));
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::RULE;
+    use super::{HIDES_PRELUDE, NOT_SNAKE_CASE};
     use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn type_name_hides_a_prelude_type() {
         rule_example(
-            &RULE,
+            &HIDES_PRELUDE,
             expect![[r#"
             warning: [SCL0313] component `result` becomes the Rust type `Result`, which hides `core::result::Result` where you import it
              --> topology.yaml:2:11
@@ -73,6 +103,22 @@ mod tests {
               |
               = help: choose a name that says whose result it is
               = note: also: option, box, vec, string, some, ok, err, send, sync, drop, clone, default, iterator
+        "#]],
+        );
+    }
+
+    #[test]
+    fn name_is_not_snake_case() {
+        rule_example(
+            &NOT_SNAKE_CASE,
+            expect![[r#"
+            warning: [SCL0314] component name `UserInterface` is not snake_case
+             --> topology.yaml:2:11
+              |
+            2 |   - name: UserInterface
+              |           ^^^^^^^^^^^^^
+              |
+              = help: write `user_interface`
         "#]],
         );
     }

@@ -1,4 +1,5 @@
-//! SCL0308 and SCL0309: names that differ in the file and would be one in Rust.
+//! SCL0308 and SCL0309: names that differ in the file and would be one in Rust. SCL0310: names that only letter case and `_`
+//! tell apart.
 
 use super::named::is_well_formed;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
@@ -46,15 +47,16 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
         let (a, b) = (&first.value, &second.value);
         let headline = format!("components `{a}` and `{b}` would both become the Rust type `{rust}`");
         let help = "rename one of them; use `_` in all names";
-        problems.push(report(&SAME_TYPE, headline, [first, second], &rust).help(help));
+        problems.push(collision(&SAME_TYPE, headline, [first, second], &rust).help(help));
     }
     check_peers(model, problems);
+    check_letter_case(model, problems);
     for component in &model.components {
         let names = component.gates.iter().map(|gate| &gate.name);
         for (first, second, rust) in collisions(names, gate_field) {
             let (a, b, owner) = (&first.value, &second.value, &component.name.value);
             let headline = format!("gates `{a}` and `{b}` of `{owner}` would both become the Rust field `{rust}`");
-            problems.push(report(&SAME_FIELD, headline, [first, second], &rust).help("rename one of them"));
+            problems.push(collision(&SAME_FIELD, headline, [first, second], &rust).help("rename one of them"));
         }
     }
 }
@@ -101,13 +103,67 @@ fn collisions<'m>(
     found
 }
 
-fn report(rule: &'static Rule, headline: String, [first, second]: [&Name; 2], rust: &str) -> Diagnostic {
+fn collision(rule: &'static Rule, headline: String, [first, second]: [&Name; 2], rust: &str) -> Diagnostic {
     rule.at(headline, second.span, format!("also becomes `{rust}`")).label(first.span, format!("becomes `{rust}`"))
+}
+
+/// SCL0310.
+pub(crate) const LETTER_CASE: Rule = Rule {
+    code: "SCL0310",
+    severity: Severity::Warning,
+    title: "names that differ only in letter case",
+    explanation: "Two names differ only in capitals, `_` or `-`. People mix them up, a language that writes names in \
+                  another case makes one name of them, and on file systems that ignore case their socket files would \
+                  be one. Rename one.",
+    example: " components:
+   - name: gps
+     gates: []
+-  - name: GPS_
++  - name: receiver
+     gates: []
+",
+};
+
+fn check_letter_case(model: &Model, problems: &mut Diagnostics) {
+    let components = model.components.iter().map(|component| &component.name);
+    check_names("components", components, component_type, problems);
+    for component in &model.components {
+        check_names("gates", component.gates.iter().map(|gate| &gate.name), gate_field, problems);
+    }
+}
+
+fn check_names<'m>(
+    plural: &str,
+    names: impl Iterator<Item = &'m Name>,
+    rust: fn(&str) -> String,
+    problems: &mut Diagnostics,
+) {
+    let mut first: HashMap<String, &Name> = HashMap::new();
+    for name in names.filter(|name| is_well_formed(&name.value)) {
+        let other = *first.entry(folded(&name.value)).or_insert(name);
+        // Names that are one in Rust are an error already.
+        if rust(&other.value) != rust(&name.value) {
+            problems.push(differ_in_case(plural, other, name));
+        }
+    }
+}
+
+fn folded(name: &str) -> String {
+    name.chars().filter(|&letter| letter != '_' && letter != '-').map(|letter| letter.to_ascii_lowercase()).collect()
+}
+
+fn differ_in_case(plural: &str, first: &Name, second: &Name) -> Diagnostic {
+    let headline = format!("{plural} `{}` and `{}` differ only in letter case and `_`", first.value, second.value);
+    LETTER_CASE
+        .at(headline, second.span, "")
+        .label(first.span, "")
+        .help("rename one of them")
+        .note("their socket files would be the same on a file system that ignores case (macOS, Windows)")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::SAME_TYPE;
+    use super::{LETTER_CASE, SAME_TYPE};
     use crate::check::testing::{example, rule_example};
     use expect_test::expect;
 
@@ -179,6 +235,26 @@ components:
               |         ^^^^^^^^ also becomes `set_point`
               |
               = help: rename one of them
+        "#]],
+        );
+    }
+
+    #[test]
+    fn names_that_differ_only_in_letter_case() {
+        rule_example(
+            &LETTER_CASE,
+            expect![[r#"
+            warning: [SCL0310] components `gps` and `GPS_` differ only in letter case and `_`
+             --> topology.yaml:4:11
+              |
+            2 |   - name: gps
+              |           ---
+            3 |     gates: []
+            4 |   - name: GPS_
+              |           ^^^^
+              |
+              = help: rename one of them
+              = note: their socket files would be the same on a file system that ignores case (macOS, Windows)
         "#]],
         );
     }

@@ -1,12 +1,12 @@
-//! SCL0107: a key is written twice.
+//! SCL0107: a key is written twice. SCL0120: a key that is no plain word.
 
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::Field;
 use crate::source::Span;
-use crate::yaml::NodeKind;
+use crate::yaml::{Node, NodeKind};
 
 /// SCL0107.
-pub(crate) const RULE: Rule = Rule {
+pub(crate) const DUPLICATE: Rule = Rule {
     code: "SCL0107",
     severity: Severity::Error,
     title: "duplicate key",
@@ -22,7 +22,7 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// `owner` says whose key it is, for example `this component`.
-pub(in crate::parse) fn diagnose(second: &Field<'_>, first: Span, owner: &str) -> Diagnostic {
+pub(in crate::parse) fn duplicate(second: &Field<'_>, first: Span, owner: &str) -> Diagnostic {
     let message = format!("the key `{}` is written twice in {owner}", second.key);
     let help = match second.value.kind {
         NodeKind::Sequence { .. } if second.key == "gates" => {
@@ -31,22 +31,44 @@ pub(in crate::parse) fn diagnose(second: &Field<'_>, first: Span, owner: &str) -
         NodeKind::Sequence { .. } => "merge the two lists",
         _ => "remove one of them",
     };
-    RULE.at(message, second.key_span, "second time")
+    DUPLICATE
+        .at(message, second.key_span, "second time")
         .label(first, "first time")
         .help(help)
         .note("YAML tools disagree which one wins: PyYAML silently keeps the second")
 }
 
+/// SCL0120.
+pub(crate) const NOT_A_WORD: Rule = Rule {
+    code: "SCL0120",
+    severity: Severity::Error,
+    title: "key is not a plain word",
+    explanation: "YAML allows lists and mappings as keys, and null. In a topology each key is a plain word. Write one.",
+    example: " components:
+-  - ? [a, b]
+-    : pub
++  - name: sensor
++    gates:
++      - measurements: pub
++connections: []
+",
+};
+
+pub(in crate::parse) fn not_a_word(key: &Node) -> Diagnostic {
+    let label = format!("this key is {}", crate::parse::shape_word(key));
+    NOT_A_WORD.at("a key must be a plain word", key.span, label)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::RULE;
+    use super::{DUPLICATE, NOT_A_WORD};
     use crate::parse::testing::check;
     use expect_test::expect;
 
     #[test]
-    fn example() {
+    fn duplicate_key() {
         check(
-            &RULE,
+            &DUPLICATE,
             expect![[r#"
                 error: [SCL0107] the key `gates` is written twice in this component
                  --> topology.yaml:5:5
@@ -59,6 +81,19 @@ mod tests {
                   |
                   = help: merge the two lists, or write the `- name: ...` of another component above the second
                   = note: YAML tools disagree which one wins: PyYAML silently keeps the second"#]],
+        );
+    }
+
+    #[test]
+    fn odd_key() {
+        check(
+            &NOT_A_WORD,
+            expect![[r#"
+            error: [SCL0120] a key must be a plain word
+             --> topology.yaml:2:7
+              |
+            2 |   - ? [a, b]
+              |       ^^^^^^ this key is a list"#]],
         );
     }
 }

@@ -1,13 +1,16 @@
-//! SCL0306: a gate whose field needs `r#`. SCL0307: a name that not even `r#` makes usable.
+//! Names that a language reserves. SCL0306: a gate whose field needs `r#`. SCL0307: a name that not even `r#` makes usable.
+//! SCL0315: a keyword of C++ or Python: the same file is read by programs in these languages.
 
 use super::named::{Noun, is_well_formed, names};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::keywords::{CPP, PYTHON};
 use crate::model::Model;
 use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
 use crate::source::Spanned;
+use crate::wording::all_of;
 
 /// SCL0306.
-pub(crate) const KEYWORD: Rule = Rule {
+pub(crate) const OF_RUST: Rule = Rule {
     code: "SCL0306",
     severity: Severity::Warning,
     title: "gate name is a Rust keyword",
@@ -22,7 +25,7 @@ pub(crate) const KEYWORD: Rule = Rule {
 };
 
 /// SCL0307.
-pub(crate) const HARD_KEYWORD: Rule = Rule {
+pub(crate) const UNUSABLE: Rule = Rule {
     code: "SCL0307",
     severity: Severity::Error,
     title: "keyword that cannot be escaped",
@@ -52,6 +55,7 @@ const ALTERNATIVES: [(&str, &str); 12] = [
 ];
 
 pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+    check_foreign(model, problems);
     for (noun, name) in names(model).filter(|(noun, _)| *noun != Noun::System) {
         if is_unusable(noun, &name.value) {
             problems.push(unusable(noun, name));
@@ -88,7 +92,7 @@ fn unusable(noun: Noun, name: &Spanned<String>) -> Diagnostic {
         _ => format!("{} name `{word}` becomes the Rust {becomes} `{rust}`, which is a keyword", noun.word()),
     };
     let others: Vec<&str> = ["crate", "self", "Self", "super", "_"].into_iter().filter(|other| other != word).collect();
-    HARD_KEYWORD
+    UNUSABLE
         .at(headline, name.span, "")
         .help("choose another name")
         .note(format!("not usable either: {}", crate::wording::listed(others)))
@@ -101,21 +105,83 @@ fn escaped(component: &str, name: &Spanned<String>) -> Diagnostic {
         Some((_, other)) => format!("choose another name, for example `{other}`"),
         None => format!("choose another name, for example `{field}_`"),
     };
-    KEYWORD.at(format!("gate name `{}` is a Rust keyword", name.value), name.span, label).help(help).note(
+    OF_RUST.at(format!("gate name `{}` is a Rust keyword", name.value), name.span, label).help(help).note(
         "checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)",
+    )
+}
+
+/// SCL0315.
+pub(crate) const FOREIGN: Rule = Rule {
+    code: "SCL0315",
+    severity: Severity::Warning,
+    title: "name is reserved in C++ or Python",
+    explanation: "The name is a keyword of C++ or Python, or has two underscores in a row, which C++ reserves. Programs in \
+                  these languages read the same file, and cannot use the name for a variable, a field or a module; \
+                  code that `scl generate` writes for them appends an underscore. Choose a name that says more; if no \
+                  such program will ever exist, allow the warning.",
+    example: " components:
+   - name: scheduler
+     gates:
+-      - delete: sub
++      - delete_job: sub
+",
+};
+
+fn check_foreign(model: &Model, problems: &mut Diagnostics) {
+    for (noun, name) in names(model).filter(|(_, name)| is_well_formed(&name.value)) {
+        let field = gate_field(&name.value);
+        let spellings = match noun {
+            Noun::System => continue,
+            // Another rule tells what Rust reserves.
+            Noun::Gate if is_keyword(&field) => continue,
+            _ if is_unescapable(&field) => continue,
+            Noun::Gate => vec![field],
+            Noun::Component => vec![field, component_type(&name.value)],
+        };
+        problems.extend(spellings.iter().find_map(|spelling| find_foreign(noun, name, spelling)));
+    }
+}
+
+/// `spelling` is the name in the case of a field, a module or a class.
+fn find_foreign(noun: Noun, name: &Spanned<String>, spelling: &str) -> Option<Diagnostic> {
+    let start = format!("{} name `{}`", noun.word(), name.value);
+    let languages: Vec<&str> = [("C++", &CPP[..]), ("Python", &PYTHON)]
+        .iter()
+        .filter(|(_, words)| words.contains(&spelling))
+        .map(|it| it.0)
+        .collect();
+    let headline = match languages.as_slice() {
+        // Those at the start are an error of their own.
+        [] if spelling.trim_start_matches('_').contains("__") => {
+            format!("{start} has two underscores in a row, which C++ reserves")
+        }
+        [] => return None,
+        [one] => format!("{start} is a keyword of {one}"),
+        _ => format!("{start} is a keyword of {}", all_of(&languages).replace('`', "")),
+    };
+    let label = if spelling == name.value { String::new() } else { format!("becomes `{spelling}`") };
+    let another = match languages.as_slice() {
+        [] => spelling.replace("__", "_"),
+        _ => format!("{}_{}", spelling.to_ascii_lowercase(), noun.word()),
+    };
+    Some(
+        FOREIGN
+            .at(headline, name.span, label)
+            .help(format!("choose another name, for example `{another}`"))
+            .note("programs in C++ and Python read the same file"),
     )
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{HARD_KEYWORD, KEYWORD};
+    use super::{FOREIGN, OF_RUST, UNUSABLE};
     use crate::check::testing::rule_example;
     use expect_test::expect;
 
     #[test]
     fn gate_name_is_a_rust_keyword() {
         rule_example(
-            &KEYWORD,
+            &OF_RUST,
             expect![[r#"
             warning: [SCL0306] gate name `type` is a Rust keyword
              --> topology.yaml:4:9
@@ -132,7 +198,7 @@ mod tests {
     #[test]
     fn keyword_that_cannot_be_escaped() {
         rule_example(
-            &HARD_KEYWORD,
+            &UNUSABLE,
             expect![[r#"
                 error: [SCL0307] `crate` is a Rust keyword that cannot be used as a name, not even as `r#crate`
                  --> topology.yaml:2:11
@@ -143,6 +209,23 @@ mod tests {
                   = help: choose another name
                   = note: not usable either: `self`, `Self`, `super`, `_`
             "#]],
+        );
+    }
+
+    #[test]
+    fn name_is_reserved_in_cpp_or_python() {
+        rule_example(
+            &FOREIGN,
+            expect![[r#"
+            warning: [SCL0315] gate name `delete` is a keyword of C++
+             --> topology.yaml:4:9
+              |
+            4 |       - delete: sub
+              |         ^^^^^^
+              |
+              = help: choose another name, for example `delete_gate`
+              = note: programs in C++ and Python read the same file
+        "#]],
         );
     }
 }

@@ -1,0 +1,112 @@
+//! SCL0301: two components of one name. SCL0302: two gates of one name in a component. A connection could not say which
+//! it means.
+
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::model::Model;
+use crate::source::Spanned;
+use std::collections::HashMap;
+
+/// SCL0301.
+pub(crate) const COMPONENT: Rule = Rule {
+    code: "SCL0301",
+    severity: Severity::Error,
+    title: "duplicate component",
+    explanation: "Two components have one name, so no connection could say which it means, and two programs would \
+                  fight for one place. Rename one, or merge their gates.",
+    example: " components:
+   - name: sensor
+     gates: []
+-  - name: sensor
++  - name: sensor_2
+     gates: []
+",
+};
+
+/// SCL0302.
+pub(crate) const GATE: Rule = Rule {
+    code: "SCL0302",
+    severity: Severity::Error,
+    title: "duplicate gate",
+    explanation: "Two gates of a component have one name, be their kinds equal or not. A connection could not say \
+                  which it means, nor could a program. Rename one.",
+    example: " components:
+   - name: controller
+     gates:
+       - sensor: sub
+-      - sensor: pub
++      - sensor_2: pub
+",
+};
+
+pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+    for (first, second) in repeated(model.components.iter().map(|component| &component.name)) {
+        let headline = format!("component `{}` is declared twice", second.value);
+        let found = report(&COMPONENT, headline, first, second);
+        problems.push(found.help("rename one of them, or merge their gates"));
+    }
+    for component in &model.components {
+        for (first, second) in repeated(component.gates.iter().map(|gate| &gate.name)) {
+            let headline = format!("component `{}` declares gate `{}` twice", component.name.value, second.value);
+            let found = report(&GATE, headline, first, second);
+            problems.push(found.help("gate names are unique within a component, whatever their kind"));
+        }
+    }
+}
+
+type Name = Spanned<String>;
+
+/// The names that an earlier one equals, each after the first.
+fn repeated<'m>(names: impl Iterator<Item = &'m Name>) -> Vec<(&'m Name, &'m Name)> {
+    let mut first = HashMap::new();
+    let pairs = names.map(|name| (*first.entry(name.value.as_str()).or_insert(name), name));
+    // Compared by place in the model: a name is its own first declaration.
+    pairs.filter(|(first, name)| !std::ptr::eq(*first, *name)).collect()
+}
+
+fn report(rule: &'static Rule, headline: String, first: &Name, second: &Name) -> Diagnostic {
+    rule.at(headline, second.span, "second declaration").label(first.span, "first declaration")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{COMPONENT, GATE};
+    use crate::check::testing::rule_example;
+    use expect_test::expect;
+
+    #[test]
+    fn duplicate_component() {
+        rule_example(
+            &COMPONENT,
+            expect![[r#"
+            error: [SCL0301] component `sensor` is declared twice
+             --> topology.yaml:4:11
+              |
+            2 |   - name: sensor
+              |           ------ first declaration
+            3 |     gates: []
+            4 |   - name: sensor
+              |           ^^^^^^ second declaration
+              |
+              = help: rename one of them, or merge their gates
+        "#]],
+        );
+    }
+
+    #[test]
+    fn duplicate_gate() {
+        rule_example(
+            &GATE,
+            expect![[r#"
+            error: [SCL0302] component `controller` declares gate `sensor` twice
+             --> topology.yaml:5:9
+              |
+            4 |       - sensor: sub
+              |         ------ first declaration
+            5 |       - sensor: pub
+              |         ^^^^^^ second declaration
+              |
+              = help: gate names are unique within a component, whatever their kind
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,189 @@
+//! What a topology should have and lacks. SCL0203: the section `components`. SCL0205: components. SCL0206: connections.
+//! SCL0209: gates of a component.
+
+use super::ticked;
+use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::parse::field::{Field, Fields};
+use crate::source::{SourceFile, Spanned};
+
+/// SCL0203.
+pub(crate) const SECTION: Rule = Rule {
+    code: "SCL0203",
+    severity: Severity::Error,
+    title: "required section missing",
+    explanation: "The section `components` declares who may talk at all; without it nothing else has a meaning. Add \
+                  it.",
+    example: "-connections:
+-  - [sensor.measurements, controller.sensor]
++components: []
++connections: []
+",
+};
+
+pub(in crate::parse) fn section(fields: &Fields<'_>, source: &SourceFile) -> Diagnostic {
+    const MESSAGE: &str = "the section `components` is missing";
+    const SHOWN: usize = 6;
+    let keys: Vec<&str> = fields.list.iter().map(|field| field.key).collect();
+    let first = fields.list.first().map_or(source.span(0..0), |field| field.key_span);
+    let label = match keys.len() {
+        0 => "this file has no section".to_owned(),
+        count if count > SHOWN => {
+            format!("this file has only {} and {} more", ticked(keys[..SHOWN].iter().copied()), count - SHOWN)
+        }
+        _ => format!("this file has only {}", ticked(keys)),
+    };
+    SECTION.at(MESSAGE, first, label).help("add the section; it declares each component and its gates")
+}
+
+/// SCL0205.
+pub(crate) const COMPONENTS: Rule = Rule {
+    code: "SCL0205",
+    severity: Severity::Error,
+    title: "no components",
+    explanation: "The section `components` has no entry. Add at least one component; a file that is meant to be empty \
+                  says `components: []`.",
+    example: "-components:
++components: []
+ connections: []
+",
+};
+
+/// An explicit `components: []` is meant, as it is for gates and connections.
+pub(in crate::parse) fn components(section: Field<'_>) -> Diagnostic {
+    COMPONENTS
+        .at("the topology has no components", section.key_span, "the section is empty")
+        .help("add at least one component")
+}
+
+/// SCL0206.
+pub(crate) const CONNECTIONS: Rule = Rule {
+    code: "SCL0206",
+    severity: Severity::Warning,
+    title: "no connections",
+    explanation: "Gates are declared, and none of them is connected. Add the section `connections`. If the wiring \
+                  follows later, write `connections: []`, which says so.",
+    example: " components:
+   - name: sensor
+     gates:
+       - measurements: pub
++connections: []
+",
+};
+
+/// A warning where gates exist, and `connections` is missing or has no value; `connections: []` is meant.
+pub(in crate::parse) fn find_connections(
+    components: Field<'_>,
+    connections: Option<Field<'_>>,
+    gates: usize,
+) -> Option<Diagnostic> {
+    if gates == 0 || connections.is_some_and(|section| !section.value.is_null()) {
+        return None;
+    }
+    let label =
+        if gates == 1 { "1 gate is declared here".to_owned() } else { format!("{gates} gates are declared here") };
+    let problem = CONNECTIONS.at("the topology has no connections", components.key_span, label);
+    let problem = match connections {
+        Some(section) => problem.label(section.key_span, "empty").help("write the connections below it"),
+        None => problem.help("add a `connections:` section"),
+    };
+    Some(problem.help("if the gates are wired later, silence this with `connections: []`"))
+}
+
+/// SCL0209.
+pub(crate) const GATES: Rule = Rule {
+    code: "SCL0209",
+    severity: Severity::Warning,
+    title: "component without gates",
+    explanation: "A component without gates can talk to nobody, so it is probably not finished. Add a gate, or remove \
+                  the component; `gates: []` says that it is meant.",
+    example: " components:
+   - name: logger
+-    gates:
++    gates: []
+",
+};
+
+/// A warning where `gates` is missing or has no value; `gates: []` is meant.
+pub(in crate::parse) fn find_gates(component: &Spanned<String>, gates: Option<Field<'_>>) -> Option<Diagnostic> {
+    if gates.is_some_and(|field| !field.value.is_null()) {
+        return None;
+    }
+    let message = format!("component `{}` has no gates", component.value);
+    let mut problem = GATES.at(message, component.span, "it cannot be part of any connection");
+    if let Some(gates) = gates {
+        let span = crate::source::Span { end: gates.key_span.end + 1, ..gates.key_span };
+        problem = problem.label(span, "empty");
+    }
+    Some(problem.help("add a gate, or remove the component").help("if it is meant, write `gates: []`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{COMPONENTS, CONNECTIONS, GATES, SECTION};
+    use crate::parse::testing::check;
+    use expect_test::expect;
+
+    #[test]
+    fn missing_section() {
+        check(
+            &SECTION,
+            expect![[r#"
+            error: [SCL0203] the section `components` is missing
+             --> topology.yaml:1:1
+              |
+            1 | connections:
+              | ^^^^^^^^^^^ this file has only `connections`
+              |
+              = help: add the section; it declares each component and its gates"#]],
+        );
+    }
+
+    #[test]
+    fn no_components() {
+        check(
+            &COMPONENTS,
+            expect![[r#"
+            error: [SCL0205] the topology has no components
+             --> topology.yaml:1:1
+              |
+            1 | components:
+              | ^^^^^^^^^^ the section is empty
+              |
+              = help: add at least one component"#]],
+        );
+    }
+
+    #[test]
+    fn no_connections() {
+        check(
+            &CONNECTIONS,
+            expect![[r#"
+            warning: [SCL0206] the topology has no connections
+             --> topology.yaml:1:1
+              |
+            1 | components:
+              | ^^^^^^^^^^ 1 gate is declared here
+              |
+              = help: add a `connections:` section
+              = help: if the gates are wired later, silence this with `connections: []`"#]],
+        );
+    }
+
+    #[test]
+    fn component_without_gates() {
+        check(
+            &GATES,
+            expect![[r#"
+            warning: [SCL0209] component `logger` has no gates
+             --> topology.yaml:2:11
+              |
+            2 |   - name: logger
+              |           ^^^^^^ it cannot be part of any connection
+            3 |     gates:
+              |     ------ empty
+              |
+              = help: add a gate, or remove the component
+              = help: if it is meant, write `gates: []`"#]],
+        );
+    }
+}
