@@ -17,7 +17,8 @@ impl Loaded {
     /// The plans of all components, in file order; `None` if the topology has errors.
     pub fn system_plan(&self) -> Option<SystemPlan> {
         let topology = self.topology.as_ref()?;
-        let components = topology.components().map(|(id, _)| self.plan(topology, id, &|span| self.location(span)));
+        let location = |span| self.sources.place(span);
+        let components = topology.components().map(|(id, _)| self.plan(topology, id, &location));
         Some(SystemPlan { system: topology.system().to_owned(), components: components.collect() })
     }
 
@@ -41,12 +42,6 @@ impl Loaded {
     #[cfg(not(feature = "protobuf"))]
     fn schema_of(&self, _plan: &Plan) -> Option<scl_plan::Schema> {
         None
-    }
-
-    fn location(&self, span: Span) -> String {
-        let file = self.sources.file(span.file);
-        let start = file.line_column(span.start);
-        format!("{}:{}:{}", file.path(), start.line, start.column)
     }
 }
 

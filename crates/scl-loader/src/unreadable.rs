@@ -35,12 +35,11 @@ pub(crate) fn diagnose(request: &Request, cause: Unreadable, sources: &mut Sourc
 }
 
 fn missing(request: &Request) -> Diagnostic {
-    let mut problem = FILE_NOT_FOUND.without_place(format!("cannot find the topology file `{}`", request.shown_as));
-    if let Some(name) =
-        similar_file(&request.path, &request.looked_in.iter().map(|at| at.path.as_path()).collect::<Vec<_>>())
-    {
-        problem = problem.help(format!("a file with a similar name exists: `{name}`"));
-    }
+    let tried: Vec<&Path> = request.looked_in.iter().map(|at| at.path.as_path()).collect();
+    let near = similar_file(&request.path, &tried);
+    let problem = FILE_NOT_FOUND
+        .without_place(format!("cannot find the topology file `{}`", request.shown_as))
+        .helps(near.map(|name| format!("a file with a similar name exists: `{name}`")));
     if request.looked_in.is_empty() {
         return problem;
     }

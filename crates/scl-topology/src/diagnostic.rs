@@ -8,10 +8,10 @@ mod rule;
 mod testing;
 
 use crate::source::Span;
+use crate::wording::either;
 use std::borrow::Cow;
 
 pub use fix::Fix;
-pub(crate) use fix::removal;
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};
@@ -91,6 +91,12 @@ impl Diagnostic {
         self
     }
 
+    /// Adds several places.
+    pub fn labels<T: Into<String>>(mut self, labels: impl IntoIterator<Item = (Span, T)>) -> Self {
+        labels.into_iter().for_each(|(span, text)| self.add_label(span, text));
+        self
+    }
+
     /// As [`label`](Self::label), for a diagnostic in place.
     pub fn add_label(&mut self, span: Span, text: impl Into<String>) {
         match self.secondary.len() < MOST_LABELS {
@@ -115,10 +121,25 @@ impl Diagnostic {
         self
     }
 
+    /// Adds ways out: none, one or several.
+    pub fn helps<T: Into<String>>(self, texts: impl IntoIterator<Item = T>) -> Self {
+        texts.into_iter().fold(self, Self::help)
+    }
+
+    /// Adds the names that a wrong one may have meant, if there are any.
+    pub(crate) fn did_you_mean<S: AsRef<str>>(self, names: &[S]) -> Self {
+        if names.is_empty() { self } else { self.help(format!("did you mean {}?", either(names))) }
+    }
+
     /// Adds the rule behind it.
     pub fn note(mut self, text: impl Into<String>) -> Self {
         self.notes.push(clipped(text));
         self
+    }
+
+    /// Adds notes: none, one or several.
+    pub fn notes<T: Into<String>>(self, texts: impl IntoIterator<Item = T>) -> Self {
+        texts.into_iter().fold(self, Self::note)
     }
 }
 

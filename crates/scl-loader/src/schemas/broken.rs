@@ -39,7 +39,7 @@ impl Shown<'_> {
         let name = shown.as_deref().or(error.file()).unwrap_or(&schema.value);
         let message = format!("the schema file `{name}` does not compile: {wrong}");
         let found = error.labels().and_then(|mut labels| labels.next());
-        let mut problem = match (file, error.labels()) {
+        let problem = match (file, error.labels()) {
             (Some(file), Some(_)) => {
                 let at = found.as_ref().map_or((file.text.len(), 0), |label| (label.offset(), label.len()));
                 let label = found.as_ref().and_then(|label| label.label().map(in_backticks)).unwrap_or_default();
@@ -48,29 +48,20 @@ impl Shown<'_> {
             }
             _ => SCHEMA.at(message, schema.span, "named here"),
         };
-        if let Some(help) = error.help() {
-            problem = problem.help(in_backticks(&help.to_string()));
-        }
-        problem
+        problem.helps(error.help().map(|help| in_backticks(&help.to_string())))
     }
 
     /// One mistake in one schema file.
     fn mistake(&mut self, mistake: &Mistake, schema: &Spanned<String>) -> Diagnostic {
         let is_its_file = |file: &&SchemaFile| self.0.folders.relative(&file.path) == Path::new(&mistake.file);
-        let mut problem = match self.0.files.iter().find(is_its_file) {
+        let problem = match self.0.files.iter().find(is_its_file) {
             Some(file) => {
                 let span = self.0.span(file, mistake.at.clone());
                 SCHEMA.at(&mistake.message, span, &mistake.label).label(schema.span, BECAUSE)
             }
             None => SCHEMA.at(&mistake.message, schema.span, "named here"),
         };
-        if let Some(help) = &mistake.help {
-            problem = problem.help(help);
-        }
-        if let Some(note) = &mistake.note {
-            problem = problem.note(note);
-        }
-        problem
+        problem.helps(&mistake.help).notes(&mistake.note)
     }
 }
 

@@ -115,11 +115,9 @@ fn refuse(schema: &Spanned<String>, folder: &Path, max_size: u64) -> Option<Diag
         let why = super::disk::why(Path::new(name), cause);
         return Some(SCHEMA.at(format!("the schema file {why}"), schema.span, ""));
     }
-    let mut problem = SCHEMA.at(format!("cannot find the schema file `{name}`"), schema.span, "");
-    if let Some(near) = similar_file(&path, &[]) {
-        problem = problem.help(format!("a file with a similar name exists: `{near}`"));
-    }
-    Some(problem.note("schemas are looked for beside the topology file"))
+    let near = similar_file(&path, &[]).map(|near| format!("a file with a similar name exists: `{near}`"));
+    let problem = SCHEMA.at(format!("cannot find the schema file `{name}`"), schema.span, "");
+    Some(problem.helps(near).note("schemas are looked for beside the topology file"))
 }
 
 /// The messages that each entry declares; those that are only imported count for the first.

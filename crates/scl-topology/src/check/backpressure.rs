@@ -43,16 +43,13 @@ fn report(draft: &Draft<'_>, link: usize, source: usize, sink: usize) -> Diagnos
     };
     let headline = format!("`{}` would make `{}` wait, which it does not allow", draft.path(sink), draft.path(source));
     let gate = draft.gates[source].model;
-    let mut found = RULE
-        .at(headline, draft.links[link].model.span, "")
-        .label(draft.gates[source].declaration(), format!("never waits for a {receiver}"));
-    if let Some(option) = draft.gates[sink].option("when_full") {
-        found = found.label(option.key.span.to(option.value.span), format!("makes the {sender} wait"));
-    }
+    let option = draft.gates[sink].option("when_full");
     let kind = &gate.kind.value;
     let message = super::unconnected::type_text(draft, source);
     let name = &gate.name.value;
-    found
+    RULE.at(headline, draft.links[link].model.span, "")
+        .label(draft.gates[source].declaration(), format!("never waits for a {receiver}"))
+        .labels(option.map(|it| (it.key.span.to(it.value.span), format!("makes the {sender} wait"))))
         .help(format!("allow it on the {sender}: `{name}: {{{kind}: {message}, backpressure: true}}`"))
         .help(format!("or let the {receiver} lose messages: `when_full: drop_oldest`"))
 }

@@ -163,11 +163,8 @@ fn peers(
     let word = |at: usize| words.get(at).copied().unwrap_or("another");
     let text = |at: usize| label(word(at), &draft.path(links[at].1));
     let place = |at: usize| draft.end_span(links[at].0, gate);
-    let mut found = rule.at(headline, place(1), text(1));
-    for at in (0..links.len()).filter(|&at| at != 1) {
-        found = found.label(place(at), text(at));
-    }
-    found
+    let others = (0..links.len()).filter(|&at| at != 1);
+    rule.at(headline, place(1), text(1)).labels(others.map(|at| (place(at), text(at))))
 }
 
 #[cfg(test)]

@@ -6,7 +6,6 @@ use crate::rust_name::{is_keyword, is_unescapable};
 use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::topology::Codec;
-use crate::wording::either;
 
 /// SCL0407.
 pub(crate) const RULE: Rule = Rule {
@@ -73,18 +72,13 @@ fn report(written: &Spanned<String>) -> Diagnostic {
     let mut rows = Codec::BUILT_IN.iter().filter_map(Codec::row);
     let synonym = rows.find(|row| row.synonyms.contains(&lower.as_str())).map(|row| vec![row.word]);
     let meant = synonym.unwrap_or_else(|| similar(&written.value, Codec::words()));
-    let found = found.fix_word(&written.value, &meant);
-    let found = if meant.is_empty() { found } else { found.help(format!("did you mean {}?", either(&meant))) };
-    let found = if written.value.contains('.') {
-        found.help(format!("a codec of your own is named by its Rust path: `{}`", written.value.replace('.', "::")))
-    } else {
-        found
-    };
-    let found = match keyword {
-        Some(_) => found.help("name a type of your crate by its path, such as `my_crate::Flat`"),
-        None => found,
-    };
-    found.note(codecs())
+    let path = written.value.contains('.').then(|| written.value.replace('.', "::"));
+    found
+        .fix_word(&written.value, &meant)
+        .did_you_mean(&meant)
+        .helps(path.map(|path| format!("a codec of your own is named by its Rust path: `{path}`")))
+        .helps(keyword.map(|_| "name a type of your crate by its path, such as `my_crate::Flat`"))
+        .note(codecs())
 }
 
 fn codecs() -> String {

@@ -1,7 +1,7 @@
 //! SCL0510: the same two gates connected twice. Takes the second out, so that it is not counted as another peer.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostics, Rule, Severity, removal};
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 use std::collections::HashMap;
 
 /// SCL0510.
@@ -38,9 +38,9 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         let found = RULE
             .at("this connection is already declared", span, label)
             .label(draft.links[earlier].model.span, "first declared here")
-            .help("remove one of the two");
-        let removed = removal(draft.sources.file(span.file), span);
-        problems.push(removed.into_iter().fold(found, |found, removed| found.fix(removed, "")));
+            .help("remove one of the two")
+            .fix_by_removal(draft.sources.file(span.file), span);
+        problems.push(found);
         draft.links[at].flow = None;
         draft.links[at].ends = [None; 2];
     }

@@ -87,22 +87,17 @@ fn work(draft: &Draft<'_>, Circle { steps, .. }: &Circle) -> Diagnostic {
     let path = |step: &Step| draft.links[step.link].flow.map_or(String::new(), |(_, sink)| draft.path(sink));
     let label = |step: &Step| format!("work is lost while the queue of `{}` is full", path(step));
     let headline = format!("push gates form a circle: {}", circles::round(draft, steps));
-    let mut found = PUSHES.at(headline, place(draft, &steps[0]), label(&steps[0]));
-    for step in &steps[1..] {
-        found = found.label(place(draft, step), label(step));
-    }
-    found
+    PUSHES
+        .at(headline, place(draft, &steps[0]), label(&steps[0]))
+        .labels(steps[1..].iter().map(|step| (place(draft, step), label(step))))
         .help("make one of the links `pub` and `sub`")
         .help(format!("or say that losing work is fine: `when_full: drop_oldest` at `{}`", path(&steps[0])))
 }
 
 fn messages(draft: &Draft<'_>, Circle { steps, .. }: &Circle) -> Diagnostic {
     let headline = format!("messages go round in a loop: {}", circles::round(draft, steps));
-    let mut found = LOOP.at(headline, place(draft, &steps[0]), "");
-    for step in &steps[1..] {
-        found = found.label(place(draft, step), "");
-    }
-    found.note(
+    let others = steps[1..].iter().map(|step| (place(draft, step), ""));
+    LOOP.at(headline, place(draft, &steps[0]), "").labels(others).note(
         "fine for a control loop; a component that sends at once for each message it receives would flood the system",
     )
 }

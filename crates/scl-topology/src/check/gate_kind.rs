@@ -66,7 +66,7 @@ fn report(word: &Spanned<String>, sources: &Sources) -> Diagnostic {
     let found = match meant.as_slice() {
         [] => found,
         [one] => found.help(format!("the kind is called `{one}`")),
-        several => found.help(format!("did you mean {}?", crate::wording::either(several))),
+        several => found.did_you_mean(several),
     };
     found.fix_if_single(word.span, &replacements).note(kinds())
 }

@@ -116,21 +116,18 @@ fn taken_over(draft: &Draft<'_>, gate: usize, origin: usize) -> Option<Diagnosti
 }
 
 fn without_type(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {
-    let mut found = UNTYPED.at(
-        "this connection carries bytes of no declared type",
-        draft.links[link].model.span,
-        "neither end names a type",
-    );
-    for gate in draft.links[link].ends.into_iter().flatten() {
-        found = found.label(draft.gates[gate].model.span, "no type");
-    }
+    let headline = "this connection carries bytes of no declared type";
+    let ends = draft.links[link].ends.into_iter().flatten();
     let model = draft.gates[source].model;
     let (name, kind) = (&model.name.value, &model.kind.value);
     let types = match draft.gates[source].kind {
         Some(GateKind::Req) => format!("{} -> Status", example_type(name)),
         _ => example_type(name),
     };
-    found.help(format!("name it on one end: `{name}: {{{kind}: {types}}}`; the other end takes it over"))
+    UNTYPED
+        .at(headline, draft.links[link].model.span, "neither end names a type")
+        .labels(ends.map(|gate| (draft.gates[gate].model.span, "no type")))
+        .help(format!("name it on one end: `{name}: {{{kind}: {types}}}`; the other end takes it over"))
 }
 
 #[cfg(test)]

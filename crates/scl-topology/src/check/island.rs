@@ -77,10 +77,8 @@ fn report(draft: &Draft<'_>, groups: &[Vec<usize>]) -> Diagnostic {
     let place = |at: usize| name(&groups[at][0]).span;
     let count = groups.len();
     let headline = format!("the topology consists of {count} groups of components with no connection between them");
-    let mut found = RULE.at(headline, place(1), label(1));
-    for at in (0..count.min(MOST)).filter(|&at| at != 1) {
-        found = found.label(place(at), label(at));
-    }
+    let others = (0..count.min(MOST)).filter(|&at| at != 1);
+    let found = RULE.at(headline, place(1), label(1)).labels(others.map(|at| (place(at), label(at))));
     let systems = if count == 2 { "two systems, put them into two files" } else { "several systems, give each a file" };
     found.help(format!("if they are {systems}"))
 }

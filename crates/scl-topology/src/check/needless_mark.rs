@@ -1,7 +1,7 @@
 //! SCL0711: `unconnected: ok` on a gate that is connected. The mark would hide the loss of the connection one day.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostics, Rule, Severity, removal};
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 
 /// SCL0711.
 pub(crate) const RULE: Rule = Rule {
@@ -38,9 +38,9 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             let found = RULE
                 .at(headline, place, "no longer needed")
                 .label(connected_at, "connected here")
-                .help("remove the mark");
-            let removed = removal(draft.sources.file(place.file), place);
-            problems.push(removed.into_iter().fold(found, |found, removed| found.fix(removed, "")));
+                .help("remove the mark")
+                .fix_by_removal(draft.sources.file(place.file), place);
+            problems.push(found);
         }
     }
 }

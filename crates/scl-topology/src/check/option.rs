@@ -42,18 +42,10 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
 
 fn report(kind: Option<GateKind>, row: &GateOption, option: &OptionModel, range: &OutOfRange) -> Diagnostic {
     let headline = format!("`{}` must be {}", row.key, range.rule);
-    let mut found = VALUE.at(headline, option.value.span, "");
-    if let Some(default) = row.default() {
-        found = found.help(format!("leave it out to get the default, {default}"));
-    }
-    if let Some(reason) = range.reason {
-        found = found.note(reason);
-    }
+    let default = row.default().map(|default| format!("leave it out to get the default, {default}"));
+    let found = VALUE.at(headline, option.value.span, "").helps(default).notes(range.reason);
     // An option that this kind of gate does not have needs no other value.
-    match misfit(kind, row.key) {
-        Some(rule) => found.note(rule),
-        None => found,
-    }
+    found.notes(misfit(kind, row.key))
 }
 
 /// SCL0408.
@@ -77,13 +69,9 @@ pub(super) fn check_fit(kind: Option<GateKind>, option: &OptionModel) -> Option<
     let kind = kind?;
     let rule = misfit(Some(kind), key)?;
     let headline = format!("option `{key}` is not available on a `{}` gate", kind.word());
-    let found = MISFIT.at(headline, option.key.span, "").help("remove it");
-    let other = kind.opposite();
-    let found = match fits(other, key) {
-        true => found.help(format!("or write it at the `{}` end of the connection", other.word())),
-        false => found,
-    };
-    Some(found.note(rule))
+    let other = Some(kind.opposite()).filter(|&other| fits(other, key));
+    let at_other_end = other.map(|other| format!("or write it at the `{}` end of the connection", other.word()));
+    Some(MISFIT.at(headline, option.key.span, "").help("remove it").helps(at_other_end).note(rule))
 }
 
 /// Why a kind has no such option, if it has none.

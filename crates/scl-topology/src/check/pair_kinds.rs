@@ -78,15 +78,13 @@ fn same_direction(draft: &Draft<'_>, link: usize, [a, b]: [usize; 2], kind: Gate
     let wanted = kind.opposite();
     let (word, other) = (kind.word(), wanted.word());
     let headline = format!("both ends of this connection {both}");
-    let mut found = SAME_DIRECTION
+    let fitting = [fitting(draft, a, b), fitting(draft, b, a)];
+    let found = SAME_DIRECTION
         .at(headline, draft.links[link].model.span, nobody)
         .label(draft.gates[a].model.kind.span, one)
         .label(draft.gates[b].model.kind.span, format!("{one} too"))
-        .help(format!("a `{word}` gate connects to a `{other}` gate; should one of the two be `{other}`?"));
-    let fitting = [fitting(draft, a, b), fitting(draft, b, a)];
-    for fit in fitting.iter().flatten() {
-        found = found.help(fit.clone());
-    }
+        .help(format!("a `{word}` gate connects to a `{other}` gate; should one of the two be `{other}`?"))
+        .helps(fitting.iter().flatten());
     match fitting {
         [None, None] => found.note(nobody_is(draft, [a, b], other)),
         _ => found,
@@ -104,15 +102,13 @@ fn nobody_is(draft: &Draft<'_>, [a, b]: [usize; 2], kind: &str) -> String {
 fn different_patterns(draft: &Draft<'_>, link: usize, [a, b]: [usize; 2], kinds: [GateKind; 2]) -> Diagnostic {
     let [a_word, b_word] = kinds.map(GateKind::word);
     let headline = format!("a `{a_word}` gate cannot be connected to a `{b_word}` gate");
-    let mut found = OTHER_PATTERN
+    OTHER_PATTERN
         .at(headline, draft.links[link].model.span, "")
         .label(draft.gates[a].model.span, doing(kinds[0]))
-        .label(draft.gates[b].model.span, doing(kinds[1]));
-    // The end with an obvious partner comes first.
-    for fit in [fitting(draft, b, a), fitting(draft, a, b)].into_iter().flatten() {
-        found = found.help(fit);
-    }
-    found.note("pairs that fit: pub - sub, req - rep, push - pull")
+        .label(draft.gates[b].model.span, doing(kinds[1]))
+        // The end with an obvious partner comes first.
+        .helps([fitting(draft, b, a), fitting(draft, a, b)].into_iter().flatten())
+        .note("pairs that fit: pub - sub, req - rep, push - pull")
 }
 
 fn doing(kind: GateKind) -> &'static str {

@@ -59,15 +59,14 @@ fn report(draft: &Draft<'_>, codec: Span, word: &str, gates: &[usize]) -> Diagno
     let first = gates.first().and_then(|&gate| schema_type(&draft.gates[gate]));
     let dotted = first.map_or("", TypeName::dotted);
     let headline = format!("the codec `{word}` cannot carry `{dotted}`, a message of the `schemas`");
-    let mut found = RULE.at(headline, codec, "carries Rust types only");
-    if let Some(name) = first {
-        found = found.label(name.span(), "a message of the `schemas`");
+    let found = RULE
+        .at(headline, codec, "carries Rust types only")
+        .labels(first.map(|name| (name.span(), "a message of the `schemas`")))
+        .help("use `protobuf` (the default), or `json` for protobuf's canonical JSON");
+    match gates.len() {
+        0 | 1 => found,
+        _ => found.note(format!("gates with this codec: {}", listed(gates.iter().map(|&gate| draft.path(gate))))),
     }
-    found = found.help("use `protobuf` (the default), or `json` for protobuf's canonical JSON");
-    if gates.len() > 1 {
-        found = found.note(format!("gates with this codec: {}", listed(gates.iter().map(|&gate| draft.path(gate)))));
-    }
-    found
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use super::{Facts, SchemaMessages};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::suggest::{same_parts, similar};
 use crate::topology::TypeName;
-use crate::wording::{either, listed};
+use crate::wording::listed;
 use std::collections::{BTreeSet, HashMap};
 
 /// No message offers more names than this.
@@ -134,24 +134,18 @@ fn report(
     meant: &[&str],
 ) -> Diagnostic {
     let headline = format!("unknown message type `{}`", name.dotted());
-    let mut found = RULE.at(headline, name.span(), "not in the schemas");
-    if let [only] = meant {
+    let declared = if let [only] = meant { Some(*only) } else { None }.and_then(|only| {
         let declares = |schema: &SchemaMessages| schema.names.iter().any(|other| other == only);
-        let place = schemas.iter().position(declares).and_then(|at| draft.model.schemas.get(at));
-        if let Some(place) = place {
-            found = found.label(place.span, format!("declares `{only}`"));
-        }
+        let place = schemas.iter().position(declares).and_then(|at| draft.model.schemas.get(at))?;
+        Some((place.span, format!("declares `{only}`")))
+    });
+    let is_path = !known.has_root(name.dotted());
+    let path = is_path.then(|| format!("if it is a Rust type of your own, write its path: `crate.{}`", name.dotted()));
+    let found = RULE.at(headline, name.span(), "not in the schemas").labels(declared).did_you_mean(meant).helps(path);
+    match known.all.is_empty() {
+        true => found.note("the `schemas` declare no message types"),
+        false => found.note(format!("message types in `schemas`: {}", listed(&known.all))),
     }
-    if !meant.is_empty() {
-        found = found.help(format!("did you mean {}?", either(meant)));
-    }
-    if !known.has_root(name.dotted()) {
-        found = found.help(format!("if it is a Rust type of your own, write its path: `crate.{}`", name.dotted()));
-    }
-    if known.all.is_empty() {
-        return found.note("the `schemas` declare no message types");
-    }
-    found.note(format!("message types in `schemas`: {}", listed(&known.all)))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Span;
 use crate::suggest::{MOST, nearest, similar};
-use crate::wording::{either, listed};
+use crate::wording::listed;
 
 /// SCL0501.
 pub const UNKNOWN: Rule = Rule {
@@ -62,11 +62,10 @@ pub(super) fn check(
         return;
     }
     let place = draft.part(text.span, component, false);
-    let mut found = UNKNOWN.at(headline, place, "no component has this name");
     let meant = if draft.may_search() { meant(draft, link, end, [component, gate]) } else { Vec::new() };
-    for at in meant.iter().filter_map(|name| draft.component(name)) {
-        found = found.label(draft.components[at].model.name.span, "a similar name is declared here");
-    }
+    let declarations = meant.iter().filter_map(|name| draft.component(name));
+    let similar = declarations.map(|at| (draft.components[at].model.name.span, "a similar name is declared here"));
+    let found = UNKNOWN.at(headline, place, "no component has this name").labels(similar).did_you_mean(&meant);
     let is_open = |name: &String| draft.gate(name, gate).is_some_and(|gate| !draft.gates[gate].named);
     let open_before = meant.iter().all(is_open);
     for name in &meant {
@@ -74,14 +73,11 @@ pub(super) fn check(
             draft.gates[gate].named = true;
         }
     }
-    if !meant.is_empty() {
-        found = found.help(format!("did you mean {}?", either(&meant)));
-        found = match (meant.as_slice(), open_before) {
-            // Its gate is connected to nothing, so it is certainly the one meant.
-            ([only], true) if draft.sources.snippet(place) == component => found.fix(place, only),
-            _ => meant.iter().fold(found, |found, name| found.maybe_fix(place, name)),
-        };
-    }
+    let found = match (meant.as_slice(), open_before) {
+        // Its gate is connected to nothing, so it is certainly the one meant.
+        ([only], true) if draft.sources.snippet(place) == component => found.fix(place, only),
+        _ => meant.iter().fold(found, |found, name| found.maybe_fix(place, name)),
+    };
     problems.push(found.note(declared(draft)));
 }
 

@@ -5,7 +5,7 @@ use super::unknown_component::swap;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Spanned;
 use crate::suggest::{MOST, nearest};
-use crate::wording::{either, shortened};
+use crate::wording::shortened;
 
 /// SCL0502.
 pub(crate) const RULE: Rule = Rule {
@@ -88,20 +88,16 @@ fn fits(draft: &Draft<'_>, link: usize, end: usize, gate: usize) -> bool {
 
 fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &str, meant: &[usize]) -> Diagnostic {
     let place = draft.part(text.span, gate, true);
-    let mut found = RULE.at(headline, place, "unknown gate");
-    if let [only] = meant {
-        found = found.label(draft.gates[*only].model.name.span, "a similar gate is declared here");
+    let names: Vec<&str> = meant.iter().map(|&at| draft.gates[at].model.name.value.as_str()).collect();
+    let found = RULE.at(headline, place, "unknown gate").did_you_mean(&names);
+    let [only] = meant else { return names.iter().fold(found, |found, name| found.maybe_fix(place, *name)) };
+    let only = &draft.gates[*only];
+    let found = found.label(only.model.name.span, "a similar gate is declared here");
+    // A gate that nothing is connected to, and that looks like this one, is certainly the one meant.
+    match !only.named && draft.sources.snippet(place) == gate {
+        true => found.fix(place, names[0]),
+        false => found.maybe_fix(place, names[0]),
     }
-    if !meant.is_empty() {
-        let names: Vec<&str> = meant.iter().map(|&at| draft.gates[at].model.name.value.as_str()).collect();
-        found = found.help(format!("did you mean {}?", either(&names)));
-        found = match meant {
-            // A gate that nothing is connected to, and that looks like this one, is certainly the one meant.
-            [only] if !draft.gates[*only].named && draft.sources.snippet(place) == gate => found.fix(place, names[0]),
-            _ => names.iter().fold(found, |found, name| found.maybe_fix(place, *name)),
-        };
-    }
-    found
 }
 
 fn known(draft: &Draft<'_>, component: &str) -> String {

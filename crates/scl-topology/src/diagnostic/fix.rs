@@ -46,6 +46,11 @@ impl Diagnostic {
         }
     }
 
+    /// Adds the removal of an item or an entry, if it shares its line with nothing else.
+    pub(crate) fn fix_by_removal(self, source: &SourceFile, span: Span) -> Self {
+        removal(source, span).into_iter().fold(self, |found, removed| found.fix(removed, ""))
+    }
+
     fn with_fix(mut self, span: Span, replacement: impl Into<String>, sure: bool) -> Self {
         self.fixes.push(Fix { span, replacement: replacement.into(), sure });
         self
@@ -54,7 +59,7 @@ impl Diagnostic {
 
 /// What to remove so that an item or an entry is gone with its comma, or with its line; `None` if it shares its line with
 /// something else.
-pub(crate) fn removal(source: &SourceFile, span: Span) -> Option<Span> {
+fn removal(source: &SourceFile, span: Span) -> Option<Span> {
     let text = source.text();
     let (before, after) = (text.get(..span.start as usize)?, text.get(span.end as usize..)?);
     let line = source.line_range(span.start as usize);

@@ -61,10 +61,8 @@ fn report_nameless(declared: &Declared<'_>, places: &mut Places<'_>) -> Diagnost
 fn report(first: &Declared<'_>, second: &Declared<'_>, places: &mut Places<'_>) -> Diagnostic {
     let Declared { scope, name, what, .. } = second;
     let headline = format!("{} and {what} would both become `{name}` {scope}", first.what);
-    let mut problem = at(second, headline, &format!("also becomes `{name}`"), places);
-    if let Some(span) = span(first, places) {
-        problem = problem.label(span, format!("becomes `{name}`"));
-    }
+    let problem = at(second, headline, &format!("also becomes `{name}`"), places);
+    let problem = problem.labels(span(first, places).map(|span| (span, format!("becomes `{name}`"))));
     match first.origin {
         Origin::Topology(_) => problem.help("rename the component, or give the schema a `package`"),
         Origin::Schema { .. } => problem.help("rename one of them").note(NOT_IN_BYTES),

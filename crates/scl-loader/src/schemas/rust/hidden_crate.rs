@@ -32,13 +32,12 @@ pub(in crate::schemas) fn find_hidden_crates(
         let headline = format!(
             "the package `{package}` becomes the Rust module `{module}`, which hides the crate `{name}` where the macro is called"
         );
-        let mut problem = HIDDEN_CRATE.at(headline, entry, "declared because of this line");
-        if let Some(span) = places.of(file.name(), &[FILE_PACKAGE]) {
-            problem = problem.label(span, format!("becomes `{module}`"));
-        }
+        let place = places.of(file.name(), &[FILE_PACKAGE]);
         let call = "mod wiring { ::scl::topology!(\"..\"); }";
         found.push(
-            problem
+            HIDDEN_CRATE
+                .at(headline, entry, "declared because of this line")
+                .labels(place.map(|span| (span, format!("becomes `{module}`"))))
                 .help(format!("call the macro in a module of its own: `{call}`; or choose another package"))
                 .note(format!("if it is in one already, allow this: `# scl: allow({})`", HIDDEN_CRATE.code)),
         );

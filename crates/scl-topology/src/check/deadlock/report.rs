@@ -15,11 +15,9 @@ pub(super) const HEADLINE: &str = "components wait for each other";
 pub(super) fn report(rule: &'static Rule, draft: &Draft<'_>, deadlock: &Deadlock, receivers: &[usize]) -> Diagnostic {
     let steps = &deadlock.steps;
     let headline = format!("{HEADLINE}: {}", names(draft, deadlock));
-    let mut found = rule.at(headline, place(draft, &steps[0]), waiting(draft, &steps[0]));
-    for step in &steps[1..] {
-        found = found.label(place(draft, step), waiting(draft, step));
-    }
-    found = ways_out(draft, found, steps, receivers).note(consequence(draft, steps));
+    let others = steps[1..].iter().map(|step| (place(draft, step), waiting(draft, step)));
+    let found = rule.at(headline, place(draft, &steps[0]), waiting(draft, &steps[0])).labels(others);
+    let mut found = ways_out(draft, found, steps, receivers).note(consequence(draft, steps));
     if !deadlock.is_circle {
         found =
             found.note("a `push` gate that shares its work waits only while the queues of all its pullers are full");

@@ -46,9 +46,7 @@ fn diagnose_anchor(anchor: &Anchor, root: Option<&Node>, source: &SourceFile) ->
         (None, None) => ANCHOR.without_place(MESSAGE),
     };
     if anchor.definition.is_some() {
-        for alias in &anchor.aliases {
-            problem = problem.label(*alias, "used here");
-        }
+        problem = problem.labels(anchor.aliases.iter().map(|alias| (*alias, "used here")));
     }
     let anchor_help = match first_use {
         Some(alias) => anchor_help(alias, root, source),

@@ -104,9 +104,9 @@ pub(in crate::parse) fn of_gate(field: Field<'_>, kind: &str, path: &str) -> Dia
     if similar.iter().all(|name| only_of(name, kind).is_empty()) {
         problem = problem.fix_word(field.key, &similar);
     }
-    for name in similar {
-        problem = problem.help(format!("a key with a similar name exists: `{name}`{}", only_of(name, kind)));
-    }
+    let suggestions =
+        similar.iter().map(|name| format!("a key with a similar name exists: `{name}`{}", only_of(name, kind)));
+    let problem = problem.helps(suggestions);
     let keys = OPTIONS.iter().filter(|option| option.kinds.iter().any(|of| of.word() == kind)).map(|option| option.key);
     match GateKind::of(kind).is_some() {
         true => problem.note(format!("keys of a `{kind}` gate: {}", ticked(std::iter::once(kind).chain(keys)))),
