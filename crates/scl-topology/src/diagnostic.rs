@@ -48,6 +48,8 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// What `helps` say, as replacements of text.
     pub fixes: Vec<Fix>,
+    /// The name that it is about, where problems of one rule about one name are one mistake.
+    pub(crate) subject: Option<String>,
 }
 
 /// Maximum number of secondary labels of a diagnostic. Nobody reads more, and a hostile file must not decide how much
@@ -75,6 +77,7 @@ impl Rule {
             helps: Vec::new(),
             notes: Vec::new(),
             fixes: Vec::new(),
+            subject: None,
         }
     }
 }
@@ -88,6 +91,12 @@ impl Diagnostic {
     /// Adds another place. After [`MOST_LABELS`] places, the further ones are only counted.
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Self {
         self.add_label(span, text);
+        self
+    }
+
+    /// Says that all problems of the rule about this name are one mistake.
+    pub(crate) fn about(mut self, subject: impl Into<String>) -> Self {
+        self.subject = Some(subject.into());
         self
     }
 

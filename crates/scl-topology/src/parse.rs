@@ -21,7 +21,7 @@ mod syntax_error;
 mod testing;
 mod words;
 
-pub(crate) use pitfall::look_alike::{LETTER, RULE as LOOK_ALIKE};
+pub(crate) use pitfall::look_alike::LETTER;
 pub(crate) use pitfall::{MISREAD, RULES as PITFALLS};
 pub(crate) use shape::RULES as SHAPES;
 

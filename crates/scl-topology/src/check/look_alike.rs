@@ -56,7 +56,7 @@ fn report(noun: Noun, name: &Spanned<String>, letter: char) -> Diagnostic {
         noun.word(),
         name.value
     );
-    let found = RULE.at(headline, name.span, "allowed: a-z A-Z 0-9 _ -");
+    let found = RULE.at(&*headline, name.span, "allowed: a-z A-Z 0-9 _ -").about(&*headline);
     let found = match retyped(&name.value) {
         Some(ascii) => found.help(format!("write `{ascii}`")),
         None => found.help("write the name in ASCII letters"),

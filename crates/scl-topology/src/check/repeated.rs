@@ -4,7 +4,6 @@
 
 use super::{backpressure, codec_agreement, exchange_type, message_type, pair_kinds, unknown_component, unknown_gate};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule};
-use crate::parse::{LETTER, LOOK_ALIKE};
 use crate::source::Span;
 use std::collections::HashMap;
 
@@ -12,23 +11,21 @@ use std::collections::HashMap;
 const MOST: usize = 8;
 
 pub(super) fn tell_once(problems: &mut Diagnostics) {
-    let mut places: HashMap<String, Vec<Span>> = HashMap::new();
+    let mut places: HashMap<(&Rule, String), Vec<Span>> = HashMap::new();
     problems.retain(|found| {
-        if ![&unknown_component::UNKNOWN, &unknown_gate::RULE, &LETTER, &LOOK_ALIKE].contains(&found.rule) {
-            return true;
-        }
-        let uses = places.entry(found.message.clone()).or_default();
+        let Some(subject) = found.subject.clone() else { return true };
+        let uses = places.entry((found.rule, subject)).or_default();
         uses.extend(found.primary.as_ref().map(|label| label.span));
         uses.len() <= 1
     });
     problems.retain(|found| {
-        let uses = places.get(&found.message).map_or(&[][..], |uses| uses.get(1..).unwrap_or(&[]));
-        for place in uses.iter().take(MOST) {
-            found.add_label(*place, "and here");
-        }
-        if !uses.is_empty() {
-            let what = if found.code().starts_with("SCL05") { "connections name it" } else { "places have it" };
-            found.notes.push(format!("{} {what}", uses.len() + 1));
+        let uses = found.subject.take().and_then(|subject| places.remove(&(found.rule, subject))).unwrap_or_default();
+        let others = uses.get(1..).unwrap_or_default();
+        others.iter().take(MOST).for_each(|place| found.add_label(*place, "and here"));
+        if !others.is_empty() {
+            let is_end = [&unknown_component::UNKNOWN, &unknown_gate::RULE].contains(&found.rule);
+            let what = if is_end { "connections name it" } else { "places have it" };
+            found.notes.push(format!("{} {what}", uses.len()));
             // The one place where the name is declared may be the one that is wrong.
             found.fixes.iter_mut().for_each(|fix| fix.sure = false);
         }

@@ -65,7 +65,8 @@ pub(super) fn check(
     let meant = if draft.may_search() { meant(draft, link, end, [component, gate]) } else { Vec::new() };
     let declarations = meant.iter().filter_map(|name| draft.component(name));
     let similar = declarations.map(|at| (draft.components[at].model.name.span, "a similar name is declared here"));
-    let found = UNKNOWN.at(headline, place, "no component has this name").labels(similar).did_you_mean(&meant);
+    let found =
+        UNKNOWN.at(headline, place, "no component has this name").about(component).labels(similar).did_you_mean(&meant);
     let is_open = |name: &String| draft.gate(name, gate).is_some_and(|gate| !draft.gates[gate].named);
     let open_before = meant.iter().all(is_open);
     for name in &meant {

@@ -89,7 +89,7 @@ fn fits(draft: &Draft<'_>, link: usize, end: usize, gate: usize) -> bool {
 fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &str, meant: &[usize]) -> Diagnostic {
     let place = draft.part(text.span, gate, true);
     let names: Vec<&str> = meant.iter().map(|&at| draft.gates[at].model.name.value.as_str()).collect();
-    let found = RULE.at(headline, place, "unknown gate").did_you_mean(&names);
+    let found = RULE.at(headline, place, "unknown gate").about(&*text.value).did_you_mean(&names);
     let [only] = meant else { return names.iter().fold(found, |found, name| found.maybe_fix(place, *name)) };
     let only = &draft.gates[*only];
     let found = found.label(only.model.name.span, "a similar gate is declared here");

@@ -65,7 +65,7 @@ pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &So
             let message = format!(
                 "{what} `{word}` contains the {script} letter `{letter}` (U+{code:04X}), which looks like `{twin}`"
             );
-            let problem = LETTER.at(message, node.span, format!("not the Latin `{twin}`"));
+            let problem = LETTER.at(&*message, node.span, format!("not the Latin `{twin}`")).about(&*message);
             let retyped = confusable::retyped(word);
             match what.starts_with("the ") {
                 true => problem.help(format!("retype it: `{retyped}`")),
@@ -91,7 +91,7 @@ fn look_alike_mark(letter: char, span: Span) -> Diagnostic {
         "\"" | "'" => "remove the quotes, which names do not need, or retype them as `\"`".to_owned(),
         _ => format!("retype it as `{mark}`"),
     };
-    RULE.at(message, span, format!("not `{mark}`")).help(help)
+    RULE.at(message, span, format!("not `{mark}`")).help(help).about(letter)
 }
 
 #[cfg(test)]
