@@ -19,7 +19,6 @@ pub(super) mod quote;
 pub(super) mod reserved_character;
 pub(super) mod scan;
 pub(super) mod tab;
-mod tab_separator;
 pub(super) mod unexpected;
 pub(super) mod unsupported;
 
@@ -29,7 +28,7 @@ use crate::yaml::Tree;
 
 /// All of them, by their codes.
 pub(crate) const RULES: [&Rule; 29] = [
-    &tab::RULE,
+    &tab::INDENT,
     &bracket::RULE,
     &missing_space::RULE,
     &quote::RULE,
@@ -57,7 +56,7 @@ pub(crate) const RULES: [&Rule; 29] = [
     &conflict_marker::RULE,
     &look_alike::RULE,
     &leading_zero::RULE,
-    &tab_separator::RULE,
+    &tab::SEPARATOR,
 ];
 
 /// The rules about words that YAML reads as something else, or that hold an invisible character.
@@ -83,8 +82,8 @@ pub(super) fn check_text(source: &SourceFile, problems: &mut Diagnostics) -> Che
     let scan = scan::scan(&text);
     let is_cleaned = invisible::check(source, &scan, &mut text, problems);
     unsupported::check_directives(source, &mut text, problems);
-    let has_tabs = tab::check(source, &scan, &mut text, problems);
-    tab_separator::check(source, &scan, &mut text, problems);
+    let has_tabs = tab::check_indentation(source, &scan, &mut text, problems);
+    tab::check_separators(source, &scan, &mut text, problems);
     CheckedText { text, is_mended: is_cleaned || has_tabs || has_conflict, has_conflict }
 }
 

@@ -1,6 +1,6 @@
 //! SCL0117: a character that nobody sees, or that only looks like a space.
 
-use super::scan::Scan;
+use super::scan::{Scan, blank};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::SourceFile;
 use std::collections::BTreeMap;
@@ -32,15 +32,10 @@ pub(super) fn check(source: &SourceFile, scan: &Scan, text: &mut String, problem
     if places.is_empty() {
         return false;
     }
-    let mut bytes = std::mem::take(text).into_bytes();
-    for (character, places) in &places {
-        problems.push(diagnose(*character, places, source));
-        for at in places {
-            bytes[*at..*at + character.len_utf8()].fill(b' ');
-        }
+    for (character, places) in places {
+        problems.push(diagnose(character, &places, source));
+        blank(text, places.into_iter().map(|at| at..at + character.len_utf8()));
     }
-    // Whole characters became as many spaces, so the text is as valid as before.
-    *text = String::from_utf8_lossy(&bytes).into_owned();
     true
 }
 

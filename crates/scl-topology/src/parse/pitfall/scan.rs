@@ -27,6 +27,14 @@ impl Scan {
     }
 }
 
+/// Puts spaces in the place of whole characters.
+pub(in crate::parse) fn blank(text: &mut String, ranges: impl IntoIterator<Item = Range<usize>>) {
+    let mut bytes = std::mem::take(text).into_bytes();
+    ranges.into_iter().for_each(|range| bytes[range].fill(b' '));
+    // Whole characters became as many spaces, so the text is as valid as before.
+    *text = String::from_utf8_lossy(&bytes).into_owned();
+}
+
 fn contains(ranges: &[Range<usize>], at: usize) -> bool {
     let next = ranges.partition_point(|range| range.start <= at);
     next > 0 && ranges[next - 1].contains(&at)

@@ -1,11 +1,11 @@
-//! SCL0101: a tab is used for indentation.
+//! Tabs outside of quotes, comments and text blocks. SCL0101: one that indents a line. SCL0129: any other.
 
-use super::scan::Scan;
+use super::scan::{Scan, blank};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::SourceFile;
 
 /// SCL0101.
-pub(crate) const RULE: Rule = Rule {
+pub(crate) const INDENT: Rule = Rule {
     code: "SCL0101",
     severity: Severity::Error,
     title: "tab used for indentation",
@@ -18,27 +18,62 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
+/// SCL0129.
+pub(crate) const SEPARATOR: Rule = Rule {
+    code: "SCL0129",
+    severity: Severity::Error,
+    title: "tab used as white space",
+    explanation: "A tab separates two words, ends a line or fills an empty one. YAML allows that, but other readers, \
+                  such as PyYAML, refuse the file. A topology file is read by programs in several languages. Replace \
+                  the tab by a space; in quotes and comments tabs are allowed.",
+    example: " components:
+-  - name:\tsensor
++  - name: sensor
+     gates: []
+",
+};
+
+/// The label of every tab.
+const LABEL: &str = "this is a tab (shown as 4 spaces)";
+
 /// Reports the first line that is indented with a tab, and how many follow; puts spaces in their place.
-pub(in crate::parse) fn check(source: &SourceFile, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
-    let tabs = indenting_tabs(text, scan);
+pub(super) fn check_indentation(
+    source: &SourceFile,
+    scan: &Scan,
+    text: &mut String,
+    problems: &mut Diagnostics,
+) -> bool {
+    let tabs = tabs_of_lines(text, |line, start| {
+        let content = line.trim_start_matches([' ', '\t']);
+        let is_shown = !content.trim().is_empty() && !content.starts_with('#') && !scan.is_quoted(start);
+        let indent = if is_shown { line.len() - content.len() } else { 0 };
+        (start..start + indent).filter(|at| line.as_bytes()[*at - start] == b'\t').collect()
+    });
     let Some(&first) = tabs.first() else { return false };
-    let mut problem = diagnose(first, "a tab character is used for indentation", source)
-        .note("YAML forbids tabs in indentation because their width is not defined");
-    let lines = tabs.chunk_by(|before, after| !text[*before..*after].contains('\n')).count();
-    if lines > 1 {
-        let last = source.line(tabs.last().copied().unwrap_or(first));
-        problem = problem.note(format!("{lines} lines are indented with tabs, up to line {last}"));
-    }
-    if !is_mixed(text) {
-        let with_spaces = |problem: Diagnostic, at: &usize| problem.fix(source.span(*at..*at + 1), "  ");
-        problem = tabs.iter().fold(problem, with_spaces);
-    }
-    problems.push(problem);
-    let mut bytes = std::mem::take(text).into_bytes();
-    tabs.iter().for_each(|at| bytes[*at] = b' ');
-    // One ASCII byte took the place of another, so the text is as valid as before.
-    *text = String::from_utf8_lossy(&bytes).into_owned();
+    let problem = diagnose(first, "a tab character is used for indentation", source)
+        .note("YAML forbids tabs in indentation because their width is not defined")
+        .notes(count_lines(&tabs, text, source, "are indented with tabs"));
+    let fixed = if is_mixed(text) { &[][..] } else { &tabs };
+    problems.push(fixed.iter().fold(problem, |problem, &at| problem.fix(source.span(at..at + 1), "  ")));
+    blank(text, tabs.iter().map(|&at| at..at + 1));
     true
+}
+
+/// Reports the first other tab, and how many lines have one; puts spaces in their place. Those that indent a line are
+/// spaces already.
+pub(super) fn check_separators(source: &SourceFile, scan: &Scan, text: &mut String, problems: &mut Diagnostics) {
+    let tabs = tabs_of_lines(text, |line, start| {
+        let in_line = line.match_indices('\t').map(|(at, _)| start + at);
+        in_line.filter(|&at| !scan.is_free_text(at)).collect()
+    });
+    let Some(&first) = tabs.first() else { return };
+    let problem = SEPARATOR
+        .at("a tab character is used as white space", source.span(first..first + 1), LABEL)
+        .help("replace it with a space")
+        .note("PyYAML and other readers refuse tabs outside of quotes and comments")
+        .notes(count_lines(&tabs, text, source, "have such tabs"));
+    problems.push(tabs.iter().fold(problem, |problem, &at| problem.fix(source.span(at..at + 1), " ")));
+    blank(text, tabs.iter().map(|&at| at..at + 1));
 }
 
 /// Whether some lines are indented with spaces alone: then the width of a tab is a guess.
@@ -55,27 +90,31 @@ pub(in crate::parse) fn elsewhere(at: usize, source: &SourceFile) -> Diagnostic 
 }
 
 fn diagnose(tab: usize, message: &str, source: &SourceFile) -> Diagnostic {
-    RULE.at(message, source.span(tab..tab + 1), "this is a tab (shown as 4 spaces)")
+    INDENT
+        .at(message, source.span(tab..tab + 1), LABEL)
         .help("replace it with spaces; most editors: \"Convert Indentation to Spaces\"")
 }
 
-/// Tabs before the first other character of a line. Empty lines, comments, quoted texts and text blocks may have them.
-fn indenting_tabs(text: &str, scan: &Scan) -> Vec<usize> {
+/// How many lines have tabs, if several do.
+fn count_lines(tabs: &[usize], text: &str, source: &SourceFile, what: &str) -> Option<String> {
+    let lines = tabs.chunk_by(|before, after| !text[*before..*after].contains('\n')).count();
+    let last = source.line(*tabs.last()?);
+    (lines > 1).then(|| format!("{lines} lines {what}, up to line {last}"))
+}
+
+/// The tabs that `of_line` finds in each line, given with its start, but for the lines of text blocks.
+fn tabs_of_lines(text: &str, of_line: impl Fn(&str, usize) -> Vec<usize>) -> Vec<usize> {
     let mut tabs = Vec::new();
+    if !text.contains('\t') {
+        return tabs;
+    }
     let mut block: Option<usize> = None;
     let mut start = 0;
     for line in text.split_inclusive('\n') {
-        let content = line.trim_start_matches([' ', '\t']);
-        let indent = line.len() - content.len();
         let spaces = line.len() - line.trim_start_matches(' ').len();
-        let is_blank = content.trim().is_empty();
-        if block.is_some_and(|parent| is_blank || spaces > parent) {
-            start += line.len();
-            continue;
-        }
-        block = opens_block(content).then_some(spaces);
-        if !is_blank && !content.starts_with('#') && !scan.is_quoted(start) {
-            tabs.extend((start..start + indent).filter(|at| text.as_bytes()[*at] == b'\t'));
+        if block.is_none_or(|parent| !line.trim().is_empty() && spaces <= parent) {
+            block = opens_block(line).then_some(spaces);
+            tabs.extend(of_line(line, start));
         }
         start += line.len();
     }
@@ -83,7 +122,7 @@ fn indenting_tabs(text: &str, scan: &Scan) -> Vec<usize> {
 }
 
 /// Whether a line ends with the `|` or `>` of a text block.
-pub(in crate::parse) fn opens_block(line: &str) -> bool {
+fn opens_block(line: &str) -> bool {
     let line = line.split(" #").next().unwrap_or(line).trim_end();
     let header = line.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-'));
     header.ends_with(": |") || header.ends_with(": >") || header.ends_with("- |") || header.ends_with("- >")
@@ -91,14 +130,14 @@ pub(in crate::parse) fn opens_block(line: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::RULE;
-    use crate::parse::testing::check;
+    use super::{INDENT, SEPARATOR};
+    use crate::parse::testing::{check, headlines};
     use expect_test::expect;
 
     #[test]
-    fn example() {
+    fn tab_in_an_indentation() {
         check(
-            &RULE,
+            &INDENT,
             expect![[r#"
             error: [SCL0101] a tab character is used for indentation
              --> topology.yaml:2:1
@@ -109,5 +148,33 @@ mod tests {
               = help: replace it with spaces; most editors: "Convert Indentation to Spaces"
               = note: YAML forbids tabs in indentation because their width is not defined"#]],
         );
+    }
+
+    #[test]
+    fn tab_between_words() {
+        check(
+            &SEPARATOR,
+            expect![[r#"
+                error: [SCL0129] a tab character is used as white space
+                 --> topology.yaml:2:10
+                  |
+                2 |   - name:    sensor
+                  |          ^^^^ this is a tab (shown as 4 spaces)
+                  |
+                  = help: replace it with a space
+                  = note: PyYAML and other readers refuse tabs outside of quotes and comments"#]],
+        );
+    }
+
+    #[test]
+    fn tabs_in_texts_are_fine() {
+        let text = "components: #\ta\n  - name: a\n    doc: |\n      x\ty\n\n      z\t\n    gates: [{x: {pub: T, doc: \"a\tb\"}}]\n\
+                    connections: []\n";
+        assert_eq!(headlines(text), "");
+        let text = text.replace("gates: [", "gates:\t[").replace("x: {pub", "x:\t{pub").replace("[]\n", "[]\t\n\t\n");
+        expect![[r#"
+            SCL0129 7:11 a tab character is used as white space
+        "#]]
+        .assert_eq(&headlines(&text));
     }
 }
