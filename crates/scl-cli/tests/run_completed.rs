@@ -94,6 +94,6 @@ fn mission() {
     let mut mission = Component::open_blocking(&plan("mission")).unwrap();
     mission.subscriber("fix").unwrap().recv_blocking().unwrap();
     if !std::env::var(KILLED).unwrap().is_empty() {
-        nix::sys::signal::raise(nix::sys::signal::Signal::SIGKILL).unwrap();
+        rustix::process::kill_process(rustix::process::getpid(), rustix::process::Signal::KILL).unwrap();
     }
 }

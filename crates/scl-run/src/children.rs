@@ -11,10 +11,8 @@ use super::plan::COMPONENT;
 use super::process_group;
 use super::program::Program;
 use super::terminal::{Loan, Terminal};
-use nix::errno::Errno;
-use nix::sys::signal::{Signal, killpg};
-use nix::sys::wait::{Id, WaitPidFlag, WaitStatus, waitid};
-use nix::unistd::Pid;
+use rustix::io::Errno;
+use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process_group, waitid};
 use std::io::{self, Read};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, Stdio};
@@ -100,7 +98,7 @@ impl Running {
         output: &Arc<Output>,
         events: &Sender<Event>,
     ) -> io::Result<Self> {
-        let mut command = bound_command(&program.command, &program.placement)?;
+        let mut command = bound_command(&program.command, &program.placement);
         // What is set for us, by systemd or another `scl run`, is not for our children.
         for name in ["NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID", COMPONENT] {
             command.env_remove(name);
@@ -116,7 +114,7 @@ impl Running {
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
         let mut process = orphans::spawn(command)?;
-        let group = Pid::from_raw(process.id().cast_signed());
+        let group = Pid::from_child(&process);
         let (out, err) = (process.stdout.take(), process.stderr.take());
         let family = mark.map(|mark| Arc::new(Family::new(group, mark)));
         let terminal = start.terminal.clone();
@@ -146,7 +144,7 @@ impl Running {
     /// Sends a signal to the program's process group.
     pub(crate) fn signal(&self, signal: Signal) {
         // The group may hold nothing but the ended program, which is not an error.
-        let _ = killpg(self.group, signal);
+        let _ = kill_process_group(self.group, signal);
     }
 
     /// Takes note that the terminal has sent SIGINT to the program's process group.
@@ -173,12 +171,12 @@ impl Running {
         let reached = process_group::programs(group);
         let stopped = process_group::stopped(group);
         // A second SIGINT would end a program of SCL at once.
-        if !(self.is_interrupted && signal == Signal::SIGINT) {
+        if !(self.is_interrupted && signal == Signal::INT) {
             self.signal(signal);
         }
         if !stopped.is_empty() {
             // After the signal, which a process takes before anything else when it goes on.
-            self.signal(Signal::SIGCONT);
+            self.signal(Signal::CONT);
         }
         thread::spawn(move || {
             process_group::repeat_where_missed(group, signal, reached);
@@ -193,7 +191,7 @@ impl Running {
     pub(crate) fn kill(&self) {
         match &self.family {
             Some(family) => family.kill(),
-            None => self.signal(Signal::SIGKILL),
+            None => self.signal(Signal::KILL),
         }
     }
 }
@@ -259,24 +257,24 @@ fn watch_end(
 
 /// Waits without reaping; `stopped_by_terminal` is called whenever the process is stopped for using a terminal.
 fn wait_for_end(process: Pid, stopped_by_terminal: impl Fn(Signal)) -> Ending {
-    let changes = WaitPidFlag::WEXITED | WaitPidFlag::WSTOPPED | WaitPidFlag::WNOWAIT;
+    let changes = WaitIdOptions::EXITED | WaitIdOptions::STOPPED | WaitIdOptions::NOWAIT;
     loop {
-        match waitid(Id::Pid(process), changes) {
-            Ok(WaitStatus::Stopped(_, signal)) => {
-                // Else it would be reported again and again.
-                let _ = waitid(Id::Pid(process), WaitPidFlag::WSTOPPED | WaitPidFlag::WNOHANG);
-                if matches!(signal, Signal::SIGTTIN | Signal::SIGTTOU) {
-                    stopped_by_terminal(signal);
-                }
+        let status = match waitid(WaitId::Pid(process), changes) {
+            Ok(Some(status)) => status,
+            Ok(None) | Err(Errno::INTR) => continue,
+            // Dropping `Running` has killed and reaped it.
+            Err(_) => return Ending::Killed(Signal::KILL.as_raw()),
+        };
+        let ended = status.exit_status().map(Ending::Exited).or(status.terminating_signal().map(Ending::Killed));
+        if let Some(ending) = ended {
+            return ending;
+        }
+        if let Some(signal) = status.stopping_signal().and_then(Signal::from_named_raw) {
+            // Else it would be reported again and again.
+            let _ = waitid(WaitId::Pid(process), WaitIdOptions::STOPPED | WaitIdOptions::NOHANG);
+            if matches!(signal, Signal::TTIN | Signal::TTOU) {
+                stopped_by_terminal(signal);
             }
-            Ok(status) => {
-                if let Some(ending) = Ending::from_wait(status) {
-                    return ending;
-                }
-            }
-            Err(Errno::EINTR) => {}
-            // The program was ended by a signal that the library does not know.
-            Err(_) => return Ending::KilledByUnnamedSignal,
         }
     }
 }

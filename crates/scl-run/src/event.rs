@@ -4,8 +4,7 @@ use super::control::Asked;
 use super::ending::Ending;
 use super::lifecycle::Notice;
 use super::terminal::Key;
-use nix::sys::signal::Signal;
-use nix::unistd::Pid;
+use rustix::process::{Pid, Signal};
 
 /// What the other threads tell the supervisor.
 #[derive(Debug)]

@@ -5,11 +5,9 @@
 //! them.
 
 use super::process_stat::{ProcessStat, running_processes};
-use nix::sys::signal::{Signal, kill, killpg};
-use nix::unistd::Pid;
 use rustix::event::{PollFd, PollFlags, poll};
-use rustix::process::{PidfdFlags, pidfd_open};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use rustix::process::{Pid, PidfdFlags, Signal, getpid, kill_process, kill_process_group, pidfd_open};
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::io;
 use std::sync::{Mutex, PoisonError};
@@ -36,7 +34,7 @@ impl RunMark {
     ///
     /// If `/proc` cannot be read.
     pub(crate) fn of_this_process() -> io::Result<Self> {
-        let process = Pid::this();
+        let process = getpid();
         let stat = ProcessStat::of(process).ok_or_else(|| io::Error::other("`/proc` does not show this process"))?;
         Ok(Self(format!("{process}.{}.", stat.started)))
     }
@@ -83,11 +81,11 @@ impl Family {
     }
 
     /// Looks for its running processes, and remembers them.
-    pub(crate) fn look(&self) -> BTreeMap<Pid, ProcessStat> {
+    pub(crate) fn look(&self) -> HashMap<Pid, ProcessStat> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let found = relatives(running_processes(), |process, stat| {
             let is_known = known.get(&process) == Some(&stat.started);
-            is_known || stat.group == self.group || (stat.started >= self.since && has_mark(process, &self.mark))
+            is_known || stat.group == Some(self.group) || (stat.started >= self.since && has_mark(process, &self.mark))
         });
         *known = found.iter().map(|(process, stat)| (*process, stat.started)).collect();
         found
@@ -108,14 +106,14 @@ impl Family {
 
     /// Asks those outside of the group to end, once each, when the group has ended; returns when all have ended.
     pub(crate) fn end_rest(&self) {
-        let (mut asked, mut pause) = (BTreeSet::new(), PAUSE);
+        let (mut asked, mut pause) = (HashSet::new(), PAUSE);
         while !self.is_empty() {
             for (process, stat) in self.look() {
                 if asked.insert((process, stat.started)) {
                     // It may end at this moment.
-                    let _ = kill(process, Signal::SIGTERM);
+                    let _ = kill_process(process, Signal::TERM);
                     // A stopped one would not.
-                    let _ = kill(process, Signal::SIGCONT);
+                    let _ = kill_process(process, Signal::CONT);
                 }
             }
             thread::sleep(pause);
@@ -126,14 +124,13 @@ impl Family {
     /// Kills all.
     pub(crate) fn kill(&self) {
         // The group may hold nothing but the ended program, which is not an error.
-        let _ = killpg(self.group, Signal::SIGKILL);
+        let _ = kill_process_group(self.group, Signal::KILL);
         kill_all(|| self.look());
     }
 }
 
 fn wait_for_end(process: Pid, started: u64) {
-    let Some(id) = rustix::process::Pid::from_raw(process.as_raw()) else { return };
-    match pidfd_open(id, PidfdFlags::empty()) {
+    match pidfd_open(process, PidfdFlags::empty()) {
         // Another process may have got the number meanwhile.
         Ok(process_fd) if ProcessStat::of(process).is_some_and(|stat| stat.started == started) => {
             let _ = poll(&mut [PollFd::new(&process_fd, PollFlags::IN)], None);
@@ -144,26 +141,26 @@ fn wait_for_end(process: Pid, started: u64) {
 }
 
 /// Kills the processes of these groups, those with a mark of this run, and what they have started.
-pub(crate) fn kill_run(groups: &BTreeSet<i32>, run: &RunMark) {
+pub(crate) fn kill_run(groups: &HashSet<Pid>, run: &RunMark) {
     for group in groups {
         // It has usually ended already.
-        let _ = killpg(Pid::from_raw(*group), Signal::SIGKILL);
+        let _ = kill_process_group(*group, Signal::KILL);
     }
     kill_all(|| {
         relatives(running_processes(), |process, stat| {
-            groups.contains(&stat.group.as_raw()) || has_mark(process, run.as_str())
+            stat.group.is_some_and(|group| groups.contains(&group)) || has_mark(process, run.as_str())
         })
     });
 }
 
 /// Kills what a look finds until none finds another one: they may start others meanwhile.
-pub(crate) fn kill_all(look: impl Fn() -> BTreeMap<Pid, ProcessStat>) {
-    let mut killed = BTreeSet::new();
+pub(crate) fn kill_all(look: impl Fn() -> HashMap<Pid, ProcessStat>) {
+    let mut killed = HashSet::new();
     loop {
         let before = killed.len();
         for (process, stat) in look() {
             if killed.insert((process, stat.started)) {
-                let _ = kill(process, Signal::SIGKILL);
+                let _ = kill_process(process, Signal::KILL);
             }
         }
         if killed.len() == before {
@@ -174,16 +171,16 @@ pub(crate) fn kill_all(look: impl Fn() -> BTreeMap<Pid, ProcessStat>) {
 
 /// The processes for which `is_root` returns true, and their descendants.
 pub(crate) fn relatives(
-    mut processes: BTreeMap<Pid, ProcessStat>,
+    mut processes: HashMap<Pid, ProcessStat>,
     is_root: impl Fn(Pid, &ProcessStat) -> bool,
-) -> BTreeMap<Pid, ProcessStat> {
-    let mut found = BTreeMap::new();
+) -> HashMap<Pid, ProcessStat> {
+    let mut found = HashMap::new();
     loop {
         let is_found = |process: &Pid, stat: &mut ProcessStat| match found.is_empty() {
             true => is_root(*process, stat),
-            false => found.contains_key(&stat.parent),
+            false => stat.parent.is_some_and(|parent| found.contains_key(&parent)),
         };
-        let more: BTreeMap<_, _> = processes.extract_if(.., is_found).collect();
+        let more: HashMap<_, _> = processes.extract_if(is_found).collect();
         if more.is_empty() {
             return found;
         }
@@ -219,7 +216,7 @@ mod tests {
             let script = format!("exec 3<&0; {rest} & read line; exit 0");
             let leader = leader.args(["-c", &script]).process_group(0).stdin(Stdio::piped()).stdout(Stdio::piped());
             let mut leader = leader.spawn().unwrap();
-            let group = Pid::from_raw(leader.id().cast_signed());
+            let group = Pid::from_child(&leader);
             let family = Family::new(group, "none".to_owned());
             leader.stdout.as_mut().unwrap().read_exact(&mut [0; 6]).unwrap();
             assert!(family.look().len() > 1, "{rest}");
@@ -238,7 +235,7 @@ mod tests {
         let mut marked = Command::new("/bin/sh");
         let marked = marked.args(["-c", "echo ready; read line"]).env(MARK, "3.50.1,7.99.12");
         let mut marked = marked.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-        let process = Pid::from_raw(marked.id().cast_signed());
+        let process = Pid::from_child(&marked);
         marked.stdout.as_mut().unwrap().read_exact(&mut [0; 6]).unwrap();
         for (mark, expected) in
             [("7.99.12", true), ("7.99.1", false), ("7.99.", true), ("7.9", false), ("3.50.1", true), ("9.12", false)]
@@ -252,11 +249,12 @@ mod tests {
     #[test]
     fn descendants_are_found_whatever_their_numbers() {
         let processes = [(2, 1), (3, 9), (4, 3), (5, 1), (6, 5), (9, 2), (10, 6), (11, 2)];
-        let processes = processes
-            .into_iter()
-            .map(|(process, parent)| (Pid::from_raw(process), ProcessStat::with_parent(Pid::from_raw(parent))));
-        let found = relatives(processes.collect(), |process, _| process == Pid::from_raw(2));
-        let found: Vec<i32> = found.keys().map(|process| process.as_raw()).collect();
+        let processes = processes.into_iter().map(|(process, parent)| {
+            (Pid::from_raw(process).unwrap(), ProcessStat::with_parent(Pid::from_raw(parent)))
+        });
+        let found = relatives(processes.collect(), |process, _| Some(process) == Pid::from_raw(2));
+        let mut found: Vec<i32> = found.keys().map(|process| process.as_raw_pid()).collect();
+        found.sort();
         assert_eq!(found, [2, 3, 4, 9, 11]);
     }
 }

@@ -57,22 +57,22 @@ pub use units::{Unit, UnitOptions, systemd_units};
 
 use children::{Messages, Role};
 use component::Component;
-use ending::Ending;
+use ending::{Ending, name_of};
 use event::Event;
 use log_file::LogFile;
 use member::Member;
-use nix::sys::signal::Signal;
-use orphan_guard::{OrphanGuard, stop_signals};
+use orphan_guard::{OrphanGuard, STOP_SIGNALS};
 use output::Output;
 use plan::{Built, RunPlan};
 use policy::Policy;
 use program::{Build, Program};
+use rustix::process::Signal;
 use scl_terminal::{Problem, print_err};
+use signal_hook::iterator::Signals;
 use sockets::Sockets;
 use std::ffi::OsString;
 use std::io;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::Duration;
@@ -115,11 +115,9 @@ pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<boo
     let builds = plan.builds.iter().map(Build::label);
     let names = builds.chain(plan.programs().map(|component| component.name.as_str()));
     let names = names.map(str::to_owned).collect();
-    handle_stop_signals().map_err(|error| vec![Problem::new(format!("cannot handle signals: {error}"))])?;
-    // Before the first thread, which inherits it: a thread that does not block them would end the process.
-    let blocked = stop_signals().thread_block();
-    blocked.map_err(|error| vec![Problem::new(format!("cannot block signals: {error}"))])?;
     let (sender, events) = channel();
+    let signals = listen_for_signals(sender.clone());
+    signals.map_err(|error| vec![Problem::new(format!("cannot handle signals: {error}"))])?;
     let output = Output::start(names, open_logs(&plan), sender.clone());
     let ended = run_plan(&mut plan, options, Surroundings { output: &output, events, sender });
     output.finish(options.grace);
@@ -137,19 +135,9 @@ fn open_logs(plan: &RunPlan) -> Vec<Option<LogFile>> {
     plan.programs().map(open).collect()
 }
 
-/// Programs inherit which signals are ignored, but not which are handled. A shell that starts `scl run` in the background
-/// ignores SIGINT, and the programs could not be stopped by it. The flags are never read: the signals are blocked.
-fn handle_stop_signals() -> io::Result<()> {
-    for signal in &stop_signals() {
-        signal_hook::flag::register(signal as i32, Arc::default())?;
-    }
-    Ok(())
-}
-
 fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_>) -> Result<bool, Vec<Problem>> {
     let failed = |message: &str, error: io::Error| vec![Problem::new(format!("cannot {message}: {error}"))];
     let (output, sender) = (surroundings.output, surroundings.sender.clone());
-    listen_for_signals(sender.clone()).map_err(|error| failed("listen for signals", error))?;
     orphans::adopt().map_err(|error| failed("take care of orphaned processes", error))?;
     let sockets = Sockets::open(plan, &sender)?;
     let guard = OrphanGuard::start().map_err(|error| failed("start the guard", error))?;
@@ -235,14 +223,17 @@ fn failed_build(build: &Build, ending: Option<Ending>, consequence: &str) -> Pro
 }
 
 fn stopped_build(signal: Signal) -> Problem {
-    Problem::new(format!("stopped on {} during a build, so nothing was started", signal.as_str()))
+    Problem::new(format!("stopped on {} during a build, so nothing was started", name_of(signal)))
 }
 
-/// Turns the signals that ask us to stop, which are blocked in all threads, into events.
+/// Turns the signals that ask us to stop into events.
+///
+/// Programs inherit which signals are ignored, but not which are handled. A shell that starts `scl run` in the background
+/// ignores SIGINT, and without a handler the programs could not be stopped by it.
 fn listen_for_signals(events: Sender<Event>) -> io::Result<()> {
-    let signals = stop_signals();
+    let mut signals = Signals::new(STOP_SIGNALS)?;
     thread::Builder::new().spawn(move || {
-        while let Ok(signal) = signals.wait() {
+        for signal in signals.forever().filter_map(Signal::from_named_raw) {
             if events.send(Event::Signalled(signal)).is_err() {
                 break;
             }

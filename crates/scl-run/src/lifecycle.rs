@@ -10,7 +10,7 @@ pub(crate) use state::{State, StopReason, Verdict};
 use super::ending::Ending;
 use super::policy::{Policy, Restart, RestartLimit};
 use super::restarts::{Restarts, Time};
-use nix::sys::signal::Signal;
+use rustix::process::Signal;
 use std::time::Duration;
 
 /// A component, and all that is known of it.
@@ -95,7 +95,7 @@ impl Lifecycle {
             }
             (Input::LeaderEnded, State::Running | State::Ready) => {
                 self.state = State::Stopping { reason: StopReason::LeaderEnded, kill_at: self.kill_time(now) };
-                vec![Action::Signal(Signal::SIGTERM)]
+                vec![Action::Signal(Signal::TERM)]
             }
             (Input::LeaderEnded, State::Stopping { reason, kill_at }) => self.stop_rest(reason, kill_at),
             (Input::Exited(ending), State::Running | State::Ready | State::Stopping { .. }) => {
@@ -113,7 +113,7 @@ impl Lifecycle {
             (Input::Stop, _) => self.stop(now, StopReason::Request { start_again: false }),
             (Input::Restart, _) => self.restart(now),
             (Input::Kill, State::Running | State::Ready) => {
-                self.kill(StopReason::Everything(Signal::SIGTERM), "killed on request".to_owned())
+                self.kill(StopReason::Everything(Signal::TERM), "killed on request".to_owned())
             }
             (Input::Kill, State::Stopping { reason, .. }) => self.kill(reason, "killed on request".to_owned()),
             (Input::Kill, State::Waiting { .. } | State::Starting) => {
@@ -196,7 +196,7 @@ impl Lifecycle {
             _ => return Vec::new(),
         };
         self.state = State::Stopping { reason, kill_at };
-        vec![Action::Signal(Signal::SIGTERM)]
+        vec![Action::Signal(Signal::TERM)]
     }
 
     fn restart(&mut self, now: Time) -> Vec<Action> {
@@ -220,12 +220,12 @@ impl Lifecycle {
             State::Waiting { .. } => self.start(),
             State::Running if self.ready_until().is_some_and(|until| until <= now) => {
                 let text = format!("not ready within {}{}", Shown(self.policy.ready_within), self.shown_status());
-                self.fail_running(now, text, Signal::SIGTERM)
+                self.fail_running(now, text, Signal::TERM)
             }
             State::Running | State::Ready => {
                 let limit = Shown(self.policy.alive_within);
                 // As systemd does: a core dump shows where the program hangs.
-                self.fail_running(now, format!("no sign of life for {limit}"), Signal::SIGABRT)
+                self.fail_running(now, format!("no sign of life for {limit}"), Signal::ABORT)
             }
             State::Stopping { reason, .. } => {
                 let text = format!("not stopped within {}", Shown(Some(self.policy.stop_within)));
@@ -242,7 +242,7 @@ impl Lifecycle {
         if !matches!(reason, StopReason::Failed | StopReason::Refused) {
             self.failure = Some(why);
         }
-        vec![Action::Signal(Signal::SIGKILL)]
+        vec![Action::Signal(Signal::KILL)]
     }
 
     fn shown_status(&self) -> String {

@@ -6,11 +6,11 @@
 use super::event::Event;
 use super::lifecycle::Notice;
 use super::own_file::OwnFile;
-use nix::unistd::{Pid, getpgid};
 use rustix::cmsg_space;
 use rustix::event::{PollFd, PollFlags, poll};
 use rustix::io::Errno;
 use rustix::net::{RecvAncillaryBuffer, RecvAncillaryMessage, RecvFlags, ReturnFlags, recvmsg, sockopt};
+use rustix::process::getpgid;
 use scl_terminal::escape;
 use std::io::{self, IoSliceMut};
 use std::mem::MaybeUninit;
@@ -145,7 +145,7 @@ impl Datagrams {
                 RecvAncillaryMessage::ScmCredentials(credentials) => Some(credentials.pid),
                 _ => None,
             });
-            let group = sender.and_then(|sender| getpgid(Some(Pid::from_raw(sender.as_raw_pid()))).ok());
+            let group = sender.and_then(|sender| getpgid(Some(sender)).ok());
             let Some(group) = group.filter(|_| !received.flags.contains(ReturnFlags::TRUNC)) else { continue };
             for notice in notices(&datagram[..received.bytes]) {
                 self.events.send(Event::Notified { group, notice }).map_err(|_| io::ErrorKind::BrokenPipe)?;

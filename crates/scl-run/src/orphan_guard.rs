@@ -10,14 +10,16 @@
 use super::family::{RunMark, kill_run};
 use super::orphans;
 use super::placement::Placement;
-use nix::sys::signal::{SigSet, Signal};
-use nix::unistd::Pid;
+use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
 use scl_terminal::print_err;
-use std::collections::BTreeSet;
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::flag;
+use std::collections::HashSet;
 use std::ffi::OsString;
 use std::io::{self, BufRead, Write};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, Command, ExitCode, Stdio};
+use std::sync::Arc;
 
 /// The hidden command that starts one component: `scl __start PARENT [--cpu N]... [--fifo N] [--descriptors N] --
 /// COMMAND...`.
@@ -29,41 +31,31 @@ pub const GUARD_WORD: &str = "__guard";
 const CANNOT_EXECUTE: u8 = 126;
 
 /// The command that starts `command` so that it ends with this process.
-///
-/// # Errors
-///
-/// If the running `scl` cannot be found.
-pub(crate) fn bound_command(command: &[OsString], placement: &Placement) -> io::Result<Command> {
-    let mut bound = this_program()?;
+pub(crate) fn bound_command(command: &[OsString], placement: &Placement) -> Command {
+    let mut bound = this_program();
     bound.arg(START_WORD).arg(std::process::id().to_string()).args(placement.arguments()).arg("--").args(command);
-    Ok(bound)
+    bound
 }
 
-/// The running `scl`, even if a build has replaced its file.
-#[cfg(target_os = "linux")]
-pub(crate) fn this_program() -> io::Result<Command> {
-    let mut command = Command::new("/proc/self/exe");
+/// The path of the running `scl`, even if a build has replaced its file.
+pub(crate) const THIS_PROGRAM: &str = "/proc/self/exe";
+
+/// The running `scl`.
+pub(crate) fn this_program() -> Command {
+    let mut command = Command::new(THIS_PROGRAM);
     command.arg0("scl");
-    Ok(command)
-}
-
-/// The file of the running `scl`.
-#[cfg(not(target_os = "linux"))]
-pub(crate) fn this_program() -> io::Result<Command> {
-    std::env::current_exe().map(Command::new)
+    command
 }
 
 /// The body of `scl __start`: becomes the program `command`, which ends when the process `parent` ends. Returns only if
 /// the program cannot be executed.
 pub fn start_component(parent: u32, placement: &Placement, command: &[OsString]) -> ExitCode {
-    // `scl run` blocks these signals to wait for them, and a program would inherit that.
-    let unblocked = stop_signals().thread_unblock();
-    if let Err(error) = unblocked.and_then(|()| die_with_parent()) {
+    if let Err(error) = set_parent_process_death_signal(Some(Signal::KILL)) {
         print_err(&format!("scl: cannot prepare the start: {error}\n"));
         return ExitCode::from(CANNOT_EXECUTE);
     }
     // If the parent ended before the call to prctl, nothing would ever stop this program.
-    if u32::try_from(Pid::parent().as_raw()) != Ok(parent) {
+    if getppid().is_none_or(|current| current.as_raw_pid().cast_unsigned() != parent) {
         return ExitCode::from(CANNOT_EXECUTE);
     }
     let [program, rest @ ..] = command else { return ExitCode::from(CANNOT_EXECUTE) };
@@ -72,21 +64,8 @@ pub fn start_component(parent: u32, placement: &Placement, command: &[OsString])
     ExitCode::from(CANNOT_EXECUTE)
 }
 
-#[cfg(target_os = "linux")]
-fn die_with_parent() -> nix::Result<()> {
-    nix::sys::prctl::set_pdeathsig(Signal::SIGKILL)
-}
-
-/// Other systems have the guard only.
-#[cfg(not(target_os = "linux"))]
-fn die_with_parent() -> nix::Result<()> {
-    Ok(())
-}
-
 /// The signals by which `scl run` is asked to stop.
-pub(crate) fn stop_signals() -> SigSet {
-    [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP].into_iter().collect()
-}
+pub(crate) const STOP_SIGNALS: [i32; 3] = [SIGINT, SIGTERM, SIGHUP];
 
 /// The process that watches this one. Dropping this value makes it kill the process groups added so far.
 #[derive(Debug)]
@@ -104,7 +83,7 @@ impl OrphanGuard {
     /// If no process can be started.
     pub(crate) fn start() -> io::Result<Self> {
         let run_mark = RunMark::of_this_process()?;
-        let mut command = this_program()?;
+        let mut command = this_program();
         let command = command.args([GUARD_WORD, run_mark.as_str()]).process_group(0);
         let command = command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
         let mut process = orphans::spawn(command)?;
@@ -123,13 +102,13 @@ impl OrphanGuard {
     ///
     /// If the guard has ended.
     pub(crate) fn watch(&mut self, group: Pid) -> io::Result<()> {
-        self.tell(group.as_raw())
+        self.tell(group.as_raw_pid())
     }
 
     /// Takes a process group away that is about to be reaped, so that its number may be used by others afterwards.
     pub(crate) fn forget(&mut self, group: Pid) {
         // A guard that has ended kills nothing.
-        let _ = self.tell(-group.as_raw());
+        let _ = self.tell(-group.as_raw_pid());
     }
 
     fn tell(&mut self, number: i32) -> io::Result<()> {
@@ -150,13 +129,14 @@ impl Drop for OrphanGuard {
 /// with the mark of the run. The negative of a group's number takes that group away.
 pub fn keep_watch(run_mark: &str) -> ExitCode {
     // Another `scl run`, of which this one is a part, asks all processes to end. This one has to be the last.
-    let _ = stop_signals().thread_block();
-    let mut groups = BTreeSet::new();
+    let _ = STOP_SIGNALS.map(|signal| flag::register(signal, Arc::default()));
+    let mut groups = HashSet::new();
     for number in io::stdin().lock().lines().map_while(Result::ok).filter_map(|line| line.parse::<i32>().ok()) {
+        let Some(group) = Pid::from_raw(number.saturating_abs()) else { continue };
         if number > 0 {
-            groups.insert(number)
+            groups.insert(group)
         } else {
-            groups.remove(&number.saturating_neg())
+            groups.remove(&group)
         };
     }
     kill_run(&groups, &RunMark::read(run_mark));

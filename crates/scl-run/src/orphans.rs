@@ -4,11 +4,9 @@
 
 use super::family::{kill_all, relatives};
 use super::process_stat::{children, running_processes};
-use nix::sys::wait::{WaitPidFlag, waitpid};
-use nix::unistd::Pid;
+use rustix::process::{Pid, WaitOptions, getpid, set_child_subreaper, waitpid};
 use signal_hook::consts::SIGCHLD;
 use signal_hook::low_level::pipe;
-use std::collections::BTreeSet;
 use std::io::{self, Read};
 use std::os::unix::net::UnixStream;
 use std::process::{Child, Command};
@@ -17,7 +15,7 @@ use std::thread;
 use std::time::Duration;
 
 /// The children that this process has started, which are reaped where they are waited for.
-static STARTED: Mutex<BTreeSet<Pid>> = Mutex::new(BTreeSet::new());
+static STARTED: Mutex<Vec<Pid>> = Mutex::new(Vec::new());
 
 /// Between two looks for processes to reap: programs may leave many.
 const PAUSE: Duration = Duration::from_millis(50);
@@ -31,14 +29,15 @@ pub(crate) fn spawn(command: &mut Command) -> io::Result<Child> {
     // Held, so that a child that ends at once is known before anybody looks.
     let mut started = started();
     let child = command.spawn()?;
-    started.insert(number(&child));
+    started.push(Pid::from_child(&child));
     Ok(child)
 }
 
 /// Waits for the end of a child of [`spawn`], and reaps it.
 pub(crate) fn wait(child: &mut Child) {
     let _ = child.wait();
-    started().remove(&number(child));
+    let ended = Pid::from_child(child);
+    started().retain(|child| *child != ended);
 }
 
 /// From now on this process inherits what its descendants leave, and reaps it.
@@ -47,7 +46,7 @@ pub(crate) fn wait(child: &mut Child) {
 ///
 /// If the operating system provides no file descriptors or no thread.
 pub(crate) fn adopt() -> io::Result<()> {
-    become_parent_of_orphans()?;
+    set_child_subreaper(Some(getpid()))?;
     let (mut ended, signal) = UnixStream::pair()?;
     pipe::register(SIGCHLD, signal)?;
     thread::Builder::new().spawn(move || {
@@ -60,13 +59,13 @@ pub(crate) fn adopt() -> io::Result<()> {
 }
 
 /// The orphans that this process has at the moment.
-pub(crate) fn adopted() -> BTreeSet<Pid> {
+pub(crate) fn adopted() -> Vec<Pid> {
     let started = started();
-    children(Pid::this()).into_iter().filter(|child| !started.contains(child)).collect()
+    children(getpid()).into_iter().filter(|child| !started.contains(child)).collect()
 }
 
 /// Kills all orphans with their descendants, except those that were there `before`.
-pub(crate) fn kill_adopted(before: &BTreeSet<Pid>) {
+pub(crate) fn kill_adopted(before: &[Pid]) {
     kill_all(|| {
         let adopted = adopted();
         relatives(running_processes(), |process, _| adopted.contains(&process) && !before.contains(&process))
@@ -76,25 +75,10 @@ pub(crate) fn kill_adopted(before: &BTreeSet<Pid>) {
 fn reap() {
     for orphan in adopted() {
         // One that still runs is reaped later.
-        let _ = waitpid(orphan, Some(WaitPidFlag::WNOHANG));
+        let _ = waitpid(Some(orphan), WaitOptions::NOHANG);
     }
 }
 
-#[cfg(target_os = "linux")]
-fn become_parent_of_orphans() -> io::Result<()> {
-    Ok(nix::sys::prctl::set_child_subreaper(true)?)
-}
-
-/// On other systems the first process inherits them.
-#[cfg(not(target_os = "linux"))]
-fn become_parent_of_orphans() -> io::Result<()> {
-    Ok(())
-}
-
-fn number(child: &Child) -> Pid {
-    Pid::from_raw(child.id().cast_signed())
-}
-
-fn started() -> MutexGuard<'static, BTreeSet<Pid>> {
+fn started() -> MutexGuard<'static, Vec<Pid>> {
     STARTED.lock().unwrap_or_else(PoisonError::into_inner)
 }

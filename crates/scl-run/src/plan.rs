@@ -10,6 +10,7 @@ use super::Options;
 use super::cargo::{Artifact, CargoRun};
 use super::component::Component;
 use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
+use super::orphan_guard::THIS_PROGRAM;
 use super::placement::Placement;
 use super::program::{Build, Program};
 use super::selection::Selection;
@@ -307,9 +308,7 @@ fn environment_of_programs(launch: &LaunchFile) -> impl Iterator<Item = (String,
 
 /// What plays a component from a recording: the running `scl`, which `scl __start` is too.
 fn replay_command(recording: &str, component: &str) -> Vec<OsString> {
-    let scl = if cfg!(target_os = "linux") { None } else { std::env::current_exe().ok() };
-    let scl = scl.unwrap_or_else(|| PathBuf::from("/proc/self/exe")).into_os_string();
-    [scl].into_iter().chain(["replay", recording, "--as", component].map(OsString::from)).collect()
+    [THIS_PROGRAM, "replay", recording, "--as", component].map(OsString::from).to_vec()
 }
 
 fn settings_of(launch: &LaunchFile, component: &LaunchComponent) -> Settings {

@@ -1,8 +1,7 @@
 //! The processes of a program's group: its first process and those that it has started, as `/proc` shows them.
 
 use super::process_stat::{ProcessStat, all_processes};
-use nix::sys::signal::{Signal, kill};
-use nix::unistd::Pid;
+use rustix::process::{Pid, Signal, kill_process};
 use std::collections::HashSet;
 use std::fs;
 use std::path::PathBuf;
@@ -52,11 +51,11 @@ impl Repeats {
                 }
                 Disposition::Ignores => {
                     let is_left = !processes.contains(&self.group);
-                    (is_left && self.terminated.insert(process)).then_some(Signal::SIGTERM)
+                    (is_left && self.terminated.insert(process)).then_some(Signal::TERM)
                 }
             };
             // It may end at this moment.
-            let _ = repeated.map(|signal| kill(process, signal));
+            let _ = repeated.map(|signal| kill_process(process, signal));
         }
         !processes.is_empty()
     }
@@ -100,7 +99,7 @@ fn look_for_members(group: Pid) -> Vec<Pid> {
 }
 
 fn is_member(process: Pid, group: Pid) -> bool {
-    ProcessStat::of(process).is_some_and(|stat| stat.group == group)
+    ProcessStat::of(process).is_some_and(|stat| stat.group == Some(group))
 }
 
 /// What a process does with a signal.
@@ -119,7 +118,7 @@ fn disposition(process: Pid, signal: Signal) -> Disposition {
         let mask = status.lines().find_map(|line| line.strip_prefix(name))?;
         u64::from_str_radix(mask.trim(), 16).ok()
     };
-    let is_set = |name: &str| mask(name).is_none_or(|mask| mask >> (signal as i32 - 1) & 1 == 1);
+    let is_set = |name: &str| mask(name).is_none_or(|mask| mask >> (signal.as_raw() - 1) & 1 == 1);
     match () {
         () if is_set("SigBlk:") || is_set("SigCgt:") => Disposition::Handles,
         () if is_set("SigIgn:") => Disposition::Ignores,
@@ -142,20 +141,19 @@ mod tests {
         let mut leader = Command::new("/bin/sh");
         let leader = leader.args(["-c", script]).process_group(0).stdin(Stdio::null()).stdout(Stdio::piped());
         let mut leader = leader.spawn().unwrap();
-        let group = Pid::from_raw(leader.id().cast_signed());
+        let group = Pid::from_child(&leader);
         leader.stdout.as_mut().unwrap().read_exact(&mut [0; 6]).unwrap();
-        let ignoring = || {
-            members(group).into_iter().find(|process| disposition(*process, Signal::SIGTERM) == Disposition::Ignores)
-        };
+        let ignoring =
+            || members(group).into_iter().find(|process| disposition(*process, Signal::TERM) == Disposition::Ignores);
         let deaf = loop {
             if let Some(process) = ignoring() {
                 break process;
             }
         };
-        kill(group, Signal::SIGTERM).unwrap();
-        let ended = thread::spawn(move || repeat_where_missed(group, Signal::SIGTERM, HashSet::new()));
+        kill_process(group, Signal::TERM).unwrap();
+        let ended = thread::spawn(move || repeat_where_missed(group, Signal::TERM, HashSet::new()));
         while members(group) != [deaf] {}
-        kill(deaf, Signal::SIGKILL).unwrap();
+        kill_process(deaf, Signal::KILL).unwrap();
         ended.join().unwrap();
         leader.wait().unwrap();
     }
@@ -170,14 +168,14 @@ while :; do :; done";
         let mut program = Command::new("/bin/sh");
         let program = program.args(["-c", script]).process_group(0).stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut program = program.spawn().unwrap();
-        let group = Pid::from_raw(program.id().cast_signed());
+        let group = Pid::from_child(&program);
         let (mut output, mut input) = (program.stdout.take().unwrap(), program.stdin.take().unwrap());
         output.read_exact(&mut [0; 6]).unwrap();
         let reached = programs(group);
-        kill(group, Signal::SIGTERM).unwrap();
+        kill_process(group, Signal::TERM).unwrap();
         output.read_exact(&mut [0; 6]).unwrap();
-        assert_eq!(disposition(group, Signal::SIGTERM), Disposition::Ends);
-        let mut repeats = Repeats { group, signal: Signal::SIGTERM, reached, terminated: HashSet::new() };
+        assert_eq!(disposition(group, Signal::TERM), Disposition::Ends);
+        let mut repeats = Repeats { group, signal: Signal::TERM, reached, terminated: HashSet::new() };
         for _ in 0..3 {
             assert!(repeats.look());
         }

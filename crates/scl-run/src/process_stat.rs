@@ -1,14 +1,15 @@
 //! What `/proc/<pid>/stat` tells about a process, as in `proc_pid_stat(5)`.
 
-use nix::unistd::Pid;
-use std::collections::BTreeMap;
+use rustix::process::Pid;
+use std::collections::HashMap;
 use std::fs;
 
 /// A process.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct ProcessStat {
-    pub(crate) parent: Pid,
-    pub(crate) group: Pid,
+    /// `None` if it is outside of this container, or this process is being reaped; so is `group`.
+    pub(crate) parent: Option<Pid>,
+    pub(crate) group: Option<Pid>,
     /// When it was started, in clock ticks since the machine was: with its number, this names it for good.
     pub(crate) started: u64,
     /// Whether it waits to be reaped.
@@ -36,34 +37,36 @@ impl ProcessStat {
         let threads: usize = fields.get(17)?.parse().ok()?;
         // A process whose main thread has ended before the others is shown like one that has ended.
         let has_ended = matches!(state, "Z" | "X" | "x") && threads <= 1;
-        let (parent, group) = (Pid::from_raw(parent.parse().ok()?), Pid::from_raw(group.parse().ok()?));
+        // 0 outside of this container, -1 while the process is being reaped.
+        let id = |field: &str| field.parse().ok().filter(|id| *id > 0).and_then(Pid::from_raw);
+        let (parent, group) = (id(parent), id(group));
         let (started, stack) = (fields.get(19)?.parse().ok()?, (*fields.get(25)?).to_owned());
         Some(Self { parent, group, started, has_ended, is_stopped: state == "T", stack })
     }
 }
 
 /// All processes that have not ended.
-pub(crate) fn running_processes() -> BTreeMap<Pid, ProcessStat> {
+pub(crate) fn running_processes() -> HashMap<Pid, ProcessStat> {
     all_processes().filter_map(|process| Some((process, ProcessStat::of(process)?))).collect()
 }
 
 /// The children of a process, also those that wait to be reaped.
 pub(crate) fn children(parent: Pid) -> Vec<Pid> {
-    let is_child = |process: &Pid| ProcessStat::read(*process).is_some_and(|stat| stat.parent == parent);
+    let is_child = |process: &Pid| ProcessStat::read(*process).is_some_and(|stat| stat.parent == Some(parent));
     all_processes().filter(is_child).collect()
 }
 
 /// The numbers of all processes.
 pub(crate) fn all_processes() -> impl Iterator<Item = Pid> {
     let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
-    entries.filter_map(|entry| entry.file_name().to_str()?.parse().ok().map(Pid::from_raw))
+    entries.filter_map(|entry| entry.file_name().to_str()?.parse().ok().and_then(Pid::from_raw))
 }
 
 #[cfg(test)]
 impl ProcessStat {
     /// A running process of which only the parent matters.
-    pub(crate) fn with_parent(parent: Pid) -> Self {
-        let group = Pid::from_raw(1);
+    pub(crate) fn with_parent(parent: Option<Pid>) -> Self {
+        let group = None;
         Self { parent, group, started: 0, has_ended: false, is_stopped: false, stack: String::new() }
     }
 }
@@ -92,6 +95,8 @@ mod tests {
             let expected = ProcessStat { parent, group, started: 99, has_ended, is_stopped, stack };
             assert_eq!(ProcessStat::parse(&stat(state, threads)), Some(expected), "{state}, {threads}");
         }
+        let being_reaped = ProcessStat::parse(&stat("X", 0).replace(" 7 42 ", " 0 -1 ")).unwrap();
+        assert_eq!((being_reaped.parent, being_reaped.group), (None, None));
         assert_eq!(ProcessStat::parse(""), None);
     }
 }

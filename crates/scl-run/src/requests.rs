@@ -3,7 +3,7 @@
 use super::control::{Asked, Command, ComponentReport, Response};
 use super::lifecycle::{Input, Lifecycle, State, Verdict};
 use super::run_state::{RunEvent, RunState};
-use nix::sys::signal::Signal;
+use rustix::process::Signal;
 use scl_terminal::quoted_list;
 
 /// The requests that are not done yet.
@@ -51,7 +51,7 @@ impl Requests {
             Command::List | Command::Builds => Vec::new(),
             // Twice would be a kill.
             Command::Stop if chosen.is_empty() && state.stopping().is_some() => Vec::new(),
-            Command::Stop if chosen.is_empty() => vec![RunEvent::Stop(Signal::SIGTERM)],
+            Command::Stop if chosen.is_empty() => vec![RunEvent::Stop(Signal::TERM)],
             Command::Stop => each(Input::Stop),
             Command::Restart => each(Input::Restart),
         };

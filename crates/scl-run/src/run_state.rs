@@ -4,7 +4,7 @@
 use super::lifecycle::{Action, Input, Lifecycle, State, Verdict};
 use super::policy::Policy;
 use super::restarts::Time;
-use nix::sys::signal::Signal;
+use rustix::process::Signal;
 use scl::host::ONE_REQUEST;
 use std::time::Duration;
 
@@ -102,11 +102,11 @@ impl RunState {
             RunEvent::One(_, Input::Restart) if self.stopping.is_some() => Vec::new(),
             RunEvent::One(index, input) => self.take_input(now, index, &input),
             RunEvent::Stop(signal) => self.take_request(now, signal),
-            RunEvent::OutputLost => self.stop(now, Signal::SIGTERM),
+            RunEvent::OutputLost => self.stop(now, Signal::TERM),
             RunEvent::Time => self.take_time(now),
         };
         if self.failed().is_some() || self.only_last_is_left() {
-            actions.extend(self.stop(now, Signal::SIGTERM));
+            actions.extend(self.stop(now, Signal::TERM));
         }
         actions.extend(self.stop_last(now));
         actions
@@ -162,7 +162,7 @@ impl RunState {
     fn take_time(&mut self, now: Time) -> Vec<(usize, Action)> {
         let mut actions = self.step_all(now, &Input::Time);
         if self.until.is_some_and(|until| until <= now) {
-            actions.extend(self.stop(now, Signal::SIGTERM));
+            actions.extend(self.stop(now, Signal::TERM));
         }
         actions
     }

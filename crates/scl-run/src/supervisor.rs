@@ -4,7 +4,7 @@ mod process;
 
 use super::children::{Role, Running, Start};
 use super::control::{Asked, BuildCommand, Command, Response};
-use super::ending::Ending;
+use super::ending::{Ending, name_of};
 use super::event::Event;
 use super::lifecycle::{Action, Input, Notice, State};
 use super::member::Member;
@@ -18,8 +18,8 @@ use super::run_clock::{LONGEST_WAIT, RunClock};
 use super::run_state::{RunEvent, RunState};
 use super::summary;
 use super::terminal::{Key, StandardInput, Terminal};
-use nix::sys::signal::Signal;
 use process::Process;
+use rustix::process::Signal;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
@@ -138,7 +138,7 @@ impl<'a> Supervisor<'a> {
                 let Some((index, process)) = self.find(|it| it.number == process) else { return };
                 process.ended = Some(Instant::now());
                 // Processes that a build left behind in its group are no longer needed.
-                process.running.signal(Signal::SIGTERM);
+                process.running.signal(Signal::TERM);
                 self.apply(run, RunEvent::One(index, Input::Exited(ending)));
             }
             Event::Notified { group, notice } => {
@@ -156,7 +156,7 @@ impl<'a> Supervisor<'a> {
                 match key {
                     Key::Interrupt => {
                         process.running.take_interrupt();
-                        self.take(run, Event::Signalled(Signal::SIGINT));
+                        self.take(run, Event::Signalled(Signal::INT));
                     }
                     Key::Suspend => process.running.suspend(),
                 }
@@ -171,7 +171,7 @@ impl<'a> Supervisor<'a> {
             }
             Event::Signalled(signal) => {
                 if !run.state.is_requested() {
-                    let name = signal.as_str();
+                    let name = name_of(signal);
                     let text = match run.state.stopping() {
                         None => format!("stopping on {name}; once more kills at once"),
                         Some(_) => format!("already stopping; {name} once more kills at once"),
@@ -227,7 +227,7 @@ impl<'a> Supervisor<'a> {
                     let Some(running) = self.processes[index].as_ref().map(|process| &process.running) else {
                         continue;
                     };
-                    if signal == Signal::SIGKILL {
+                    if signal == Signal::KILL {
                         running.kill();
                         continue;
                     }
@@ -308,7 +308,7 @@ impl<'a> Supervisor<'a> {
         }
         let pid = |index: usize| {
             let living = self.processes[index].as_ref().filter(|process| process.ended.is_none());
-            living.map(|process| process.running.group().as_raw())
+            living.map(|process| process.running.group().as_raw_pid())
         };
         run.requests.answer(&run.state, &pid);
     }
@@ -352,7 +352,7 @@ fn wrong_program(member: &Member<'_>, opened: &str) -> String {
 
 /// What the user is told of a program that uses a terminal that it does not have.
 fn stopped_by_terminal(member: &Member<'_>, signal: Signal) -> String {
-    let signal = signal.as_str();
+    let signal = name_of(signal);
     match member.program.input {
         StandardInput::Empty => {
             format!(

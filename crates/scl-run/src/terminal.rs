@@ -11,10 +11,10 @@ pub use keys::{KEYS_WORD, tell_keys};
 use super::orphan_guard::this_program;
 use super::orphans;
 pub(crate) use keys::Key;
-use nix::sys::signal::{SigSet, SigmaskHow, Signal, killpg, raise};
-use nix::unistd::Pid;
-use rustix::process::getpgrp;
+use nix::sys::signal::{self, SigSet, SigmaskHow};
+use rustix::process::{Pid, Signal, getpgrp, kill_process_group};
 use rustix::termios::{OptionalActions, Termios, tcgetattr, tcgetpgrp, tcsetattr, tcsetpgrp};
+use signal_hook::consts::SIGTSTP;
 use std::io::{self, BufRead, BufReader};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, Stdio};
@@ -64,8 +64,8 @@ impl Terminal {
     /// If no process can be started in that group, or the terminal refuses the group.
     pub(crate) fn lend(self, group: Pid, pressed: impl Fn(Key) + Send + 'static) -> io::Result<Loan> {
         let mut keys = with_signals_blocked(SigSet::all(), || {
-            let mut command = this_program()?;
-            command.arg(KEYS_WORD).process_group(group.as_raw());
+            let mut command = this_program();
+            command.arg(KEYS_WORD).process_group(group.as_raw_pid());
             orphans::spawn(command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()))
         })?;
         let told = keys.stdout.take();
@@ -88,19 +88,19 @@ impl Terminal {
     pub(crate) fn suspend(&self, group: Pid) {
         let of_group = tcgetattr(io::stdin());
         self.take_back(group);
-        let _ = raise(Signal::SIGTSTP);
+        let _ = signal_hook::low_level::raise(SIGTSTP);
         if tcgetpgrp(io::stdin()).is_ok_and(|foreground| foreground == getpgrp()) {
             if let Ok(modes) = of_group {
                 set_modes(&modes);
             }
             let _ = hand_over(group);
         }
-        let _ = killpg(group, Signal::SIGCONT);
+        let _ = kill_process_group(group, Signal::CONT);
     }
 
     /// Makes us the foreground again, with our modes, unless somebody else is by now.
     fn take_back(&self, group: Pid) {
-        let has_it = tcgetpgrp(io::stdin()).is_ok_and(|foreground| foreground.as_raw_pid() == group.as_raw());
+        let has_it = tcgetpgrp(io::stdin()).is_ok_and(|foreground| foreground == group);
         if has_it {
             let _ = set_foreground(getpgrp());
             set_modes(&self.modes);
@@ -130,14 +130,13 @@ impl Loan {
 
 /// Makes a group the foreground, and continues it if it was stopped because it was not.
 fn hand_over(group: Pid) -> io::Result<()> {
-    let id = rustix::process::Pid::from_raw(group.as_raw()).ok_or(io::ErrorKind::InvalidInput)?;
-    set_foreground(id)?;
+    set_foreground(group)?;
     // It may have ended.
-    let _ = killpg(group, Signal::SIGCONT);
+    let _ = kill_process_group(group, Signal::CONT);
     Ok(())
 }
 
-fn set_foreground(group: rustix::process::Pid) -> io::Result<()> {
+fn set_foreground(group: Pid) -> io::Result<()> {
     Ok(from_background(|| tcsetpgrp(io::stdin(), group))?)
 }
 
@@ -148,7 +147,7 @@ fn set_modes(modes: &Termios) {
 
 /// Changes a terminal whose foreground we may not be, for which the kernel would stop us.
 fn from_background<T>(change: impl FnOnce() -> T) -> T {
-    with_signals_blocked(SigSet::from(Signal::SIGTTOU), change)
+    with_signals_blocked(SigSet::from(signal::Signal::SIGTTOU), change)
 }
 
 /// Works with signals blocked, which processes that are started inherit.

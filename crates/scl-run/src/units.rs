@@ -7,6 +7,7 @@ mod text;
 
 use super::Options;
 use super::component::Component;
+use super::orphan_guard::THIS_PROGRAM;
 use super::plan::{ComponentNames, RunPlan, plan_run_launch_file};
 use super::policy::{Policy, Restart};
 use super::program::Program;
@@ -170,7 +171,7 @@ fn command(program: &Program) -> Result<String, Problem> {
 
 /// The absolute path of the program: systemd has another search path.
 fn executable(program: &Program, first: &OsString) -> Result<PathBuf, Problem> {
-    if first == "/proc/self/exe" {
+    if first == THIS_PROGRAM {
         return std::env::current_exe().map_err(|error| Problem::new(format!("cannot find `scl`: {error}")));
     }
     if !first.as_encoded_bytes().contains(&b'/') {

@@ -6,8 +6,9 @@
 use super::checked::Checked;
 use super::report::report;
 use super::{COULD_NOT_RUN, CheckArguments, check_files, worst_code};
-use nix::sys::signal::{SigSet, Signal};
 use scl_terminal::{output_is_closed, print_err};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
 use std::io;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -120,15 +121,9 @@ fn mark(file: &Path) -> Option<Mark> {
     Some((about.ino(), about.size(), about.ctime(), about.ctime_nsec()))
 }
 
-/// One thread waits for the signals, which are blocked in all others.
 fn listen_for_stop() -> io::Result<Receiver<()>> {
-    let signals: SigSet = [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP].into_iter().collect();
-    signals.thread_block()?;
+    let mut signals = Signals::new([SIGINT, SIGTERM, SIGHUP])?;
     let (sender, stop) = channel();
-    thread::Builder::new().spawn(move || {
-        // Fails only for an invalid set of signals. No signal could stop the loop then, so it stops at once.
-        let _ = signals.wait();
-        let _ = sender.send(());
-    })?;
+    thread::Builder::new().spawn(move || signals.forever().next().map(|_| sender.send(())))?;
     Ok(stop)
 }

@@ -4,8 +4,8 @@ use super::Order;
 use super::draw::draw;
 use super::screen::Screen;
 use super::view::{Action, View};
-use nix::sys::signal::{self, Signal};
 use ratatui::crossterm::event::{self, Event};
+use rustix::process::{Signal, getpid, kill_process};
 use scl_observe::{ComponentRow, GateRow, Snapshot, Watch};
 use scl_terminal::{Problem, output_is_terminal};
 use std::io::{self, IsTerminal, stdin};
@@ -32,7 +32,7 @@ async fn show(mut watches: Vec<Watch>, period: Duration, order: Order) -> io::Re
     let mut interrupt = unix::signal(SignalKind::interrupt())?;
     let mut terminate = unix::signal(SignalKind::terminate())?;
     let mut hang_up = unix::signal(SignalKind::hangup())?;
-    let mut stop = unix::signal(SignalKind::from_raw(Signal::SIGTSTP as i32))?;
+    let mut stop = unix::signal(SignalKind::from_raw(Signal::TSTP.as_raw()))?;
     let mut screen = Screen::enter()?;
     let mut view = View::new(look(&mut watches), order, has_colours());
     let mut events = read_events();
@@ -62,7 +62,7 @@ async fn show(mut watches: Vec<Watch>, period: Duration, order: Order) -> io::Re
             // SIGSTOP, because SIGTSTP is handled here. The program continues in the next line when it is continued.
             Action::Suspend => screen.leave_during(|| {
                 // It cannot fail for a signal that exists.
-                let _ = signal::raise(Signal::SIGSTOP);
+                let _ = kill_process(getpid(), Signal::STOP);
             })?,
             Action::Draw | Action::Nothing => {}
         }

@@ -4,12 +4,10 @@ use super::super::ending::Ending;
 use super::super::orphan_guard::bound_command;
 use super::super::placement::Placement;
 use super::protocol::BuildCommand;
-use nix::sys::signal::Signal;
 use scl_terminal::{Problem, print_err};
 use std::ffi::OsString;
 use std::io;
 use std::os::fd::AsFd;
-use std::os::unix::process::ExitStatusExt;
 use std::process::{ExitStatus, Stdio};
 
 /// Runs a build. What it prints goes to standard error.
@@ -24,21 +22,12 @@ pub(super) fn run(build: &BuildCommand) -> Result<(), Problem> {
         problem.note(format!("`{}` {why}", build.shown))
     };
     let status = start(build).map_err(|error| failed(format!("cannot be started: {error}")))?;
-    if status.success() { Ok(()) } else { Err(failed(ending(status).to_string())) }
+    if status.success() { Ok(()) } else { Err(failed(Ending::from(status).to_string())) }
 }
 
 fn start(build: &BuildCommand) -> io::Result<ExitStatus> {
     let words: Vec<OsString> = build.command.iter().map(OsString::from).collect();
-    let mut command = bound_command(&words, &Placement::default())?;
+    let mut command = bound_command(&words, &Placement::default());
     command.current_dir(&build.folder).env_clear().envs(&build.environment).stdin(Stdio::null());
     command.stdout(io::stderr().as_fd().try_clone_to_owned()?).status()
-}
-
-fn ending(status: ExitStatus) -> Ending {
-    let signal = status.signal().and_then(|number| Signal::try_from(number).ok());
-    match (status.code(), signal) {
-        (Some(code), _) => Ending::Exited(code),
-        (None, Some(signal)) => Ending::Killed(signal),
-        (None, None) => Ending::KilledByUnnamedSignal,
-    }
 }

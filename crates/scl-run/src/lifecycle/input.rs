@@ -1,7 +1,7 @@
 //! What happens to a component, and what is to be done for it.
 
 use super::super::ending::Ending;
-use nix::sys::signal::Signal;
+use rustix::process::Signal;
 use std::time::Duration;
 
 /// What happens to a component.

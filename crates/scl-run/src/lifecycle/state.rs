@@ -1,7 +1,7 @@
 //! The states of a component.
 
 use super::super::restarts::Time;
-use nix::sys::signal::Signal;
+use rustix::process::Signal;
 
 /// What is happening to a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,7 +58,7 @@ impl StopReason {
     }
 
     pub(super) fn signal(self) -> Signal {
-        self.asked_by().unwrap_or(Signal::SIGTERM)
+        self.asked_by().unwrap_or(Signal::TERM)
     }
 
     /// Whether the processes were asked to end, so that a second signal would mean more than that.

@@ -93,14 +93,14 @@ fn a_program_that_cannot_be_started_is_a_failure_like_others() {
 #[test]
 fn not_ready_in_time_is_a_failure_with_its_reason() {
     let status = Input::Notified(Notice::Status("waiting for `controller.commands`".to_owned()));
-    let killed = Input::Exited(Ending::Killed(Signal::SIGTERM));
+    let killed = Input::Exited(Ending::Killed(Signal::TERM.as_raw()));
     check(
         watched(),
         &[(10, status), (4999, Input::Time), (5000, Input::Time), (5100, killed)],
         &[
             report("not ready within 5s: waiting for `controller.commands`"),
-            Action::Signal(Signal::SIGTERM),
-            Action::ReportEnd(Ending::Killed(Signal::SIGTERM), millis(5100)),
+            Action::Signal(Signal::TERM),
+            Action::ReportEnd(Ending::Killed(Signal::TERM.as_raw()), millis(5100)),
             report("restarting in 100ms"),
         ],
         waiting(5200),
@@ -123,9 +123,9 @@ fn a_missed_sign_of_life_is_a_failure_once_it_was_ready() {
         ],
         &[
             report("no sign of life for 500ms"),
-            Action::Signal(Signal::SIGABRT),
+            Action::Signal(Signal::ABORT),
             report("not stopped within 5s, killed"),
-            Action::Signal(Signal::SIGKILL),
+            Action::Signal(Signal::KILL),
         ],
         State::Stopping { reason: StopReason::Failed, kill_at: None },
     );
@@ -143,8 +143,8 @@ fn a_program_that_says_that_it_stops_ends_on_its_own_account() {
 
 #[test]
 fn all_are_stopped_whatever_they_do() {
-    let stop = |at| (at, Input::StopAll(Signal::SIGINT));
-    let signal = Action::Signal(Signal::SIGINT);
+    let stop = |at| (at, Input::StopAll(Signal::INT));
+    let signal = Action::Signal(Signal::INT);
     check(watched(), &[stop(10), (20, EXIT_0)], &[signal.clone(), end(0, 20)], State::Ended(Verdict::InOrder));
     check(watched(), &[stop(10), (20, EXIT_3)], &[signal, end(3, 20)], State::Ended(Verdict::Failed));
     let expected = [end(3, 5), report("restarting in 100ms")];
@@ -153,7 +153,7 @@ fn all_are_stopped_whatever_they_do() {
 
 #[test]
 fn a_request_stops_or_starts_one() {
-    let term = Action::Signal(Signal::SIGTERM);
+    let term = Action::Signal(Signal::TERM);
     check(watched(), &[(1, Input::Stop), (2, EXIT_3)], &[term.clone(), end(3, 2)], State::Ended(Verdict::Stopped));
     check(watched(), &[(1, Input::Restart), (2, EXIT_3)], &[term.clone(), end(3, 2), Action::Start], State::Starting);
     check(
@@ -178,7 +178,7 @@ fn a_request_stops_or_starts_one() {
 
 #[test]
 fn the_rest_of_a_program_whose_first_process_ended_is_told_once_and_waited_for() {
-    let (ended, term) = ((10, Input::LeaderEnded), Action::Signal(Signal::SIGTERM));
+    let (ended, term) = ((10, Input::LeaderEnded), Action::Signal(Signal::TERM));
     check(watched(), &[ended.clone(), (20, EXIT_0)], &[term.clone(), end(0, 20)], State::Ended(Verdict::InOrder));
     check(
         watched(),
@@ -186,12 +186,12 @@ fn the_rest_of_a_program_whose_first_process_ended_is_told_once_and_waited_for()
         &[term.clone(), end(3, 20), report("restarting in 100ms")],
         waiting(120),
     );
-    let killed = [term.clone(), report("not stopped within 5s, killed"), Action::Signal(Signal::SIGKILL), end(0, 5020)];
+    let killed = [term.clone(), report("not stopped within 5s, killed"), Action::Signal(Signal::KILL), end(0, 5020)];
     check(watched(), &[ended.clone(), (5010, Input::Time), (5020, EXIT_0)], &killed, State::Ended(Verdict::InOrder));
     // A second signal would end a program of SCL at once.
-    let stopped = [ended.clone(), (11, Input::StopAll(Signal::SIGINT)), (20, EXIT_0)];
+    let stopped = [ended.clone(), (11, Input::StopAll(Signal::INT)), (20, EXIT_0)];
     check(watched(), &stopped, &[term.clone(), end(0, 20)], State::Ended(Verdict::InOrder));
-    for (stop, signal) in [(Input::StopAll(Signal::SIGINT), Signal::SIGINT), (Input::Stop, Signal::SIGTERM)] {
+    for (stop, signal) in [(Input::StopAll(Signal::INT), Signal::INT), (Input::Stop, Signal::TERM)] {
         let (component, actions) = story(watched(), &[(5, stop), ended.clone()]);
         assert_eq!(actions, [Action::Signal(signal)]);
         assert_eq!(component.due(), Some(millis(5005)), "waits for the rest");
@@ -218,6 +218,6 @@ fn a_wrong_program_fails_for_good_and_is_given_time_to_say_so() {
     assert_eq!((actions.as_slice(), component.state()), (&expected[..], State::Ended(Verdict::Failed)));
     assert_eq!(component.failure(), Some("opens `gps`"));
     let (component, actions) = story(watched(), &[refused, (5010, Input::Time)]);
-    assert_eq!(actions[1..], [report("not stopped within 5s, killed"), Action::Signal(Signal::SIGKILL)]);
+    assert_eq!(actions[1..], [report("not stopped within 5s, killed"), Action::Signal(Signal::KILL)]);
     assert_eq!(component.failure(), Some("opens `gps`"));
 }

@@ -45,7 +45,7 @@ impl World {
                     (self.alive[index], self.killed[index]) = (true, false);
                     actions.extend(self.state.step(self.now, RunEvent::One(index, Input::Started)));
                 }
-                Action::Signal(signal) => self.killed[index] |= signal == Signal::SIGKILL,
+                Action::Signal(signal) => self.killed[index] |= signal == Signal::KILL,
                 _ => {}
             }
         }
@@ -76,11 +76,11 @@ impl World {
 
     /// Lets time pass until nothing is due; processes ignore everything but SIGKILL.
     fn run_to_the_end(&mut self) {
-        self.step(RunEvent::Stop(Signal::SIGTERM));
+        self.step(RunEvent::Stop(Signal::TERM));
         for _ in 0..20 {
             for index in 0..self.alive.len() {
                 if self.killed[index] {
-                    self.step(RunEvent::One(index, Input::Exited(Ending::Killed(Signal::SIGKILL))));
+                    self.step(RunEvent::One(index, Input::Exited(Ending::Killed(Signal::KILL.as_raw()))));
                 }
             }
             let Some(due) = self.state.due() else { return };
@@ -110,7 +110,7 @@ fn policy() -> impl Strategy<Value = Policy> {
 fn input() -> impl Strategy<Value = Input> {
     let status = Input::Notified(Notice::Status("busy".to_owned()));
     let notices = [Notice::Ready, Notice::Stopping, Notice::Alive].map(Input::Notified);
-    let endings = [Ending::Exited(0), Ending::Exited(1), Ending::Killed(Signal::SIGTERM)].map(Input::Exited);
+    let endings = [Ending::Exited(0), Ending::Exited(1), Ending::Killed(Signal::TERM.as_raw())].map(Input::Exited);
     let requests =
         [Input::Stop, Input::Restart, Input::Time, Input::LeaderEnded, Input::Refused(String::new()), status];
     prop::sample::select([notices.to_vec(), endings.to_vec(), requests.to_vec()].concat())
@@ -122,7 +122,7 @@ fn event() -> impl Strategy<Value = (u64, RunEvent)> {
     let event = prop_oneof![
         30 => one,
         10 => Just(RunEvent::Time),
-        1 => Just(RunEvent::Stop(Signal::SIGINT)),
+        1 => Just(RunEvent::Stop(Signal::INT)),
         1 => Just(RunEvent::OutputLost),
     ];
     (0..1500_u64, event)
@@ -176,7 +176,7 @@ fn a_failure_of_a_component_that_is_not_essential_stops_nothing() {
     world.step(RunEvent::One(0, Input::Exited(Ending::Exited(1))));
     assert_eq!((world.state.stopping(), world.state.failed()), (None, None));
     world.step(RunEvent::One(1, Input::Exited(Ending::Exited(1))));
-    assert_eq!((world.state.stopping(), world.state.failed()), (Some(Signal::SIGTERM), Some(1)));
+    assert_eq!((world.state.stopping(), world.state.failed()), (Some(Signal::TERM), Some(1)));
 }
 
 fn always() -> Policy {
@@ -186,14 +186,14 @@ fn always() -> Policy {
 #[test]
 fn the_last_one_is_stopped_when_all_others_have_ended() {
     let mut world = World::new(vec![always(), Policy::default(), Policy::default()], Some(0));
-    world.step(RunEvent::Stop(Signal::SIGINT));
+    world.step(RunEvent::Stop(Signal::INT));
     let exited = |index| RunEvent::One(index, Input::Exited(Ending::Exited(0)));
     let is_running = |world: &World| world.state.components()[0].state() == State::Running;
     assert!(is_running(&world));
     world.step(exited(2));
     assert!(is_running(&world));
     world.step(exited(1));
-    let told = StopReason::Everything(Signal::SIGINT);
+    let told = StopReason::Everything(Signal::INT);
     assert!(matches!(world.state.components()[0].state(), State::Stopping { reason, .. } if reason == told));
     world.step(exited(0));
     assert!(world.state.is_over() && world.state.failed().is_none());
@@ -204,13 +204,13 @@ fn requests_kill_only_when_they_are_repeated_later() {
     let is_killed_after = |policy: Policy, first: RunEvent, millis: u64| {
         let mut world = World::new(vec![policy, Policy::default()], None);
         world.step(first);
-        world.step(RunEvent::Stop(Signal::SIGTERM));
+        world.step(RunEvent::Stop(Signal::TERM));
         assert_eq!(world.killed, [false, false]);
         world.now += Duration::from_millis(millis);
-        world.step(RunEvent::Stop(Signal::SIGINT));
+        world.step(RunEvent::Stop(Signal::INT));
         world.killed[1]
     };
-    let asked = || RunEvent::Stop(Signal::SIGTERM);
+    let asked = || RunEvent::Stop(Signal::TERM);
     assert!(!is_killed_after(Policy::default(), asked(), 499));
     assert!(is_killed_after(Policy::default(), asked(), 500));
     // The others stop because one has failed: the first request is the one after that.
@@ -224,11 +224,11 @@ fn requests_kill_only_when_they_are_repeated_later() {
 fn a_pause_counts_between_two_requests() {
     let mut world = World::new(vec![Policy::default()], None);
     world.state.take_pause(Duration::from_secs(4));
-    world.step(RunEvent::Stop(Signal::SIGTERM));
-    world.step(RunEvent::Stop(Signal::SIGTERM));
+    world.step(RunEvent::Stop(Signal::TERM));
+    world.step(RunEvent::Stop(Signal::TERM));
     assert_eq!(world.killed, [false]);
     world.state.take_pause(Duration::from_secs(4));
-    world.step(RunEvent::Stop(Signal::SIGTERM));
+    world.step(RunEvent::Stop(Signal::TERM));
     assert_eq!(world.killed, [true]);
 }
 
@@ -241,15 +241,15 @@ fn the_last_one_ends_with_the_others_but_runs_alone() {
     let mut alone = World::new(vec![always()], Some(0));
     alone.step(RunEvent::Time);
     assert_eq!((alone.state.components()[0].state(), alone.state.stopping()), (State::Running, None));
-    alone.step(RunEvent::Stop(Signal::SIGTERM));
+    alone.step(RunEvent::Stop(Signal::TERM));
     assert!(matches!(alone.state.components()[0].state(), State::Stopping { .. }));
 }
 
 #[test]
 fn the_last_one_is_not_restarted_while_the_others_stop() {
     let mut world = World::new(vec![always(), Policy::default()], Some(0));
-    world.step(RunEvent::Stop(Signal::SIGTERM));
-    world.step(RunEvent::One(0, Input::Exited(Ending::Killed(Signal::SIGSEGV))));
+    world.step(RunEvent::Stop(Signal::TERM));
+    world.step(RunEvent::One(0, Input::Exited(Ending::Killed(Signal::SEGV.as_raw()))));
     assert!(matches!(world.state.components()[0].state(), State::Ended(_)));
     assert_eq!(world.state.failed(), None);
 }
