@@ -15,10 +15,9 @@ pub(super) fn create(folder: &Path) -> io::Result<()> {
 /// It is written under another name and then renamed: a full disk leaves no half of a key, and what is to be replaced
 /// stays until then.
 pub(super) fn replace(folder: &Path, files: &[(&str, &str)]) -> io::Result<()> {
-    let (new, old) = (folder.with_extension("new"), folder.with_extension("old"));
-    for stale in [&new, &old] {
-        remove(stale)?;
-    }
+    // Removed at the end, with what was replaced.
+    let beside = tempfile::Builder::new().prefix(".").tempdir_in(folder.parent().unwrap_or(folder))?;
+    let (new, old) = (beside.path().join("new"), beside.path().join("old"));
     create(&new)?;
     for (name, text) in files {
         let mut file = OpenOptions::new().write(true).create_new(true).mode(0o600).open(new.join(name))?;
@@ -27,14 +26,6 @@ pub(super) fn replace(folder: &Path, files: &[(&str, &str)]) -> io::Result<()> {
     }
     match fs::rename(folder, &old) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-        _ => fs::rename(&new, folder)?,
-    }
-    remove(&old)
-}
-
-fn remove(folder: &Path) -> io::Result<()> {
-    match fs::remove_dir_all(folder) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
+        _ => fs::rename(&new, folder).inspect_err(|_| _ = fs::rename(&old, folder)),
     }
 }
