@@ -9,6 +9,31 @@
 //! A message is acknowledged to the component that sent it when the component at the far end has taken it, so queues,
 //! waiting and flushes are those of the two components. While the far end is not there, neither is the near one, and
 //! messages wait in the sending component.
+//!
+//! The end in the runtime folder, of a route on which messages leave:
+//!
+//! ```text
+//!          the far end is matched and shown here, the publisher runs
+//!   closed ───────────────────────────────────────────────────────────▶ open    takes messages while the window has room
+//!     ▲                                                                  │
+//!     │ everything on its way          unmatched, another far component, │
+//!     │ is taken, or 1 s is over       a new receiver, the gateway ends  ▼
+//!     └──────────────────────────────────────────────────────────── finishing   takes everything
+//! ```
+//!
+//! and of one on which they arrive:
+//!
+//! ```text
+//!          the far end is matched, or messages are left       the component connects: an epoch begins
+//!   closed ─────────────────────────────────────────▶ waiting ───────────────────────────────▶ connected
+//!     ▲                                               │     ▲                                    │  │
+//!     │ nothing is left and the far end is gone,      │     └────────────────────────────────────┘  │
+//!     │ or 1 s after it has gone                      │       it disconnects: the epoch ends        │
+//!     └───────────────────────────────────────────────┴─────────────────────────────────────────────┘
+//! ```
+//!
+//! Each message is counted once: sent = settled + unacknowledged where messages leave, arrived = handed over + queued where
+//! they arrive, and what is acknowledged is never more than what was sent.
 
 mod counts;
 mod local_end;
@@ -22,3 +47,94 @@ pub(crate) use receiving::Receiving;
 pub(crate) use replying::Replying;
 pub(crate) use requesting::Requesting;
 pub(crate) use sending::Sending;
+
+use crate::route::Route;
+use crate::slot::{Held, View};
+use crate::wire::Announced;
+use local_end::Attempts;
+use scl::bridge::Mirror;
+use scl::transport::zeromq::ZeroMq;
+use std::future::{pending, poll_fn};
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use tokio::sync::watch;
+
+/// A route at work: its end of the wire, and its end in the runtime folder, which `S` has.
+pub(crate) struct Pump<W, S> {
+    route: Route,
+    wire: W,
+    /// The far component, in whose place the local end is opened; `None` for one that is nobody in particular.
+    mirror: Option<View<Mirror>>,
+    /// The component here; `None` for components that connect to the local end, whoever they are.
+    component: Option<View<Announced>>,
+    transport: Arc<ZeroMq>,
+    counts: Arc<Counts>,
+    /// Whether the far end of the wire is open.
+    matched: bool,
+    attempts: Attempts,
+    /// The gateway ends.
+    stopping: bool,
+    state: S,
+}
+
+/// What a pump does.
+pub(crate) trait Carry {
+    /// Does what can be done now. Ready when the gateway ends and nothing is left to be done.
+    fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()>;
+
+    /// The component here has started or ended.
+    fn component_changed(&mut self) {}
+}
+
+impl<W, S: Default> Pump<W, S>
+where
+    Self: Carry,
+{
+    pub(crate) fn new(
+        route: Route,
+        wire: W,
+        mirror: Option<View<Mirror>>,
+        component: Option<View<Announced>>,
+        transport: Arc<ZeroMq>,
+        counts: Arc<Counts>,
+    ) -> Self {
+        let (matched, attempts, stopping, state) = (false, Attempts::default(), false, S::default());
+        Self { route, wire, mirror, component, transport, counts, matched, attempts, stopping, state }
+    }
+
+    /// Runs until the gateway ends. Then what is on its way from components here is taken, what has arrived for them is handed
+    /// over, and what the far side does not acknowledge soon is left unacknowledged here, too.
+    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
+        let (mut mirror, mut component) = (self.mirror.clone(), self.component.clone());
+        loop {
+            let alive = tokio::select! {
+                changed = changed_if_any(&mut mirror) => changed,
+                changed = changed_if_any(&mut component) => {
+                    self.component_changed();
+                    changed
+                }
+                stopping = stop.changed() => {
+                    self.stopping = true;
+                    stopping.is_ok()
+                }
+                () = poll_fn(|cx| self.poll(cx)) => false,
+            };
+            if !alive {
+                return;
+            }
+        }
+    }
+}
+
+/// Waits until what runs has changed; forever, if the route depends on nobody. Returns false when the gateway ends.
+async fn changed_if_any<T>(view: &mut Option<View<T>>) -> bool {
+    match view {
+        Some(view) => view.changed().await.is_ok(),
+        None => pending().await,
+    }
+}
+
+/// What runs now.
+fn running<T>(view: &Option<View<T>>) -> Option<Held<T>> {
+    view.as_ref()?.borrow().clone()
+}

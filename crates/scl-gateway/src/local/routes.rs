@@ -1,7 +1,7 @@
 //! Starting the task of each route.
 
 use super::GatewayOptions;
-use crate::pump::{Counts, Receiving, Replying, Requesting, Sending};
+use crate::pump::{Carry, Counts, Pump, Receiving, Replying, Requesting, Sending};
 use crate::route::{Pattern, Route, RouteEnd};
 use crate::slot::View;
 use crate::wire::{Announced, Wire};
@@ -28,14 +28,24 @@ pub(super) fn start(
     for route in &options.routes {
         let counts = Arc::new(Counts::default());
         counted.push((route.key.clone(), Arc::clone(&counts)));
-        let start = Start { wire, runs, mirrors, transport: &transport, counts, route, stop };
         let leaves = route.from.host == options.host;
-        let started = match (route.pattern, leaves) {
-            (Pattern::Messages { .. }, true) => start.sending(&mut pumps),
-            (Pattern::Messages { .. }, false) => start.receiving(&mut pumps),
-            (Pattern::Requests, true) => start.requesting(&mut pumps),
-            (Pattern::Requests, false) => start.replying(&mut pumps),
-        };
+        let (near, far) = if leaves { (&route.from, &route.to) } else { (&route.to, &route.from) };
+        let views = optional(near, runs).zip(optional(far, mirrors));
+        let start = views.map(|(component, mirror)| Start {
+            wire,
+            component,
+            mirror,
+            transport: &transport,
+            counts,
+            route,
+            stop,
+        });
+        let started = start.map(|start| match (route.pattern, leaves) {
+            (Pattern::Messages { .. }, true) => start.pump::<_, Sending>(&mut pumps, Wire::sender),
+            (Pattern::Messages { .. }, false) => start.pump::<_, Receiving>(&mut pumps, Wire::receiver),
+            (Pattern::Requests, true) => start.pump::<_, Requesting>(&mut pumps, Wire::requester),
+            (Pattern::Requests, false) => start.pump::<_, Replying>(&mut pumps, Wire::replier),
+        });
         if started.is_none() {
             tracing::error!("route `{}` names a component that is not on the host it should be on", route.key);
         }
@@ -45,8 +55,8 @@ pub(super) fn start(
 
 struct Start<'a> {
     wire: &'a Wire,
-    runs: &'a Views<Announced>,
-    mirrors: &'a Views<Mirror>,
+    component: Option<View<Announced>>,
+    mirror: Option<View<Mirror>>,
     transport: &'a Arc<ZeroMq>,
     counts: Arc<Counts>,
     route: &'a Route,
@@ -54,49 +64,24 @@ struct Start<'a> {
 }
 
 impl Start<'_> {
-    fn sending(self, pumps: &mut JoinSet<()>) -> Option<()> {
-        let publisher = optional(&self.route.from, self.runs)?;
-        let mirror = of(&self.route.to, self.mirrors)?;
+    /// Starts a pump with the end of the wire that `open` gives it.
+    fn pump<W, S>(self, pumps: &mut JoinSet<()>, open: fn(&Wire, &Route) -> W)
+    where
+        W: Send + 'static,
+        S: Default + Send + 'static,
+        Pump<W, S>: Carry,
+    {
         let (route, transport) = (self.route.clone(), Arc::clone(self.transport));
-        let (wire, counts, state) = (self.wire.sender(&route), self.counts, Default::default());
-        pumps.spawn(Sending { route, wire, mirror, publisher, transport, counts, state }.run(self.stop.clone()));
-        Some(())
+        let wire = open(self.wire, &route);
+        let pump = Pump::<W, S>::new(route, wire, self.mirror, self.component, transport, self.counts);
+        pumps.spawn(pump.run(self.stop.clone()));
     }
-
-    fn receiving(self, pumps: &mut JoinSet<()>) -> Option<()> {
-        let mirror = optional(&self.route.from, self.mirrors)?;
-        let component = of(&self.route.to, self.runs)?;
-        let (route, transport) = (self.route.clone(), Arc::clone(self.transport));
-        let (wire, counts, state) = (self.wire.receiver(&route), self.counts, Default::default());
-        pumps.spawn(Receiving { route, wire, mirror, component, transport, counts, state }.run(self.stop.clone()));
-        Some(())
-    }
-
-    fn requesting(self, pumps: &mut JoinSet<()>) -> Option<()> {
-        let mirror = of(&self.route.to, self.mirrors)?;
-        let (route, transport) = (self.route.clone(), Arc::clone(self.transport));
-        let (wire, counts, state) = (self.wire.requester(&route), self.counts, Default::default());
-        pumps.spawn(Requesting { route, wire, mirror, transport, counts, state }.run(self.stop.clone()));
-        Some(())
-    }
-
-    fn replying(self, pumps: &mut JoinSet<()>) -> Option<()> {
-        let component = of(&self.route.to, self.runs)?;
-        let (route, transport) = (self.route.clone(), Arc::clone(self.transport));
-        let (wire, counts, state) = (self.wire.replier(&route), self.counts, Default::default());
-        pumps.spawn(Replying { route, wire, component, transport, counts, state }.run(self.stop.clone()));
-        Some(())
-    }
-}
-
-fn of<T>(end: &RouteEnd, views: &Views<T>) -> Option<View<T>> {
-    views.get(end.component.as_ref()?).cloned()
 }
 
 /// `Some(None)` for an end that is no component in particular.
 fn optional<T>(end: &RouteEnd, views: &Views<T>) -> Option<Option<View<T>>> {
     match &end.component {
-        Some(_) => of(end, views).map(Some),
+        Some(component) => views.get(component).cloned().map(Some),
         None => Some(None),
     }
 }

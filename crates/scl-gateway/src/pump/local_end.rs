@@ -1,7 +1,6 @@
 //! What all pumps share: who they stand in for, opening ends again after a failure, and logging why not.
 
 use crate::route::Route;
-use crate::slot::View;
 use scl::bridge::MirrorError;
 use scl::host::text_with_causes;
 use scl::transport::{TransportError, Window};
@@ -24,14 +23,6 @@ pub(super) const BATCH: usize = 64;
 /// Most requests of a route that wait for their replies. When there are more, the oldest are given up: their requesters have
 /// long since stopped waiting.
 pub(super) const MOST_OPEN: usize = 4096;
-
-/// Waits until what runs has changed; forever, if the route depends on nobody. Returns false when the gateway ends.
-pub(super) async fn changed_if_any<T>(view: &mut Option<View<T>>) -> bool {
-    match view {
-        Some(view) => view.changed().await.is_ok(),
-        None => std::future::pending().await,
-    }
-}
 
 /// How much a sending component may have unacknowledged on this route.
 pub(super) fn window(route: &Route) -> Window {

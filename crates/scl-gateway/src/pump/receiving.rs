@@ -1,19 +1,14 @@
 //! Messages that arrive at this host.
 
-use super::Counts;
-use super::local_end::{Attempts, Timer, changed_if_any, names, window};
-use crate::route::Route;
-use crate::slot::{Held, View};
-use crate::wire::{Announced, ReceiverEvent, WireReceiver};
+use super::local_end::{Timer, names, window};
+use super::{Carry, Pump, running};
+use crate::slot::Held;
+use crate::wire::{ReceiverEvent, WireReceiver};
 use scl::bridge::Mirror;
-use scl::transport::zeromq::ZeroMq;
 use scl::transport::{Disconnected, Driven, Endpoint, Frame, Link, PeerKind, Sender, Transport};
 use std::collections::VecDeque;
-use std::future::poll_fn;
-use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
-use tokio::sync::watch;
 
 /// For how long the component here may take what has arrived, after the far one has ended.
 const DRAIN_LIMIT: Duration = Duration::from_secs(1);
@@ -23,26 +18,12 @@ const DRAIN_LIMIT: Duration = Duration::from_secs(1);
 const IDLE_LIMIT: Duration = Duration::from_millis(200);
 
 /// Carries the messages of a route from the wire to the receiving component of this host.
-pub(crate) struct Receiving {
-    pub(crate) route: Route,
-    pub(crate) wire: WireReceiver,
-    /// The publisher, in whose place the local end is opened; `None` for pushers, which are nobody in particular.
-    pub(crate) mirror: Option<View<Mirror>>,
-    /// The receiving component here.
-    pub(crate) component: View<Announced>,
-    pub(crate) transport: Arc<ZeroMq>,
-    pub(crate) counts: Arc<Counts>,
-    pub(crate) state: State,
-}
-
 #[derive(Default)]
-pub(crate) struct State {
-    matched: bool,
+pub(crate) struct Receiving {
     /// Whether the far side sees this one: since the component has connected. What is not acknowledged then is known to be
     /// missing, so it stays so while only the link between the hosts is lost.
     open: bool,
     local: Option<Local>,
-    attempts: Attempts,
     /// Messages that the component has not taken from this gateway.
     queue: VecDeque<Frame>,
     /// Which messages since this side was opened had been sent before that, and when.
@@ -51,8 +32,6 @@ pub(crate) struct State {
     handed: u64,
     confirmed: u64,
     flush: bool,
-    /// The gateway ends.
-    stopping: bool,
 }
 
 /// Dropped in this order: the mirror must outlive its ends.
@@ -68,35 +47,12 @@ struct Local {
     idle: Timer,
 }
 
-impl Receiving {
-    /// Runs until the gateway ends, and the component has taken what has arrived by then.
-    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
-        let (mut mirror, mut component) = (self.mirror.clone(), self.component.clone());
-        loop {
-            let alive = tokio::select! {
-                changed = changed_if_any(&mut mirror) => changed,
-                changed = component.changed() => {
-                    self.forget_component();
-                    changed.is_ok()
-                }
-                stopping = stop.changed() => {
-                    self.state.stopping = true;
-                    stopping.is_ok()
-                }
-                () = poll_fn(|cx| self.poll(cx)) => false,
-            };
-            if !alive {
-                return;
-            }
-        }
-    }
-
-    /// Does what can be done now. Ready when the gateway ends and nothing is left to be done.
+impl Carry for Pump<WireReceiver, Receiving> {
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         while let Poll::Ready(event) = self.wire.poll_event(cx) {
             match event {
-                ReceiverEvent::Matched => self.state.matched = true,
-                ReceiverEvent::Unmatched => self.state.matched = false,
+                ReceiverEvent::Matched => self.matched = true,
+                ReceiverEvent::Unmatched => self.matched = false,
                 ReceiverEvent::Latched(sent) => {
                     let number = self.state.handed + self.state.queue.len() as u64 + 1;
                     self.state.latched.push_back((number, sent));
@@ -115,29 +71,29 @@ impl Receiving {
         // The last acknowledgement may have been all that it was waited for.
         self.close_if_done(cx);
         self.counts.set_held(self.state.pending());
-        if self.state.stopping && self.state.pending() == 0 { Poll::Ready(()) } else { Poll::Pending }
+        if self.stopping && self.state.pending() == 0 { Poll::Ready(()) } else { Poll::Pending }
     }
 
-    /// The component has ended or started. If it is not connected, it will not take what it was to get.
-    fn forget_component(&mut self) {
+    /// If it is not connected, it will not take what it was to get.
+    fn component_changed(&mut self) {
         if self.state.local.as_ref().is_none_or(|local| local.link.is_none()) {
             self.end_epoch();
         }
     }
+}
 
+impl Pump<WireReceiver, Receiving> {
     /// Closes the local end when the far side is not there and the component has taken everything.
     fn close_if_done(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         let pending = state.pending();
         let Some(local) = &mut state.local else { return };
-        let is_shown = match (&self.mirror, &local.mirror) {
-            (Some(view), Some(mirror)) => view.borrow().as_ref().is_some_and(|now| now.is_same(mirror)),
-            _ => true,
-        };
+        let now = running(&self.mirror);
+        let is_shown = local.mirror.as_ref().is_none_or(|mirror| now.is_some_and(|now| now.is_same(mirror)));
         if !is_shown {
             local.limit.start(DRAIN_LIMIT);
         }
-        if (pending == 0 && !(state.matched && is_shown)) || local.limit.is_over(cx) {
+        if (pending == 0 && !(self.matched && is_shown)) || local.limit.is_over(cx) {
             if pending > 0 {
                 self.end_epoch();
             }
@@ -149,26 +105,24 @@ impl Receiving {
 
     fn open(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
-        if state.local.is_some() || !(state.matched || state.pending() > 0) {
+        if state.local.is_some() || !(self.matched || state.pending() > 0) {
             return;
         }
         let (route, transport) = (&self.route, &self.transport);
         let (component, gate) = names(&route.from);
-        let opened = match &self.mirror {
-            Some(view) => {
-                let Some(mirror) = view.borrow().clone() else { return };
-                let sender = state
-                    .attempts
-                    .open(cx, route, || Ok(transport.publish(&mirror.publishing(gate, names(&route.to))?)?));
+        let opened = match (&self.mirror, running(&self.mirror)) {
+            (Some(_), None) => return,
+            (Some(_), Some(mirror)) => {
                 debug_assert!(!component.is_empty(), "a publisher has a name");
-                sender.map(|sender| (sender, Some(mirror)))
+                let open = || Ok(transport.publish(&mirror.publishing(gate, names(&route.to))?)?);
+                self.attempts.open(cx, route, open).map(|sender| (sender, Some(mirror)))
             }
             // Without a component to connect to, nothing is tried.
-            None if self.component.borrow().is_none() => return,
-            None => {
+            (None, _) if running(&self.component).is_none() => return,
+            (None, _) => {
                 let mut endpoint = Endpoint::new(route.endpoint.clone());
                 (endpoint.lossless, endpoint.queue) = (route.lossless, route.queue as usize);
-                state.attempts.open(cx, route, || Ok(transport.push(&endpoint)?)).map(|sender| (sender, None))
+                self.attempts.open(cx, route, || Ok(transport.push(&endpoint)?)).map(|sender| (sender, None))
             }
         };
         let local = |(sender, mirror)| {
@@ -268,7 +222,7 @@ impl Receiving {
             idle.start(IDLE_LIMIT);
         }
         let is_due = 2 * unasked.0 >= window.messages || 2 * unasked.1 >= window.bytes || idle.is_over(cx);
-        let is_last = state.queue.is_empty() && (state.flush || !state.matched || state.stopping);
+        let is_last = state.queue.is_empty() && (state.flush || !self.matched || self.stopping);
         if unasked.0 > 0 && (is_due || is_last) {
             link.request_acknowledgement(cx);
             *unasked = (0, 0);
@@ -285,6 +239,7 @@ impl Receiving {
     }
 
     fn tell(&mut self, confirmed: u64) {
+        debug_assert!(confirmed <= self.state.handed, "the component has taken no more than it was given");
         if confirmed > self.state.confirmed {
             self.counts.add_carried(confirmed - self.state.confirmed);
             self.state.confirmed = confirmed;
@@ -293,7 +248,7 @@ impl Receiving {
     }
 }
 
-impl State {
+impl Receiving {
     /// Number of messages that the component has not taken, as far as is known.
     fn pending(&self) -> u64 {
         self.queue.len() as u64 + self.handed - self.confirmed

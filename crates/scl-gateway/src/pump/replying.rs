@@ -1,63 +1,33 @@
 //! Requests that arrive at this host.
 
-use super::Counts;
-use super::local_end::{Attempts, BATCH, MOST_OPEN};
-use crate::route::Route;
-use crate::slot::View;
-use crate::wire::{Announced, ReplierEvent, WireReplier};
-use scl::transport::zeromq::ZeroMq;
+use super::local_end::{BATCH, MOST_OPEN};
+use super::{Carry, Pump, running};
+use crate::wire::{ReplierEvent, WireReplier};
 use scl::transport::{Answer, Endpoint, Requester, Transport};
 use std::collections::BTreeSet;
-use std::future::poll_fn;
-use std::sync::Arc;
 use std::task::{Context, Poll};
-use tokio::sync::watch;
 
 /// Carries the requests of a route from the wire to the replying component of this host, and the replies back.
-pub(crate) struct Replying {
-    pub(crate) route: Route,
-    pub(crate) wire: WireReplier,
-    /// The replying component here.
-    pub(crate) component: View<Announced>,
-    pub(crate) transport: Arc<ZeroMq>,
-    pub(crate) counts: Arc<Counts>,
-    pub(crate) state: State,
-}
-
 #[derive(Default)]
-pub(crate) struct State {
-    matched: bool,
+pub(crate) struct Replying {
     open: bool,
     local: Option<Box<dyn Requester>>,
-    attempts: Attempts,
     /// Requests without a reply.
     unanswered: BTreeSet<u64>,
 }
 
-impl Replying {
-    /// Runs until the gateway ends.
-    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
-        let mut component = self.component.clone();
-        loop {
-            let alive = tokio::select! {
-                changed = component.changed() => changed.is_ok(),
-                _ = stop.changed() => false,
-                () = poll_fn(|cx| self.poll(cx)) => false,
-            };
-            if !alive {
-                return;
-            }
-        }
-    }
-
-    /// Does what can be done now. Never ready.
+impl Carry for Pump<WireReplier, Replying> {
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        // The requesters of requests without a reply notice at once.
+        if self.stopping {
+            return Poll::Ready(());
+        }
         self.open_or_close(cx);
         self.connect(cx);
         while let Poll::Ready(event) = self.wire.poll_event(cx) {
             match event {
-                ReplierEvent::Matched => self.state.matched = true,
-                ReplierEvent::Unmatched => self.state.matched = false,
+                ReplierEvent::Matched => self.matched = true,
+                ReplierEvent::Unmatched => self.matched = false,
                 ReplierEvent::Request { id, body } => self.request(cx, id, body),
             }
             self.open_or_close(cx);
@@ -67,18 +37,20 @@ impl Replying {
         self.counts.set_held(self.state.unanswered.len() as u64);
         Poll::Pending
     }
+}
 
+impl Pump<WireReplier, Replying> {
     fn open_or_close(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         // Without a component to connect to, nothing is tried.
-        let is_wanted = state.matched && self.component.borrow().is_some();
+        let is_wanted = self.matched && running(&self.component).is_some();
         if !is_wanted && state.local.take().is_some() {
             self.close();
         } else if is_wanted && state.local.is_none() {
             let (route, transport) = (&self.route, &self.transport);
             let mut endpoint = Endpoint::accepting(route.endpoint.clone(), route.max_size);
             endpoint.in_flight = MOST_OPEN;
-            state.local = state.attempts.open(cx, route, || Ok(transport.request(&endpoint)?));
+            state.local = self.attempts.open(cx, route, || Ok(transport.request(&endpoint)?));
         }
     }
 

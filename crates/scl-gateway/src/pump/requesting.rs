@@ -1,36 +1,20 @@
 //! Requests that leave this host.
 
-use super::Counts;
-use super::local_end::{Attempts, BATCH, MOST_OPEN, names};
-use crate::route::Route;
-use crate::slot::{Held, View};
+use super::local_end::{BATCH, MOST_OPEN, names};
+use super::{Carry, Pump, running};
+use crate::slot::Held;
 use crate::wire::{RequesterEvent, WireRequester};
 use bytes::Bytes;
 use scl::bridge::Mirror;
-use scl::transport::zeromq::ZeroMq;
 use scl::transport::{IncomingRequest, Replier, ReplyPath, Transport};
 use std::collections::BTreeMap;
-use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::{Context, Poll};
-use tokio::sync::watch;
 
 /// Carries the requests of a route from components of this host to the wire, and the replies back.
-pub(crate) struct Requesting {
-    pub(crate) route: Route,
-    pub(crate) wire: WireRequester,
-    /// The far component, in whose place the local end is opened.
-    pub(crate) mirror: View<Mirror>,
-    pub(crate) transport: Arc<ZeroMq>,
-    pub(crate) counts: Arc<Counts>,
-    pub(crate) state: State,
-}
-
 #[derive(Default)]
-pub(crate) struct State {
-    matched: bool,
+pub(crate) struct Requesting {
     local: Option<Local>,
-    attempts: Attempts,
     /// The ways back of the requests without a reply, by the number under which they travel.
     open: BTreeMap<u64, (Bytes, Arc<dyn ReplyPath>)>,
     requests: u64,
@@ -42,25 +26,12 @@ struct Local {
     mirror: Held<Mirror>,
 }
 
-impl Requesting {
-    /// Runs until the gateway ends.
-    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
-        let mut mirror = self.mirror.clone();
-        loop {
-            let alive = tokio::select! {
-                changed = mirror.changed() => changed.is_ok(),
-                // Its requesters notice at once.
-                _ = stop.changed() => false,
-                () = poll_fn(|cx| self.poll(cx)) => false,
-            };
-            if !alive {
-                return;
-            }
-        }
-    }
-
-    /// Does what can be done now. Never ready.
+impl Carry for Pump<WireRequester, Requesting> {
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        // Its requesters notice at once.
+        if self.stopping {
+            return Poll::Ready(());
+        }
         while let Poll::Ready(event) = self.wire.poll_event(cx) {
             self.handle(event);
         }
@@ -69,12 +40,14 @@ impl Requesting {
         self.counts.set_held(self.state.open.len() as u64);
         Poll::Pending
     }
+}
 
+impl Pump<WireRequester, Requesting> {
     fn handle(&mut self, event: RequesterEvent) {
         let state = &mut self.state;
         match event {
-            RequesterEvent::Matched => state.matched = true,
-            RequesterEvent::Unmatched => state.matched = false,
+            RequesterEvent::Matched => self.matched = true,
+            RequesterEvent::Unmatched => self.matched = false,
             RequesterEvent::Reply { id, body } => {
                 if let Some((envelope, path)) = state.open.remove(&id) {
                     self.counts.add_carried(1);
@@ -98,7 +71,7 @@ impl Requesting {
 
     fn open_or_close(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
-        let mirror = self.mirror.borrow().clone().filter(|_| state.matched);
+        let mirror = running(&self.mirror).filter(|_| self.matched);
         if let Some(local) = &state.local
             && !mirror.as_ref().is_some_and(|mirror| mirror.is_same(&local.mirror))
         {
@@ -110,7 +83,7 @@ impl Requesting {
         if let (None, Some(mirror)) = (&state.local, mirror) {
             let (route, transport) = (&self.route, &self.transport);
             let open = || Ok(transport.reply(&mirror.replying(names(&route.to).1)?)?);
-            let replier = state.attempts.open(cx, route, open);
+            let replier = self.attempts.open(cx, route, open);
             state.local = replier.map(|replier| Local { replier, mirror });
         }
     }

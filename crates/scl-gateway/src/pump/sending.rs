@@ -1,18 +1,13 @@
 //! Messages that leave this host.
 
-use super::Counts;
-use super::local_end::{Attempts, BATCH, Timer, changed_if_any, end_name, names, window};
-use crate::route::Route;
-use crate::slot::{Held, View};
+use super::local_end::{BATCH, Timer, end_name, names, window};
+use super::{Carry, Pump, running};
+use crate::slot::Held;
 use crate::wire::{Announced, SenderEvent, WireSender};
 use scl::bridge::Mirror;
-use scl::transport::zeromq::ZeroMq;
 use scl::transport::{Receiver, Resumed, Transport};
-use std::future::poll_fn;
-use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
-use tokio::sync::watch;
 
 /// How long a sending component may take to stop sending before the local end is closed all the same. Only one that
 /// hangs, or an old release, takes so long; what it sends meanwhile counts as lost there.
@@ -21,27 +16,13 @@ const FINISH_LIMIT: Duration = Duration::from_secs(1);
 const DRAIN_LIMIT: Duration = Duration::from_secs(2);
 
 /// Carries the messages of a route from components of this host to the wire.
-pub(crate) struct Sending {
-    pub(crate) route: Route,
-    pub(crate) wire: WireSender,
-    /// The far component, in whose place the local end is opened.
-    pub(crate) mirror: View<Mirror>,
-    /// The publisher here; `None` for pushers, which connect to the local end.
-    pub(crate) publisher: Option<View<Announced>>,
-    pub(crate) transport: Arc<ZeroMq>,
-    pub(crate) counts: Arc<Counts>,
-    pub(crate) state: State,
-}
-
 #[derive(Default)]
-pub(crate) struct State {
-    matched: bool,
+pub(crate) struct Sending {
     /// The publisher's run that the far host knows, and for how long still after it has ended: as long as this exists, the
     /// publisher counts as running for other hosts.
     run: Option<Held<Announced>>,
     draining: Timer,
     local: Option<Local>,
-    attempts: Attempts,
     /// Messages taken from components here, those taken by the far component or given up, and those acknowledged to
     /// components here.
     sent: u64,
@@ -53,8 +34,6 @@ pub(crate) struct State {
     resumed: Option<Resumed>,
     /// Whether the far component has started and got no message since.
     wants_last: bool,
-    /// The gateway ends.
-    stopping: bool,
 }
 
 /// Dropped in this order: the mirror must outlive its ends.
@@ -67,49 +46,28 @@ struct Local {
     limit: Timer,
 }
 
-impl Sending {
-    /// Runs until the gateway ends. Then what is on its way from components here is taken, and what the far side does not
-    /// acknowledge soon is left unacknowledged here, too.
-    pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
-        if self.publisher.is_none() {
-            self.wire.set_open(true);
-        }
-        let mut mirror = self.mirror.clone();
-        let mut publisher = self.publisher.clone();
-        loop {
-            let alive = tokio::select! {
-                changed = mirror.changed() => changed.is_ok(),
-                changed = changed_if_any(&mut publisher) => changed,
-                stopping = stop.changed() => {
-                    self.state.stopping = true;
-                    stopping.is_ok()
-                }
-                () = poll_fn(|cx| self.poll(cx)) => false,
-            };
-            if !alive {
-                return;
-            }
-        }
-    }
-
-    /// Does what can be done now. Ready when the gateway ends and nothing is left to be done.
+impl Carry for Pump<WireSender, Sending> {
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         while let Poll::Ready(event) = self.wire.poll_event(cx) {
             self.handle(event);
         }
+        self.check_account();
         self.follow_publisher();
         self.open_or_finish(cx);
         self.carry(cx);
         self.close_if_finished(cx);
         self.end_run_if_drained(cx);
+        self.check_account();
         self.counts.set_held(self.state.sent - self.state.settled);
-        if self.state.stopping && self.state.local.is_none() { Poll::Ready(()) } else { Poll::Pending }
+        if self.stopping && self.state.local.is_none() { Poll::Ready(()) } else { Poll::Pending }
     }
+}
 
+impl Pump<WireSender, Sending> {
     fn handle(&mut self, event: SenderEvent) {
         match event {
-            SenderEvent::Matched => self.state.matched = true,
-            SenderEvent::Unmatched => self.state.matched = false,
+            SenderEvent::Matched => self.matched = true,
+            SenderEvent::Unmatched => self.matched = false,
             SenderEvent::NewReceiver => self.rejoin(),
             SenderEvent::Acknowledged(number) => {
                 self.counts.add_carried(number.saturating_sub(self.state.settled));
@@ -123,6 +81,13 @@ impl Sending {
             }
             SenderEvent::Credit => {}
         }
+    }
+
+    /// The account of this route and that of its end of the wire agree.
+    fn check_account(&self) {
+        let Sending { sent, settled, told, .. } = self.state;
+        debug_assert_eq!(sent, settled + self.wire.unacknowledged(), "each message is settled once");
+        debug_assert!(settled <= told && told <= sent, "{settled} settled, {told} acknowledged, {sent} sent");
     }
 
     /// A latched publisher sends its last message to the far component, which has just started, unless that is on its way.
@@ -150,9 +115,11 @@ impl Sending {
 
     /// Shows the far host that the publisher runs.
     fn follow_publisher(&mut self) {
-        let Some(publisher) = &self.publisher else { return };
-        let now = publisher.borrow().clone();
-        match (&self.state.run, now) {
+        // Pushers are nobody in particular, so the route always is.
+        if self.component.is_none() {
+            return self.wire.set_open(true);
+        }
+        match (&self.state.run, running(&self.component)) {
             (None, Some(run)) => {
                 self.state.run = Some(run);
                 self.wire.set_open(true);
@@ -164,8 +131,8 @@ impl Sending {
 
     fn open_or_finish(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
-        let mirror = self.mirror.borrow().clone().filter(|_| state.matched && !state.stopping);
-        let mirror = mirror.filter(|_| self.publisher.is_none() || state.run.is_some());
+        let mirror = running(&self.mirror).filter(|_| self.matched && !self.stopping);
+        let mirror = mirror.filter(|_| self.component.is_none() || state.run.is_some());
         match (&mut state.local, mirror) {
             (None, Some(mirror)) => {
                 let (route, transport) = (&self.route, &self.transport);
@@ -173,7 +140,7 @@ impl Sending {
                     state.resumed = Some(Resumed::new_end());
                 }
                 let resumed = state.resumed;
-                let receiver = state.attempts.open(cx, route, || {
+                let receiver = self.attempts.open(cx, route, || {
                     let (gate, window) = (names(&route.to).1, window(route));
                     Ok(match names(&route.from) {
                         ("", _) => transport.pull(&mirror.pulling(gate, window)?)?,
@@ -240,9 +207,9 @@ impl Sending {
         if !local.receiver.is_finished() && !is_over {
             return;
         }
-        if state.stopping {
+        if self.stopping {
             // There is no custody any more: what the far side does not take counts as lost here.
-            if self.wire.unacknowledged() > 0 && state.matched && !is_over {
+            if self.wire.unacknowledged() > 0 && self.matched && !is_over {
                 return self.ask_far_side();
             }
         } else {
@@ -263,7 +230,7 @@ impl Sending {
     /// Tells the far host that the publisher has ended, once everything that it sent has arrived.
     fn end_run_if_drained(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
-        let has_ended = state.run.is_some() && self.publisher.as_ref().is_some_and(|view| view.borrow().is_none());
+        let has_ended = state.run.is_some() && running(&self.component).is_none();
         if !has_ended {
             return;
         }

@@ -146,6 +146,7 @@ impl Incoming {
     fn answer(&self, seen: u64) -> Option<Ack> {
         let taken = self.taken.saturating_sub(self.base);
         let (epoch, attempt, received) = (self.epoch, self.attempt, self.received);
+        debug_assert!(taken <= received, "{taken} messages are acknowledged of {received}");
         Some(Ack { stream: self.stream?, epoch, attempt, received, taken, seen })
     }
 

@@ -1,4 +1,16 @@
 //! The decisions of a sending end: what to send, what to send again, what to give up.
+//!
+//! ```text
+//!   push        emit            the component has it
+//!   ────▶ kept ─────▶ on its way ───────────────────▶ settled
+//!          ▲              │ │                            ▲
+//!          └──────────────┘ └────────────────────────────┘
+//!        lost, or matched     another receiver is matched: given up
+//!        with the same one
+//! ```
+//!
+//! `waiting` has what is kept and what is on its way, in this order: `emitted` messages on their way, up to `tried` that were
+//! on their way before, and those that never were.
 
 use std::collections::VecDeque;
 use std::time::Instant;
@@ -131,6 +143,7 @@ impl Outgoing {
         let (message, latched) = (next.message.clone(), next.sent.filter(|_| next.is_latched));
         self.emitted += 1;
         self.tried = self.tried.max(self.emitted);
+        self.check();
         Some((Header { latched, ..self.header(Kind::Whole)? }, message))
     }
 
@@ -182,6 +195,18 @@ impl Outgoing {
         self.emitted = self.emitted.saturating_sub(count);
         self.tried = self.tried.saturating_sub(count);
         self.settled += count as u64;
+        self.check();
+    }
+
+    fn check(&self) {
+        let (emitted, tried, waiting) = (self.emitted, self.tried, self.waiting.len());
+        debug_assert!(emitted <= tried && tried <= waiting, "{emitted} on their way, {tried} tried, {waiting} waiting");
+        debug_assert!(emitted <= self.window, "{emitted} messages in a window of {}", self.window);
+        debug_assert!(self.base <= self.settled, "no message of this stream is settled twice");
+        debug_assert_eq!(
+            self.waiting_bytes,
+            self.waiting.iter().map(|waiting| waiting.message.len() as u64).sum::<u64>()
+        );
     }
 
     fn header(&self, kind: Kind) -> Option<Header> {
