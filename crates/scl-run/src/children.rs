@@ -3,10 +3,11 @@
 use super::ending::Ending;
 use super::event::Event;
 use super::family::{Family, MARK, with_inherited};
+use super::log_file::LogStream;
 use super::notify::{Datagrams, Notified};
 use super::orphan_guard::{OrphanGuard, bound_command};
 use super::orphans;
-use super::output::{Output, Stream};
+use super::output::Output;
 use super::plan::COMPONENT;
 use super::process_group;
 use super::program::Program;
@@ -125,12 +126,15 @@ impl Running {
         let loan = start.terminal.clone().map(|terminal| terminal.lend(group, pressed));
         let loan = loan.transpose().inspect_err(|_| guard.forget(group))?;
         // Standard output has only what the components print.
-        let out_stream = if start.role == Role::Build { Stream::Err } else { Stream::Out };
-        match (start.messages, out) {
-            (Some(messages), Some(out)) => watch_messages(start.process, out, messages.clone(), events.clone()),
-            (_, out) => watch_stream(start, out_stream, out, output, events),
+        let out_stream = if start.role == Role::Build { LogStream::Stderr } else { LogStream::Stdout };
+        let (label, shown) = (start.label, Arc::clone(output));
+        match start.messages.cloned() {
+            // What cannot be read is missed where it is needed.
+            Some(messages) => watch_stream(start.process, out, events, move |out| _ = messages.read(out)),
+            None => watch_stream(start.process, out, events, move |out| shown.copy_lines(label, out_stream, out)),
         }
-        watch_stream(start, Stream::Err, err, output, events);
+        let shown = Arc::clone(output);
+        watch_stream(start.process, err, events, move |err| shown.copy_lines(label, LogStream::Stderr, err));
         let datagrams = start.notify.map(|notify| notify.socket.datagrams().clone());
         watch_end(start.process, group, family, loan, datagrams, events.clone());
         Ok(running)
@@ -203,28 +207,16 @@ impl Drop for Running {
     }
 }
 
-fn watch_stream(
-    start: &Start<'_>,
-    stream: Stream,
-    from: Option<impl Read + Send + 'static>,
-    output: &Arc<Output>,
+fn watch_stream<R: Read + Send + 'static>(
+    process: usize,
+    from: Option<R>,
     events: &Sender<Event>,
+    read: impl FnOnce(R) + Send + 'static,
 ) {
-    let (output, events) = (Arc::clone(output), events.clone());
-    let (process, label) = (start.process, start.label);
+    let events = events.clone();
     thread::spawn(move || {
-        if let Some(from) = from {
-            output.copy_lines(label, stream, from);
-        }
+        from.map(read);
         // After the supervisor has finished, nothing receives or needs the event.
-        let _ = events.send(Event::StreamClosed { process });
-    });
-}
-
-fn watch_messages(process: usize, from: impl Read + Send + 'static, messages: Messages, events: Sender<Event>) {
-    thread::spawn(move || {
-        // What could not be read is missed where it is needed.
-        let _ = messages.read(from);
         let _ = events.send(Event::StreamClosed { process });
     });
 }

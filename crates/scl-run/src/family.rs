@@ -4,6 +4,7 @@
 //! the parent ends. What has cleared its environment and lost its parent before anybody has looked is found by none of
 //! them.
 
+use super::process_group::{PAUSE, look_while};
 use super::process_stat::{ProcessStat, running_processes};
 use rustix::event::{PollFd, PollFlags, poll};
 use rustix::process::{Pid, PidfdFlags, Signal, getpid, kill_process, kill_process_group, pidfd_open};
@@ -12,16 +13,10 @@ use std::fs;
 use std::io;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
-use std::time::Duration;
 
 /// The variable with the mark: that of the run, and the number of the program in it. Where one `scl run` is a program
 /// of another one, it has the marks of both.
 pub(crate) const MARK: &str = "SCL_STARTED_BY";
-
-/// The pauses between two looks at processes that were asked to end: the first one, and the longest. The first is also
-/// the one where the end of a process cannot be waited for: out of file descriptors, which passes.
-const PAUSE: Duration = Duration::from_millis(20);
-const MAX_PAUSE: Duration = Duration::from_secs(1);
 
 /// The mark of all processes of one `scl run`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -106,8 +101,8 @@ impl Family {
 
     /// Asks those outside of the group to end, once each, when the group has ended; returns when all have ended.
     pub(crate) fn end_rest(&self) {
-        let (mut asked, mut pause) = (HashSet::new(), PAUSE);
-        while !self.is_empty() {
+        let mut asked = HashSet::new();
+        look_while(|| {
             for (process, stat) in self.look() {
                 if asked.insert((process, stat.started)) {
                     // It may end at this moment.
@@ -116,9 +111,8 @@ impl Family {
                     let _ = kill_process(process, Signal::CONT);
                 }
             }
-            thread::sleep(pause);
-            pause = MAX_PAUSE.min(2 * pause);
-        }
+            !self.is_empty()
+        });
     }
 
     /// Kills all.
@@ -136,6 +130,7 @@ fn wait_for_end(process: Pid, started: u64) {
             let _ = poll(&mut [PollFd::new(&process_fd, PollFlags::IN)], None);
         }
         Ok(_) | Err(rustix::io::Errno::SRCH) => {}
+        // Out of file descriptors, which passes.
         Err(_) => thread::sleep(PAUSE),
     }
 }

@@ -1,8 +1,8 @@
 //! The program `scl-gateway`, which is installed apart from `scl`.
 
 use super::component::Component;
+use super::program::is_executable;
 use scl_terminal::{Problem, print_err};
-use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -39,10 +39,6 @@ pub(crate) fn check(gateway: &Component) -> Result<(), Vec<Problem>> {
     }
     print_err(&String::from_utf8_lossy(&output.stderr));
     Err(failed(Problem::new("the gateway cannot run with these files")))
-}
-
-fn is_executable(path: &Path) -> bool {
-    path.metadata().is_ok_and(|it| it.is_file() && it.permissions().mode() & 0o111 != 0)
 }
 
 fn missing() -> Problem {

@@ -38,15 +38,6 @@ const COLOURS: [AnsiColors; 10] = [
     AnsiColors::BrightMagenta,
 ];
 
-/// One of the two output streams of a program, and of this one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Stream {
-    /// Standard output.
-    Out,
-    /// Standard error.
-    Err,
-}
-
 /// Writes the lines of all programs; shared by the threads that read them.
 #[derive(Debug)]
 pub(crate) struct Output {
@@ -98,7 +89,7 @@ impl Output {
     /// Bytes are copied as they are, whether or not they are UTF-8; a missing line break at the end is added.
     ///
     /// A stream that cannot be read counts as ended.
-    pub(crate) fn copy_lines(&self, program: usize, stream: Stream, from: impl Read) {
+    pub(crate) fn copy_lines(&self, program: usize, stream: LogStream, from: impl Read) {
         let mut reader = BufReader::with_capacity(64 * 1024, from);
         let prefix = format!("{} | ", self.painted_name(program, stream)).into_bytes();
         let mut line = prefix.clone();
@@ -118,7 +109,7 @@ impl Output {
 
     /// Reports on a program.
     pub(crate) fn report(&self, program: usize, text: &str) {
-        self.write_report(&format!("{}  {text}\n", self.painted_name(program, Stream::Err)));
+        self.write_report(&format!("{}  {text}\n", self.painted_name(program, LogStream::Stderr)));
     }
 
     /// Reports on the whole run.
@@ -133,10 +124,10 @@ impl Output {
     }
 
     fn write_report(&self, line: &str) {
-        self.backlog(Stream::Err).add_report(line.as_bytes());
+        self.backlog(LogStream::Stderr).add_report(line.as_bytes());
     }
 
-    fn backlog(&self, stream: Stream) -> &Backlog {
+    fn backlog(&self, stream: LogStream) -> &Backlog {
         &self.backlogs[stream as usize]
     }
 
@@ -162,21 +153,17 @@ impl Output {
     }
 
     /// The first failure of each log is reported; the programs go on.
-    fn log(&self, file: &LogFile, stream: Stream, run: u64, text: &[u8]) {
-        let stream = match stream {
-            Stream::Out => LogStream::Stdout,
-            Stream::Err => LogStream::Stderr,
-        };
+    fn log(&self, file: &LogFile, stream: LogStream, run: u64, text: &[u8]) {
         if let Err(report) = file.write(stream, run, text) {
             self.announce(&report);
         }
     }
 
-    fn painted_name(&self, program: usize, stream: Stream) -> String {
+    fn painted_name(&self, program: usize, stream: LogStream) -> String {
         let name = format!("{:width$}", self.names[program], width = self.width);
         let coloured = match stream {
-            Stream::Out => self.colour_out,
-            Stream::Err => self.colour_err,
+            LogStream::Stdout => self.colour_out,
+            LogStream::Stderr => self.colour_err,
         };
         // A component's build has its name, and so its colour.
         let first = self.names.iter().position(|name| *name == self.names[program]).unwrap_or(program);
@@ -195,7 +182,7 @@ fn is_one_file() -> bool {
 
 impl Log {
     /// The number of the process whose stream begins.
-    fn begin(&self, stream: Stream) -> u64 {
+    fn begin(&self, stream: LogStream) -> u64 {
         self.runs[stream as usize].fetch_add(1, Ordering::Relaxed) + 1
     }
 }

@@ -15,7 +15,6 @@ use super::placement::Placement;
 use super::program::{Build, Program};
 use super::selection::Selection;
 use super::system_names::SystemNames;
-use super::terminal::StandardInput;
 use scl_terminal::{Problem, print_err, quoted_list};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -242,13 +241,8 @@ fn plan_builds(folder: &Path, launch: &LaunchFile, components: &[LaunchComponent
 fn build_program(launch: &LaunchFile, command: &[String], folder: PathBuf) -> Program {
     // So that a build can call `scl generate` where `scl` is not installed, or another version is.
     let scl = std::env::current_exe().ok().and_then(|path| Some(("SCL".to_owned(), path.to_str()?.to_owned())));
-    Program {
-        command: command.iter().map(OsString::from).collect(),
-        environment: scl.iter().chain(&launch.environment).cloned().collect(),
-        folder,
-        placement: Placement::default(),
-        input: StandardInput::Empty,
-    }
+    let environment = scl.iter().chain(&launch.environment).cloned().collect();
+    Program { environment, ..Program::new(command.iter().map(OsString::from).collect(), folder) }
 }
 
 /// The program of a component; what cargo makes of it is added to the builds.

@@ -8,8 +8,8 @@ use std::path::PathBuf;
 use std::thread;
 use std::time::Duration;
 
-/// The first pause between two looks at processes that may have missed a signal. They grow to `MAX_PAUSE`.
-const PAUSE: Duration = Duration::from_millis(20);
+/// The first pause between two looks at processes that were asked to end. They grow to `MAX_PAUSE`.
+pub(crate) const PAUSE: Duration = Duration::from_millis(20);
 const MAX_PAUSE: Duration = Duration::from_secs(1);
 
 /// Sees that each process of the group gets a signal that was sent to it and that asks it to end; returns when all have ended.
@@ -20,8 +20,13 @@ const MAX_PAUSE: Duration = Duration::from_secs(1);
 /// default action after the first.
 pub(crate) fn repeat_where_missed(group: Pid, signal: Signal, reached: HashSet<Program>) {
     let mut repeats = Repeats { group, signal, reached, terminated: HashSet::new() };
+    look_while(|| repeats.look());
+}
+
+/// Looks again and again, less and less often, while `look` returns true.
+pub(crate) fn look_while(mut look: impl FnMut() -> bool) {
     let mut pause = PAUSE;
-    while repeats.look() {
+    while look() {
         thread::sleep(pause);
         pause = MAX_PAUSE.min(2 * pause);
     }

@@ -16,6 +16,8 @@ pub(crate) struct ProcessStat {
     has_ended: bool,
     /// Whether a signal has stopped it.
     pub(crate) is_stopped: bool,
+    /// Whether a debugger has stopped it.
+    pub(crate) is_traced: bool,
     /// Where its stack begins: another value after `exec`.
     pub(crate) stack: String,
 }
@@ -41,7 +43,7 @@ impl ProcessStat {
         let id = |field: &str| field.parse().ok().filter(|id| *id > 0).and_then(Pid::from_raw);
         let (parent, group) = (id(parent), id(group));
         let (started, stack) = (fields.get(19)?.parse().ok()?, (*fields.get(25)?).to_owned());
-        Some(Self { parent, group, started, has_ended, is_stopped: state == "T", stack })
+        Some(Self { parent, group, started, has_ended, is_stopped: state == "T", is_traced: state == "t", stack })
     }
 }
 
@@ -67,7 +69,7 @@ impl ProcessStat {
     /// A running process of which only the parent matters.
     pub(crate) fn with_parent(parent: Option<Pid>) -> Self {
         let group = None;
-        Self { parent, group, started: 0, has_ended: false, is_stopped: false, stack: String::new() }
+        Self { parent, group, started: 0, has_ended: false, is_stopped: false, is_traced: false, stack: String::new() }
     }
 }
 
@@ -92,7 +94,8 @@ mod tests {
         ];
         for (state, threads, has_ended, is_stopped) in cases {
             let stack = "1234".to_owned();
-            let expected = ProcessStat { parent, group, started: 99, has_ended, is_stopped, stack };
+            let expected =
+                ProcessStat { parent, group, started: 99, has_ended, is_stopped, is_traced: state == "t", stack };
             assert_eq!(ProcessStat::parse(&stat(state, threads)), Some(expected), "{state}, {threads}");
         }
         let being_reaped = ProcessStat::parse(&stat("X", 0).replace(" 7 42 ", " 0 -1 ")).unwrap();

@@ -87,6 +87,12 @@ impl Build {
 }
 
 impl Program {
+    /// A program with the placement, the variables and the standard input that a launch file does not mention.
+    pub(crate) fn new(command: Vec<OsString>, folder: PathBuf) -> Self {
+        let (environment, placement, input) = (Vec::new(), Placement::default(), StandardInput::Empty);
+        Self { command, environment, folder, placement, input }
+    }
+
     /// Checks that it can be started; `what` and `owner` name it in the problem.
     pub(crate) fn check(&self, what: &str, owner: &str) -> Result<(), Problem> {
         let folder = &self.folder;
@@ -140,6 +146,6 @@ fn search_path(program: &Program) -> Vec<PathBuf> {
     std::env::split_paths(OsStr::new(&path)).collect()
 }
 
-fn is_executable(path: &Path) -> bool {
+pub(crate) fn is_executable(path: &Path) -> bool {
     path.metadata().is_ok_and(|it| it.is_file() && it.permissions().mode() & 0o111 != 0)
 }

@@ -1,7 +1,9 @@
 //! The other side of the control socket: finds every `scl run` and asks it.
 
 use super::super::own_file::{connect, process_of, sockets_in};
+use super::super::process_stat::ProcessStat;
 use super::protocol::{Command, Request, Response, VERSION};
+use rustix::process::Pid;
 use scl_terminal::Problem;
 use std::fs;
 use std::io::{self, BufRead, BufReader, ErrorKind, Write};
@@ -161,10 +163,9 @@ impl ControlledRun {
         }
     }
 
-    /// Whether its process is stopped, as `/proc/<pid>/stat` shows.
+    /// Whether its process is stopped, by a signal or by a debugger.
     fn is_stopped(&self) -> bool {
-        let stat = fs::read_to_string(format!("/proc/{}/stat", self.process)).unwrap_or_default();
-        let state = stat.rsplit_once(')').and_then(|(_, fields)| fields.split_ascii_whitespace().next());
-        matches!(state, Some("T" | "t"))
+        let stat = Pid::from_raw(self.process.cast_signed()).and_then(ProcessStat::of);
+        stat.is_some_and(|stat| stat.is_stopped || stat.is_traced)
     }
 }

@@ -1,6 +1,6 @@
 //! Lines on their way to the streams of this process.
 
-use super::Stream;
+use super::LogStream;
 use scl_terminal::{output_is_closed, print_out_bytes};
 use std::collections::{BTreeMap, VecDeque};
 use std::io::{self, Write};
@@ -39,7 +39,7 @@ struct State {
 /// Whole lines for one stream.
 #[derive(Debug)]
 struct Part {
-    stream: Stream,
+    stream: LogStream,
     is_report: bool,
     bytes: Vec<u8>,
 }
@@ -55,7 +55,7 @@ pub(super) struct Written {
 
 impl Backlog {
     /// Adds a line of a program, or drops and counts it.
-    pub(super) fn add_line(&self, program: usize, stream: Stream, line: &[u8]) {
+    pub(super) fn add_line(&self, program: usize, stream: LogStream, line: &[u8]) {
         let mut state = self.lock();
         let is_huge = line.len() > HUGE;
         if is_huge {
@@ -71,7 +71,7 @@ impl Backlog {
 
     /// Adds a report, which is never dropped.
     pub(super) fn add_report(&self, line: &[u8]) {
-        self.lock().add(Stream::Err, true, line);
+        self.lock().add(LogStream::Stderr, true, line);
         self.changed.notify_all();
     }
 
@@ -104,7 +104,7 @@ impl Backlog {
         let mut is_lost = false;
         for part in parts {
             let written = part.bytes.chunks(CHUNK).try_for_each(|chunk| {
-                part.stream.write(chunk)?;
+                write(part.stream, chunk)?;
                 self.lock().written += chunk.len() as u64;
                 self.changed.notify_all();
                 Ok::<_, io::Error>(())
@@ -133,7 +133,7 @@ impl Backlog {
 }
 
 impl State {
-    fn add(&mut self, stream: Stream, is_report: bool, line: &[u8]) {
+    fn add(&mut self, stream: LogStream, is_report: bool, line: &[u8]) {
         self.bytes += line.len().min(HUGE);
         self.has_huge |= line.len() > HUGE;
         match self.parts.back_mut().filter(|part| part.stream == stream && part.is_report == is_report) {
@@ -143,17 +143,15 @@ impl State {
     }
 }
 
-impl Stream {
-    fn write(self, bytes: &[u8]) -> io::Result<()> {
-        match self {
-            Self::Out => {
-                print_out_bytes(bytes);
-                if output_is_closed() { Err(io::ErrorKind::WriteZero.into()) } else { Ok(()) }
-            }
-            Self::Err => {
-                let mut err = io::stderr().lock();
-                err.write_all(bytes).and_then(|()| err.flush())
-            }
+fn write(stream: LogStream, bytes: &[u8]) -> io::Result<()> {
+    match stream {
+        LogStream::Stdout => {
+            print_out_bytes(bytes);
+            if output_is_closed() { Err(io::ErrorKind::WriteZero.into()) } else { Ok(()) }
+        }
+        LogStream::Stderr => {
+            let mut err = io::stderr().lock();
+            err.write_all(bytes).and_then(|()| err.flush())
         }
     }
 }
@@ -166,30 +164,32 @@ mod tests {
     fn lines_that_nobody_takes_are_counted_and_reports_kept() {
         let backlog = Backlog::default();
         let line = vec![b'x'; HUGE];
-        (0..LONGEST / HUGE).for_each(|_| backlog.add_line(0, Stream::Out, &line));
-        [1, 0, 1].into_iter().for_each(|program| backlog.add_line(program, Stream::Out, b"one more"));
+        (0..LONGEST / HUGE).for_each(|_| backlog.add_line(0, LogStream::Stdout, &line));
+        [1, 0, 1].into_iter().for_each(|program| backlog.add_line(program, LogStream::Stdout, b"one more"));
         backlog.add_report(b"report\n");
         let (parts, dropped) = backlog.take();
         let lengths: Vec<_> = parts.iter().map(|part| (part.stream, part.bytes.len())).collect();
-        assert_eq!(lengths, [(Stream::Out, LONGEST), (Stream::Err, 7)]);
+        assert_eq!(lengths, [(LogStream::Stdout, LONGEST), (LogStream::Stderr, 7)]);
         assert_eq!(dropped, BTreeMap::from([(0, 1), (1, 2)]));
         // There is room again.
-        backlog.add_line(0, Stream::Out, &line);
+        backlog.add_line(0, LogStream::Stdout, &line);
         assert!(backlog.take().1.is_empty());
     }
 
     #[test]
     fn a_huge_line_leaves_room_for_others() {
         let backlog = Backlog::default();
-        backlog.add_line(0, Stream::Out, &vec![b'x'; 2 * LONGEST]);
-        backlog.add_line(0, Stream::Out, b"end");
+        backlog.add_line(0, LogStream::Stdout, &vec![b'x'; 2 * LONGEST]);
+        backlog.add_line(0, LogStream::Stdout, b"end");
         assert!(backlog.take().1.is_empty());
     }
 
     #[test]
     fn streams_of_one_screen_keep_their_order() {
         let backlog = Backlog::default();
-        for (stream, line) in [(Stream::Out, "1"), (Stream::Out, "2"), (Stream::Err, "3"), (Stream::Out, "4")] {
+        for (stream, line) in
+            [(LogStream::Stdout, "1"), (LogStream::Stdout, "2"), (LogStream::Stderr, "3"), (LogStream::Stdout, "4")]
+        {
             backlog.add_line(0, stream, line.as_bytes());
         }
         backlog.add_report(b"5");

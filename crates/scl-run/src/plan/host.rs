@@ -5,10 +5,8 @@ use super::super::component::Component;
 use super::super::deployment::{Deployment, Host};
 use super::super::gateway_program;
 use super::super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile};
-use super::super::placement::Placement;
 use super::super::policy::{Policy, Restart, RestartLimit};
 use super::super::program::Program;
-use super::super::terminal::StandardInput;
 use super::{ComponentNames, LAUNCH_FILE, environment_of_programs, find_folder, find_topology, read_names, read_text};
 use scl_terminal::{Problem, print_err};
 use std::ffi::OsString;
@@ -99,11 +97,8 @@ pub(super) fn plan_gateway(
     Ok(Component {
         name: GATEWAY.to_owned(),
         program: Program {
-            command: command.collect(),
             environment: environment_of_programs(launch).collect(),
-            folder: folder.to_owned(),
-            placement: Placement::default(),
-            input: StandardInput::Empty,
+            ..Program::new(command.collect(), folder.to_owned())
         },
         policy: Policy {
             restart: Restart::Always,

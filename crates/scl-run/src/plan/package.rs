@@ -3,11 +3,9 @@
 use super::super::Options;
 use super::super::cargo::{Target, cargo};
 use super::super::component::{Component, MadeByCargo};
-use super::super::placement::Placement;
 use super::super::policy::Policy;
 use super::super::program::{Build, Program};
 use super::super::selection::Selection;
-use super::super::terminal::StandardInput;
 use super::{COMPONENT, RunPlan, SystemNames, TOPOLOGY_FILE, named_after_file, system_of_environment};
 use scl_terminal::Problem;
 use std::ffi::OsString;
@@ -26,13 +24,7 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
         let help = "add a `launch.yaml` that says how each component is started; `scl run --help` shows one";
         return Err(vec![problem.help(help)]);
     }
-    let program = |command| Program {
-        command,
-        environment: Vec::new(),
-        folder: folder.to_owned(),
-        placement: Placement::default(),
-        input: StandardInput::Empty,
-    };
+    let program = |command| Program::new(command, folder.to_owned());
     let release = options.release.then(|| OsString::from("--release"));
     let build = [cargo(), "build".into(), "--bins".into()].into_iter().chain(release).collect();
     let expected = |name: &String| (COMPONENT.to_owned(), format!("{}.{name}", names.system));
