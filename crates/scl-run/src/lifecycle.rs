@@ -1,5 +1,24 @@
 //! One component from its first start to its last end: what happened and when in, what to do out. Without processes and
 //! without a clock.
+//!
+//! ```text
+//!            time              started            READY=1
+//!   Waiting ──────▶ Starting ──────────▶ Running ─────────▶ Ready
+//!     ▲  ▲             │ cannot start       │                 │
+//!     │  └─────────────┤                    │                 │ told to stop or says so, its first process has ended,
+//!     │ another start  │                    ├─────────────────┤ not ready or alive in time, the wrong program
+//!     │ is allowed     ▼                    ▼                 ▼
+//!     │             Ended ◀─────────────── Stopping (killed when its time is over)
+//!     │               ▲        exited       │
+//!     └───────────────┴─────────────────────┘
+//! ```
+//!
+//! A process that exits without being told goes the same ways from Running and Ready as from Stopping. A request starts an
+//! ended component again, and one that is stopping for it as soon as its process has exited. What is stopped before it has a
+//! process ends at once.
+//!
+//! A component has at most one process: only `Starting` asks for one, and nothing leads there before the last has exited.
+//! Each restart of the policy is counted once, when it is planned.
 
 mod input;
 mod state;
@@ -11,7 +30,6 @@ use super::ending::Ending;
 use super::policy::{Policy, Restart, RestartLimit};
 use super::restarts::{Restarts, Time};
 use rustix::process::Signal;
-use std::time::Duration;
 
 /// A component, and all that is known of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -131,6 +149,7 @@ impl Lifecycle {
     }
 
     fn take_start(&mut self, now: Time) -> Vec<Action> {
+        debug_assert!(self.starts == 0 || self.last_ending.is_some(), "a component has one process at a time");
         self.state = State::Running;
         self.starts += 1;
         self.started = now;
@@ -219,16 +238,17 @@ impl Lifecycle {
         match self.state {
             State::Waiting { .. } => self.start(),
             State::Running if self.ready_until().is_some_and(|until| until <= now) => {
-                let text = format!("not ready within {}{}", Shown(self.policy.ready_within), self.shown_status());
+                let limit = self.policy.ready_within.unwrap_or_default();
+                let text = format!("not ready within {limit:?}{}", self.shown_status());
                 self.fail_running(now, text, Signal::TERM)
             }
             State::Running | State::Ready => {
-                let limit = Shown(self.policy.alive_within);
+                let limit = self.policy.alive_within.unwrap_or_default();
                 // As systemd does: a core dump shows where the program hangs.
-                self.fail_running(now, format!("no sign of life for {limit}"), Signal::ABORT)
+                self.fail_running(now, format!("no sign of life for {limit:?}"), Signal::ABORT)
             }
             State::Stopping { reason, .. } => {
-                let text = format!("not stopped within {}", Shown(Some(self.policy.stop_within)));
+                let text = format!("not stopped within {:?}", self.policy.stop_within);
                 let report = Action::Report(format!("{text}, killed"));
                 [vec![report], self.kill(reason, text)].concat()
             }
@@ -274,26 +294,25 @@ impl Lifecycle {
             Some(StopReason::Everything(_)) if !was_killed && ending.is_in_order(asked_by) => {
                 self.end(Verdict::InOrder)
             }
-            Some(StopReason::Everything(_)) => self.end(Verdict::Failed),
+            Some(StopReason::Everything(_) | StopReason::Refused) => self.end(Verdict::Failed),
             Some(StopReason::Failed) => self.start_again(now),
-            Some(StopReason::Refused) => self.end(Verdict::Failed),
-            Some(StopReason::Own | StopReason::LeaderEnded) | None if self.is_final(ending) => {
-                self.end(Verdict::Failed)
-            }
-            Some(StopReason::Own | StopReason::LeaderEnded) | None if !ending.is_in_order(None) => {
-                self.start_again(now)
-            }
-            Some(StopReason::Own | StopReason::LeaderEnded) | None if self.policy.restart == Restart::Always => {
-                self.start_again(now)
-            }
-            Some(StopReason::Own | StopReason::LeaderEnded) | None => self.end(Verdict::InOrder),
+            Some(StopReason::Own | StopReason::LeaderEnded) | None => self.take_own_end(now, ending),
         };
         [vec![report], next].concat()
     }
 
+    fn take_own_end(&mut self, now: Time, ending: Ending) -> Vec<Action> {
+        match ending.is_in_order(None) {
+            true if self.policy.restart == Restart::Always => self.start_again(now),
+            true => self.end(Verdict::InOrder),
+            false if self.is_final(ending) => self.end(Verdict::Failed),
+            false => self.start_again(now),
+        }
+    }
+
     /// Returns true for an exit code by which the program itself says that it has failed, if that is not to be tried again.
     fn is_final(&self, ending: Ending) -> bool {
-        let is_code = matches!(ending, Ending::Exited(_)) && !ending.is_in_order(None) && !ending.is_signal_of_child();
+        let is_code = matches!(ending, Ending::Exited(_)) && !ending.is_signal_of_child();
         is_code && self.policy.restart == Restart::OnAbnormal
     }
 
@@ -321,16 +340,7 @@ impl Lifecycle {
             return vec![Action::Report(format!("not restarted: {limit} is reached"))];
         };
         self.state = State::Waiting { until: now.saturating_add(delay) };
-        vec![Action::Report(format!("restarting in {}", Shown(Some(delay))))]
-    }
-}
-
-/// A time as users write it.
-struct Shown(Option<Duration>);
-
-impl std::fmt::Display for Shown {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{:?}", self.0.unwrap_or_default())
+        vec![Action::Report(format!("restarting in {delay:?}"))]
     }
 }
 

@@ -39,6 +39,8 @@ impl Restarts {
         self.recent.push_back(now);
         self.in_a_row += 1;
         self.total += 1;
+        debug_assert!(self.recent.len() <= limit.count.min(self.total), "each restart is counted once");
+        debug_assert!(self.in_a_row as usize <= self.total, "each restart is counted once");
         Some(delay.first.saturating_mul(factor).min(delay.longest))
     }
 }

@@ -109,6 +109,10 @@ impl RunState {
             actions.extend(self.stop(now, Signal::TERM));
         }
         actions.extend(self.stop_last(now));
+        debug_assert!(
+            self.stopping.is_some() || (self.requested, self.killing) == (None, false),
+            "a request stops the run"
+        );
         actions
     }
 
@@ -180,6 +184,7 @@ impl RunState {
     }
 
     fn kill(&mut self, now: Time) -> Vec<(usize, Action)> {
+        debug_assert!(self.requested.is_some(), "only a second request kills");
         if std::mem::replace(&mut self.killing, true) {
             return Vec::new();
         }

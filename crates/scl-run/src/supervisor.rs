@@ -1,4 +1,16 @@
 //! Does what the state of a run asks for: starts processes, signals them, reports. Takes in what happens, event by event.
+//!
+//! The process of a component, of which there is one at a time:
+//!
+//! ```text
+//!   none ──────▶ running ──────────────▶ ended ──────────────────────────▶ drained ──────────────▶ silent
+//!     ▲  start              all of its           both streams are closed,          its reports are
+//!     │                     processes ended      or 500 ms are over                written
+//!     └──────────────────────────── the next start, or the end of the run ───────────────────────────┘
+//! ```
+//!
+//! Only an ended process is replaced, after its reports. The run is over when no component gets another process and all are
+//! silent. What the components do is in [`lifecycle`](super::lifecycle), what the run does in [`run_state`](super::run_state).
 
 mod process;
 
@@ -136,6 +148,7 @@ impl<'a> Supervisor<'a> {
             }
             Event::Ended { process, ending } => {
                 let Some((index, process)) = self.find(|it| it.number == process) else { return };
+                debug_assert!(process.ended.is_none(), "a process ends once");
                 process.ended = Some(Instant::now());
                 // Processes that a build left behind in its group are no longer needed.
                 process.running.signal(Signal::TERM);
@@ -248,6 +261,7 @@ impl<'a> Supervisor<'a> {
 
     fn start(&mut self, index: usize, member: &Member<'_>) -> std::io::Result<()> {
         if let Some(process) = &mut self.processes[index] {
+            assert!(process.ended.is_some(), "`{}` is started while it runs", member.name);
             let late = std::mem::take(&mut process.reports);
             late.iter().for_each(|text| self.surroundings.output.report(member.label, text));
             self.discard(index);
