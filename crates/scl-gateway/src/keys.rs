@@ -18,12 +18,12 @@ pub use issue::{Issued, KeysError, Wanted, issue};
 use crate::deployment::Deployment;
 use std::path::{Path, PathBuf};
 
-/// The files of one host.
+/// The PEM files of one host.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct HostFiles {
     /// Certificate of the authority that signed the certificates of all hosts.
     pub authority: PathBuf,
-    /// The host's certificate.
+    /// The host's certificate: common name is the host's name, alternative names its addresses, for server and client.
     pub certificate: PathBuf,
     /// Its private key.
     pub key: PathBuf,

@@ -12,7 +12,7 @@ use scl_gateway::deployment::{Host, System};
 use scl_gateway::keys::HostFiles;
 use scl_gateway::local::{Gateway, GatewayOptions};
 use scl_gateway::route::{Route, routes};
-use scl_gateway::wire::{Peer, TlsFiles, Wire, WireOptions};
+use scl_gateway::wire::{Peer, Wire, WireOptions};
 use scl_terminal::Problem;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -84,14 +84,12 @@ fn wire_options(system: &System, host: &Host, files: Option<HostFiles>, routes: 
     let shares_routes = |other: &&Host| routes.iter().any(|it| it.from.host == other.name || it.to.host == other.name);
     let others = system.deployment.hosts.iter().filter(|other| other.name != host.name).filter(shares_routes);
     let peer = |other: &Host| Peer { host: other.name.clone(), address: Some(other.socket_address()) };
-    let tls =
-        files.map(|files| TlsFiles { authority: files.authority, certificate: files.certificate, key: files.key });
     WireOptions {
         system: system.plan.system.clone(),
         host: host.name.clone(),
         listen: Some(host.socket_address()),
         peers: others.map(peer).collect(),
-        tls,
+        tls: files,
         insecure: system.deployment.insecure,
         routes: routes.to_vec(),
         components: system.hosts_of_components(),

@@ -45,12 +45,13 @@ pub use self::error::WireError;
 use self::link::Link;
 use self::mailbox::Mailbox;
 pub use self::neighbour::Neighbour;
-pub use self::options::{Peer, TlsFiles, WireOptions};
+pub use self::options::{Peer, WireOptions};
 use self::presence::{Identity, Presence};
-pub use self::receiver::{ReceiverEvent, WireReceiver};
+pub use self::receiver::WireReceiver;
 pub use self::replier::{ReplierEvent, WireReplier};
 pub use self::requester::{RequesterEvent, WireRequester};
 pub use self::sender::{SenderEvent, WireSender};
+pub use self::stream::ReceiverEvent;
 use crate::route::Route;
 
 /// Most messages of one route that are on their way without an acknowledgement; a smaller queue of the receiving gate

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use bytes::{Bytes, BytesMut};
 
-use super::command::{Command, Commands, EndId, Part};
+use super::command::{Command, Commands, Declared, Part};
 use super::keys::Token;
 use super::mailbox::Mailbox;
 use super::neighbour::Neighbour;
@@ -24,21 +24,12 @@ const RETRY: Duration = Duration::from_millis(200);
 #[derive(Debug)]
 #[must_use = "the component is announced only until this is dropped"]
 pub struct Announced {
-    id: EndId,
-    commands: Commands,
+    _declared: Declared,
 }
 
 impl Announced {
     pub(super) fn new(commands: &Commands, key: String, content: Bytes) -> Self {
-        let id = EndId::next();
-        commands.send(Command::Announce { id, key, content });
-        Announced { id, commands: commands.clone() }
-    }
-}
-
-impl Drop for Announced {
-    fn drop(&mut self) {
-        self.commands.send(Command::Remove { id: self.id });
+        Announced { _declared: Declared::new(commands, |id| Command::Announce { id, key, content }) }
     }
 }
 

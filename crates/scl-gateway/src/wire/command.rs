@@ -22,6 +22,37 @@ impl EndId {
     }
 }
 
+/// What the thread has declared to the network. Dropping this value withdraws it.
+#[derive(Debug)]
+pub(super) struct Declared {
+    id: EndId,
+    commands: Commands,
+}
+
+impl Declared {
+    /// Sends the command that declares it.
+    pub(super) fn new(commands: &Commands, declare: impl FnOnce(EndId) -> Command) -> Self {
+        let declared = Declared { id: EndId::next(), commands: commands.clone() };
+        declared.send(declare);
+        declared
+    }
+
+    pub(super) fn id(&self) -> EndId {
+        self.id
+    }
+
+    /// Sends a command about it.
+    pub(super) fn send(&self, command: impl FnOnce(EndId) -> Command) {
+        self.commands.send(command(self.id));
+    }
+}
+
+impl Drop for Declared {
+    fn drop(&mut self) {
+        self.send(|id| Command::Remove { id });
+    }
+}
+
 pub(super) enum Command {
     AddSending {
         id: EndId,
@@ -105,7 +136,7 @@ pub(super) struct Part {
     pub(super) bytes: Bytes,
 }
 
-/// The way to the thread. Commands after its end are ignored.
+/// Sends commands to the thread; they are ignored once it has ended.
 #[derive(Debug, Clone)]
 pub(super) struct Commands(mpsc::Sender<Command>);
 

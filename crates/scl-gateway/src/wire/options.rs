@@ -1,8 +1,8 @@
 //! Options of the wire: this host, its neighbours, and who may do what.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
+use crate::keys::HostFiles;
 use crate::route::Route;
 
 /// How this host's gateway reaches the others.
@@ -17,7 +17,7 @@ pub struct WireOptions {
     /// The other hosts with which this one shares routes.
     pub peers: Vec<Peer>,
     /// Certificates. Without them only loopback addresses are accepted.
-    pub tls: Option<TlsFiles>,
+    pub tls: Option<HostFiles>,
     /// Accept any address without TLS. Everybody on the network can then listen and send.
     pub insecure: bool,
     /// All routes of this host. The access list is made from them: a host may send, announce and answer only what the
@@ -35,15 +35,4 @@ pub struct Peer {
     /// `address:port` where its gateway listens. `None`: it connects to this host. Of two hosts that both listen, the one
     /// whose name is smaller connects.
     pub address: Option<String>,
-}
-
-/// PEM files of one host.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TlsFiles {
-    /// Certificate of the authority that signed the certificates of all hosts.
-    pub authority: PathBuf,
-    /// This host's certificate: common name is the host's name, alternative names its addresses, for server and client.
-    pub certificate: PathBuf,
-    /// Its private key.
-    pub key: PathBuf,
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
-use super::command::{Command, Commands, EndId};
+use super::command::{Command, Commands, Declared, EndId};
 use super::keys::{self, Side, Token};
 use super::mailbox::Mailbox;
 use super::neighbour::Neighbour;
@@ -41,7 +41,7 @@ struct State {
 struct Gateway {
     instance: String,
     since: Instant,
-    refusal: Option<EndId>,
+    refusal: Option<Declared>,
 }
 
 #[derive(Debug)]
@@ -74,6 +74,19 @@ impl fmt::Debug for Watch {
     }
 }
 
+/// A watch of [`Presence::watch`], which ends when this is dropped.
+#[derive(Debug)]
+pub(super) struct Watching {
+    presence: Presence,
+    id: EndId,
+}
+
+impl Drop for Watching {
+    fn drop(&mut self) {
+        self.presence.lock().watches.remove(&self.id);
+    }
+}
+
 /// Who this gateway is.
 pub(super) struct Identity<'a> {
     pub(super) system: &'a str,
@@ -100,7 +113,7 @@ impl Presence {
         })))
     }
 
-    /// Calls `deliver` with the number of the open end, now and whenever it changes, until [`unwatch`](Self::unwatch).
+    /// Calls `deliver` with the number of the open end, now and whenever it changes, until the result is dropped.
     pub(super) fn watch(
         &self,
         id: EndId,
@@ -108,16 +121,13 @@ impl Presence {
         key: &str,
         side: Side,
         deliver: impl Fn(Option<u64>) + Send + 'static,
-    ) {
+    ) -> Watching {
         let mut state = self.lock();
         let (host, key, deliver) = (host.to_owned(), key.to_owned(), Box::new(deliver));
         let watch = Watch { host, key, side, current: None, reported: HashSet::new(), deliver };
         state.watches.insert(id, watch);
         state.update_watches(|_, watch_id| watch_id == id);
-    }
-
-    pub(super) fn unwatch(&self, id: EndId) {
-        self.lock().watches.remove(&id);
+        Watching { presence: self.clone(), id }
     }
 
     /// A token appeared or disappeared.
@@ -179,14 +189,10 @@ impl State {
             true => {
                 gateways.push(Gateway { instance: instance.to_owned(), since: Instant::now(), refusal: None });
             }
-            false => {
-                gateways.retain(|gateway| gateway.instance != instance || self.commands.take_back(gateway.refusal))
-            }
+            false => gateways.retain(|gateway| gateway.instance != instance),
         }
         // The refusal of a gateway that is now the only one ends.
-        if let Some(refusal) = gateways.first_mut().and_then(|first| first.refusal.take()) {
-            self.commands.send(Command::Remove { id: refusal });
-        }
+        gateways.iter_mut().take(1).for_each(|first| first.refusal = None);
         let after = gateways.first().map(|gateway| gateway.instance.clone());
         if before == after || host == self.host {
             return;
@@ -269,10 +275,8 @@ impl State {
                 if gateway.refusal.is_some() || gateway.since.elapsed() < CONFLICT_AFTER {
                     continue;
                 }
-                let id = EndId::next();
-                gateway.refusal = Some(id);
                 let key = keys::refused(&self.system, host, &gateway.instance, &self.host);
-                self.commands.send(Command::Token { id, key });
+                gateway.refusal = Some(Declared::new(&self.commands, |id| Command::Token { id, key }));
                 let text = format!("a second gateway of host `{host}` is connected, and refused until the first ends");
                 self.neighbours.push(0, Neighbour::Refused { text });
             }
@@ -309,15 +313,5 @@ impl State {
         if self.foreign.insert(text.clone()) {
             self.neighbours.push(0, Neighbour::Refused { text });
         }
-    }
-}
-
-impl Commands {
-    /// Ends a token, if there is one. Returns false, for `retain`.
-    fn take_back(&self, token: Option<EndId>) -> bool {
-        if let Some(id) = token {
-            self.send(Command::Remove { id });
-        }
-        false
     }
 }

@@ -9,14 +9,15 @@ use super::envelope::{self, Envelope, Outcome};
 use super::keys::{self, Side};
 use super::link::Link;
 use super::mail::{ReceivingMail, SendingMail};
-use super::stream::{Received, ReceivingEnd, SendingEnd, Sent};
+use super::presence::Watching;
+use super::stream::{ReceiverEvent, ReceivingEnd, SendingEnd, Sent};
 use super::token::EndToken;
 use crate::route::Route;
 
 /// Answers the requests of one route.
 #[derive(Debug)]
 pub struct WireReplier {
-    link: Link,
+    _watching: Watching,
     requests: ReceivingEnd,
     replies: SendingEnd,
     token: EndToken,
@@ -46,12 +47,12 @@ impl WireReplier {
         let requests = ReceivingEnd::new(&link.commands, host, key, max_size);
         let replies = SendingEnd::new(&link.commands, host, &keys::replies(key), route.queue, false);
         let (requests_mail, replies_mail) = (requests.mail(), replies.mail());
-        link.presence.watch(requests.id(), host, key, Side::Sender, move |peer| {
+        let watching = link.presence.watch(requests.id(), host, key, Side::Sender, move |peer| {
             replies_mail.push(0, SendingMail::Peer(peer));
             requests_mail.push(0, ReceivingMail::Peer(peer));
         });
         WireReplier {
-            link: link.clone(),
+            _watching: watching,
             requests,
             replies,
             token: EndToken::new(link, key, Side::Receiver),
@@ -89,13 +90,13 @@ impl WireReplier {
                 Poll::Pending => (),
             }
             let event = match self.requests.poll(cx) {
-                Poll::Ready(Received::Matched) => ReplierEvent::Matched,
-                Poll::Ready(Received::Unmatched) => ReplierEvent::Unmatched,
-                Poll::Ready(Received::Message(message)) => match self.request(&message) {
+                Poll::Ready(ReceiverEvent::Matched) => ReplierEvent::Matched,
+                Poll::Ready(ReceiverEvent::Unmatched) => ReplierEvent::Unmatched,
+                Poll::Ready(ReceiverEvent::Message(message)) => match self.request(&message) {
                     Some(event) => event,
                     None => continue,
                 },
-                Poll::Ready(Received::Flush | Received::Latched(_)) => continue,
+                Poll::Ready(ReceiverEvent::AcknowledgementRequested | ReceiverEvent::Latched(_)) => continue,
                 Poll::Pending => return Poll::Pending,
             };
             return Poll::Ready(event);
@@ -130,11 +131,5 @@ impl WireReplier {
         if let Some(id) = self.open.remove(&id) {
             self.replies.send(Envelope { outcome, id, body }.encode(), None);
         }
-    }
-}
-
-impl Drop for WireReplier {
-    fn drop(&mut self) {
-        self.link.presence.unwatch(self.requests.id());
     }
 }

@@ -9,14 +9,15 @@ use super::envelope::{self, Envelope, Outcome};
 use super::keys::{self, Side};
 use super::link::Link;
 use super::mail::SendingMail;
-use super::stream::{Received, ReceivingEnd, SendingEnd, Sent};
+use super::presence::Watching;
+use super::stream::{ReceiverEvent, ReceivingEnd, SendingEnd, Sent};
 use super::token::EndToken;
 use crate::route::Route;
 
 /// Sends requests to the `rep` gate of another host. Always open.
 #[derive(Debug)]
 pub struct WireRequester {
-    link: Link,
+    _watching: Watching,
     requests: SendingEnd,
     replies: ReceivingEnd,
     /// Its number tells the replier for whom its replies are.
@@ -57,11 +58,11 @@ impl WireRequester {
             replies.open(number);
         }
         let mail = requests.mail();
-        link.presence.watch(requests.id(), host, key, Side::Receiver, move |peer| {
+        let watching = link.presence.watch(requests.id(), host, key, Side::Receiver, move |peer| {
             mail.push(0, SendingMail::Peer(peer));
         });
         WireRequester {
-            link: link.clone(),
+            _watching: watching,
             requests,
             replies,
             _token: token,
@@ -119,8 +120,8 @@ impl WireRequester {
         self.requests.send(Envelope { outcome: Outcome::Message, id: self.last, body }.encode(), None);
     }
 
-    fn received(&mut self, received: Received) {
-        let Received::Message(message) = received else { return };
+    fn received(&mut self, received: ReceiverEvent) {
+        let ReceiverEvent::Message(message) = received else { return };
         self.replied += 1;
         self.replies.acknowledge(self.replied);
         let Some(reply) = Envelope::decode(&message) else { return };
@@ -140,11 +141,5 @@ impl WireRequester {
         let mut gone: Vec<_> = self.open.drain().collect();
         gone.sort_unstable();
         self.events.extend(gone.into_iter().map(|(_, id)| RequesterEvent::Gone { id }));
-    }
-}
-
-impl Drop for WireRequester {
-    fn drop(&mut self) {
-        self.link.presence.unwatch(self.requests.id());
     }
 }

@@ -9,6 +9,7 @@ use bytes::Bytes;
 use super::keys::Side;
 use super::link::Link;
 use super::mail::SendingMail;
+use super::presence::Watching;
 use super::stream::{SendingEnd, Sent};
 use super::token::EndToken;
 use crate::route::Route;
@@ -18,7 +19,7 @@ use crate::route::Route;
 /// Messages are numbered 1, 2, 3, ... in the order of [`send`](Self::send), over the whole life of this value.
 #[derive(Debug)]
 pub struct WireSender {
-    link: Link,
+    _watching: Watching,
     end: SendingEnd,
     token: EndToken,
     latches: bool,
@@ -52,12 +53,12 @@ impl WireSender {
     pub(super) fn new(link: &Link, route: &Route) -> Self {
         let end = SendingEnd::new(&link.commands, &route.to.host, &route.key, route.queue, route.latched);
         let mail = end.mail();
-        link.presence.watch(end.id(), &route.to.host, &route.key, Side::Receiver, move |peer| {
+        let watching = link.presence.watch(end.id(), &route.to.host, &route.key, Side::Receiver, move |peer| {
             mail.push(0, SendingMail::Peer(peer));
         });
         let token = EndToken::new(link, &route.key, Side::Sender);
         WireSender {
-            link: link.clone(),
+            _watching: watching,
             end,
             token,
             latches: route.latched,
@@ -130,11 +131,5 @@ impl WireSender {
     /// Number of messages sent and neither acknowledged nor given up.
     pub fn unacknowledged(&self) -> u64 {
         self.end.unacknowledged()
-    }
-}
-
-impl Drop for WireSender {
-    fn drop(&mut self) {
-        self.link.presence.unwatch(self.end.id());
     }
 }

@@ -10,5 +10,6 @@ mod outgoing;
 mod receiving_end;
 mod sending_end;
 
-pub(super) use self::receiving_end::{Received, ReceivingEnd};
+pub use self::receiving_end::ReceiverEvent;
+pub(super) use self::receiving_end::ReceivingEnd;
 pub(super) use self::sending_end::{SendingEnd, Sent};

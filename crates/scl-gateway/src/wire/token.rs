@@ -1,6 +1,6 @@
 //! The token of an end of a route, while it is open.
 
-use super::command::{Command, Commands, EndId};
+use super::command::{Command, Commands, Declared};
 use super::keys::{self, Side};
 use super::link::Link;
 use super::random;
@@ -11,7 +11,7 @@ pub(super) struct EndToken {
     key: String,
     side: Side,
     instance: String,
-    open: Option<EndId>,
+    open: Option<Declared>,
 }
 
 impl EndToken {
@@ -25,20 +25,13 @@ impl EndToken {
         if open == self.open.is_some() {
             return None;
         }
-        if let Some(id) = self.open.take() {
-            self.commands.send(Command::Remove { id });
+        if !open {
+            self.open = None;
             return None;
         }
-        let (id, number) = (EndId::next(), random());
-        self.open = Some(id);
+        let number = random();
         let key = keys::end_token(&self.key, self.side, &self.instance, number);
-        self.commands.send(Command::Token { id, key });
+        self.open = Some(Declared::new(&self.commands, |id| Command::Token { id, key }));
         Some(number)
-    }
-}
-
-impl Drop for EndToken {
-    fn drop(&mut self) {
-        self.set_open(false);
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use rcgen::{BasicConstraints, CertificateParams, CertifiedIssuer, DnType, ExtendedKeyUsagePurpose, IsCa, KeyPair};
-use scl_gateway::wire::TlsFiles;
+use scl_gateway::keys::HostFiles;
 
 pub(super) struct Authority(CertifiedIssuer<'static, KeyPair>);
 
@@ -17,7 +17,7 @@ impl Authority {
     }
 
     /// Writes the files of a host whose address is `127.0.0.1`.
-    pub(super) fn host(&self, folder: &Path, host: &str) -> TlsFiles {
+    pub(super) fn host(&self, folder: &Path, host: &str) -> HostFiles {
         self.host_with(folder, host, "127.0.0.1", |_| ())
     }
 
@@ -28,7 +28,7 @@ impl Authority {
         host: &str,
         address: &str,
         change: impl FnOnce(&mut CertificateParams),
-    ) -> TlsFiles {
+    ) -> HostFiles {
         let mut params = CertificateParams::new([address.to_owned()]).expect("a name");
         params.distinguished_name.push(DnType::CommonName, host);
         params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ServerAuth, ExtendedKeyUsagePurpose::ClientAuth];
@@ -40,7 +40,7 @@ impl Authority {
             std::fs::write(&path, text).expect("cannot write");
             path
         };
-        TlsFiles {
+        HostFiles {
             authority: write("authority", self.0.as_ref().pem()),
             certificate: write("certificate", certificate.pem()),
             key: write("key", key.serialize_pem()),

@@ -4,24 +4,25 @@ use std::path::Path;
 use std::time::Duration;
 
 use rcgen::{CertificateParams, date_time_ymd};
-use scl_gateway::wire::{Neighbour, TlsFiles, Wire, WireError, WireOptions};
+use scl_gateway::keys::HostFiles;
+use scl_gateway::wire::{Neighbour, Wire, WireError, WireOptions};
 use zenoh::Wait;
 
 use super::certificates::Authority;
 use super::network::*;
 use super::proxy::{Proxy, Weather};
 
-fn with_tls(options: WireOptions, tls: TlsFiles) -> WireOptions {
+fn with_tls(options: WireOptions, tls: HostFiles) -> WireOptions {
     let routes =
         vec![route("board", "ground", "pose"), route("ground", "board", "image"), requests("board", "ground", "mode")];
     WireOptions { tls: Some(tls), routes, ..options }
 }
 
-async fn ground(address: &str, tls: TlsFiles) -> Wire {
+async fn ground(address: &str, tls: HostFiles) -> Wire {
     Wire::open(with_tls(options("ground", Some(address), &[("board", None)]), tls)).await.expect("ground")
 }
 
-async fn board(via: &str, tls: TlsFiles) -> Wire {
+async fn board(via: &str, tls: HostFiles) -> Wire {
     Wire::open(with_tls(options("board", None, &[("ground", Some(via))]), tls)).await.expect("board")
 }
 
@@ -68,7 +69,7 @@ fn expired(params: &mut CertificateParams) {
 }
 
 /// Both hosts try three times, and neither sees the other.
-async fn assert_refused(ground_files: TlsFiles, board_files: TlsFiles) {
+async fn assert_refused(ground_files: HostFiles, board_files: HostFiles) {
     let address = free_address();
     let proxy = Proxy::to(&address).await;
     let ground = ground(&address, ground_files).await;
@@ -99,7 +100,7 @@ async fn certificates_of_another_authority_are_refused_on_either_side() {
     let foreign = |host: &str| {
         let path = folder.path().join(format!("foreign-{host}"));
         std::fs::create_dir_all(&path).expect("a folder");
-        TlsFiles { authority: authority.host(folder.path(), host).authority, ..other.host(&path, host) }
+        HostFiles { authority: authority.host(folder.path(), host).authority, ..other.host(&path, host) }
     };
     assert_refused(authority.host(folder.path(), "ground"), foreign("board")).await;
     assert_refused(foreign("ground"), authority.host(folder.path(), "board")).await;
@@ -152,8 +153,8 @@ async fn files_that_are_no_certificates_are_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let good = Authority::new().host(folder.path(), "ground");
     let missing = Path::new("/nowhere/key.pem").to_owned();
-    let swapped = TlsFiles { key: good.certificate.clone(), ..good.clone() };
-    for (files, word) in [(TlsFiles { key: missing, ..good.clone() }, "/nowhere/key.pem"), (swapped, "private key")] {
+    let swapped = HostFiles { key: good.certificate.clone(), ..good.clone() };
+    for (files, word) in [(HostFiles { key: missing, ..good.clone() }, "/nowhere/key.pem"), (swapped, "private key")] {
         let options = with_tls(options("ground", Some(&free_address()), &[("board", None)]), files);
         let error = Wire::open(options).await.expect_err(word);
         assert!(matches!(&error, WireError::Certificates { reason, .. } if reason.contains(word)), "{error}");

@@ -13,9 +13,10 @@ use zenoh::{Config, Session, Wait};
 
 use self::certificates::Authority;
 use super::*;
+use crate::keys::HostFiles;
 use crate::route::RouteEnd;
 use crate::wire::config::config;
-use crate::wire::{Peer, TlsFiles};
+use crate::wire::Peer;
 
 #[path = "../../../tests/wire/certificates.rs"]
 mod certificates;
@@ -50,7 +51,7 @@ fn routes() -> Vec<Route> {
 }
 
 /// The configuration of `ground`, to which all others connect, or of another host.
-fn json(host: &str, address: &str, tls: TlsFiles) -> Value {
+fn json(host: &str, address: &str, tls: HostFiles) -> Value {
     let others = ["air", "board", "ground", "tower"].into_iter().filter(|other| *other != host);
     let is_ground = host == "ground";
     let peers = others

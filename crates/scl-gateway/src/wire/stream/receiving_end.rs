@@ -8,25 +8,29 @@ use bytes::Bytes;
 
 use super::incoming::Incoming;
 use crate::wire::WINDOW_BYTES;
-use crate::wire::command::{Command, Commands, EndId};
+use crate::wire::command::{Command, Commands, Declared, EndId};
 use crate::wire::mail::ReceivingMail;
 use crate::wire::mailbox::Mailbox;
 
-/// What a receiving end tells its owner.
+/// What a receiving end tells its owner, and event of [`WireReceiver::poll_event`](crate::wire::WireReceiver::poll_event).
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::wire) enum Received {
+#[non_exhaustive]
+pub enum ReceiverEvent {
+    /// The sending side is open.
     Matched,
+    /// The sending side closed, or the link is lost.
     Unmatched,
-    /// The next message was sent then, before this receiver had joined.
+    /// The next message was sent then, before this side was opened.
     Latched(Instant),
+    /// The next message. Messages are numbered 1, 2, 3, ... since the last `set_open(true)`.
     Message(Bytes),
-    Flush,
+    /// The sending component wants its messages acknowledged now, for a flush.
+    AcknowledgementRequested,
 }
 
 #[derive(Debug)]
 pub(in crate::wire) struct ReceivingEnd {
-    id: EndId,
-    commands: Commands,
+    declared: Declared,
     mail: Arc<Mailbox<ReceivingMail>>,
     key: String,
     max_size: u64,
@@ -41,20 +45,15 @@ pub(in crate::wire) struct ReceivingEnd {
 impl ReceivingEnd {
     /// Receives what `host` sends on `key`. Closed at first.
     pub(in crate::wire) fn new(commands: &Commands, host: &str, key: &str, max_size: u64) -> Self {
-        let id = EndId::next();
         // Twice what the sender may have on its way: it may have started over.
         let mail = Arc::new(Mailbox::new(2 * max_size.saturating_add(4 * WINDOW_BYTES)));
-        commands.send(Command::AddReceiving {
-            id,
-            host: host.to_owned(),
-            key: key.to_owned(),
-            mail: Arc::clone(&mail),
-        });
+        let (host, key, thread_mail) = (host.to_owned(), key.to_owned(), Arc::clone(&mail));
+        let declared_key = key.clone();
+        let declare = |id| Command::AddReceiving { id, host, key: declared_key, mail: thread_mail };
         ReceivingEnd {
-            id,
-            commands: commands.clone(),
+            declared: Declared::new(commands, declare),
             mail,
-            key: key.to_owned(),
+            key,
             max_size,
             incoming: None,
             latched: None,
@@ -69,7 +68,7 @@ impl ReceivingEnd {
     }
 
     pub(in crate::wire) fn id(&self) -> EndId {
-        self.id
+        self.declared.id()
     }
 
     pub(in crate::wire) fn open(&mut self, epoch: u64) {
@@ -83,24 +82,28 @@ impl ReceivingEnd {
 
     pub(in crate::wire) fn acknowledge(&mut self, count: u64) {
         if let Some(ack) = self.incoming.as_mut().and_then(|incoming| incoming.acknowledge(count)) {
-            self.commands.send(Command::Acknowledge { id: self.id, ack });
+            self.declared.send(|id| Command::Acknowledge { id, ack });
         }
     }
 
-    pub(in crate::wire) fn poll(&mut self, cx: &mut Context<'_>) -> Poll<Received> {
+    pub(in crate::wire) fn poll(&mut self, cx: &mut Context<'_>) -> Poll<ReceiverEvent> {
         loop {
             if let Some(message) = self.latched.take() {
-                return Poll::Ready(Received::Message(message));
+                return Poll::Ready(ReceiverEvent::Message(message));
             }
             if std::mem::take(&mut self.flush) {
-                return Poll::Ready(Received::Flush);
+                return Poll::Ready(ReceiverEvent::AcknowledgementRequested);
             }
             let Poll::Ready(mail) = self.mail.poll(cx) else { return Poll::Pending };
             let (header, payload) = match mail {
                 ReceivingMail::Peer(peer) if peer.is_some() == self.is_matched => continue,
                 ReceivingMail::Peer(peer) => {
                     self.is_matched = peer.is_some();
-                    return Poll::Ready(if self.is_matched { Received::Matched } else { Received::Unmatched });
+                    return Poll::Ready(if self.is_matched {
+                        ReceiverEvent::Matched
+                    } else {
+                        ReceiverEvent::Unmatched
+                    });
                 }
                 ReceivingMail::Arrived(header, payload) => (header, payload),
             };
@@ -110,20 +113,14 @@ impl ReceivingEnd {
                 tracing::error!("`{}` carries a message of more than {} bytes; it is refused", self.key, self.max_size);
             }
             if let Some(ack) = outcome.answer {
-                self.commands.send(Command::Acknowledge { id: self.id, ack });
+                self.declared.send(|id| Command::Acknowledge { id, ack });
             }
             self.flush |= outcome.flush;
             if let Some(message) = outcome.message {
-                let Some(sent) = outcome.latched else { return Poll::Ready(Received::Message(message)) };
+                let Some(sent) = outcome.latched else { return Poll::Ready(ReceiverEvent::Message(message)) };
                 self.latched = Some(message);
-                return Poll::Ready(Received::Latched(sent));
+                return Poll::Ready(ReceiverEvent::Latched(sent));
             }
         }
-    }
-}
-
-impl Drop for ReceivingEnd {
-    fn drop(&mut self) {
-        self.commands.send(Command::Remove { id: self.id });
     }
 }

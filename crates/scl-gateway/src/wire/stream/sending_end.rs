@@ -10,7 +10,7 @@ use bytes::Bytes;
 use tokio::time::{Instant, Sleep};
 
 use super::outgoing::Outgoing;
-use crate::wire::command::{Command, Commands, EndId};
+use crate::wire::command::{Command, Commands, Declared, EndId};
 use crate::wire::mail::SendingMail;
 use crate::wire::mailbox::Mailbox;
 use crate::wire::random;
@@ -35,8 +35,7 @@ pub(in crate::wire) enum Sent {
 
 #[derive(Debug)]
 pub(in crate::wire) struct SendingEnd {
-    id: EndId,
-    commands: Commands,
+    declared: Declared,
     mail: Arc<Mailbox<SendingMail>>,
     outgoing: Outgoing,
     events: VecDeque<Sent>,
@@ -48,12 +47,11 @@ pub(in crate::wire) struct SendingEnd {
 impl SendingEnd {
     /// Sends on `key` to `host`. `latches`: the last message of those that wait for a receiver is one that it finds there.
     pub(in crate::wire) fn new(commands: &Commands, host: &str, key: &str, queue: u32, latches: bool) -> Self {
-        let id = EndId::next();
         let mail = Arc::new(Mailbox::new(u64::MAX));
-        commands.send(Command::AddSending { id, host: host.to_owned(), key: key.to_owned(), mail: Arc::clone(&mail) });
+        let (host, key, thread_mail) = (host.to_owned(), key.to_owned(), Arc::clone(&mail));
+        let declare = |id| Command::AddSending { id, host, key, mail: thread_mail };
         SendingEnd {
-            id,
-            commands: commands.clone(),
+            declared: Declared::new(commands, declare),
             mail,
             outgoing: Outgoing::new(queue, latches, random()),
             events: VecDeque::new(),
@@ -68,7 +66,7 @@ impl SendingEnd {
     }
 
     pub(in crate::wire) fn id(&self) -> EndId {
-        self.id
+        self.declared.id()
     }
 
     pub(in crate::wire) fn may_send(&self, length: usize) -> bool {
@@ -100,7 +98,7 @@ impl SendingEnd {
 
     /// Forgets everything that is unacknowledged.
     pub(in crate::wire) fn abandon(&mut self) {
-        self.commands.send(Command::Clear { id: self.id });
+        self.declared.send(|id| Command::Clear { id });
         self.outgoing.abandon(random());
     }
 
@@ -121,7 +119,7 @@ impl SendingEnd {
     fn handle(&mut self, mail: SendingMail) {
         match mail {
             SendingMail::Peer(Some(epoch)) => {
-                self.commands.send(Command::Clear { id: self.id });
+                self.declared.send(|id| Command::Clear { id });
                 let is_new = self.outgoing.is_new(epoch);
                 let given_up = self.outgoing.matched(epoch);
                 self.events.push_back(Sent::Matched { peer: epoch, is_new });
@@ -132,7 +130,7 @@ impl SendingEnd {
                 self.emit();
             }
             SendingMail::Peer(None) => {
-                self.commands.send(Command::Clear { id: self.id });
+                self.declared.send(|id| Command::Clear { id });
                 if self.outgoing.is_matched() {
                     self.outgoing.unmatched();
                     self.events.push_back(Sent::Unmatched);
@@ -142,7 +140,7 @@ impl SendingEnd {
                 let progress = self.outgoing.acknowledged(&ack);
                 if progress.started_over {
                     self.losses += 1;
-                    self.commands.send(Command::Clear { id: self.id });
+                    self.declared.send(|id| Command::Clear { id });
                 }
                 if let Some(settled) = progress.settled {
                     self.events.push_back(Sent::Settled(settled));
@@ -155,13 +153,13 @@ impl SendingEnd {
 
     fn emit(&mut self) {
         while let Some((header, message)) = self.outgoing.emit() {
-            self.commands.send(Command::Emit { id: self.id, header, message });
+            self.declared.send(|id| Command::Emit { id, header, message });
         }
     }
 
     fn probe(&mut self) {
         if let Some(header) = self.outgoing.probe() {
-            self.commands.send(Command::Emit { id: self.id, header, message: Bytes::new() });
+            self.declared.send(|id| Command::Emit { id, header, message: Bytes::new() });
         }
     }
 
@@ -183,11 +181,5 @@ impl SendingEnd {
             self.probe();
         }
         self.timer = None;
-    }
-}
-
-impl Drop for SendingEnd {
-    fn drop(&mut self) {
-        self.commands.send(Command::Remove { id: self.id });
     }
 }
